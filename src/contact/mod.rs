@@ -1,0 +1,1 @@
+//! Floor 4: contact between two flanks: mortar coupling, unilateral contact, load sharing.

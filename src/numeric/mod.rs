@@ -1,0 +1,15 @@
+//! Floor 0: mathematics without a gear word in it.
+
+/// A point or vector in the plane, mm unless said otherwise.
+pub type Vec2 = nalgebra::Vector2<f64>;
+
+/// The z component of the cross product of two plane vectors.
+pub fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// `v` turned counter-clockwise by `angle`, rad.
+pub fn rotate(v: Vec2, angle: f64) -> Vec2 {
+    let (s, c) = angle.sin_cos();
+    Vec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
+}
