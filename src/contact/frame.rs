@@ -67,8 +67,8 @@ impl Frame {
             let normal = -flanks[1].normal(foot);
             Some(frame(Touch::PinionTip, flanks[1].point(foot), normal, separation, [range[0][1], foot]))
         } else {
-            let rho2 = pair.rho_c + pair.gear_rho_c() - rho1;
-            Some(frame(Touch::Flanks, pair.contact_point(path), pair.normal(), 0.0, [rho1, rho2]))
+            
+            Some(frame(Touch::Flanks, pair.contact_point(path), pair.normal(), 0.0, [rho1, pair.rho_gear(path)]))
         }
     }
 
@@ -115,7 +115,7 @@ impl Frame {
     /// Signed distance of the origin from the pitch point along the normal, mm: the sliding velocity is
     /// (ω₁ + ω₂) times it.
     pub fn sliding_arm(&self, pair: &Pair) -> f64 {
-        (self.origin - Vec2::new(pair.pitch_radius_pinion(), 0.0)).dot(&self.normal)
+        (self.origin - Vec2::new(pair.pitch_radius_pinion, 0.0)).dot(&self.normal)
     }
 }
 
@@ -173,5 +173,51 @@ impl PlacedInvolute {
         let turn = self.origin_angle - tangent_angle;
         let rho = self.base_radius * (turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round());
         (length.is_finite() && rho > 0.0).then_some((rho, length - rho))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::{BasicRack, Gear, ToothSpec};
+
+    fn reference() -> Pair {
+        let rack = BasicRack { module: 2.0, pressure_angle: 20f64.to_radians(), addendum: 1.0, dedendum: 1.25, fillet_radius: 0.38 };
+        let gear = |z, bore| Gear::new(rack, ToothSpec::plain(z, bore)).unwrap();
+        Pair::new(gear(27, 25.0), gear(53, 40.0), 80.0, 0.0).unwrap()
+    }
+
+    #[test]
+    fn the_gap_is_that_of_the_osculating_circles() {
+        let pair = reference();
+        for path in [-5.0, -2.0, 0.0, 1.0, 4.5] {
+            let frame = Frame::new(&pair, path).unwrap();
+            let (_, gap) = frame.facing_rho(0.0);
+            assert!(gap.abs() < 1e-12);
+            for xi in [0.02, -0.02] {
+                let (rho, gap) = frame.facing_rho(xi);
+                let expected = xi * xi / (2.0 * pair.relative_radius(path));
+                // an involute's curvature radius changes by r_b/rho per arc, so the third order term is about xi r_b/rho²
+                let third = xi.abs() * pair.pinion.base_radius / rho[0].powi(2);
+                assert!((gap / expected - 1.0).abs() < third, "{gap} against {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn corners_separate_smoothly_outside_the_path_of_contact() {
+        let pair = reference();
+        for (edge, outward) in [(pair.rho_a - pair.rho_c, -1.0), (pair.rho_e - pair.rho_c, 1.0)] {
+            let at = |d: f64| Frame::new(&pair, edge + outward * d).unwrap();
+            assert_eq!(at(-0.01).touch, Touch::Flanks);
+            assert_ne!(at(0.01).touch, Touch::Flanks);
+            // quadratic growth of the separation, continuous normal
+            let ratio = at(0.02).separation / at(0.01).separation;
+            assert!((ratio - 4.0).abs() < 0.2, "{ratio}");
+            assert!((at(1e-6).normal - pair.normal()).norm() < 1e-6);
+            // the corner's own distance is the gap at xi = 0
+            let (_, gap) = at(0.3).facing_rho(0.0);
+            assert!((gap - at(0.3).separation).abs() < 1e-12);
+        }
     }
 }

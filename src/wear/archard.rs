@@ -6,6 +6,7 @@
 //! Archard, J. Appl. Phys. 24 (1953); the passage integral is that of Andersson & Eriksson's single-point observation
 //! (Nordtrib 1990), here with the pressure solved at every position instead of a Hertz profile.
 
+use faer::Mat;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -87,7 +88,7 @@ impl<M: ContactModel> WearSystem for ArchardSystem<'_, M> {
         Ok(rate)
     }
 
-    fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<DMatrix<f64>>, ContactError> {
+    fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Mat<f64>>, ContactError> {
         let factors = self.factors();
         self.contacts(u)?;
         let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
@@ -98,7 +99,7 @@ impl<M: ContactModel> WearSystem for ArchardSystem<'_, M> {
             .enumerate()
             .map(|(q, contact)| self.model.sensitivity(q, contact))
             .collect::<Result<_, _>>()?;
-        let mut jacobian = DMatrix::zeros(u.len(), u.len());
+        let mut jacobian = Mat::zeros(u.len(), u.len());
         for ((position, contact), block) in cycle.positions.iter().zip(contacts).zip(blocks) {
             let Some(block) = block else { return Ok(None) };
             // ∂rate/∂u = − Dᵀ S G with D the deposit and G the opening, both sparse
@@ -132,7 +133,7 @@ impl<M: ContactModel> WearSystem for ArchardSystem<'_, M> {
                 for side in 0..2 {
                     let (columns, values) = pair.opening[side].row(l - pair.offset);
                     for (&c, &v) in columns.iter().zip(values) {
-                        let mut target = jacobian.column_mut(shift[side] + c as usize);
+                        let target = jacobian.col_as_slice_mut(shift[side] + c as usize);
                         for &i in &touched {
                             target[i] += v * column[i];
                         }
