@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::contact::deposit::{Travel, deposit};
 use crate::contact::frame::{Frame, Touch};
 use crate::contact::mortar::{Trace, couple};
-use crate::gear::Pair;
+use crate::gear::{Pair, ToothContact, contacts_at};
 use crate::numeric::cross;
 use crate::numeric::sparse::SparseRows;
 
@@ -24,6 +24,9 @@ pub struct CycleSpec {
     pub reach: f64,
 }
 
+/// How far outside the path of contact corners are looked at, in base pitches.
+const CORNER_MARGIN: f64 = 0.35;
+
 /// Where the worn depth of each flank is kept: ascending arc coordinates of the pinion's and the gear's flank, mm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stations {
@@ -37,9 +40,13 @@ impl Stations {
         let even = |gear: &crate::gear::Gear| {
             let (from, to) = (gear.arc(gear.rho_form), gear.arc(gear.rho_tip));
             let count = ((to - from) / spacing).ceil().max(2.0) as usize;
-            (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect()
+            (0..=count)
+                .map(|i| from + (to - from) * i as f64 / count as f64)
+                .collect()
         };
-        Self { arc: [even(&pair.pinion), even(&pair.gear)] }
+        Self {
+            arc: [even(&pair.pinion), even(&pair.gear)],
+        }
     }
 
     /// Number of stations on both flanks.
@@ -106,29 +113,70 @@ impl Cycle {
     pub fn new(pair: &Pair, stations: &Stations, spec: CycleSpec) -> Self {
         let positions = (0..spec.positions)
             .into_par_iter()
-            .map(|q| Position::new(pair, stations, spec, (q as f64 + 0.5) / spec.positions as f64))
+            .map(|q| {
+                Position::new(
+                    pair,
+                    stations,
+                    spec,
+                    (q as f64 + 0.5) / spec.positions as f64,
+                )
+            })
             .collect();
-        Self { pair: pair.clone(), spec, stations: stations.clone(), positions }
+        Self {
+            pair: pair.clone(),
+            spec,
+            stations: stations.clone(),
+            positions,
+        }
     }
 }
 
 impl Position {
     /// The position at pinion rotation `theta` (base pitches from the pitch point).
     pub fn new(pair: &Pair, stations: &Stations, spec: CycleSpec, theta: f64) -> Self {
-        let mut out = Self { theta, pairs: Vec::new(), gap: Vec::new(), arm: Vec::new() };
-        for tooth in candidate_teeth(pair, theta) {
-            let path = (theta + f64::from(tooth)) * pair.base_pitch;
-            let Some(frame) = Frame::new(pair, path).filter(|f| f.separation <= spec.reach) else { continue };
+        let mut out = Self {
+            theta,
+            pairs: Vec::new(),
+            gap: Vec::new(),
+            arm: Vec::new(),
+        };
+        for ToothContact {
+            pinion_tooth: tooth,
+            path,
+            ..
+        } in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch)
+        {
+            let Some(frame) = Frame::new(pair, path).filter(|f| f.separation <= spec.reach) else {
+                continue;
+            };
             let (low, high) = frame.extent(spec.window);
-            let Some(xi) = grid(low, high, spec) else { continue };
+            let Some(xi) = grid(low, high, spec) else {
+                continue;
+            };
             out.add(pair, stations, spec, tooth, path, frame, xi);
         }
         out
     }
 
-    #[expect(clippy::too_many_arguments, reason = "one caller; the arguments are the locals of the loop above")]
-    fn add(&mut self, pair: &Pair, stations: &Stations, spec: CycleSpec, tooth: i32, path: f64, frame: Frame, xi: Vec<f64>) {
-        let traces = [0, 1].map(|side| Trace { side, arc: &stations.arc[side], order: 1 });
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one caller; the arguments are the locals of the loop above"
+    )]
+    fn add(
+        &mut self,
+        pair: &Pair,
+        stations: &Stations,
+        spec: CycleSpec,
+        tooth: i32,
+        path: f64,
+        frame: Frame,
+        xi: Vec<f64>,
+    ) {
+        let traces = [0, 1].map(|side| Trace {
+            side,
+            arc: &stations.arc[side],
+            order: 1,
+        });
         let coupling = couple(&xi, |x| frame.facing(pair, x), &traces);
         let arc_at: Vec<[f64; 2]> = xi.iter().map(|&x| frame.facing(pair, x).arc).collect();
         let arc = [0, 1].map(|side| arc_at.iter().map(|a| a[side]).collect::<Vec<f64>>());
@@ -143,10 +191,17 @@ impl Position {
             deposit(&xi, &arc[side], &stations.arc[side], travel)
         });
         let lever = cross(frame.origin, frame.normal);
-        self.arm.extend(coupling.length.iter().zip(&coupling.moment).map(|(l, m)| lever * l + m));
+        self.arm.extend(
+            coupling
+                .length
+                .iter()
+                .zip(&coupling.moment)
+                .map(|(l, m)| lever * l + m),
+        );
         let offset = self.gap.len();
         self.gap.extend(&coupling.gap);
-        let [first, second]: [SparseRows; 2] = coupling.traces.try_into().expect("two traces were given");
+        let [first, second]: [SparseRows; 2] =
+            coupling.traces.try_into().expect("two traces were given");
         self.pairs.push(PairContact {
             tooth,
             path,
@@ -181,15 +236,6 @@ impl Position {
     }
 }
 
-/// Numbers of the tooth pairs whose path of contact is not hopelessly outside.
-fn candidate_teeth(pair: &Pair, theta: f64) -> std::ops::RangeInclusive<i32> {
-    let (start, end) = (pair.rho_a - pair.rho_c, pair.rho_e - pair.rho_c);
-    let margin = 0.35 * pair.base_pitch;
-    let first = ((start - margin) / pair.base_pitch - theta).ceil();
-    let last = ((end + margin) / pair.base_pitch - theta).floor();
-    first as i32..=last as i32
-}
-
 /// Even nodes in [low, high], whole multiples of the spacing; where the strip ends at a tip or root the last node sits
 /// on the end itself.
 fn grid(low: f64, high: f64, spec: CycleSpec) -> Option<Vec<f64>> {
@@ -200,11 +246,19 @@ fn grid(low: f64, high: f64, spec: CycleSpec) -> Option<Vec<f64>> {
     let (first, last) = ((low / h).ceil() as i64, (high / h).floor() as i64);
     let mut xi: Vec<f64> = (first..=last).map(|k| k as f64 * h).collect();
     if low > -spec.window {
-        if xi[0] - low > 0.5 * h { xi.insert(0, low) } else { xi[0] = low }
+        if xi[0] - low > 0.5 * h {
+            xi.insert(0, low)
+        } else {
+            xi[0] = low
+        }
     }
     if high < spec.window {
         let end = xi.len() - 1;
-        if high - xi[end] > 0.5 * h { xi.push(high) } else { xi[end] = high }
+        if high - xi[end] > 0.5 * h {
+            xi.push(high)
+        } else {
+            xi[end] = high
+        }
     }
     (xi.len() > 2).then_some(xi)
 }
@@ -221,8 +275,15 @@ impl Motion {
         let scale = (1.0 + 1.0 / pair.speed_ratio) / pair.pinion.base_radius;
         let slip = scale * frame.sliding_arm(pair);
         if frame.touch == Touch::Flanks {
-            let speed = [frame.rho[0] / pair.pinion.base_radius, -frame.rho[1] / pair.gear.base_radius];
-            return Self { speed, slip, slip_slope: scale };
+            let speed = [
+                frame.rho[0] / pair.pinion.base_radius,
+                -frame.rho[1] / pair.gear.base_radius,
+            ];
+            return Self {
+                speed,
+                slip,
+                slip_slope: scale,
+            };
         }
         // a corner stays on its own flank; the motion of its foot by a difference taken away from the path's end
         let side = usize::from(frame.touch == Touch::PinionTip);
@@ -233,6 +294,10 @@ impl Motion {
             speed[side] = (gear.arc(next.rho[side]) - gear.arc(frame.rho[side])) / outward;
             slip_slope = scale * (next.sliding_arm(pair) - frame.sliding_arm(pair)) / outward;
         }
-        Self { speed, slip, slip_slope }
+        Self {
+            speed,
+            slip,
+            slip_slope,
+        }
     }
 }

@@ -104,7 +104,12 @@ impl Accumulator {
     }
 
     fn put(&mut self, station: usize, value: f64) {
-        match self.entries.iter_mut().rev().find(|e| e.0 == station as u32) {
+        match self
+            .entries
+            .iter_mut()
+            .rev()
+            .find(|e| e.0 == station as u32)
+        {
             Some(entry) => entry.1 += value,
             None => self.entries.push((station as u32, value)),
         }
@@ -125,20 +130,39 @@ mod tests {
     fn worn_area_is_conserved_and_a_pass_leaves_no_scallops() {
         let stations: Vec<f64> = (0..=300).map(|i| 0.01 * f64::from(i)).collect();
         let xi: Vec<f64> = (-6..=6).map(|i| 0.015 * f64::from(i)).collect();
-        let pressure: Vec<f64> = xi.iter().map(|x| (1.0 - (x / 0.09f64).powi(2)).max(0.0).sqrt()).collect();
+        let pressure: Vec<f64> = xi
+            .iter()
+            .map(|x| (1.0 - (x / 0.09f64).powi(2)).max(0.0).sqrt())
+            .collect();
         let (speed, step) = (0.7, 0.11);
         let mut depth = vec![0.0; stations.len()];
         // constant sliding: a contact that passes with constant profile must leave a flat floor
         for q in 0..30 {
             let centre = 0.3 + speed * step * f64::from(q);
             let arc: Vec<f64> = xi.iter().map(|x| centre + x).collect();
-            let d = deposit(&xi, &arc, &stations, Travel { step, speed, slip: 0.4, slip_slope: 1e-30 });
+            let d = deposit(
+                &xi,
+                &arc,
+                &stations,
+                Travel {
+                    step,
+                    speed,
+                    slip: 0.4,
+                    slip_slope: 1e-30,
+                },
+            );
             for (k, p) in pressure.iter().enumerate() {
                 d.scatter(k, *p, &mut depth);
             }
         }
-        let area: f64 = (0..stations.len()).map(|i| depth[i] * tributary(&stations, i)).sum();
-        let load: f64 = xi.windows(2).zip(pressure.windows(2)).map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1])).sum();
+        let area: f64 = (0..stations.len())
+            .map(|i| depth[i] * tributary(&stations, i))
+            .sum();
+        let load: f64 = xi
+            .windows(2)
+            .zip(pressure.windows(2))
+            .map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1]))
+            .sum();
         assert!((area / (load * 0.4 * 30.0 * step) - 1.0).abs() < 1e-12);
         let floor = load * 0.4 / speed;
         for (s, h) in stations.iter().zip(&depth) {

@@ -76,13 +76,20 @@ impl CycleCompliance {
     ///
     /// # Errors
     /// [`ContactError::NoFlank`] if a tooth that can touch has no fine flank in a member's mesh.
-    pub fn new(cycle: &Cycle, members: [&ElasticFlanks; 2], friction: f64) -> Result<Self, ContactError> {
+    pub fn new(
+        cycle: &Cycle,
+        members: [&ElasticFlanks; 2],
+        friction: f64,
+    ) -> Result<Self, ContactError> {
         let positions = cycle
             .positions
             .par_iter()
             .map(|position| PositionCompliance::new(cycle, position, members, friction))
             .collect::<Result<_, _>>()?;
-        Ok(Self { positions, friction })
+        Ok(Self {
+            positions,
+            friction,
+        })
     }
 
     /// Coupling of each tooth pair of position `q` to the elements.
@@ -92,7 +99,12 @@ impl CycleCompliance {
 }
 
 impl PositionCompliance {
-    fn new(cycle: &Cycle, position: &Position, members: [&ElasticFlanks; 2], friction: f64) -> Result<Self, ContactError> {
+    fn new(
+        cycle: &Cycle,
+        position: &Position,
+        members: [&ElasticFlanks; 2],
+        friction: f64,
+    ) -> Result<Self, ContactError> {
         let turns = member_turns(cycle, position.theta);
         let n = position.gap.len();
         let mut couplings = Vec::new();
@@ -100,11 +112,19 @@ impl PositionCompliance {
             let mut traces = Vec::new();
             for side in 0..2 {
                 let tooth = member_tooth(pair, side);
-                let flank = members[side].flank(tooth).ok_or(ContactError::NoFlank { side, tooth })?;
-                traces.push(Trace { side, arc: &flank.arc, order: flank.order });
+                let flank = members[side]
+                    .flank(tooth)
+                    .ok_or(ContactError::NoFlank { side, tooth })?;
+                traces.push(Trace {
+                    side,
+                    arc: &flank.arc,
+                    order: flank.order,
+                });
             }
             let coupling = couple(&pair.xi, |x| pair.frame.facing(&cycle.pair, x), &traces);
-            couplings.push(FlankCoupling { traces: coupling.traces.try_into().expect("two traces were given") });
+            couplings.push(FlankCoupling {
+                traces: coupling.traces.try_into().expect("two traces were given"),
+            });
         }
         let mut weighted = DMatrix::zeros(n, n);
         for side in 0..2 {
@@ -112,7 +132,16 @@ impl PositionCompliance {
                 .pairs
                 .iter()
                 .zip(&couplings)
-                .map(|(pair, coupling)| SideView::new(pair, &coupling.traces[side], members[side], side, turns[side], friction))
+                .map(|(pair, coupling)| {
+                    SideView::new(
+                        pair,
+                        &coupling.traces[side],
+                        members[side],
+                        side,
+                        turns[side],
+                        friction,
+                    )
+                })
                 .collect();
             add_weighted(&mut weighted, &flanks, members[side]);
         }
@@ -125,10 +154,15 @@ impl PositionCompliance {
             let force = friction_direction(pair, friction);
             let (origin, tangent) = (pair.frame.origin, pair.frame.tangent);
             for k in 0..pair.xi.len() {
-                lever[pair.offset + k] += cross(origin * pair.length[k] + tangent * pair.moment[k], force);
+                lever[pair.offset + k] +=
+                    cross(origin * pair.length[k] + tangent * pair.moment[k], force);
             }
         }
-        Ok(Self { weighted, lever, couplings })
+        Ok(Self {
+            weighted,
+            lever,
+            couplings,
+        })
     }
 }
 
@@ -164,10 +198,19 @@ struct SideView<'a> {
 }
 
 impl<'a> SideView<'a> {
-    fn new(pair: &PairContact, rows: &'a SparseRows, member: &ElasticFlanks, side: usize, turn: f64, friction: f64) -> Self {
+    fn new(
+        pair: &PairContact,
+        rows: &'a SparseRows,
+        member: &ElasticFlanks,
+        side: usize,
+        turn: f64,
+        friction: f64,
+    ) -> Self {
         let columns = (0..rows.len()).flat_map(|k| rows.row(k).0.iter().copied());
         let (low, high) = columns.fold((u32::MAX, 0), |(low, high), c| (low.min(c), high.max(c)));
-        let first = member.flank(member_tooth(pair, side)).map_or(0, |f| f.first);
+        let first = member
+            .flank(member_tooth(pair, side))
+            .map_or(0, |f| f.first);
         Self {
             offset: pair.offset,
             rows,
@@ -175,7 +218,10 @@ impl<'a> SideView<'a> {
             first_column: low as usize,
             count: (high - low) as usize + 1,
             normal: rotate(pair.frame.normal, -turn),
-            traction: rotate(pair.frame.normal + friction_direction(pair, friction), -turn),
+            traction: rotate(
+                pair.frame.normal + friction_direction(pair, friction),
+                -turn,
+            ),
         }
     }
 }
@@ -197,13 +243,21 @@ fn add_weighted(weighted: &mut DMatrix<f64>, views: &[SideView], member: &Elasti
             for l in 0..source.rows.len() {
                 let (columns, values) = source.rows.row(l);
                 for (&c, &v) in columns.iter().zip(values) {
-                    spread.column_mut(l).axpy(v, &block.column(c as usize - source.first_column), 1.0);
+                    spread.column_mut(l).axpy(
+                        v,
+                        &block.column(c as usize - source.first_column),
+                        1.0,
+                    );
                 }
             }
             for l in 0..source.rows.len() {
                 for k in 0..target.rows.len() {
                     let (columns, values) = target.rows.row(k);
-                    let sum: f64 = columns.iter().zip(values).map(|(&c, v)| v * spread[(c as usize - target.first_column, l)]).sum();
+                    let sum: f64 = columns
+                        .iter()
+                        .zip(values)
+                        .map(|(&c, v)| v * spread[(c as usize - target.first_column, l)])
+                        .sum();
                     weighted[(target.offset + k, source.offset + l)] += sum;
                 }
             }
@@ -214,7 +268,11 @@ fn add_weighted(weighted: &mut DMatrix<f64>, views: &[SideView], member: &Elasti
 impl<'a> FemContact<'a> {
     /// Contact under a pinion torque per face width (N·mm/mm).
     pub fn new(cycle: &'a Cycle, compliance: &'a CycleCompliance, torque: f64) -> Self {
-        Self { cycle, compliance, torque }
+        Self {
+            cycle,
+            compliance,
+            torque,
+        }
     }
 
     fn problem<'b>(&'b self, q: usize, gap: &'b [f64]) -> Problem<'b> {
@@ -235,16 +293,33 @@ impl ContactModel for FemContact<'_> {
         self.cycle
     }
 
-    fn solve(&self, q: usize, depth: [&[f64]; 2], start: &[usize]) -> Result<PositionContact, ContactError> {
+    fn solve(
+        &self,
+        q: usize,
+        depth: [&[f64]; 2],
+        start: &[usize],
+    ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
         let gap = position.worn_gap(depth);
-        let solution = solve(&self.problem(q, &gap), start)
-            .map_err(|source| ContactError::Unilateral { theta: position.theta, source })?;
+        let solution =
+            solve(&self.problem(q, &gap), start).map_err(|source| ContactError::Unilateral {
+                theta: position.theta,
+                source,
+            })?;
         for pair in &position.pairs {
             let window = self.cycle.spec.window;
-            for (k, at_end) in [(0, pair.xi[0] <= -window + self.cycle.spec.spacing), (pair.xi.len() - 1, pair.xi[pair.xi.len() - 1] >= window - self.cycle.spec.spacing)] {
+            for (k, at_end) in [
+                (0, pair.xi[0] <= -window + self.cycle.spec.spacing),
+                (
+                    pair.xi.len() - 1,
+                    pair.xi[pair.xi.len() - 1] >= window - self.cycle.spec.spacing,
+                ),
+            ] {
                 if at_end && solution.pressure[pair.offset + k] > 0.0 {
-                    return Err(ContactError::WindowTooNarrow { theta: position.theta, window });
+                    return Err(ContactError::WindowTooNarrow {
+                        theta: position.theta,
+                        window,
+                    });
                 }
             }
         }
@@ -257,10 +332,17 @@ impl ContactModel for FemContact<'_> {
         })
     }
 
-    fn sensitivity(&self, q: usize, contact: &PositionContact) -> Result<Option<DMatrix<f64>>, ContactError> {
+    fn sensitivity(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<DMatrix<f64>>, ContactError> {
         let position = &self.cycle.positions[q];
         sensitivity(&self.problem(q, &position.gap), &contact.active)
             .map(Some)
-            .map_err(|source| ContactError::Unilateral { theta: position.theta, source })
+            .map_err(|source| ContactError::Unilateral {
+                theta: position.theta,
+                source,
+            })
     }
 }

@@ -60,23 +60,45 @@ impl Frame {
             let corner = flanks[1].point(range[1][1]);
             let (foot, separation) = flanks[0].project(corner)?;
             let normal = flanks[0].normal(foot);
-            Some(frame(Touch::GearTip, flanks[0].point(foot), normal, separation, [foot, range[1][1]]))
+            Some(frame(
+                Touch::GearTip,
+                flanks[0].point(foot),
+                normal,
+                separation,
+                [foot, range[1][1]],
+            ))
         } else if rho1 > pair.rho_e {
             let corner = flanks[0].point(range[0][1]);
             let (foot, separation) = flanks[1].project(corner)?;
             let normal = -flanks[1].normal(foot);
-            Some(frame(Touch::PinionTip, flanks[1].point(foot), normal, separation, [range[0][1], foot]))
+            Some(frame(
+                Touch::PinionTip,
+                flanks[1].point(foot),
+                normal,
+                separation,
+                [range[0][1], foot],
+            ))
         } else {
-            
-            Some(frame(Touch::Flanks, pair.contact_point(path), pair.normal(), 0.0, [rho1, pair.rho_gear(path)]))
+            Some(frame(
+                Touch::Flanks,
+                pair.contact_point(path),
+                pair.normal(),
+                0.0,
+                [rho1, pair.rho_gear(path)],
+            ))
         }
     }
 
     /// The interval of ξ within ±`window` in which both flanks exist, mm.
     pub fn extent(&self, window: f64) -> (f64, f64) {
-        let along = |side: usize, rho: f64| (self.flanks[side].point(rho) - self.origin).dot(&self.tangent);
-        let low = (-window).max(along(0, self.range[0][0])).max(along(1, self.range[1][1]));
-        let high = window.min(along(0, self.range[0][1])).min(along(1, self.range[1][0]));
+        let along =
+            |side: usize, rho: f64| (self.flanks[side].point(rho) - self.origin).dot(&self.tangent);
+        let low = (-window)
+            .max(along(0, self.range[0][0]))
+            .max(along(1, self.range[1][1]));
+        let high = window
+            .min(along(0, self.range[0][1]))
+            .min(along(1, self.range[1][0]));
         (low, high)
     }
 
@@ -109,7 +131,10 @@ impl Frame {
         let (rho, gap) = self.facing_rho(xi);
         let members = [&pair.pinion, &pair.gear];
         let removed: f64 = (0..2).map(|i| members[i].relief(rho[i])).sum();
-        Facing { arc: [members[0].arc(rho[0]), members[1].arc(rho[1])], gap: gap + removed }
+        Facing {
+            arc: [members[0].arc(rho[0]), members[1].arc(rho[1])],
+            gap: gap + removed,
+        }
     }
 
     /// Signed distance of the origin from the pitch point along the normal, mm: the sliding velocity is
@@ -137,7 +162,11 @@ impl PlacedInvolute {
         };
         [
             place(&pair.pinion, Vec2::zeros(), pair.pinion_angle(path)),
-            place(&pair.gear, Vec2::new(pair.centre_distance, 0.0), pair.gear_angle(path)),
+            place(
+                &pair.gear,
+                Vec2::new(pair.centre_distance, 0.0),
+                pair.gear_angle(path),
+            ),
         ]
     }
 
@@ -155,7 +184,10 @@ impl PlacedInvolute {
     /// The point and its derivative by rho: (rho/r_b) times the radial direction of the tangent point.
     fn point_and_slope(&self, rho: f64) -> (Vec2, Vec2) {
         let (radial, around) = self.axes(rho);
-        (self.centre + radial * self.base_radius + around * rho, radial * (rho / self.base_radius))
+        (
+            self.centre + radial * self.base_radius + around * rho,
+            radial * (rho / self.base_radius),
+        )
     }
 
     /// Outward unit normal: along the tangent to the base circle.
@@ -171,7 +203,8 @@ impl PlacedInvolute {
         let length = (d.norm_squared() - self.base_radius * self.base_radius).sqrt();
         let tangent_angle = d.y.atan2(d.x) - (length / self.base_radius).atan();
         let turn = self.origin_angle - tangent_angle;
-        let rho = self.base_radius * (turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round());
+        let rho = self.base_radius
+            * (turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round());
         (length.is_finite() && rho > 0.0).then_some((rho, length - rho))
     }
 }
@@ -182,7 +215,13 @@ mod tests {
     use crate::gear::{BasicRack, Gear, ToothSpec};
 
     fn reference() -> Pair {
-        let rack = BasicRack { module: 2.0, pressure_angle: 20f64.to_radians(), addendum: 1.0, dedendum: 1.25, fillet_radius: 0.38 };
+        let rack = BasicRack {
+            module: 2.0,
+            pressure_angle: 20f64.to_radians(),
+            addendum: 1.0,
+            dedendum: 1.25,
+            fillet_radius: 0.38,
+        };
         let gear = |z, bore| Gear::new(rack, ToothSpec::plain(z, bore)).unwrap();
         Pair::new(gear(27, 25.0), gear(53, 40.0), 80.0, 0.0).unwrap()
     }
@@ -199,7 +238,10 @@ mod tests {
                 let expected = xi * xi / (2.0 * pair.relative_radius(path));
                 // an involute's curvature radius changes by r_b/rho per arc, so the third order term is about xi r_b/rho²
                 let third = xi.abs() * pair.pinion.base_radius / rho[0].powi(2);
-                assert!((gap / expected - 1.0).abs() < third, "{gap} against {expected}");
+                assert!(
+                    (gap / expected - 1.0).abs() < third,
+                    "{gap} against {expected}"
+                );
             }
         }
     }
@@ -207,7 +249,10 @@ mod tests {
     #[test]
     fn corners_separate_smoothly_outside_the_path_of_contact() {
         let pair = reference();
-        for (edge, outward) in [(pair.rho_a - pair.rho_c, -1.0), (pair.rho_e - pair.rho_c, 1.0)] {
+        for (edge, outward) in [
+            (pair.rho_a - pair.rho_c, -1.0),
+            (pair.rho_e - pair.rho_c, 1.0),
+        ] {
             let at = |d: f64| Frame::new(&pair, edge + outward * d).unwrap();
             assert_eq!(at(-0.01).touch, Touch::Flanks);
             assert_ne!(at(0.01).touch, Touch::Flanks);

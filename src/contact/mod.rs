@@ -1,9 +1,9 @@
 //! Floor 4: contact between two flanks: mortar coupling, unilateral contact, load sharing.
 
-pub mod unilateral;
-pub mod mortar;
-pub mod deposit;
 pub mod cycle;
-pub mod frame;
+pub mod deposit;
 pub mod fem;
+pub mod frame;
 pub mod model;
+pub mod mortar;
+pub mod unilateral;

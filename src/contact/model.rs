@@ -29,14 +29,23 @@ pub trait ContactModel: Sync {
     ///
     /// # Errors
     /// [`ContactError`]; an iterate that did not converge is never returned.
-    fn solve(&self, q: usize, depth: [&[f64]; 2], start: &[usize]) -> Result<PositionContact, ContactError>;
+    fn solve(
+        &self,
+        q: usize,
+        depth: [&[f64]; 2],
+        start: &[usize],
+    ) -> Result<PositionContact, ContactError>;
 
     /// S with dp = −S dg on the active set (MPa per mm²), or `None` if pressures follow the local shape so weakly that
     /// wear is not stiff.
     ///
     /// # Errors
     /// [`ContactError`] if the active set's compliance cannot be inverted.
-    fn sensitivity(&self, q: usize, contact: &PositionContact) -> Result<Option<DMatrix<f64>>, ContactError>;
+    fn sensitivity(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<DMatrix<f64>>, ContactError>;
 }
 
 /// Why contact could not be solved.

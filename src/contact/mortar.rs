@@ -40,7 +40,11 @@ impl Trace<'_> {
         let (mut low, mut high) = (0, edges);
         while high - low > 1 {
             let mid = usize::midpoint(low, high);
-            if self.arc[mid * self.order] <= s { low = mid } else { high = mid }
+            if self.arc[mid * self.order] <= s {
+                low = mid
+            } else {
+                high = mid
+            }
         }
         low * self.order
     }
@@ -54,7 +58,14 @@ impl Trace<'_> {
             (first, [1.0 - t, t, 0.0])
         } else {
             // the mid-side node sits at the middle of the arc, so t is the isoparametric coordinate
-            (first, [(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)])
+            (
+                first,
+                [
+                    (1.0 - t) * (1.0 - 2.0 * t),
+                    4.0 * t * (1.0 - t),
+                    t * (2.0 * t - 1.0),
+                ],
+            )
         }
     }
 }
@@ -82,7 +93,12 @@ const GAUSS: [(f64, f64); 3] = [
 /// Integrates the hats on the nodes `xi` (ascending, mm) against `traces`.
 pub fn couple(xi: &[f64], facing: impl Fn(f64) -> Facing, traces: &[Trace]) -> Coupling {
     let n = xi.len();
-    let mut out = Coupling { gap: vec![0.0; n], length: vec![0.0; n], moment: vec![0.0; n], traces: Vec::new() };
+    let mut out = Coupling {
+        gap: vec![0.0; n],
+        length: vec![0.0; n],
+        moment: vec![0.0; n],
+        traces: Vec::new(),
+    };
     let mut rows: Vec<Vec<Vec<(u32, f64)>>> = traces.iter().map(|_| vec![Vec::new(); n]).collect();
     let mut cuts = Vec::new();
     for k in 0..n.saturating_sub(1) {
@@ -120,7 +136,14 @@ fn edge_shapes(trace: &Trace, first: usize, s: f64) -> ([f64; 3], usize) {
     if trace.order == 1 {
         ([1.0 - t, t, 0.0], 2)
     } else {
-        ([(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)], 3)
+        (
+            [
+                (1.0 - t) * (1.0 - 2.0 * t),
+                4.0 * t * (1.0 - t),
+                t * (2.0 * t - 1.0),
+            ],
+            3,
+        )
     }
 }
 
@@ -128,7 +151,13 @@ fn edge_shapes(trace: &Trace, first: usize, s: f64) -> ([f64; 3], usize) {
 ///
 /// An edge end is carried from arc to ξ by linear interpolation over the cell: exact for straight flanks, and a shift of
 /// second order in the cell's size (of a quadrature limit only) for curved ones.
-fn common_refinement(a: f64, b: f64, facing: &impl Fn(f64) -> Facing, traces: &[Trace], cuts: &mut Vec<f64>) {
+fn common_refinement(
+    a: f64,
+    b: f64,
+    facing: &impl Fn(f64) -> Facing,
+    traces: &[Trace],
+    cuts: &mut Vec<f64>,
+) {
     cuts.clear();
     cuts.extend([a, b]);
     let (at_a, at_b) = (facing(a), facing(b));
@@ -160,20 +189,44 @@ mod tests {
     fn constants_and_linears_are_integrated_exactly() {
         let quadratic: Vec<f64> = (0..=10).map(|i| 0.1 * f64::from(i)).collect();
         let linear = [0.0, 0.13, 0.42, 0.77, 1.0];
-        let traces =
-            [Trace { side: 0, arc: &quadratic, order: 2 }, Trace { side: 1, arc: &linear, order: 1 }];
+        let traces = [
+            Trace {
+                side: 0,
+                arc: &quadratic,
+                order: 2,
+            },
+            Trace {
+                side: 1,
+                arc: &linear,
+                order: 1,
+            },
+        ];
         let xi = [0.05, 0.21, 0.4, 0.66, 0.9];
         // the second flank runs backwards
-        let c = couple(&xi, |x| Facing { arc: [x, 1.0 - x], gap: 2.0 + x }, &traces);
+        let c = couple(
+            &xi,
+            |x| Facing {
+                arc: [x, 1.0 - x],
+                gap: 2.0 + x,
+            },
+            &traces,
+        );
         let total: f64 = c.length.iter().sum();
         assert!((total - 0.85).abs() < 1e-15);
         for k in 0..xi.len() {
             assert!((c.gap[k] - 2.0 * c.length[k] - c.moment[k]).abs() < 1e-15);
             for (trace, arc, sign) in [(0, &quadratic[..], 1.0), (1, &linear[..], -1.0)] {
                 let (_, values) = c.traces[trace].row(k);
-                assert!((values.iter().sum::<f64>() - c.length[k]).abs() < 1e-15, "partition of unity");
+                assert!(
+                    (values.iter().sum::<f64>() - c.length[k]).abs() < 1e-15,
+                    "partition of unity"
+                );
                 let first = c.traces[trace].dot(k, arc);
-                let expected = if sign > 0.0 { c.moment[k] } else { c.length[k] - c.moment[k] };
+                let expected = if sign > 0.0 {
+                    c.moment[k]
+                } else {
+                    c.length[k] - c.moment[k]
+                };
                 assert!((first - expected).abs() < 1e-15, "linear field");
             }
         }

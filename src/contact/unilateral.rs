@@ -72,7 +72,9 @@ pub enum UnilateralError {
         active: usize,
     },
     /// The active set did not settle.
-    #[error("the contact set did not settle in {iterations} iterations; points {flipping:?} keep changing")]
+    #[error(
+        "the contact set did not settle in {iterations} iterations; points {flipping:?} keep changing"
+    )]
     NotSettled {
         /// Iterations spent.
         iterations: usize,
@@ -119,31 +121,56 @@ pub fn solve(problem: &Problem, start: &[usize]) -> Result<Solution, UnilateralE
             return Ok(trial.into_solution(problem, iteration));
         }
         flipping = symmetric_difference(&next, &trial.active);
-        active = if next.is_empty() { first_guess(problem)? } else { next };
+        active = if next.is_empty() {
+            first_guess(problem)?
+        } else {
+            next
+        };
     }
     if !problem.symmetric {
-        return Err(UnilateralError::NotSettled { iterations: PRIMAL_DUAL_LIMIT, flipping });
+        return Err(UnilateralError::NotSettled {
+            iterations: PRIMAL_DUAL_LIMIT,
+            flipping,
+        });
     }
     one_by_one(problem)
 }
 
 /// The points within the smallest gap plus a tenth of the spread: enough to start from.
 fn first_guess(problem: &Problem) -> Result<Vec<usize>, UnilateralError> {
-    let reduced: Vec<f64> = problem.gap.iter().zip(problem.arm).map(|(g, a)| g / a).collect();
+    let reduced: Vec<f64> = problem
+        .gap
+        .iter()
+        .zip(problem.arm)
+        .map(|(g, a)| g / a)
+        .collect();
     let (index, &least) = reduced
         .iter()
         .enumerate()
         .min_by(|a, b| a.1.total_cmp(b.1))
-        .ok_or(UnilateralError::Separated { gap: f64::NAN, approach: 0.0 })?;
+        .ok_or(UnilateralError::Separated {
+            gap: f64::NAN,
+            approach: 0.0,
+        })?;
     match problem.drive {
         Drive::Approach(phi) => {
             let set: Vec<usize> = (0..reduced.len()).filter(|&k| reduced[k] < phi).collect();
-            if set.is_empty() { Err(UnilateralError::Separated { gap: least, approach: phi }) } else { Ok(set) }
+            if set.is_empty() {
+                Err(UnilateralError::Separated {
+                    gap: least,
+                    approach: phi,
+                })
+            } else {
+                Ok(set)
+            }
         }
         Drive::Load(load) => {
             // the approach if only the nearest point carried the load bounds the approach from above
-            let bound = least + problem.w[(index, index)] * load / (problem.arm[index] * problem.lever[index]);
-            Ok((0..reduced.len()).filter(|&k| reduced[k] <= least + 0.5 * (bound - least)).collect())
+            let bound = least
+                + problem.w[(index, index)] * load / (problem.arm[index] * problem.lever[index]);
+            Ok((0..reduced.len())
+                .filter(|&k| reduced[k] <= least + 0.5 * (bound - least))
+                .collect())
         }
     }
 }
@@ -160,16 +187,27 @@ impl Trial {
         active.sort_unstable();
         let reduced = Reduced::new(problem, &active)?;
         let approach = match problem.drive {
-            Drive::Load(load) => (load + reduced.lever.dot(&reduced.y)) / reduced.lever.dot(&reduced.x),
+            Drive::Load(load) => {
+                (load + reduced.lever.dot(&reduced.y)) / reduced.lever.dot(&reduced.x)
+            }
             Drive::Approach(phi) => phi,
         };
         let pressure = &reduced.x * approach - &reduced.y;
-        Ok(Self { active, pressure, approach })
+        Ok(Self {
+            active,
+            pressure,
+            approach,
+        })
     }
 
     /// Residual r of every point.
     fn residual(&self, problem: &Problem) -> Vec<f64> {
-        let mut r: Vec<f64> = problem.gap.iter().zip(problem.arm).map(|(g, a)| g - self.approach * a).collect();
+        let mut r: Vec<f64> = problem
+            .gap
+            .iter()
+            .zip(problem.arm)
+            .map(|(g, a)| g - self.approach * a)
+            .collect();
         for (&l, &p) in self.active.iter().zip(self.pressure.iter()) {
             for (rk, w) in r.iter_mut().zip(problem.w.column(l).iter()) {
                 *rk += w * p;
@@ -193,20 +231,34 @@ impl Trial {
 
     /// A length typical of the approach, for tolerances relative to it.
     fn scale(&self, problem: &Problem) -> f64 {
-        let least = problem.gap.iter().zip(problem.arm).map(|(g, a)| g / a).fold(f64::INFINITY, f64::min);
+        let least = problem
+            .gap
+            .iter()
+            .zip(problem.arm)
+            .map(|(g, a)| g / a)
+            .fold(f64::INFINITY, f64::min);
         (self.approach - least).abs().max(f64::MIN_POSITIVE)
     }
 
     fn into_solution(self, problem: &Problem, iterations: usize) -> Solution {
         let residual = self.residual(problem);
         let scale = self.scale(problem);
-        let penetration =
-            residual.iter().zip(problem.arm).map(|(r, a)| -r / (a.abs() * scale)).fold(0.0, f64::max);
+        let penetration = residual
+            .iter()
+            .zip(problem.arm)
+            .map(|(r, a)| -r / (a.abs() * scale))
+            .fold(0.0, f64::max);
         let mut pressure = vec![0.0; problem.gap.len()];
         for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
             pressure[k] = p;
         }
-        Solution { pressure, approach: self.approach, active: self.active, iterations, penetration }
+        Solution {
+            pressure,
+            approach: self.approach,
+            active: self.active,
+            iterations,
+            penetration,
+        }
     }
 }
 
@@ -229,7 +281,11 @@ impl Reduced {
             return Err(singular);
         }
         let lever = DVector::from_fn(m, |i, _| problem.lever[active[i]]);
-        Ok(Self { lever, x: rhs.column(0).into(), y: rhs.column(1).into() })
+        Ok(Self {
+            lever,
+            x: rhs.column(0).into(),
+            y: rhs.column(1).into(),
+        })
     }
 }
 
@@ -244,7 +300,10 @@ fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError> {
         .map(|(g, a)| g / a)
         .enumerate()
         .min_by(|a, b| a.1.total_cmp(&b.1))
-        .ok_or(UnilateralError::Separated { gap: f64::NAN, approach: 0.0 })?;
+        .ok_or(UnilateralError::Separated {
+            gap: f64::NAN,
+            approach: 0.0,
+        })?;
     let mut feasible = vec![0.0; n];
     let mut active = vec![start];
     if let Drive::Load(load) = problem.drive {
@@ -273,7 +332,10 @@ fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError> {
             active.retain(|&a| a != k);
             last = vec![k];
             if active.is_empty() {
-                return Err(UnilateralError::Separated { gap: 0.0, approach: trial.approach });
+                return Err(UnilateralError::Separated {
+                    gap: 0.0,
+                    approach: trial.approach,
+                });
             }
             continue;
         }
@@ -291,11 +353,19 @@ fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError> {
             _ => return Ok(trial.into_solution(problem, PRIMAL_DUAL_LIMIT + iteration)),
         }
     }
-    Err(UnilateralError::NotSettled { iterations: limit, flipping: last })
+    Err(UnilateralError::NotSettled {
+        iterations: limit,
+        flipping: last,
+    })
 }
 
 fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {
-    let only = |x: &[usize], y: &[usize]| x.iter().copied().filter(|k| y.binary_search(k).is_err()).collect::<Vec<_>>();
+    let only = |x: &[usize], y: &[usize]| {
+        x.iter()
+            .copied()
+            .filter(|k| y.binary_search(k).is_err())
+            .collect::<Vec<_>>()
+    };
     let mut all = only(a, b);
     all.extend(only(b, a));
     all.sort_unstable();
@@ -334,11 +404,20 @@ mod tests {
     /// Independent second formulation: every one of the 2^n sets tried.
     fn brute_force(w: &DMatrix<f64>, gap: &[f64], arm: &[f64], load: f64) -> Vec<f64> {
         let n = gap.len();
-        let problem = Problem { w, gap, arm, lever: arm, drive: Drive::Load(load), symmetric: true };
+        let problem = Problem {
+            w,
+            gap,
+            arm,
+            lever: arm,
+            drive: Drive::Load(load),
+            symmetric: true,
+        };
         for mask in 1u32..(1 << n) {
             let set: Vec<usize> = (0..n).filter(|k| mask >> k & 1 == 1).collect();
             let trial = Trial::on(&problem, set).unwrap();
-            if trial.pressure.iter().all(|&p| p >= 0.0) && trial.residual(&problem).iter().all(|&r| r >= -1e-10) {
+            if trial.pressure.iter().all(|&p| p >= 0.0)
+                && trial.residual(&problem).iter().all(|&r| r >= -1e-10)
+            {
                 return trial.into_solution(&problem, 0).pressure;
             }
         }
@@ -346,7 +425,9 @@ mod tests {
     }
 
     fn random(seed: &mut u64) -> f64 {
-        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        *seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 11) as f64 / (1u64 << 53) as f64
     }
 
@@ -359,11 +440,22 @@ mod tests {
                 let w = &m * m.transpose() + DMatrix::identity(n, n) * 0.05;
                 let gap: Vec<f64> = (0..n).map(|_| random(&mut seed)).collect();
                 let arm: Vec<f64> = (0..n).map(|_| 0.5 + random(&mut seed)).collect();
-                let problem = Problem { w: &w, gap: &gap, arm: &arm, lever: &arm, drive: Drive::Load(2.0), symmetric: true };
+                let problem = Problem {
+                    w: &w,
+                    gap: &gap,
+                    arm: &arm,
+                    lever: &arm,
+                    drive: Drive::Load(2.0),
+                    symmetric: true,
+                };
                 let expected = brute_force(&w, &gap, &arm, 2.0);
                 for solution in [solve(&problem, &[]).unwrap(), one_by_one(&problem).unwrap()] {
                     for (a, b) in solution.pressure.iter().zip(&expected) {
-                        assert!((a - b).abs() < 1e-9, "{:?} against {expected:?}", solution.pressure);
+                        assert!(
+                            (a - b).abs() < 1e-9,
+                            "{:?} against {expected:?}",
+                            solution.pressure
+                        );
                     }
                     let load: f64 = solution.pressure.iter().zip(&arm).map(|(p, a)| p * a).sum();
                     assert!((load - 2.0).abs() < 1e-12);
@@ -380,13 +472,27 @@ mod tests {
         let w = &m * m.transpose() + DMatrix::identity(n, n) * 0.1;
         let arm = vec![1.0; n];
         let gap: Vec<f64> = (0..n).map(|_| 0.1 * random(&mut seed)).collect();
-        let problem = Problem { w: &w, gap: &gap, arm: &arm, lever: &arm, drive: Drive::Load(5.0), symmetric: true };
+        let problem = Problem {
+            w: &w,
+            gap: &gap,
+            arm: &arm,
+            lever: &arm,
+            drive: Drive::Load(5.0),
+            symmetric: true,
+        };
         let base = solve(&problem, &[]).unwrap();
         let s = sensitivity(&problem, &base.active).unwrap();
         for (column, &k) in base.active.iter().enumerate() {
             let mut moved = gap.clone();
             moved[k] += 1e-7;
-            let changed = solve(&Problem { gap: &moved, ..problem }, &base.active).unwrap();
+            let changed = solve(
+                &Problem {
+                    gap: &moved,
+                    ..problem
+                },
+                &base.active,
+            )
+            .unwrap();
             for (row, &l) in base.active.iter().enumerate() {
                 let slope = (changed.pressure[l] - base.pressure[l]) / 1e-7;
                 assert!((slope + s[(row, column)]).abs() < 1e-5 * (1.0 + slope.abs()));
@@ -397,10 +503,29 @@ mod tests {
     #[test]
     fn refuses_what_cannot_be_loaded() {
         let w = DMatrix::identity(2, 2);
-        let at = |drive| Problem { w: &w, gap: &[0.1, 0.2], arm: &[1.0, 1.0], lever: &[1.0, 1.0], drive, symmetric: true };
-        assert!(matches!(solve(&at(Drive::Load(0.0)), &[]), Err(UnilateralError::BadLoad { .. })));
-        assert!(matches!(solve(&at(Drive::Load(f64::NAN)), &[]), Err(UnilateralError::BadLoad { .. })));
-        assert!(matches!(solve(&at(Drive::Approach(0.05)), &[]), Err(UnilateralError::Separated { .. })));
-        assert_eq!(solve(&at(Drive::Approach(0.15)), &[]).unwrap().active, vec![0]);
+        let at = |drive| Problem {
+            w: &w,
+            gap: &[0.1, 0.2],
+            arm: &[1.0, 1.0],
+            lever: &[1.0, 1.0],
+            drive,
+            symmetric: true,
+        };
+        assert!(matches!(
+            solve(&at(Drive::Load(0.0)), &[]),
+            Err(UnilateralError::BadLoad { .. })
+        ));
+        assert!(matches!(
+            solve(&at(Drive::Load(f64::NAN)), &[]),
+            Err(UnilateralError::BadLoad { .. })
+        ));
+        assert!(matches!(
+            solve(&at(Drive::Approach(0.05)), &[]),
+            Err(UnilateralError::Separated { .. })
+        ));
+        assert_eq!(
+            solve(&at(Drive::Approach(0.15)), &[]).unwrap().active,
+            vec![0]
+        );
     }
 }

@@ -11,7 +11,10 @@ pub struct SparseRows {
 impl SparseRows {
     /// Builds from the dense accumulations of each row; entries come sorted by column.
     pub fn from_rows(rows: impl IntoIterator<Item = Vec<(u32, f64)>>) -> Self {
-        let mut out = Self { start: vec![0], ..Self::default() };
+        let mut out = Self {
+            start: vec![0],
+            ..Self::default()
+        };
         for mut row in rows {
             row.sort_by_key(|entry| entry.0);
             let first = out.column.len();
@@ -47,7 +50,11 @@ impl SparseRows {
     /// Row `i` times `x`.
     pub fn dot(&self, i: usize, x: &[f64]) -> f64 {
         let (columns, values) = self.row(i);
-        columns.iter().zip(values).map(|(&c, v)| v * x[c as usize]).sum()
+        columns
+            .iter()
+            .zip(values)
+            .map(|(&c, v)| v * x[c as usize])
+            .sum()
     }
 
     /// `y += scale · (row i)ᵀ`.

@@ -27,7 +27,13 @@ pub struct ArchardSystem<'a, M: ContactModel> {
 impl<'a, M: ContactModel> ArchardSystem<'a, M> {
     /// Wear under `model` with the coefficients of pinion and gear, mm²/N.
     pub fn new(model: &'a M, coefficient: [f64; 2]) -> Self {
-        Self { model, coefficient, warm: vec![Vec::new(); model.cycle().positions.len()], last: None, solves: 0 }
+        Self {
+            model,
+            coefficient,
+            warm: vec![Vec::new(); model.cycle().positions.len()],
+            last: None,
+            solves: 0,
+        }
     }
 
     /// The contact of every position for the depths `u`.
@@ -53,7 +59,10 @@ impl<'a, M: ContactModel> ArchardSystem<'a, M> {
     }
 
     fn factors(&self) -> [f64; 2] {
-        [self.coefficient[0], self.coefficient[1] / self.model.cycle().pair.speed_ratio]
+        [
+            self.coefficient[0],
+            self.coefficient[1] / self.model.cycle().pair.speed_ratio,
+        ]
     }
 }
 
@@ -111,7 +120,10 @@ impl<M: ContactModel> WearSystem for ArchardSystem<'_, M> {
                     (0..2)
                         .flat_map(|side| {
                             let (columns, values) = pair.wear[side].row(k - pair.offset);
-                            columns.iter().zip(values).map(move |(&c, v)| (shift[side] + c as usize, factors[side] * v))
+                            columns
+                                .iter()
+                                .zip(values)
+                                .map(move |(&c, v)| (shift[side] + c as usize, factors[side] * v))
                         })
                         .collect()
                 })

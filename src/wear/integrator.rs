@@ -63,7 +63,13 @@ pub struct Stand {
 impl Stand {
     /// The start of an integration.
     pub fn new(u: Vec<f64>, control: StepControl) -> Self {
-        Self { n: 0.0, u, step: control.first_step, accepted: 0, rejected: 0 }
+        Self {
+            n: 0.0,
+            u,
+            step: control.first_step,
+            accepted: 0,
+            rejected: 0,
+        }
     }
 }
 
@@ -79,7 +85,9 @@ pub enum StepError<E> {
         source: E,
     },
     /// The error cannot be held even with the smallest step.
-    #[error("wear step at {n} cycles needs a step below {step:e} cycles (error {error:.3} of the allowed)")]
+    #[error(
+        "wear step at {n} cycles needs a step below {step:e} cycles (error {error:.3} of the allowed)"
+    )]
     TooSmall {
         /// Where it happened (unit of n).
         n: f64,
@@ -97,7 +105,12 @@ const SAFETY: f64 = 0.85;
 ///
 /// # Errors
 /// [`StepError`]; `stand` is untouched then.
-pub fn advance<S: WearSystem>(system: &mut S, stand: &mut Stand, end: f64, control: StepControl) -> Result<(), StepError<S::Error>> {
+pub fn advance<S: WearSystem>(
+    system: &mut S,
+    stand: &mut Stand,
+    end: f64,
+    control: StepControl,
+) -> Result<(), StepError<S::Error>> {
     let n = stand.n;
     let fail = |source| StepError::System { n, source };
     let rate = system.rate(n, &stand.u).map_err(fail)?;
@@ -105,24 +118,51 @@ pub fn advance<S: WearSystem>(system: &mut S, stand: &mut Stand, end: f64, contr
     let mut step = stand.step;
     loop {
         // stretch a little rather than leave a sliver before the end
-        let tau = if n + 1.01 * step >= end { end - n } else if n + 2.0 * step > end { 0.5 * (end - n) } else { step };
-        let shifted = jacobian.as_ref().map(|j| shifted(j, GAMMA * tau).partial_piv_lu());
+        let tau = if n + 1.01 * step >= end {
+            end - n
+        } else if n + 2.0 * step > end {
+            0.5 * (end - n)
+        } else {
+            step
+        };
+        let shifted = jacobian
+            .as_ref()
+            .map(|j| shifted(j, GAMMA * tau).partial_piv_lu());
         let k1 = implicit(shifted.as_ref(), rate.clone());
         let middle: Vec<f64> = stand.u.iter().zip(&k1).map(|(u, k)| u + tau * k).collect();
         let second = system.rate(n + tau, &middle).map_err(fail)?;
-        let k2 = implicit(shifted.as_ref(), second.iter().zip(&k1).map(|(f, k)| f - 2.0 * k).collect());
-        let scale = stand.u.iter().chain(&middle).fold(control.floor, |m, u| m.max(u.abs()));
-        let error = k1.iter().zip(&k2).map(|(a, b)| (0.5 * tau * (a + b)).abs()).fold(0.0, f64::max)
+        let k2 = implicit(
+            shifted.as_ref(),
+            second.iter().zip(&k1).map(|(f, k)| f - 2.0 * k).collect(),
+        );
+        let scale = stand
+            .u
+            .iter()
+            .chain(&middle)
+            .fold(control.floor, |m, u| m.max(u.abs()));
+        let error = k1
+            .iter()
+            .zip(&k2)
+            .map(|(a, b)| (0.5 * tau * (a + b)).abs())
+            .fold(0.0, f64::max)
             / (control.tolerance * scale);
         // the error is of second order in the step
-        let factor = if error > 0.0 { (SAFETY / error.sqrt()).clamp(0.2, 4.0) } else { 4.0 };
+        let factor = if error > 0.0 {
+            (SAFETY / error.sqrt()).clamp(0.2, 4.0)
+        } else {
+            4.0
+        };
         if error <= 1.0 {
             for ((u, a), b) in stand.u.iter_mut().zip(&k1).zip(&k2) {
                 *u += tau * (1.5 * a + 0.5 * b);
             }
             stand.n = if tau == end - n { end } else { n + tau };
             // a step shortened by the end says little about the size that would do
-            stand.step = if tau < step { step.max(tau * factor) } else { tau * factor };
+            stand.step = if tau < step {
+                step.max(tau * factor)
+            } else {
+                tau * factor
+            };
             stand.accepted += 1;
             return Ok(());
         }
@@ -136,7 +176,9 @@ pub fn advance<S: WearSystem>(system: &mut S, stand: &mut Stand, end: f64, contr
 }
 
 fn shifted(jacobian: &Mat<f64>, factor: f64) -> Mat<f64> {
-    Mat::from_fn(jacobian.nrows(), jacobian.ncols(), |i, j| f64::from(u8::from(i == j)) - factor * jacobian[(i, j)])
+    Mat::from_fn(jacobian.nrows(), jacobian.ncols(), |i, j| {
+        f64::from(u8::from(i == j)) - factor * jacobian[(i, j)]
+    })
 }
 
 /// Solves with I − γτJ (J's eigenvalues lie in the left half plane, so it is never near singular).
@@ -165,7 +207,12 @@ mod tests {
     }
 
     fn fixed_step_error(stiffness: f64, steps: usize) -> f64 {
-        let loose = StepControl { tolerance: 1e9, floor: 1.0, first_step: 1.0 / steps as f64, least_step: 0.0 };
+        let loose = StepControl {
+            tolerance: 1e9,
+            floor: 1.0,
+            first_step: 1.0 / steps as f64,
+            least_step: 0.0,
+        };
         let mut stand = Stand::new(vec![0.0, 0.0], loose);
         for _ in 0..steps {
             stand.step = 1.0 / steps as f64;
@@ -191,7 +238,12 @@ mod tests {
     #[test]
     fn follows_its_tolerance() {
         let error = |tolerance| {
-            let control = StepControl { tolerance, floor: 1.0, first_step: 1e-3, least_step: 1e-9 };
+            let control = StepControl {
+                tolerance,
+                floor: 1.0,
+                first_step: 1e-3,
+                least_step: 1e-9,
+            };
             let mut stand = Stand::new(vec![0.0, 0.0], control);
             while stand.n < 1.0 {
                 advance(&mut Stiff(1e4), &mut stand, 1.0, control).unwrap();

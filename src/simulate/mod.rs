@@ -1,0 +1,5 @@
+//! Floor 6: the forward model, from a gear pair and its conditions to a wear history.
+
+pub mod history;
+pub mod members;
+pub mod numerics;
