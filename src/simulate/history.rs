@@ -87,7 +87,7 @@ impl WearLaw {
 ///
 /// # Errors
 /// [`StepError`] with the cycles reached; `progress` then holds the last accepted step.
-pub fn wear_until<M: ContactModel>(
+pub fn wear_until<M: ContactModel + ?Sized>(
     model: &M,
     law: WearLaw,
     progress: &mut Option<Progress>,
@@ -135,7 +135,7 @@ pub fn wear_until<M: ContactModel>(
 ///
 /// # Errors
 /// [`ContactError`] of the first position that fails.
-pub fn state_of<M: ContactModel>(model: &M, progress: &Progress) -> Result<WearState, ContactError> {
+pub fn state_of<M: ContactModel + ?Sized>(model: &M, progress: &Progress) -> Result<WearState, ContactError> {
     let (pinion, gear) = progress.stand.u.split_at(model.cycle().stations.arc[0].len());
     let contacts = ArchardSystem::new(model, [0.0; 2]).contacts(&progress.stand.u)?.to_vec();
     Ok(WearState { cycles: progress.stand.n, depth: [pinion.to_vec(), gear.to_vec()], contacts })

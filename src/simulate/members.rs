@@ -34,6 +34,7 @@ pub enum MemberError {
 pub struct Members {
     /// Pinion, then gear.
     pub members: [Member; 2],
+    spacing: f64,
 }
 
 impl Members {
@@ -50,7 +51,12 @@ impl Members {
             || Member::build(&pair.pinion, materials[0], teeth, spacing, order),
             || Member::build(&pair.gear, materials[1], &mirrored, spacing, order),
         );
-        Ok(Self { members: [pinion?, gear?] })
+        Ok(Self { members: [pinion?, gear?], spacing })
+    }
+
+    /// Length of a flank edge, mm.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
     }
 
     /// The condensed flanks of both.
