@@ -32,7 +32,9 @@ pub enum MeshError {
         cap: usize,
     },
     /// A triangle stayed too thin after all repair attempts.
-    #[error("smallest angle {angle_deg:.2} degrees near ({x:.4}, {y:.4}) mm, at least {limit_deg} is needed")]
+    #[error(
+        "smallest angle {angle_deg:.2} degrees near ({x:.4}, {y:.4}) mm, at least {limit_deg} is needed"
+    )]
     PoorAngle {
         /// The smallest angle, degrees.
         angle_deg: f64,
@@ -44,7 +46,9 @@ pub enum MeshError {
         y: f64,
     },
     /// An element is turned inside out somewhere.
-    #[error("element {element} near ({x:.4}, {y:.4}) mm has Jacobian {jacobian:.3e} mm²; the body must be meshed again")]
+    #[error(
+        "element {element} near ({x:.4}, {y:.4}) mm has Jacobian {jacobian:.3e} mm²; the body must be meshed again"
+    )]
     Inverted {
         /// Element number, from 0.
         element: usize,

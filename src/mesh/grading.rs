@@ -42,7 +42,12 @@ impl SizeField {
                 next += 1;
             }
         }
-        SizeField { growth, cap, sources, nodes }
+        SizeField {
+            growth,
+            cap,
+            sources,
+            nodes,
+        }
     }
 
     /// The field of an outline's own edges: each edge's length at both its ends.
@@ -82,7 +87,11 @@ impl SizeField {
             }
             let (a, b) = (node.left, node.left + 1);
             let (la, lb) = (self.lower_bound(a, x), self.lower_bound(b, x));
-            let (near, far) = if la <= lb { ((a, la), (b, lb)) } else { ((b, lb), (a, la)) };
+            let (near, far) = if la <= lb {
+                ((a, la), (b, lb))
+            } else {
+                ((b, lb), (a, la))
+            };
             for child in [far, near] {
                 if child.1 < best {
                     stack[top] = child;
@@ -110,17 +119,34 @@ fn bound(sources: &[(Vec2, f64)], start: usize, end: usize) -> Node {
         high = high.sup(p);
         smallest = smallest.min(*h);
     }
-    Node { low, high, smallest, start: start as u32, end: end as u32, left: 0 }
+    Node {
+        low,
+        high,
+        smallest,
+        start: start as u32,
+        end: end as u32,
+        left: 0,
+    }
 }
 
 /// Halves a box across its longer side.
 fn split(sources: &mut [(Vec2, f64)], nodes: &mut Vec<Node>, at: usize) {
-    let Node { low, high, start, end, .. } = nodes[at];
+    let Node {
+        low,
+        high,
+        start,
+        end,
+        ..
+    } = nodes[at];
     let (start, end) = (start as usize, end as usize);
     if end - start <= LEAF {
         return;
     }
-    let axis = if high.x - low.x >= high.y - low.y { 0 } else { 1 };
+    let axis = if high.x - low.x >= high.y - low.y {
+        0
+    } else {
+        1
+    };
     let part = &mut sources[start..end];
     let half = part.len() / 2;
     part.select_nth_unstable_by(half, |a, b| {
@@ -144,7 +170,10 @@ mod tests {
         let sources: Vec<_> = (0..500)
             .map(|i| {
                 let t = f64::from(i) * 0.7;
-                (Vec2::new(t.sin() * 3.0 + 0.01 * t, (1.7 * t).cos() * 2.0), 0.02 + 0.05 * (3.1 * t).sin().abs())
+                (
+                    Vec2::new(t.sin() * 3.0 + 0.01 * t, (1.7 * t).cos() * 2.0),
+                    0.02 + 0.05 * (3.1 * t).sin().abs(),
+                )
             })
             .collect();
         let field = SizeField::new(sources.clone(), 0.3, 1.1);

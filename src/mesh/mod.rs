@@ -1,15 +1,19 @@
 //! Floor 2: triangle meshes of whole gears.
 
 mod error;
+mod gear_mesh;
+mod gear_outline;
 mod grading;
 mod order;
 mod outline;
+mod profile;
 mod quality;
 mod seed;
 mod smooth;
 mod triangulate;
 
 pub use error::MeshError;
+pub use gear_mesh::{MeshSpec, mesh_gear};
 pub use grading::SizeField;
 pub use order::{Order, raise_order};
 pub use outline::{Loop, Outline};
@@ -77,6 +81,8 @@ pub struct Mesh {
 impl Mesh {
     /// Corner nodes of all triangles.
     pub fn corners(&self) -> Vec<[u32; 3]> {
-        (0..self.cells.len()).map(|e| self.cells.corners(e)).collect()
+        (0..self.cells.len())
+            .map(|e| self.cells.corners(e))
+            .collect()
     }
 }

@@ -30,7 +30,11 @@ pub(super) fn edge_list(corners: &[[u32; 3]]) -> Vec<Edge> {
     for (cell, t) in corners.iter().enumerate() {
         for side in 0..3u8 {
             let (a, b) = (t[side as usize], t[(side as usize + 1) % 3]);
-            edges.push(Edge { ends: [a.min(b), a.max(b)], cell: cell as u32, side });
+            edges.push(Edge {
+                ends: [a.min(b), a.max(b)],
+                cell: cell as u32,
+                side,
+            });
         }
     }
     edges.sort_unstable();
@@ -40,7 +44,11 @@ pub(super) fn edge_list(corners: &[[u32; 3]]) -> Vec<Edge> {
 /// Nodes and cells of the wanted order, and for T6 the mid-side node of each outline edge (in the order of [`Outline::edges`]).
 ///
 /// Corner nodes keep their numbers; mid-side nodes follow. Those of outline edges take the outline's mid-side points.
-pub fn raise_order(mesh: &Triangles, outline: &Outline, order: Order) -> (Vec<Vec2>, Cells, Vec<u32>) {
+pub fn raise_order(
+    mesh: &Triangles,
+    outline: &Outline,
+    order: Order,
+) -> (Vec<Vec2>, Cells, Vec<u32>) {
     let mut points = mesh.points.clone();
     if order == Order::T3 {
         return (points, Cells::T3(mesh.corners.clone()), Vec::new());
@@ -54,7 +62,11 @@ pub fn raise_order(mesh: &Triangles, outline: &Outline, order: Order) -> (Vec<Ve
         .collect();
     boundary.sort_by_key(|e| e.0);
     let mut outline_mids = vec![u32::MAX; boundary.len()];
-    let mut cells: Vec<[u32; 6]> = mesh.corners.iter().map(|t| [t[0], t[1], t[2], 0, 0, 0]).collect();
+    let mut cells: Vec<[u32; 6]> = mesh
+        .corners
+        .iter()
+        .map(|t| [t[0], t[1], t[2], 0, 0, 0])
+        .collect();
     let mut last = None;
     let mut next_boundary = boundary.iter().peekable();
     for e in edge_list(&mesh.corners) {

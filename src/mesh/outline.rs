@@ -60,12 +60,18 @@ impl Outline {
 
     /// All corner points, loop after loop.
     pub fn points(&self) -> Vec<Vec2> {
-        self.loops.iter().flat_map(|l| l.points.iter().copied()).collect()
+        self.loops
+            .iter()
+            .flat_map(|l| l.points.iter().copied())
+            .collect()
     }
 
     /// All mid-side points, in the order of [`Outline::edges`].
     pub fn mids(&self) -> Vec<Vec2> {
-        self.loops.iter().flat_map(|l| l.mids.iter().copied()).collect()
+        self.loops
+            .iter()
+            .flat_map(|l| l.mids.iter().copied())
+            .collect()
     }
 
     /// All edges as pairs of indices into [`Outline::points`].
@@ -82,16 +88,28 @@ impl Outline {
 
     /// Refuses loops that are too short, turned the wrong way round or hold a number that is not finite.
     pub(super) fn check(&self) -> Result<(), MeshError> {
-        let wrong = |what, p: Vec2| MeshError::Outline { what, x: p.x, y: p.y };
+        let wrong = |what, p: Vec2| MeshError::Outline {
+            what,
+            x: p.x,
+            y: p.y,
+        };
         if self.loops.is_empty() {
             return Err(wrong("no loop", Vec2::zeros()));
         }
         for (k, l) in self.loops.iter().enumerate() {
             let at = l.points.first().copied().unwrap_or_else(Vec2::zeros);
             if l.points.len() < 3 || l.mids.len() != l.points.len() {
-                return Err(wrong("a loop needs three points and one mid-side point an edge", at));
+                return Err(wrong(
+                    "a loop needs three points and one mid-side point an edge",
+                    at,
+                ));
             }
-            if let Some(p) = l.points.iter().chain(&l.mids).find(|p| !(p.x + p.y).is_finite()) {
+            if let Some(p) = l
+                .points
+                .iter()
+                .chain(&l.mids)
+                .find(|p| !(p.x + p.y).is_finite())
+            {
                 return Err(wrong("a coordinate is not finite", *p));
             }
             if (l.area() > 0.0) != (k == 0) {

@@ -58,7 +58,9 @@ impl Quality {
             min_angle_deg: angles.first().copied().unwrap_or(0.0),
             angle_1pct: angles.get(angles.len() / 100).copied().unwrap_or(0.0),
             max_aspect: corners.iter().map(|t| aspect(at(t))).fold(1.0, f64::max),
-            min_scaled_jacobian: (0..corners.len()).map(|e| scaled_jacobian(mesh, e).0).fold(1.0, f64::min),
+            min_scaled_jacobian: (0..corners.len())
+                .map(|e| scaled_jacobian(mesh, e).0)
+                .fold(1.0, f64::min),
             max_gradation,
         }
     }
@@ -71,7 +73,12 @@ pub fn check_jacobians(mesh: &Mesh) -> Result<(), MeshError> {
         if !(scaled > 0.0 && jacobian > 0.0) {
             let c = mesh.cells.corners(element).map(|k| mesh.points[k as usize]);
             let centre = (c[0] + c[1] + c[2]) / 3.0;
-            return Err(MeshError::Inverted { element, jacobian, x: centre.x, y: centre.y });
+            return Err(MeshError::Inverted {
+                element,
+                jacobian,
+                x: centre.x,
+                y: centre.y,
+            });
         }
     }
     Ok(())
@@ -112,13 +119,23 @@ fn scaled_jacobian(mesh: &Mesh, element: usize) -> (f64, f64) {
                 let j = cross(x[1] - x[0], x[2] - x[0]);
                 return (j.signum(), j);
             }
-            let smallest = CHECKED.iter().map(|(r, s)| jacobian_t6(&x, *r, *s)).fold(f64::INFINITY, f64::min);
+            let smallest = CHECKED
+                .iter()
+                .map(|(r, s)| jacobian_t6(&x, *r, *s))
+                .fold(f64::INFINITY, f64::min);
             let area: f64 = [(0, 1), (1, 2), (2, 0)]
                 .iter()
                 .enumerate()
                 .map(|(i, (a, b))| super::outline::edge_area(x[*a], x[3 + i], x[*b]))
                 .sum();
-            (if area > 0.0 { smallest / (2.0 * area) } else { -1.0 }, smallest)
+            (
+                if area > 0.0 {
+                    smallest / (2.0 * area)
+                } else {
+                    -1.0
+                },
+                smallest,
+            )
         }
     }
 }
@@ -126,15 +143,33 @@ fn scaled_jacobian(mesh: &Mesh, element: usize) -> (f64, f64) {
 /// Jacobian determinant of the quadratic map at (r, s), mm².
 fn jacobian_t6(x: &[Vec2; 6], r: f64, s: f64) -> f64 {
     let t = 1.0 - r - s;
-    let by_r = [1.0 - 4.0 * t, 4.0 * r - 1.0, 0.0, 4.0 * (t - r), 4.0 * s, -4.0 * s];
-    let by_s = [1.0 - 4.0 * t, 0.0, 4.0 * s - 1.0, -4.0 * r, 4.0 * r, 4.0 * (t - s)];
+    let by_r = [
+        1.0 - 4.0 * t,
+        4.0 * r - 1.0,
+        0.0,
+        4.0 * (t - r),
+        4.0 * s,
+        -4.0 * s,
+    ];
+    let by_s = [
+        1.0 - 4.0 * t,
+        0.0,
+        4.0 * s - 1.0,
+        -4.0 * r,
+        4.0 * r,
+        4.0 * (t - s),
+    ];
     let sum = |d: &[f64; 6]| x.iter().zip(d).fold(Vec2::zeros(), |u, (p, d)| u + *d * p);
     cross(sum(&by_r), sum(&by_s))
 }
 
 /// Smallest angle of a triangle, rad.
 pub(super) fn smallest_angle(a: Vec2, b: Vec2, c: Vec2) -> f64 {
-    let (ab, bc, ca) = ((b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared());
+    let (ab, bc, ca) = (
+        (b - a).norm_squared(),
+        (c - b).norm_squared(),
+        (a - c).norm_squared(),
+    );
     // The smallest angle lies opposite the shortest side.
     let (apex, p, q) = if ab <= bc && ab <= ca {
         (c, a, b)

@@ -72,7 +72,11 @@ impl Inside {
         let points = outline.points();
         let count = points.len().clamp(8, 4096);
         let per_mm = count as f64 / (high - low).max(f64::MIN_POSITIVE);
-        let mut inside = Inside { low, per_mm, bands: vec![Vec::new(); count] };
+        let mut inside = Inside {
+            low,
+            per_mm,
+            bands: vec![Vec::new(); count],
+        };
         for [a, b] in outline.edges() {
             let (a, b) = (points[a as usize], points[b as usize]);
             let (first, last) = (inside.band(a.y.min(b.y)), inside.band(a.y.max(b.y)));

@@ -40,7 +40,11 @@ fn circumcentre(a: Vec2, b: Vec2, c: Vec2, g: Vec2) -> Vec2 {
     let r = o - g;
     let limit = 0.35 * uu.max(vv).sqrt();
     let length = r.norm();
-    if length > limit { g + r * (limit / length) } else { o }
+    if length > limit {
+        g + r * (limit / length)
+    } else {
+        o
+    }
 }
 
 /// Moves the points around triangles thinner than `good` degrees so that the worst triangle of each star becomes better.
@@ -72,15 +76,27 @@ fn move_to_best(mesh: &mut Triangles, k: usize, star: &[u32]) -> bool {
     let start = mesh.points[k];
     let worst = |points: &[Vec2], p: Vec2| {
         star.iter().fold(f64::INFINITY, |worst, t| {
-            let [a, b, c] = mesh.corners[*t as usize].map(|i| if i as usize == k { p } else { points[i as usize] });
-            worst.min(if cross(b - a, c - a) > 0.0 { super::quality::smallest_angle(a, b, c) } else { -1.0 })
+            let [a, b, c] = mesh.corners[*t as usize].map(|i| {
+                if i as usize == k {
+                    p
+                } else {
+                    points[i as usize]
+                }
+            });
+            worst.min(if cross(b - a, c - a) > 0.0 {
+                super::quality::smallest_angle(a, b, c)
+            } else {
+                -1.0
+            })
         })
     };
     let reach = star
         .iter()
         .flat_map(|t| mesh.corners[*t as usize])
         .filter(|i| *i as usize != k)
-        .fold(f64::INFINITY, |r, i| r.min((mesh.points[i as usize] - start).norm()));
+        .fold(f64::INFINITY, |r, i| {
+            r.min((mesh.points[i as usize] - start).norm())
+        });
     let (mut best, mut place) = (worst(&mesh.points, start), start);
     let before = best;
     let mut step = 0.3 * reach;

@@ -27,7 +27,11 @@ pub struct TriangulateOptions {
 
 impl Default for TriangulateOptions {
     fn default() -> Self {
-        TriangulateOptions { rounds: 4, min_angle_deg: 20.0, max_points: 400_000 }
+        TriangulateOptions {
+            rounds: 4,
+            min_angle_deg: 20.0,
+            max_points: 400_000,
+        }
     }
 }
 
@@ -51,9 +55,17 @@ pub fn triangulate(
     outline.check()?;
     let mut points = outline.points();
     let boundary = points.len();
-    let edges: Vec<[usize; 2]> = outline.edges().iter().map(|e| [e[0] as usize, e[1] as usize]).collect();
+    let edges: Vec<[usize; 2]> = outline
+        .edges()
+        .iter()
+        .map(|e| [e[0] as usize, e[1] as usize])
+        .collect();
     points.extend(interior_points(outline, size, options.max_points)?);
-    let mut mesh = Triangles { corners: delaunay(&points, &edges)?, points, boundary };
+    let mut mesh = Triangles {
+        corners: delaunay(&points, &edges)?,
+        points,
+        boundary,
+    };
     for _ in 0..options.rounds {
         smooth(&mut mesh, size);
         mesh.corners = delaunay(&mesh.points, &edges)?;
@@ -68,7 +80,12 @@ pub fn triangulate(
     let (angle_deg, centre) = worst_triangle(&mesh);
     if angle_deg < options.min_angle_deg {
         let limit_deg = options.min_angle_deg;
-        return Err(MeshError::PoorAngle { angle_deg, limit_deg, x: centre.x, y: centre.y });
+        return Err(MeshError::PoorAngle {
+            angle_deg,
+            limit_deg,
+            x: centre.x,
+            y: centre.y,
+        });
     }
     Ok(mesh)
 }
@@ -78,12 +95,20 @@ const REPAIRS: usize = 6;
 
 /// Constrained Delaunay triangulation of the points, reduced to the triangles left of the given edges.
 fn delaunay(points: &[Vec2], edges: &[[usize; 2]]) -> Result<Vec<[u32; 3]>, MeshError> {
-    let wrong = |what, k: usize| MeshError::Outline { what, x: points[k].x, y: points[k].y };
+    let wrong = |what, k: usize| MeshError::Outline {
+        what,
+        x: points[k].x,
+        y: points[k].y,
+    };
     let vertices = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let mut conflict = None;
-    let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(vertices, edges.to_vec(), |e| {
-        conflict.get_or_insert(e[0]);
-    })
+    let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(
+        vertices,
+        edges.to_vec(),
+        |e| {
+            conflict.get_or_insert(e[0]);
+        },
+    )
     .map_err(|_| wrong("a coordinate is out of range", 0))?;
     if cdt.num_vertices() != points.len() {
         return Err(wrong("two points coincide", 0));
@@ -95,7 +120,9 @@ fn delaunay(points: &[Vec2], edges: &[[usize; 2]]) -> Result<Vec<[u32; 3]>, Mesh
     let mut stack = Vec::new();
     for e in edges {
         let [a, b] = e.map(FixedVertexHandle::from_index);
-        let edge = cdt.get_edge_from_neighbors(a, b).filter(|e| cdt.is_constraint_edge(e.as_undirected().fix()));
+        let edge = cdt
+            .get_edge_from_neighbors(a, b)
+            .filter(|e| cdt.is_constraint_edge(e.as_undirected().fix()));
         let face = edge.and_then(|e| e.face().as_inner());
         let face = face.ok_or_else(|| wrong("an outline edge passes through a point", e[0]))?;
         stack.push(face.fix());
@@ -110,7 +137,8 @@ fn delaunay(points: &[Vec2], edges: &[[usize; 2]]) -> Result<Vec<[u32; 3]>, Mesh
         for e in face.adjacent_edges() {
             if !cdt.is_constraint_edge(e.as_undirected().fix()) {
                 let next = e.rev().face().as_inner();
-                let next = next.ok_or_else(|| wrong("the outline is not closed", e.from().fix().index()))?;
+                let next =
+                    next.ok_or_else(|| wrong("the outline is not closed", e.from().fix().index()))?;
                 if !inside[next.fix().index()] {
                     stack.push(next.fix());
                 }
