@@ -92,6 +92,11 @@ impl CycleCompliance {
         })
     }
 
+    /// Traction on the gear per unit pressure, friction included, fixed frame (the pinion's is the opposite).
+    pub fn traction(&self, pair: &PairContact) -> Vec2 {
+        pair.frame.normal + friction_direction(pair, self.friction)
+    }
+
     /// Coupling of each tooth pair of position `q` to the elements.
     pub fn couplings(&self, q: usize) -> &[FlankCoupling] {
         &self.positions[q].couplings

@@ -145,6 +145,11 @@ impl<'a> Forward<'a> {
         self.compliance.as_ref()
     }
 
+    /// The elastic members, by finite elements only.
+    pub fn members(&self) -> Option<&'a Members> {
+        self.members
+    }
+
     /// Torque per face width, N·mm/mm.
     pub fn torque(&self) -> f64 {
         self.conditions.torque / self.set.face_width
@@ -186,7 +191,12 @@ impl<'a> Forward<'a> {
                 match outcome {
                     Ok(true) => break,
                     Ok(false) => return Ok(false),
-                    Err(StepError::System { source: ContactError::WindowTooNarrow { .. }, .. }) => self.widen()?,
+                    Err(StepError::System { source: ContactError::WindowTooNarrow { .. }, .. }) => {
+                        self.widen()?;
+                        if let Some(progress) = progress {
+                            progress.forget_sets();
+                        }
+                    }
                     Err(error) => return Err(error.into()),
                 }
             }

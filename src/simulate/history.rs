@@ -57,6 +57,15 @@ pub struct Progress {
     law_rate: [f64; 2],
     /// Contact problems solved so far.
     pub solves: usize,
+    /// Contact sets of the last solution, so that a resumed run walks the same way.
+    warm: Vec<Vec<usize>>,
+}
+
+impl Progress {
+    /// Forgets the contact sets: their numbering has changed.
+    pub fn forget_sets(&mut self) {
+        self.warm.clear();
+    }
 }
 
 /// Archard wear coefficients and step control of a history.
@@ -104,12 +113,13 @@ pub fn wear_until<M: ContactModel + ?Sized>(
             let fresh = vec![0.0; cycle.stations.count()];
             let control = law.control(&system.rate(0.0, &fresh).map_err(fail)?);
             let law_rate = law_rate(cycle, system.contacts(&fresh).map_err(fail)?, law.coefficient);
-            *progress = Some(Progress { stand: Stand::new(fresh, control), balance: Balance::default(), law_rate, solves: 0 });
+            *progress = Some(Progress { stand: Stand::new(fresh, control), balance: Balance::default(), law_rate, solves: 0, warm: Vec::new() });
             control
         }
     };
     let progress = progress.as_mut().expect("filled above");
     let solves_before = progress.solves;
+    system.start_from(&progress.warm);
     while progress.stand.n < end {
         let from = progress.stand.n;
         advance(&mut system, &mut progress.stand, end, control)?;
@@ -122,6 +132,7 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         }
         progress.law_rate = rate;
         progress.solves = solves_before + system.solves;
+        progress.warm = system.warm().to_vec();
         let max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
         let report = StepReport { stand: &progress.stand, balance: progress.balance, max_depth, solves: progress.solves };
         if !observe(report) {

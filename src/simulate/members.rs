@@ -7,12 +7,14 @@ use crate::contact::fem::{ElasticFlanks, ToothFlank};
 use crate::fem::{Body, FemError};
 use crate::gear::{Gear, Pair};
 use crate::material::Elastic;
-use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, mesh_gear};
+use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, Order, mesh_gear};
 
 /// One elastic gear.
 pub struct Member {
     /// Its mesh, member frame.
     pub mesh: Mesh,
+    /// Elastic constants.
+    pub material: Elastic,
     /// Its factored stiffness, bore held.
     pub body: Body,
     /// Its compliance at the candidate flanks.
@@ -66,8 +68,17 @@ impl Members {
 }
 
 impl Member {
+    /// 2 for quadratic triangles, 1 for linear.
+    pub fn order(&self) -> usize {
+        match self.mesh.cells {
+            Cells::T3(_) => 1,
+            Cells::T6(_) => 2,
+        }
+    }
+
     fn build(gear: &Gear, material: Elastic, teeth: &[i32], spacing: f64, order: usize) -> Result<Self, MemberError> {
-        let spec = MeshSpec::new(gear, teeth, spacing, order);
+        let mut spec = MeshSpec::new(gear, teeth.to_vec(), spacing, gear.rho_form);
+        spec.order = if order == 1 { Order::T3 } else { Order::T6 };
         Self::from_mesh(mesh_gear(gear, &spec)?, material)
     }
 
@@ -93,6 +104,6 @@ impl Member {
             })
             .collect();
         let flanks = ElasticFlanks { compliance: body.compliance().into_matrix(), flanks };
-        Ok(Self { mesh, body, flanks })
+        Ok(Self { mesh, material, body, flanks })
     }
 }

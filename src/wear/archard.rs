@@ -36,6 +36,18 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         }
     }
 
+    /// Goes on from the contact sets `warm` (one list of unknowns per position; others are ignored).
+    pub fn start_from(&mut self, warm: &[Vec<usize>]) {
+        if warm.len() == self.warm.len() {
+            self.warm = warm.to_vec();
+        }
+    }
+
+    /// The contact sets of the last solution.
+    pub fn warm(&self) -> &[Vec<usize>] {
+        &self.warm
+    }
+
     /// The contact of every position for the depths `u`.
     ///
     /// # Errors
