@@ -15,4 +15,6 @@ pub mod gear;
 pub mod material;
 pub mod mesh;
 pub mod numeric;
+pub mod paper;
+pub mod simulate;
 pub mod wear;

@@ -7,3 +7,4 @@ pub mod frame;
 pub mod model;
 pub mod mortar;
 pub mod unilateral;
+pub mod hertz;

@@ -3,7 +3,7 @@
 use crate::contact::cycle::Position;
 use crate::contact::fem::{CycleCompliance, member_tooth, member_turns};
 use crate::contact::model::PositionContact;
-use crate::fem::FemError;
+use crate::fem::{FemError, Stress};
 use crate::numeric::{Vec2, rotate};
 use crate::simulate::forward::{Forward, ForwardError};
 use crate::simulate::members::Member;
@@ -15,8 +15,8 @@ pub struct MemberFields {
     pub turn: f64,
     /// Displacement, mm.
     pub displacement: Vec<Vec2>,
-    /// Stresses xx, yy, xy, zz, MPa.
-    pub stress: Vec<[f64; 4]>,
+    /// Nodal stresses, MPa.
+    pub stress: Vec<Stress>,
     /// Contact force on the node per face width, N/mm.
     pub force: Vec<Vec2>,
     /// Contact pressure on flank nodes, MPa: consistent force over the node's share of the flank, so that its integral
@@ -85,7 +85,7 @@ impl Loads {
         let loads: Vec<(u32, Vec2)> =
             self.force.iter().enumerate().filter(|(_, f)| f.norm_squared() > 0.0).map(|(i, f)| (i as u32, *f)).collect();
         let displacement = member.body.solve(&loads)?;
-        let stress = crate::fem::nodal_stress(&member.mesh, member.material, &displacement);
+        let stress = crate::fem::nodal_stress(&member.mesh, member.material, &displacement)?;
         Ok(MemberFields { turn, displacement, stress, force: self.force, pressure: self.pressure })
     }
 }

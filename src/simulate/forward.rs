@@ -161,12 +161,12 @@ impl<'a> Forward<'a> {
             (Some(compliance), ContactKind::Fem) => work(&FemContact::new(&self.cycle, compliance, self.torque())),
             _ => {
                 let [pinion, gear] = &self.set.gears;
-                let stiffness = iso6336::theoretical_stiffness(
-                    f64::from(pinion.spec.teeth),
-                    f64::from(gear.spec.teeth),
-                    pinion.spec.profile_shift,
-                    gear.spec.profile_shift,
-                );
+                let teeth = iso6336::ToothPair {
+                    teeth: [pinion, gear].map(|g| f64::from(g.spec.teeth)),
+                    profile_shift: [pinion, gear].map(|g| g.spec.profile_shift),
+                    ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
+                };
+                let stiffness = teeth.theoretical();
                 work(&HertzContact::new(&self.cycle, self.torque(), self.set.modulus(), stiffness))
             }
         }

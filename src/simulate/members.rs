@@ -103,7 +103,7 @@ impl Member {
                 flank
             })
             .collect();
-        let flanks = ElasticFlanks { compliance: body.compliance().into_matrix(), flanks };
+        let flanks = ElasticFlanks { compliance: body.compliance(), flanks };
         Ok(Self { mesh, material, body, flanks })
     }
 }
