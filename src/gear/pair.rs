@@ -123,6 +123,7 @@ impl Pair {
                     member,
                     clearance,
                     centre_distance: a,
+                    min: tip + root,
                 });
             }
         }
@@ -294,19 +295,11 @@ impl Pair {
     }
 
     fn check_interference(&self) -> Result<(), PairError> {
-        for (member, mate_end) in [
-            (Member::Pinion, self.gear.rho_end),
-            (Member::Gear, self.pinion.rho_end),
-        ] {
+        for member in Member::BOTH {
             let own = self.member(member);
-            let start = self.line_length - mate_end;
-            let slack = 1e-9 * own.rack.module;
-            let met = if own.undercut {
-                start < own.rho_form && !self.tip_clears_undercut(member)
-            } else {
-                start < own.rho_form - slack
-            };
-            if met {
+            let start = self.line_length - self.member(member.other()).rho_end;
+            let below_form = !own.undercut && start < own.rho_form - 1e-9 * own.rack.module;
+            if below_form || !self.tip_clears_fillet(member) {
                 return Err(PairError::Interference {
                     member,
                     start_radius: if start > 0.0 {
@@ -315,39 +308,42 @@ impl Pair {
                         0.0
                     },
                     form_radius: own.form_radius,
+                    centre_distance: self.centre_distance,
+                    min: (own.rho_form + self.member(member.other()).rho_end)
+                        .hypot(self.pinion.base_radius + self.gear.base_radius),
                 });
             }
         }
         Ok(())
     }
 
-    /// Whether the sharp tip corner of the mate stays out of `member`'s undercut foot while it swings through.
-    fn tip_clears_undercut(&self, member: Member) -> bool {
+    /// Whether the mate's tip corner stays out of the fillet on `member`'s loaded side while it swings through the space.
+    fn tip_clears_fillet(&self, member: Member) -> bool {
+        const STEPS: u32 = 300;
+        const SLACK: f64 = 1e-6; // mm
         let own = self.member(member);
         let mate = self.member(member.other());
-        // The problem is the same for both members when seen from `member`: swap the roles.
-        let a = self.centre_distance;
-        let own_angle = |rho: f64| -self.working_pressure_angle - own.tangent_angle(rho);
-        let mate_angle = |rho: f64| {
-            std::f64::consts::PI
-                - self.working_pressure_angle
-                - mate.tangent_angle(self.line_length - rho)
+        let corner = match mate.tip_rounding_arc() {
+            Some(arc) => arc.points(4),
+            None => vec![mate.involute_point(mate.rho_tip)],
         };
-        let corner = mate.involute_point(mate.rho_tip);
-        let (from, to) = (
-            self.line_length - mate.rho_tip - 2.0 * self.base_pitch,
-            own.rho_form,
-        );
-        const STEPS: u32 = 2000;
+        // Seen from either member the pair looks the same, so `member` stands at the origin. The corner is on the line of
+        // action at `start` and deepest soon after.
+        let start = self.line_length - mate.rho_end;
         (0..=STEPS).all(|i| {
-            let rho = from + (to - from) * f64::from(i) / f64::from(STEPS);
-            let fixed = rotate(corner, mate_angle(rho)) + Vec2::new(a, 0.0);
-            let p = rotate(fixed, -own_angle(rho));
-            let r = p.norm();
-            if r >= own.form_radius {
-                return true;
-            }
-            r > own.root_radius && p.y.atan2(p.x) >= own.solid_half_angle(r) - 1e-6
+            let rho = start + (-1.0 + 3.0 * f64::from(i) / f64::from(STEPS)) * self.base_pitch;
+            let own_angle = -self.working_pressure_angle - own.tangent_angle(rho);
+            let mate_angle = std::f64::consts::PI
+                - self.working_pressure_angle
+                - mate.tangent_angle(self.line_length - rho);
+            corner.iter().all(|&point| {
+                let fixed = rotate(point, mate_angle) + Vec2::new(self.centre_distance, 0.0);
+                let p = rotate(fixed, -own_angle);
+                let r = p.norm();
+                r >= own.form_radius
+                    || r > own.root_radius
+                        && r * (p.y.atan2(p.x) - own.solid_half_angle(r)) >= -SLACK
+            })
         })
     }
 }
