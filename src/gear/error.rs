@@ -203,10 +203,10 @@ pub enum PairError {
         /// The same as misalignment, mm.
         max_misalignment: f64,
     },
-    /// The mate's tip would work below the involute.
+    /// The mate's tip would work below the involute or dip into the fillet.
     #[error(
-        "interference: contact on the {member} would begin at radius {start_radius:.4} mm, below its involute, which begins at \
-         {form_radius:.4} mm (centre distance {centre_distance:.4} mm); it is free from {min:.4} mm on, or with less addendum of its mate"
+        "interference: the mate's tip meets the {member}'s fillet: contact would begin at radius {start_radius:.4} mm, the involute \
+         begins at {form_radius:.4} mm (centre distance {centre_distance:.4} mm); free from {min:.4} mm on, or with less addendum of the mate"
     )]
     Interference {
         /// Whose fillet is met.
@@ -217,7 +217,7 @@ pub enum PairError {
         form_radius: f64,
         /// Working centre distance, mm.
         centre_distance: f64,
-        /// Smallest working centre distance at which contact begins on the involute, mm.
+        /// Smallest working centre distance at which the tip stays clear of the fillet, mm.
         min: f64,
     },
 }
