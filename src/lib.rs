@@ -15,3 +15,5 @@ pub mod gear;
 pub mod material;
 pub mod mesh;
 pub mod numeric;
+pub mod report;
+pub mod simulate;
