@@ -16,5 +16,6 @@ pub mod material;
 pub mod mesh;
 pub mod numeric;
 pub mod paper;
+pub mod report;
 pub mod simulate;
 pub mod wear;

@@ -6,3 +6,5 @@ pub mod forward;
 pub mod history;
 pub mod members;
 pub mod numerics;
+pub mod result;
+
