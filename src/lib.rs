@@ -15,4 +15,5 @@ pub mod gear;
 pub mod material;
 pub mod mesh;
 pub mod numeric;
+pub mod verify;
 pub mod wear;
