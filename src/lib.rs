@@ -18,4 +18,5 @@ pub mod numeric;
 pub mod paper;
 pub mod report;
 pub mod simulate;
+pub mod verify;
 pub mod wear;

@@ -166,7 +166,10 @@ fn check(file: &str, member: Member, field: &MemberField) -> Result<(), OutputEr
         return Err(OutputError::Vtk { file: file.to_owned(), message });
     }
     let all = |what: &str, values: &mut dyn Iterator<Item = f64>| -> Result<(), OutputError> {
-        values.try_for_each(|value| finite(file, &label(what), value).map(drop))
+        for value in values {
+            finite(file, &label(what), value)?;
+        }
+        Ok(())
     };
     all("rotation and centre", &mut field.centre.into_iter().chain([field.rotation]))?;
     all("reference", &mut field.reference.iter().flatten().copied())?;
