@@ -16,3 +16,4 @@ pub mod material;
 pub mod mesh;
 pub mod numeric;
 pub mod paper;
+pub mod tribology;
