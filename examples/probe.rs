@@ -19,7 +19,7 @@ fn main() {
     let numerics = Numerics { elements_per_half_width: arg(1, 8.0), positions: arg(2, 150.0) as usize, step_tolerance: arg(3, 2e-3), ..Numerics::default() };
     let set = set();
     let t = Instant::now();
-    let members = set.members(&numerics, 100e3, &[0.0]).unwrap();
+    let members = set.members(&numerics, &[100e3, 170e3], &[0.0, 0.5]).unwrap();
     println!("members {:?} spacing {} nodes {:?}", t.elapsed(), members.spacing(), members.members.each_ref().map(|m| m.mesh.points.len()));
     let t = Instant::now();
     let conditions = Conditions { torque: 100e3, speed: 2000.0, misalignment: 0.0, cycles: 1e6, coefficient: [2.37e-10; 2] };

@@ -18,5 +18,6 @@ pub mod numeric;
 pub mod paper;
 pub mod report;
 pub mod simulate;
+pub mod tribology;
 pub mod verify;
 pub mod wear;

@@ -52,7 +52,7 @@ fn assert_rounds(ours: f64, printed: &str, extra: f64, what: &str) {
 fn geometry_of_table_2() {
     // misalignment, angle deg, circular pitch, path, contact ratio: involute geometry by hand, six digits
     let table = [
-        (0.0, 20.0, 6.28319, 10.0204, 1.69714),
+        (0.0, 20.0, std::f64::consts::TAU, 10.0204, 1.69714),
         (0.5, 20.9559, 6.32246, 8.59123, 1.45509),
         (1.0, 21.8608, 6.36173, 7.22146, 1.22309),
     ];

@@ -1,5 +1,15 @@
 //! Floor 1: closed-form reference solutions, each with its own tests.
 
+pub mod archard_pass;
+pub mod cattaneo;
+pub mod cylinder_wear;
+pub mod half_plane;
 pub mod half_plane_elements;
 pub mod hertz_line;
 pub mod iso6336;
+pub mod punch_wear;
+pub mod winkler;
+//!
+//! Contact: [`hertz_line`], [`cattaneo`], [`half_plane`]. Wear: [`winkler`], [`punch_wear`], [`cylinder_wear`],
+//! [`archard_pass`]. Gears: [`iso6336`]. Forces are per mm of width unless said otherwise.
+

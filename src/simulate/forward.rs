@@ -80,19 +80,19 @@ impl GearSet {
         contact_modulus(self.materials[0], self.materials[1])
     }
 
-    /// Elastic members fine enough for the least torque (N·mm) and for every misalignment (mm) given.
+    /// Elastic members fine enough for every pinion torque (N·mm) and radial misalignment (mm) given.
     ///
     /// # Errors
     /// [`ForwardError`] if a pair cannot run or a member cannot be built.
-    pub fn members(&self, numerics: &Numerics, least_torque: f64, misalignments: &[f64]) -> Result<Members, ForwardError> {
+    pub fn members(&self, numerics: &Numerics, torques: &[f64], misalignments: &[f64]) -> Result<Members, ForwardError> {
+        let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
+        let greatest = torques.iter().fold(0.0, |m: f64, t| m.max(*t)) / self.face_width;
         let mut teeth: Vec<i32> = Vec::new();
         let mut spacing = f64::INFINITY;
         for &misalignment in misalignments {
             let pair = self.mount(misalignment)?;
-            let torque = least_torque / self.face_width;
-            spacing = spacing.min(numerics.flank_spacing(&pair, self.modulus(), torque));
-            let spec = numerics.cycle(&pair, self.modulus(), torque, spacing);
-            teeth.extend(Cycle::teeth(&pair, spec));
+            spacing = spacing.min(numerics.flank_spacing(&pair, self.modulus(), least));
+            teeth.extend(Cycle::teeth(&pair, numerics.cycle(&pair, self.modulus(), greatest, spacing)));
         }
         teeth.sort_unstable();
         teeth.dedup();

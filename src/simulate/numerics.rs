@@ -28,8 +28,11 @@ impl Default for Numerics {
 /// Half width of the searched strip, in Hertz half widths of the largest load: room for contacts that wear has flattened.
 const WINDOW: f64 = 2.2;
 
-/// Corners farther apart than this are not looked at, in modules: loaded teeth deflect by less than half of it.
-const REACH: f64 = 0.02;
+/// Room for corners that wear brings into contact beyond those the load does, mm.
+const WORN_REACH: f64 = 0.008;
+
+/// Stiffness of a tooth pair over 2 E* that the reach allows for; solid steel gears show 0.05 to 0.06.
+const LEAST_STIFFNESS: f64 = 0.045;
 
 impl Numerics {
     /// Length of a flank element's edge for the least pinion torque per width (N·mm/mm) it has to resolve, mm.
@@ -47,7 +50,7 @@ impl Numerics {
             positions: self.positions,
             spacing,
             window: (WINDOW * widest).max(12.0 * spacing),
-            reach: REACH * pair.pinion.rack.module,
+            reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus) + WORN_REACH,
         }
     }
 }
