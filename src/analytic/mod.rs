@@ -1,4 +1,7 @@
 //! Floor 1: closed-form reference solutions, each with its own tests.
+//!
+//! Contact: [`hertz_line`], [`cattaneo`], [`half_plane`]. Wear: [`winkler`], [`punch_wear`], [`cylinder_wear`],
+//! [`archard_pass`]. Gears: [`iso6336`]. Forces are per mm of width unless said otherwise.
 
 pub mod archard_pass;
 pub mod cattaneo;
@@ -9,7 +12,3 @@ pub mod hertz_line;
 pub mod iso6336;
 pub mod punch_wear;
 pub mod winkler;
-//!
-//! Contact: [`hertz_line`], [`cattaneo`], [`half_plane`]. Wear: [`winkler`], [`punch_wear`], [`cylinder_wear`],
-//! [`archard_pass`]. Gears: [`iso6336`]. Forces are per mm of width unless said otherwise.
-
