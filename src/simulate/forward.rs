@@ -125,7 +125,7 @@ impl<'a> Forward<'a> {
             None => numerics.flank_spacing(&pair, set.modulus(), torque),
         };
         let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
-        let stations = Stations::new(&pair, 0.5 * spacing);
+        let stations = Stations::new(&pair, spacing);
         let cycle = Cycle::new(&pair, &stations, spec);
         let compliance = match members {
             Some(members) => Some(CycleCompliance::new(&cycle, members.flanks(), numerics.friction)?),
