@@ -9,6 +9,7 @@
 //! Lengths are mm, forces N, stresses MPa (N/mm²) throughout; angles are radians inside the program.
 
 pub mod analytic;
+pub mod cli;
 pub mod contact;
 pub mod fem;
 pub mod gear;

@@ -87,6 +87,11 @@ impl fmt::Display for Short {
     }
 }
 
+/// A range of numbers for a sentence.
+pub(super) fn span_of_numbers(from: f64, to: f64, unit: &str) -> String {
+    format!("{} to {} {unit}", Short(from), Short(to))
+}
+
 const fn quantity(unit: &'static str, least: Bound, most: f64, reason: &'static str) -> Quantity {
     Quantity {
         unit,
