@@ -483,6 +483,21 @@ fn later_faults_find_the_place_of_their_key() {
     );
 }
 
+/// Nesting as deep as the text allows: refused, without running out of stack.
+#[test]
+fn deep_nesting_is_refused() {
+    let deep = 200_000;
+    for text in [
+        format!("a = {}", "[".repeat(deep)),
+        format!("a = {}1{}", "[".repeat(deep), "]".repeat(deep)),
+        format!("a = {}", "{a=".repeat(deep)),
+        format!("{} = 1", vec!["a"; deep].join(".")),
+        format!("[{}]", vec!["a"; deep].join(".")),
+    ] {
+        assert!(Study::parse(&text, "study.toml").is_err());
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, rng_seed: proptest::test_runner::RngSeed::Fixed(20), failure_persistence: None, ..ProptestConfig::default() })]
 

@@ -57,7 +57,7 @@ pub struct StudyAndOutput {
 pub enum Command {
     /// Write a commented study file and example measurements to start from
     Init(init::InitArgs),
-    /// Mesh, contact and wear history at [operation] or at a test's conditions: fields, tables, plots, report
+    /// Mesh, contact and wear history at the study's operation or a test's conditions: fields, tables, plots, report
     Run(run::RunArgs),
     /// Compare the finite-element, Hertz and published models, and say which assumption makes each difference
     Models(models::ModelsArgs),

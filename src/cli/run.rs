@@ -18,7 +18,7 @@ use crate::study::{Operation, Study};
 pub struct RunArgs {
     #[command(flatten)]
     paths: StudyAndOutput,
-    /// Run at the conditions of this [[test]] instead of [operation]
+    /// Run at the conditions of the test with this id instead of the study's operation
     #[arg(long, value_name = "ID")]
     test: Option<String>,
     /// Continue from the checkpoint of an interrupted run; a finished run is left alone

@@ -9,6 +9,9 @@ use super::diagnostic::{Diagnostic, Fault, nearest};
 use super::quantity::Quantity;
 use super::reader::{Result, Table, shown};
 
+/// A text and where it stands.
+type Placed<'a> = (&'a str, Range<usize>);
+
 impl<'a> Table<'a> {
     /// A number that may be absent.
     pub(super) fn number(&self, key: &str, quantity: &Quantity) -> Result<Option<f64>> {
@@ -167,7 +170,7 @@ impl<'a> Table<'a> {
     }
 
     /// A list of texts with their places, if present.
-    pub(super) fn texts(&self, key: &str) -> Result<Option<Vec<(&'a str, Range<usize>)>>> {
+    pub(super) fn texts(&self, key: &str) -> Result<Option<Vec<Placed<'a>>>> {
         let Some((value, span)) = self.get(key) else {
             return Ok(None);
         };
