@@ -1,5 +1,8 @@
 //! Floor 0: mathematics without a gear word in it.
 
+pub mod sparse;
+pub mod quadrature;
+
 /// A point or vector in the plane, mm unless said otherwise.
 pub type Vec2 = nalgebra::Vector2<f64>;
 
