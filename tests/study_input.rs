@@ -151,7 +151,7 @@ refusals! {
     misalignment_of_a_test: format!("{SHORT}[[test]]\nid = \"A\"\n[[test]]\nid = \"B\"\nmisalignment = 2.4\n")
         => Inconsistent "test.misalignment" at 25:16, "2.4", "to 1.499 mm", "contact ratio is";
     interference: with("face_width = 33.0", "face_width = 33.0\naddendum = 1.15")
-        => Inconsistent "gears.centre_distance" at 1:1, "its default", "for this pair", "interference: contact on the pinion";
+        => Inconsistent "gears.centre_distance" at 1:1, "its default", "for this pair", "free from 80.0480 mm on";
     youngs_modulus_in_gpa: with("youngs_modulus = 2.1e5", "youngs_modulus = 210")
         => BadValue "material.youngs_modulus" at 12:18, "210", "500 to 1.5e6 MPa", "looks like GPa";
     youngs_modulus_in_pa: with("youngs_modulus = 2.1e5", "youngs_modulus = 2.1e11")

@@ -184,7 +184,7 @@ fn way_out(error: &PairError) -> &'static str {
             "a smaller centre distance or a larger addendum keeps the teeth in contact longer"
         }
         PairError::Interference { .. } => {
-            "less addendum, more teeth, more profile shift or a smaller fillet_radius keeps contact on the involute"
+            "more teeth, more profile shift or a smaller fillet_radius also keep contact on the involute"
         }
         PairError::NotFinite { .. } | PairError::BasePitch { .. } => "",
     }
