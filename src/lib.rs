@@ -9,6 +9,7 @@
 //! Lengths are mm, forces N, stresses MPa (N/mm²) throughout; angles are radians inside the program.
 
 pub mod analytic;
+pub mod cli;
 pub mod contact;
 pub mod fem;
 pub mod gear;
@@ -18,6 +19,7 @@ pub mod numeric;
 pub mod paper;
 pub mod report;
 pub mod simulate;
+pub mod study;
 pub mod tribology;
 pub mod verify;
 pub mod wear;
