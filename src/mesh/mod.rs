@@ -8,6 +8,7 @@ mod order;
 mod outline;
 mod profile;
 mod quality;
+mod repair;
 mod seed;
 mod smooth;
 mod triangulate;
