@@ -151,3 +151,17 @@ fn probe_where() {
         }
     }
 }
+#[test]
+fn probe_relocate() {
+    let gear = Gear::new(BasicRack::iso53_a(2.0), ToothSpec::plain(27, 25.0)).unwrap();
+    let spec = MeshSpec::new(&gear, vec![-1, 0], 0.011, 3.8);
+    let mesh = mesh_gear(&gear, &spec).unwrap();
+    for depth in [0.0, 0.015, 0.05, 0.1] {
+        let depths: Vec<Vec<f64>> = mesh.flanks.iter().map(|f| f.arc.iter().map(|s| depth * ((s - f.arc[0]) / 0.3).min(1.0) * (1.0 + 0.3 * (s * 4.0).sin())).collect()).collect();
+        let t0 = std::time::Instant::now();
+        match relocate(&mesh, &gear, &depths) {
+            Ok(m) => println!("# {depth} {:?} {:?} {}", t0.elapsed(), Quality::of(&m), outer_area(&mesh) - outer_area(&m)),
+            Err(e) => println!("# {depth} {e}"),
+        }
+    }
+}

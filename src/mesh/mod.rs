@@ -1,5 +1,6 @@
 //! Floor 2: triangle meshes of whole gears.
 
+mod boundary;
 mod error;
 mod gear_mesh;
 mod gear_outline;
@@ -8,17 +9,20 @@ mod order;
 mod outline;
 mod profile;
 mod quality;
+mod relocate;
 mod repair;
 mod seed;
 mod smooth;
 mod triangulate;
 
+pub use boundary::{BoundaryEdge, boundary_edges, outer_area};
 pub use error::MeshError;
 pub use gear_mesh::{MeshSpec, mesh_gear};
 pub use grading::SizeField;
 pub use order::{Order, raise_order};
 pub use outline::{Loop, Outline};
 pub use quality::{Quality, check_jacobians};
+pub use relocate::relocate;
 pub use triangulate::{Triangles, TriangulateOptions, triangulate};
 
 use crate::numeric::Vec2;
