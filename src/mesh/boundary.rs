@@ -31,7 +31,11 @@ pub fn boundary_edges(mesh: &Mesh) -> Vec<BoundaryEdge> {
             Cells::T3(_) => None,
             Cells::T6(t) => Some(t[cell][3 + side]),
         };
-        out.push(BoundaryEdge { start: corners[side], mid, end: corners[(side + 1) % 3] });
+        out.push(BoundaryEdge {
+            start: corners[side],
+            mid,
+            end: corners[(side + 1) % 3],
+        });
         i += 1;
     }
     out

@@ -127,7 +127,7 @@ impl Tooth {
         (0..=n).map(|i| length * i as f64 / n as f64).collect()
     }
 
-    /// Sizes that the shape itself asks for, in the frame of tooth 0: edges turn by no more than about 40° and fit the land.
+    /// Sizes that the shape itself asks for, in the frame of tooth 0: edges turn by no more than about 30° and fit the land.
     fn shape_sizes(&self, gear: &Gear, spec: &MeshSpec) -> SizeField {
         const STEPS: usize = 48;
         let mut sources = Vec::new();
@@ -139,7 +139,7 @@ impl Tooth {
             for i in 1..STEPS {
                 let (u, v) = (at(i) - at(i - 1), at(i + 1) - at(i));
                 let turn = cross(u, v).atan2(u.dot(&v)).abs();
-                let h = (0.7 * step / turn).min(curve.length).max(least);
+                let h = (0.55 * step / turn).min(curve.length).max(least);
                 if h < spec.coarse_spacing {
                     let p = at(i);
                     let mirrored = Vec2::new(p.x, -p.y);

@@ -34,7 +34,11 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
         }
     }
     if depths.len() != nominal.flanks.len() {
-        return Err(MeshError::WrongLength { flank: depths.len(), given: 0, nodes: 0 });
+        return Err(MeshError::WrongLength {
+            flank: depths.len(),
+            given: 0,
+            nodes: 0,
+        });
     }
     let mut before = vec![u32::MAX; nominal.points.len()];
     for (i, e) in edges.iter().enumerate() {
@@ -42,7 +46,11 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
     }
     for (flank, (chain, depth)) in nominal.flanks.iter().zip(depths).enumerate() {
         if depth.len() != chain.nodes.len() {
-            return Err(MeshError::WrongLength { flank, given: depth.len(), nodes: chain.nodes.len() });
+            return Err(MeshError::WrongLength {
+                flank,
+                given: depth.len(),
+                nodes: chain.nodes.len(),
+            });
         }
         let turn = f64::from(chain.tooth) * gear.pitch_angle();
         for ((node, s), h) in chain.nodes.iter().zip(&chain.arc).zip(depth) {
@@ -67,7 +75,10 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
         }
     }
     let points = nominal.points.iter().zip(&u).map(|(p, u)| p + u).collect();
-    let mesh = Mesh { points, ..nominal.clone() };
+    let mesh = Mesh {
+        points,
+        ..nominal.clone()
+    };
     check_jacobians(&mesh)?;
     Ok(mesh)
 }
@@ -88,7 +99,9 @@ fn slide_tip(
     let (mut node, mut length) = (tip, 0.0);
     // The boundary is walked against its direction; it ends where it leaves the tip circle.
     while path.len() < mesh.points.len() {
-        let Some(e) = edges.get(before[node as usize] as usize) else { break };
+        let Some(e) = edges.get(before[node as usize] as usize) else {
+            break;
+        };
         if on_circle(node) && !on_circle(e.start) {
             break;
         }
@@ -108,8 +121,16 @@ fn slide_tip(
     for (k, s) in path.into_iter().skip(1) {
         let to = at(k) + (1.0 - s / length) * shift;
         // A worn corner lies a little below the tip circle: the land drops to it over about the corner's own shift.
-        let drop = if on_circle(k) { drop * (1.0 - s / shift.norm()).max(0.0) } else { 0.0 };
-        let radius = if on_circle(k) { at(k).norm() - drop } else { to.norm() };
+        let drop = if on_circle(k) {
+            drop * (1.0 - s / shift.norm()).max(0.0)
+        } else {
+            0.0
+        };
+        let radius = if on_circle(k) {
+            at(k).norm() - drop
+        } else {
+            to.norm()
+        };
         moved[k as usize] = Some(to * (radius / to.norm()) - at(k));
     }
 }
@@ -117,7 +138,9 @@ fn slide_tip(
 /// Harmonic extension of `u` from the fixed corners to the free ones by conjugate gradients with diagonal scaling.
 fn extend(mesh: &Mesh, fixed: &[bool], u: &mut [Vec2]) {
     let laplacian = Laplacian::new(mesh, fixed);
-    let free: Vec<usize> = (0..u.len()).filter(|k| laplacian.diagonal[*k] > 0.0).collect();
+    let free: Vec<usize> = (0..u.len())
+        .filter(|k| laplacian.diagonal[*k] > 0.0)
+        .collect();
     let mut r = vec![Vec2::zeros(); u.len()];
     laplacian.apply(u, &mut r);
     free.iter().for_each(|&k| r[k] = -r[k]);
