@@ -1,12 +1,10 @@
 //! The outline of a whole gear with its edges as the mesh wants them.
 
 use super::gear_mesh::MeshSpec;
-use super::profile::{
-    Curve, involute_down, involute_up, root, rounding_down, rounding_up, tip_land,
-};
+use super::profile::{Curve, involute_down, involute_up, root, rounding_down, tip_land};
 use super::{Loop, Outline, SizeField};
 use crate::gear::Gear;
-use crate::numeric::{Vec2, rotate};
+use crate::numeric::{Vec2, cross, rotate};
 
 /// A finely divided flank in the outline.
 pub(super) struct FineFlank {
@@ -28,10 +26,10 @@ pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFl
         mids: Vec::new(),
     };
     let mut flanks = Vec::new();
+    let shape = tooth.shape_sizes(gear, spec);
     for k in 0..z {
         let angle = f64::from(k) * gear.pitch_angle();
-        let size = |p: Vec2| wanted.size(rotate(p, angle)).min(spec.coarse_spacing);
-        let fine = spec.fine_teeth.iter().find(|t| t.rem_euclid(z) == k);
+        let size = |p: Vec2| wanted.size(rotate(p, angle)).min(shape.size(p));
         let mut add = |curve: &Curve, cuts: Vec<f64>| {
             for w in cuts.windows(2) {
                 outer.points.push(rotate(curve.at(w[0]), angle));
@@ -41,14 +39,14 @@ pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFl
             }
             outer.points.len()
         };
-        let mut start = 0;
-        for curve in tooth.above() {
-            start = add(curve, curve.divide(&size));
-        }
-        match fine {
+        match spec.fine_teeth.iter().find(|t| t.rem_euclid(z) == k) {
             Some(&number) => {
+                let mut start = 0;
+                for curve in tooth.before.iter().chain(&tooth.rounding) {
+                    start = add(curve, curve.divide(&size));
+                }
                 let cuts = tooth.fine_cuts(spec);
-                let top = gear.arc(gear.rho_end);
+                let top = gear.arc(tooth.top);
                 flanks.push(FineFlank {
                     tooth: number,
                     start,
@@ -60,7 +58,9 @@ pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFl
                 }
             }
             None => {
-                add(&tooth.flank, tooth.flank.divide(&size));
+                for curve in tooth.coarse_before.iter().chain([&tooth.coarse_flank]) {
+                    add(curve, curve.divide(&size));
+                }
             }
         }
         add(&tooth.root, tooth.root.divide(&size));
@@ -74,21 +74,21 @@ pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFl
     )
 }
 
-/// The pieces of one tooth, counter-clockwise.
+/// The pieces of one tooth, counter-clockwise; teeth that are not fine keep a sharp corner.
 struct Tooth {
-    up: Curve,
-    round_up: Option<Curve>,
-    land: Curve,
-    round_down: Option<Curve>,
-    flank: Curve,
+    before: Vec<Curve>,
+    rounding: Option<Curve>,
     active: Curve,
     rest: Option<Curve>,
     root: Curve,
+    /// Curvature radius at the upper end of the active part.
+    top: f64,
+    coarse_before: Vec<Curve>,
+    coarse_flank: Curve,
 }
 
 impl Tooth {
     fn new(gear: &Gear, spec: &MeshSpec) -> Tooth {
-        let top = gear.rho_end;
         // A short rest between form circle and fine part would only make small triangles.
         let lowest = gear.arc(gear.rho_form) + 0.5 * spec.flank_spacing;
         let wanted = spec.active_from_rho.max(0.0);
@@ -97,31 +97,59 @@ impl Tooth {
         } else {
             (gear.rho_form, None)
         };
-        let half = gear.tip_land_half_angle();
+        let sharp = gear.half_angle(gear.tip_radius);
+        // So is a rounding far below the spacing.
+        let shown = gear.spec.tip_rounding > 0.25 * spec.flank_spacing;
+        let rounding = rounding_down(gear).filter(|_| shown);
+        let (top, end) = if rounding.is_some() {
+            (gear.rho_end, gear.tip_land_half_angle())
+        } else {
+            (gear.rho_tip, sharp)
+        };
         Tooth {
-            up: involute_up(gear, top),
-            round_up: rounding_up(gear),
-            land: tip_land(gear, -half, half),
-            round_down: rounding_down(gear),
-            flank: involute_down(gear, top, gear.rho_form),
+            before: vec![involute_up(gear, gear.rho_tip), tip_land(gear, -sharp, end)],
+            rounding,
             active: involute_down(gear, top, from),
             rest,
             root: root(gear),
+            top,
+            coarse_before: vec![
+                involute_up(gear, gear.rho_tip),
+                tip_land(gear, -sharp, sharp),
+            ],
+            coarse_flank: involute_down(gear, gear.rho_tip, gear.rho_form),
         }
-    }
-
-    /// The pieces before the loaded flank.
-    fn above(&self) -> impl Iterator<Item = &Curve> {
-        std::iter::once(&self.up)
-            .chain(&self.round_up)
-            .chain([&self.land])
-            .chain(&self.round_down)
     }
 
     fn fine_cuts(&self, spec: &MeshSpec) -> Vec<f64> {
         let length = self.active.length;
         let n = (length / spec.flank_spacing - 1e-9).ceil().max(1.0) as usize;
         (0..=n).map(|i| length * i as f64 / n as f64).collect()
+    }
+
+    /// Sizes that the shape itself asks for, in the frame of tooth 0: edges turn by no more than about 30° and fit the land.
+    fn shape_sizes(&self, gear: &Gear, spec: &MeshSpec) -> SizeField {
+        const STEPS: usize = 48;
+        let mut sources = Vec::new();
+        let least = 0.05 * gear.rack.module;
+        let curves = [&self.root, &self.coarse_flank, &self.coarse_before[1]];
+        for curve in curves {
+            let step = curve.length / STEPS as f64;
+            let at = |i: usize| curve.at(step * i as f64);
+            for i in 1..STEPS {
+                let (u, v) = (at(i) - at(i - 1), at(i + 1) - at(i));
+                let turn = cross(u, v).atan2(u.dot(&v)).abs();
+                let h = (0.55 * step / turn).min(curve.length).max(least);
+                if h < spec.coarse_spacing {
+                    let p = at(i);
+                    let mirrored = Vec2::new(p.x, -p.y);
+                    let before = rotate(p, -gear.pitch_angle());
+                    let after = rotate(mirrored, gear.pitch_angle());
+                    sources.extend([p, mirrored, before, after].map(|p| (p, h)));
+                }
+            }
+        }
+        SizeField::new(sources, spec.growth, spec.coarse_spacing)
     }
 }
 
@@ -137,11 +165,13 @@ fn wanted_sizes(gear: &Gear, spec: &MeshSpec, tooth: &Tooth) -> SizeField {
             cuts.iter()
                 .map(|s| (rotate(tooth.active.at(*s), angle), edge)),
         );
-        for curve in tooth.round_down.iter() {
-            sources.extend((0..=4).map(|i| {
+        if let Some(curve) = &tooth.rounding {
+            let size = edge.min(curve.length);
+            let n = (curve.length / size).ceil() as usize;
+            sources.extend((0..=n).map(|i| {
                 (
-                    rotate(curve.at(curve.length * f64::from(i) / 4.0), angle),
-                    edge,
+                    rotate(curve.at(curve.length * i as f64 / n as f64), angle),
+                    size,
                 )
             }));
         }

@@ -1,24 +1,35 @@
 //! Floor 2: triangle meshes of whole gears.
 
+mod boundary;
 mod error;
 mod gear_mesh;
 mod gear_outline;
 mod grading;
+mod msh;
 mod order;
 mod outline;
 mod profile;
 mod quality;
+mod relocate;
+mod repair;
 mod seed;
 mod smooth;
 mod triangulate;
+mod user;
+mod vtu;
 
+pub use boundary::{BoundaryEdge, boundary_edges, outer_area};
 pub use error::MeshError;
 pub use gear_mesh::{MeshSpec, mesh_gear};
 pub use grading::SizeField;
+pub use msh::read_msh;
 pub use order::{Order, raise_order};
 pub use outline::{Loop, Outline};
 pub use quality::{Quality, check_jacobians};
+pub use relocate::relocate;
 pub use triangulate::{Triangles, TriangulateOptions, triangulate};
+pub use user::{BORE_TOLERANCE, FLANK_TOLERANCE};
+pub use vtu::read_vtu;
 
 use crate::numeric::Vec2;
 

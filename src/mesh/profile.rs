@@ -77,7 +77,7 @@ pub(super) fn involute_down(gear: &Gear, top: f64, bottom: f64) -> Curve {
 pub(super) fn involute_up(gear: &Gear, top: f64) -> Curve {
     let down = involute_down(gear, top, gear.rho_form);
     let length = down.length;
-    Curve::new(length, 2, move |s| mirror(down.at(length - s)))
+    Curve::new(length, 1, move |s| mirror(down.at(length - s)))
 }
 
 /// The tip land of tooth 0 between the angles `from` and `to` on the tip circle.
@@ -93,7 +93,7 @@ pub(super) fn rounding_down(gear: &Gear) -> Option<Curve> {
     let begin = from.y.atan2(from.x);
     let sweep = crate::numeric::cross(from, to).atan2(from.dot(&to));
     let length = arc.radius * sweep;
-    let least = (sweep / 0.8).ceil() as usize;
+    let least = (sweep / 1.2).ceil() as usize;
     Some(Curve::new(length, least, move |s| {
         if s <= 0.0 {
             arc.end
@@ -102,15 +102,6 @@ pub(super) fn rounding_down(gear: &Gear) -> Option<Curve> {
         } else {
             arc.centre + polar(arc.radius, begin + s / arc.radius)
         }
-    }))
-}
-
-/// The rounding of the other corner, from the involute to the land.
-pub(super) fn rounding_up(gear: &Gear) -> Option<Curve> {
-    let down = rounding_down(gear)?;
-    let (length, least) = (down.length, down.least);
-    Some(Curve::new(length, least, move |s| {
-        mirror(down.at(length - s))
     }))
 }
 
@@ -139,7 +130,7 @@ pub(super) fn root(gear: &Gear) -> Curve {
         }
     };
     let pitch = 2.0 * middle;
-    Curve::new(2.0 * half, 6, move |s| {
+    Curve::new(2.0 * half, 4, move |s| {
         if s <= half {
             side(half - s)
         } else {

@@ -9,8 +9,9 @@ use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::quality::worst_triangle;
+use super::repair::repair;
 use super::seed::interior_points;
-use super::smooth::{improve_stars, smooth};
+use super::smooth::smooth;
 use super::{MeshError, Outline};
 use crate::numeric::Vec2;
 
@@ -70,13 +71,9 @@ pub fn triangulate(
         smooth(&mut mesh, size);
         mesh.corners = delaunay(&mesh.points, &edges)?;
     }
-    let good = options.min_angle_deg + 8.0;
-    for _ in 0..REPAIRS {
-        if worst_triangle(&mesh).0 >= good || improve_stars(&mut mesh, good) == 0 {
-            break;
-        }
-        mesh.corners = delaunay(&mesh.points, &edges)?;
-    }
+    let mesh = repair(mesh, size, GOOD_DEG.max(options.min_angle_deg), |points| {
+        delaunay(points, &edges)
+    })?;
     let (angle_deg, centre) = worst_triangle(&mesh);
     if angle_deg < options.min_angle_deg {
         let limit_deg = options.min_angle_deg;
@@ -90,8 +87,8 @@ pub fn triangulate(
     Ok(mesh)
 }
 
-/// Largest number of repair rounds.
-const REPAIRS: usize = 6;
+/// Triangles are repaired until no angle is smaller, degrees, whatever is accepted in the end.
+const GOOD_DEG: f64 = 26.0;
 
 /// Constrained Delaunay triangulation of the points, reduced to the triangles left of the given edges.
 fn delaunay(points: &[Vec2], edges: &[[usize; 2]]) -> Result<Vec<[u32; 3]>, MeshError> {
