@@ -15,3 +15,4 @@ pub mod gear;
 pub mod material;
 pub mod mesh;
 pub mod numeric;
+pub mod verify;
