@@ -1,1 +1,10 @@
 //! Floor 4: contact between two flanks: mortar coupling, unilateral contact, load sharing.
+
+pub mod cycle;
+pub mod deposit;
+pub mod fem;
+pub mod frame;
+pub mod hertz;
+pub mod model;
+pub mod mortar;
+pub mod unilateral;

@@ -36,7 +36,7 @@ pub fn a1_patch() -> Result<Vec<Measured>, FemError> {
             .zip(&u)
             .map(|(p, u)| (u - exact(*p)).norm() / scale)
             .fold(0.0, f64::max);
-        figures.push(Measured::defect(
+        figures.push(Measured::bound(
             "A1",
             format!("{name}: displacement defect (-)"),
             worst,
@@ -60,7 +60,7 @@ pub fn a1_patch() -> Result<Vec<Measured>, FemError> {
                 }
             }
         }
-        figures.push(Measured::defect(
+        figures.push(Measured::bound(
             "A1",
             format!("{name}: stress defect (-)"),
             worst,
@@ -98,7 +98,7 @@ pub fn a2_rigid_motion() -> Result<Vec<Measured>, FemError> {
                 .count();
             (fewest, most) = (fewest.min(zeros), most.max(zeros));
         }
-        figures.push(Measured::defect(
+        figures.push(Measured::bound(
             "A2",
             format!("{name}: force of rigid motions over E (mm)"),
             force,

@@ -69,7 +69,7 @@ pub fn a9_residual() -> Result<Vec<Measured>, FemError> {
     Ok(solutions
         .into_iter()
         .map(|(case, s)| {
-            Measured::defect(
+            Measured::bound(
                 "A9",
                 format!("residual of {case} (-)"),
                 s.residual,

@@ -1,0 +1,319 @@
+//! The mesh cycle: every position of one base pitch, the tooth pairs that can touch there, and the operators that carry
+//! gaps and wear between their contact grids and the flanks. All of it follows from the gear pair alone, so it is built
+//! once and shared by every load, wear state and contact model.
+
+use rayon::prelude::*;
+
+use crate::contact::deposit::{Travel, deposit};
+use crate::contact::frame::{Frame, Touch};
+use crate::contact::mortar::{Trace, couple};
+use crate::gear::{Pair, ToothContact, contacts_at};
+use crate::numeric::cross;
+use crate::numeric::sparse::SparseRows;
+
+/// How finely a mesh cycle is resolved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CycleSpec {
+    /// Mesh positions per base pitch.
+    pub positions: usize,
+    /// Spacing of the contact grid, mm.
+    pub spacing: f64,
+    /// Half width of the strip in which contact is looked for, mm.
+    pub window: f64,
+    /// Tooth pairs farther apart than this are left out, mm.
+    pub reach: f64,
+}
+
+/// How far outside the path of contact corners are looked at, in base pitches.
+const CORNER_MARGIN: f64 = 0.35;
+
+/// Where the worn depth of each flank is kept: ascending arc coordinates of the pinion's and the gear's flank, mm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stations {
+    /// Arc coordinates, pinion then gear.
+    pub arc: [Vec<f64>; 2],
+}
+
+impl Stations {
+    /// Evenly spaced stations, at most `spacing` (mm) apart, from the form circle to the tip.
+    pub fn new(pair: &Pair, spacing: f64) -> Self {
+        let even = |gear: &crate::gear::Gear| {
+            let (from, to) = (gear.arc(gear.rho_form), gear.arc(gear.rho_tip));
+            let count = ((to - from) / spacing).ceil().max(2.0) as usize;
+            (0..=count)
+                .map(|i| from + (to - from) * i as f64 / count as f64)
+                .collect()
+        };
+        Self {
+            arc: [even(&pair.pinion), even(&pair.gear)],
+        }
+    }
+
+    /// Number of stations on both flanks.
+    pub fn count(&self) -> usize {
+        self.arc[0].len() + self.arc[1].len()
+    }
+}
+
+/// One tooth pair at one mesh position.
+#[derive(Debug, Clone)]
+pub struct PairContact {
+    /// Number j of the pair: the pinion's tooth j meets the gear's tooth −j.
+    pub tooth: i32,
+    /// Path of contact from the pitch point, mm.
+    pub path: f64,
+    /// Contact frame.
+    pub frame: Frame,
+    /// Multiplier nodes along the tangent, mm.
+    pub xi: Vec<f64>,
+    /// First of this pair's unknowns among the position's.
+    pub offset: usize,
+    /// ∫ N_k dξ, mm.
+    pub length: Vec<f64>,
+    /// ∫ N_k ξ dξ, mm².
+    pub moment: Vec<f64>,
+    /// Weighted gap per worn depth (mm, both positive) at the stations of the pinion and of the gear.
+    pub opening: [SparseRows; 2],
+    /// Depth rate at the stations per (k p) at the hats: mm per cycle for k p in 1/mm.
+    pub wear: [SparseRows; 2],
+    /// Arc coordinates of the multiplier nodes on each flank, mm.
+    pub arc: [Vec<f64>; 2],
+    /// Signed sliding distance per path of contact, mm/mm (its sign changes at the pitch point).
+    pub slip: f64,
+}
+
+/// One mesh position.
+#[derive(Debug, Clone)]
+pub struct Position {
+    /// Pinion rotation from the pitch point, in base pitches, 0 to 1.
+    pub theta: f64,
+    /// Tooth pairs that can touch, by ascending path.
+    pub pairs: Vec<PairContact>,
+    /// Weighted gap of the unworn flanks, all pairs' unknowns in a row.
+    pub gap: Vec<f64>,
+    /// Weighted lever arm about the pinion's centre: closing of the gap per rotation (mm·mm/rad).
+    pub arm: Vec<f64>,
+}
+
+/// The mesh cycle of one gear pair at one centre distance.
+#[derive(Debug, Clone)]
+pub struct Cycle {
+    /// Working geometry.
+    pub pair: Pair,
+    /// Resolution.
+    pub spec: CycleSpec,
+    /// Stations of the worn depth.
+    pub stations: Stations,
+    /// Positions by ascending rotation.
+    pub positions: Vec<Position>,
+}
+
+impl Cycle {
+    /// The pinion's teeth that can touch somewhere in the mesh cycle (the gear's have the opposite numbers).
+    pub fn teeth(pair: &Pair, spec: CycleSpec) -> Vec<i32> {
+        let mut teeth = Vec::new();
+        for q in 0..spec.positions {
+            let theta = (q as f64 + 0.5) / spec.positions as f64;
+            for contact in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch) {
+                if Frame::new(pair, contact.path).is_some_and(|f| f.separation <= spec.reach) {
+                    teeth.push(contact.pinion_tooth);
+                }
+            }
+        }
+        teeth.sort_unstable();
+        teeth.dedup();
+        teeth
+    }
+
+    /// Builds all positions, in parallel.
+    pub fn new(pair: &Pair, stations: &Stations, spec: CycleSpec) -> Self {
+        let positions = (0..spec.positions)
+            .into_par_iter()
+            .map(|q| {
+                Position::new(
+                    pair,
+                    stations,
+                    spec,
+                    (q as f64 + 0.5) / spec.positions as f64,
+                )
+            })
+            .collect();
+        Self {
+            pair: pair.clone(),
+            spec,
+            stations: stations.clone(),
+            positions,
+        }
+    }
+}
+
+impl Position {
+    /// The position at pinion rotation `theta` (base pitches from the pitch point).
+    pub fn new(pair: &Pair, stations: &Stations, spec: CycleSpec, theta: f64) -> Self {
+        let mut out = Self {
+            theta,
+            pairs: Vec::new(),
+            gap: Vec::new(),
+            arm: Vec::new(),
+        };
+        for ToothContact {
+            pinion_tooth: tooth,
+            path,
+            ..
+        } in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch)
+        {
+            let Some(frame) = Frame::new(pair, path).filter(|f| f.separation <= spec.reach) else {
+                continue;
+            };
+            let (low, high) = frame.extent(spec.window);
+            let Some(xi) = grid(low, high, spec) else {
+                continue;
+            };
+            out.add(pair, stations, spec, tooth, path, frame, xi);
+        }
+        out
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one caller; the arguments are the locals of the loop above"
+    )]
+    fn add(
+        &mut self,
+        pair: &Pair,
+        stations: &Stations,
+        spec: CycleSpec,
+        tooth: i32,
+        path: f64,
+        frame: Frame,
+        xi: Vec<f64>,
+    ) {
+        let traces = [0, 1].map(|side| Trace {
+            side,
+            arc: &stations.arc[side],
+            order: 1,
+        });
+        let coupling = couple(&xi, |x| frame.facing(pair, x), &traces);
+        let arc_at: Vec<[f64; 2]> = xi.iter().map(|&x| frame.facing(pair, x).arc).collect();
+        let arc = [0, 1].map(|side| arc_at.iter().map(|a| a[side]).collect::<Vec<f64>>());
+        let motion = Motion::at(pair, path, &frame);
+        let wear = [0, 1].map(|side| {
+            let travel = Travel {
+                step: pair.base_pitch / spec.positions as f64,
+                speed: motion.speed[side],
+                slip: motion.slip,
+                slip_slope: motion.slip_slope,
+            };
+            deposit(&xi, &arc[side], &stations.arc[side], travel)
+        });
+        let lever = cross(frame.origin, frame.normal);
+        self.arm.extend(
+            coupling
+                .length
+                .iter()
+                .zip(&coupling.moment)
+                .map(|(l, m)| lever * l + m),
+        );
+        let offset = self.gap.len();
+        self.gap.extend(&coupling.gap);
+        let [first, second]: [SparseRows; 2] =
+            coupling.traces.try_into().expect("two traces were given");
+        self.pairs.push(PairContact {
+            tooth,
+            path,
+            frame,
+            xi,
+            offset,
+            length: coupling.length,
+            moment: coupling.moment,
+            opening: [first, second],
+            wear,
+            arc,
+            slip: motion.slip,
+        });
+    }
+
+    /// Weighted gaps with the worn depth (mm) of both flanks added.
+    pub fn worn_gap(&self, depth: [&[f64]; 2]) -> Vec<f64> {
+        let mut gap = self.gap.clone();
+        for pair in &self.pairs {
+            for k in 0..pair.xi.len() {
+                for (opening, depth) in pair.opening.iter().zip(depth) {
+                    gap[pair.offset + k] += opening.dot(k, depth);
+                }
+            }
+        }
+        gap
+    }
+
+    /// The tooth pair that owns unknown `k`.
+    pub fn owner(&self, k: usize) -> usize {
+        self.pairs.partition_point(|p| p.offset <= k) - 1
+    }
+}
+
+/// Even nodes in [low, high], whole multiples of the spacing; where the strip ends at a tip or root the last node sits
+/// on the end itself.
+fn grid(low: f64, high: f64, spec: CycleSpec) -> Option<Vec<f64>> {
+    let h = spec.spacing;
+    if high - low < 2.0 * h {
+        return None;
+    }
+    let (first, last) = ((low / h).ceil() as i64, (high / h).floor() as i64);
+    let mut xi: Vec<f64> = (first..=last).map(|k| k as f64 * h).collect();
+    if low > -spec.window {
+        if xi[0] - low > 0.5 * h {
+            xi.insert(0, low)
+        } else {
+            xi[0] = low
+        }
+    }
+    if high < spec.window {
+        let end = xi.len() - 1;
+        if high - xi[end] > 0.5 * h {
+            xi.push(high)
+        } else {
+            xi[end] = high
+        }
+    }
+    (xi.len() > 2).then_some(xi)
+}
+
+/// How a contact moves along both flanks and slides, per path of contact.
+struct Motion {
+    speed: [f64; 2],
+    slip: f64,
+    slip_slope: f64,
+}
+
+impl Motion {
+    fn at(pair: &Pair, path: f64, frame: &Frame) -> Self {
+        let scale = (1.0 + 1.0 / pair.speed_ratio) / pair.pinion.base_radius;
+        let slip = scale * frame.sliding_arm(pair);
+        if frame.touch == Touch::Flanks {
+            let speed = [
+                frame.rho[0] / pair.pinion.base_radius,
+                -frame.rho[1] / pair.gear.base_radius,
+            ];
+            return Self {
+                speed,
+                slip,
+                slip_slope: scale,
+            };
+        }
+        // a corner stays on its own flank; the motion of its foot by a difference taken away from the path's end
+        let side = usize::from(frame.touch == Touch::PinionTip);
+        let outward = 1e-4 * pair.base_pitch * if side == 0 { -1.0 } else { 1.0 };
+        let gear = [&pair.pinion, &pair.gear][side];
+        let (mut speed, mut slip_slope) = ([0.0; 2], scale);
+        if let Some(next) = Frame::new(pair, path + outward) {
+            speed[side] = (gear.arc(next.rho[side]) - gear.arc(frame.rho[side])) / outward;
+            slip_slope = scale * (next.sliding_arm(pair) - frame.sliding_arm(pair)) / outward;
+        }
+        Self {
+            speed,
+            slip,
+            slip_slope,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The interface that the wear floor sees: pressures on the contact grid of each mesh position.
+
+use nalgebra::DMatrix;
+
+use crate::contact::cycle::Cycle;
+use crate::contact::unilateral::UnilateralError;
+
+/// Contact of all tooth pairs at one mesh position.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PositionContact {
+    /// Pressure at each multiplier node of the position, MPa.
+    pub pressure: Vec<f64>,
+    /// Rotation of the pinion that closes the flanks, rad: the loaded transmission error seen at the pinion.
+    pub approach: f64,
+    /// Unknowns in contact, ascending.
+    pub active: Vec<usize>,
+    /// Iterations of the contact solution.
+    pub iterations: usize,
+    /// Largest penetration relative to the approach.
+    pub penetration: f64,
+}
+
+/// A contact model over one mesh cycle.
+pub trait ContactModel: Sync {
+    /// The mesh cycle it works on.
+    fn cycle(&self) -> &Cycle;
+
+    /// Contact at position `q` for the worn depths (mm) at the stations of pinion and gear, started from the set `start`.
+    ///
+    /// # Errors
+    /// [`ContactError`]; an iterate that did not converge is never returned.
+    fn solve(
+        &self,
+        q: usize,
+        depth: [&[f64]; 2],
+        start: &[usize],
+    ) -> Result<PositionContact, ContactError>;
+
+    /// S with dp = −S dg on the active set (MPa per mm²), or `None` if pressures follow the local shape so weakly that
+    /// wear is not stiff.
+    ///
+    /// # Errors
+    /// [`ContactError`] if the active set's compliance cannot be inverted.
+    fn sensitivity(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<DMatrix<f64>>, ContactError>;
+}
+
+/// Why contact could not be solved.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    /// The contact problem of one position failed.
+    #[error("contact at mesh position {theta:.4}: {source}")]
+    Unilateral {
+        /// Pinion rotation, base pitches.
+        theta: f64,
+        /// What went wrong.
+        #[source]
+        source: UnilateralError,
+    },
+    /// Contact reaches the end of the strip it was looked for in.
+    #[error("contact at mesh position {theta:.4} is wider than ±{window} mm")]
+    WindowTooNarrow {
+        /// Pinion rotation, base pitches.
+        theta: f64,
+        /// Half width of the strip, mm.
+        window: f64,
+    },
+    /// A tooth that can touch is not finely meshed.
+    #[error("tooth {tooth} of the {} can touch but has no fine flank in the mesh", ["pinion", "gear"][*side])]
+    NoFlank {
+        /// 0 pinion, 1 gear.
+        side: usize,
+        /// Tooth number.
+        tooth: i32,
+    },
+}

@@ -1,0 +1,383 @@
+//! Two gears at a working centre distance: path of contact, backlash, kinematics.
+//!
+//! Fixed frame: pinion centre at the origin, gear centre at (a, 0). The pinion turns counter-clockwise and drives. The
+//! common normal n = (sin α', cos α') points from the pinion into the gear; it touches the base circles at T1 and T2:
+//!
+//! ```text
+//! T1 = r_b1 (cos α', −sin α'),   contact at T1 + rho1 n,   rho1 + rho2 = T1T2 = a sin α',   cos α' = (r_b1 + r_b2)/a
+//! path coordinate y = rho1 − rho_C  (y < 0: approach, y = 0: pitch point)
+//! A: the gear's tip begins,  B = E − p_b,  C: pitch point,  D = A + p_b,  E: the pinion's tip ends
+//! ```
+//! Involute kinematics as in any gear book, e.g. Maitra, Handbook of Gear Design; ISO 21771.
+
+use super::Member;
+use super::error::PairError;
+use super::fillet::bisect;
+use super::involute::{inv, inverse_inv};
+use super::tooth::Gear;
+use crate::numeric::{Vec2, rotate};
+
+/// Overlap of the unloaded flanks that counts as rounding of the stated centre distance, modules (FZG type C: 91.5 mm is
+/// stated where 91.5001 mm is free of backlash).
+const JAM_TOLERANCE: f64 = 2e-4;
+
+/// A working pair. Lengths mm, angles rad.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The driving member.
+    pub pinion: Gear,
+    /// The driven member.
+    pub gear: Gear,
+    /// Working centre distance: nominal + misalignment.
+    pub centre_distance: f64,
+    /// Nominal centre distance.
+    pub nominal_centre_distance: f64,
+    /// Working pressure angle α'.
+    pub working_pressure_angle: f64,
+    /// Base pitch p_b.
+    pub base_pitch: f64,
+    /// Transverse contact ratio: `path_length` / `base_pitch`; tip relief does not count, tip rounding does.
+    pub contact_ratio: f64,
+    /// Length of the path of contact A to E.
+    pub path_length: f64,
+    /// Distance T1T2 of the points where the line of action touches the base circles: rho1 + rho2.
+    pub line_length: f64,
+    /// Pinion curvature radius at A, start of contact.
+    pub rho_a: f64,
+    /// Pinion curvature radius at B = E − p_b, start of single contact (if the contact ratio is below 2).
+    pub rho_b: f64,
+    /// Pinion curvature radius at the pitch point C.
+    pub rho_c: f64,
+    /// Pinion curvature radius at D = A + p_b, end of single contact.
+    pub rho_d: f64,
+    /// Pinion curvature radius at E, end of contact.
+    pub rho_e: f64,
+    /// Circumferential backlash at the operating pitch circles.
+    pub backlash: f64,
+    /// Speed ratio ω1/ω2 = z2/z1, the same at every centre distance.
+    pub speed_ratio: f64,
+    /// Operating pitch radius of the pinion.
+    pub pitch_radius_pinion: f64,
+    /// Operating pitch radius of the gear.
+    pub pitch_radius_gear: f64,
+}
+
+impl Pair {
+    /// The pair at `centre_distance` + `misalignment`, mm.
+    ///
+    /// Contact begins where the mate's tip (the end of its usable involute) meets the flank. If a member is undercut and
+    /// the mate's tip would reach below its form point, contact begins at the form point: there the flank is gone.
+    ///
+    /// # Errors
+    /// A [`PairError`] if the members cannot run together there.
+    pub fn new(
+        pinion: Gear,
+        gear: Gear,
+        centre_distance: f64,
+        misalignment: f64,
+    ) -> Result<Pair, PairError> {
+        for (quantity, value) in [
+            ("centre distance", centre_distance),
+            ("misalignment", misalignment),
+        ] {
+            if !value.is_finite() {
+                return Err(PairError::NotFinite { quantity, value });
+            }
+        }
+        let base_pitch = pinion.rack.base_pitch();
+        if (base_pitch / gear.rack.base_pitch() - 1.0).abs() > 1e-9 {
+            return Err(PairError::BasePitch {
+                pinion: base_pitch,
+                gear: gear.rack.base_pitch(),
+            });
+        }
+        let a = centre_distance + misalignment;
+        let base_sum = pinion.base_radius + gear.base_radius;
+        let jam = |backlash: f64| {
+            let min = Pair::tight_centre_distance(&pinion, &gear);
+            PairError::Jam {
+                centre_distance: a,
+                backlash_um: 1e3 * backlash,
+                min,
+                min_misalignment: min - centre_distance,
+            }
+        };
+        if a <= base_sum {
+            return Err(jam(f64::NEG_INFINITY));
+        }
+        let (z1, z2) = (f64::from(pinion.spec.teeth), f64::from(gear.spec.teeth));
+        let pitch_radius_pinion = a * z1 / (z1 + z2);
+        let pitch_radius_gear = a - pitch_radius_pinion;
+        let backlash = pitch_radius_pinion * pinion.pitch_angle()
+            - pinion.thickness(pitch_radius_pinion)
+            - gear.thickness(pitch_radius_gear);
+        if backlash < -JAM_TOLERANCE * pinion.rack.module {
+            return Err(jam(backlash));
+        }
+        for (member, tip, root) in [
+            (Member::Pinion, pinion.tip_radius, gear.root_radius),
+            (Member::Gear, gear.tip_radius, pinion.root_radius),
+        ] {
+            let clearance = a - tip - root;
+            if clearance <= 0.0 {
+                return Err(PairError::RootClearance {
+                    member,
+                    clearance,
+                    centre_distance: a,
+                    min: tip + root,
+                });
+            }
+        }
+        let line_length = ((a - base_sum) * (a + base_sum)).sqrt();
+        let rho_a = start_of_contact(&pinion, line_length - gear.rho_end);
+        let rho_e = line_length - start_of_contact(&gear, line_length - pinion.rho_end);
+        let path_length = rho_e - rho_a;
+        if path_length < base_pitch {
+            let reach = pinion.rho_end + gear.rho_end - base_pitch;
+            let max = reach.max(0.0).hypot(base_sum);
+            return Err(PairError::ContactRatio {
+                contact_ratio: path_length / base_pitch,
+                centre_distance: a,
+                max_centre_distance: max,
+                max_misalignment: max - centre_distance,
+            });
+        }
+        let working_pressure_angle = line_length.atan2(base_sum);
+        let pair = Pair {
+            contact_ratio: path_length / base_pitch,
+            rho_b: rho_e - base_pitch,
+            rho_c: pitch_radius_pinion * working_pressure_angle.sin(),
+            rho_d: rho_a + base_pitch,
+            speed_ratio: z2 / z1,
+            pinion,
+            gear,
+            centre_distance: a,
+            nominal_centre_distance: centre_distance,
+            working_pressure_angle,
+            base_pitch,
+            path_length,
+            line_length,
+            rho_a,
+            rho_e,
+            backlash,
+            pitch_radius_pinion,
+            pitch_radius_gear,
+        };
+        pair.check_interference()?;
+        Ok(pair)
+    }
+
+    /// Centre distance at which the profile shifts alone leave no backlash, mm (thickness reductions are left out: they
+    /// are the backlash allowance).
+    ///
+    /// ```text
+    /// inv α' = inv α + 2 tan α (x1 + x2)/(z1 + z2),   a = m (z1 + z2)/2 · cos α / cos α'
+    /// ```
+    pub fn zero_backlash_centre_distance(pinion: &Gear, gear: &Gear) -> f64 {
+        centre_distance_for(pinion, gear, 0.0)
+    }
+
+    /// Smallest centre distance at which the teeth do not jam, mm, thickness reductions counted.
+    pub fn tight_centre_distance(pinion: &Gear, gear: &Gear) -> f64 {
+        let thinning = pinion.spec.thickness_reduction + gear.spec.thickness_reduction;
+        centre_distance_for(pinion, gear, thinning)
+    }
+
+    /// The common normal in the fixed frame, from the pinion into the gear.
+    pub fn normal(&self) -> Vec2 {
+        let (s, c) = self.working_pressure_angle.sin_cos();
+        Vec2::new(s, c)
+    }
+
+    /// Contact point at the path coordinate `y`, mm, fixed frame.
+    pub fn contact_point(&self, y: f64) -> Vec2 {
+        let (s, c) = self.working_pressure_angle.sin_cos();
+        Vec2::new(self.pinion.base_radius * c, -self.pinion.base_radius * s)
+            + self.rho_pinion(y) * Vec2::new(s, c)
+    }
+
+    /// Rotation of the pinion's member frame at which its tooth 0 touches at `y`, rad; slope 1/r_b1.
+    pub fn pinion_angle(&self, y: f64) -> f64 {
+        -self.working_pressure_angle - self.pinion.tangent_angle(self.rho_pinion(y))
+    }
+
+    /// Rotation of the gear's member frame, the half turn included, at which its tooth 0 touches at `y`, rad; slope
+    /// −1/r_b2.
+    pub fn gear_angle(&self, y: f64) -> f64 {
+        std::f64::consts::PI
+            - self.working_pressure_angle
+            - self.gear.tangent_angle(self.rho_gear(y))
+    }
+
+    /// Curvature radius of the pinion's flank at `y`, mm.
+    pub fn rho_pinion(&self, y: f64) -> f64 {
+        self.rho_c + y
+    }
+
+    /// Curvature radius of the gear's flank at `y`, mm.
+    pub fn rho_gear(&self, y: f64) -> f64 {
+        self.line_length - self.rho_c - y
+    }
+
+    /// Curvature radius of `member`'s flank at `y`, mm.
+    pub fn rho(&self, member: Member, y: f64) -> f64 {
+        match member {
+            Member::Pinion => self.rho_pinion(y),
+            Member::Gear => self.rho_gear(y),
+        }
+    }
+
+    /// Path coordinate of the point with curvature radius `rho` on `member`'s flank, mm.
+    pub fn path_at_rho(&self, member: Member, rho: f64) -> f64 {
+        match member {
+            Member::Pinion => rho - self.rho_c,
+            Member::Gear => self.line_length - rho - self.rho_c,
+        }
+    }
+
+    /// Path coordinate of the radius `r` on `member`'s flank, mm; None inside the base circle or above the tip circle.
+    pub fn path_at_radius(&self, member: Member, r: f64) -> Option<f64> {
+        let gear = self.member(member);
+        let slack = 1e-9 * gear.rack.module;
+        (r >= gear.base_radius - slack && r <= gear.tip_radius + slack)
+            .then(|| self.path_at_rho(member, gear.rho_at_radius(r)))
+    }
+
+    /// Radius on `member`'s flank at the path coordinate `y`, mm; None where the line of action has left T1T2.
+    pub fn radius_at_path(&self, member: Member, y: f64) -> Option<f64> {
+        let rho = self.rho(member, y);
+        (rho >= 0.0).then(|| self.member(member).radius_at_rho(rho))
+    }
+
+    /// One of the two members.
+    pub fn member(&self, member: Member) -> &Gear {
+        match member {
+            Member::Pinion => &self.pinion,
+            Member::Gear => &self.gear,
+        }
+    }
+
+    /// Path coordinates of A, B, C, D, E, mm (C is 0).
+    pub fn path_points(&self) -> [f64; 5] {
+        [self.rho_a, self.rho_b, self.rho_c, self.rho_d, self.rho_e].map(|rho| rho - self.rho_c)
+    }
+
+    /// Relative curvature radius, mm.
+    ///
+    /// ```text
+    /// R = rho1 rho2 / (rho1 + rho2)
+    /// ```
+    pub fn relative_radius(&self, y: f64) -> f64 {
+        self.rho_pinion(y) * self.rho_gear(y) / self.line_length
+    }
+
+    /// Specific sliding of the pinion, 1 − v2/v1 with the rolling speeds v1 : v2 = rho1 : rho2 z1/z2 (dimensionless;
+    /// negative in the dedendum, −infinity at T1).
+    pub fn sliding_ratio_pinion(&self, y: f64) -> f64 {
+        1.0 - self.rho_gear(y) / (self.rho_pinion(y) * self.speed_ratio)
+    }
+
+    /// Specific sliding of the gear, 1 − v1/v2 (dimensionless; positive in the pinion's dedendum).
+    pub fn sliding_ratio_gear(&self, y: f64) -> f64 {
+        1.0 - self.rho_pinion(y) * self.speed_ratio / self.rho_gear(y)
+    }
+
+    /// Specific sliding of `member`.
+    pub fn sliding_ratio(&self, member: Member, y: f64) -> f64 {
+        match member {
+            Member::Pinion => self.sliding_ratio_pinion(y),
+            Member::Gear => self.sliding_ratio_gear(y),
+        }
+    }
+
+    /// Circular pitch on the operating circles, mm: 2π r_w1/z1.
+    pub fn operating_pitch(&self) -> f64 {
+        self.pitch_radius_pinion * self.pinion.pitch_angle()
+    }
+
+    fn check_interference(&self) -> Result<(), PairError> {
+        for member in Member::BOTH {
+            let (own, mate) = (self.member(member), self.member(member.other()));
+            if free_of_interference(own, mate, self.centre_distance) {
+                continue;
+            }
+            let start = self.line_length - mate.rho_end;
+            let base_sum = own.base_radius + mate.base_radius;
+            let lower = self
+                .centre_distance
+                .max((own.rho_form + mate.rho_end).hypot(base_sum));
+            let free = |a: f64| {
+                if free_of_interference(own, mate, a) {
+                    1.0
+                } else {
+                    -1.0
+                }
+            };
+            return Err(PairError::Interference {
+                member,
+                start_radius: if start > 0.0 {
+                    own.radius_at_rho(start)
+                } else {
+                    0.0
+                },
+                form_radius: own.form_radius,
+                centre_distance: self.centre_distance,
+                min: bisect(lower, lower + own.rack.module, free),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Whether the mate's tip works on `own`'s involute only, at the centre distance `a`, mm. Two conditions: contact does not
+/// begin below the form point (on an undercut flank it cannot), and the tip corner stays out of the fillet on the loaded
+/// side while it swings through the space.
+fn free_of_interference(own: &Gear, mate: &Gear, a: f64) -> bool {
+    const STEPS: u32 = 300;
+    let module = own.rack.module;
+    let base_sum = own.base_radius + mate.base_radius;
+    let line_length = ((a - base_sum) * (a + base_sum)).sqrt();
+    let start = line_length - mate.rho_end;
+    if !own.undercut && start < own.rho_form - 1e-9 * module {
+        return false;
+    }
+    let alpha = line_length.atan2(base_sum);
+    let corner = match mate.tip_rounding_arc() {
+        Some(arc) => arc.points(4),
+        None => vec![mate.involute_point(mate.rho_tip)],
+    };
+    // Seen from either member the pair looks the same, so `own` stands at the origin. The corner is on the line of action
+    // at `start` and deepest soon after.
+    (0..=STEPS).all(|i| {
+        let rho = start + (-1.0 + 3.0 * f64::from(i) / f64::from(STEPS)) * own.rack.base_pitch();
+        let own_angle = -alpha - own.tangent_angle(rho);
+        let mate_angle = std::f64::consts::PI - alpha - mate.tangent_angle(line_length - rho);
+        corner.iter().all(|&point| {
+            let p = rotate(rotate(point, mate_angle) + Vec2::new(a, 0.0), -own_angle);
+            let r = p.norm();
+            let gap = || r * (p.y.atan2(p.x) - own.solid_half_angle(r));
+            r >= own.form_radius || r > own.root_radius && gap() >= -1e-5 * module
+        })
+    })
+}
+
+/// Where contact begins on `own`, given where the mate's tip would begin it, mm of own curvature radius.
+fn start_of_contact(own: &Gear, by_mate_tip: f64) -> f64 {
+    if own.undercut {
+        by_mate_tip.max(own.rho_form)
+    } else {
+        by_mate_tip
+    }
+}
+
+fn centre_distance_for(pinion: &Gear, gear: &Gear, thinning: f64) -> f64 {
+    let rack = &pinion.rack;
+    let teeth = f64::from(pinion.spec.teeth) + f64::from(gear.spec.teeth);
+    let shifts = pinion.spec.profile_shift + gear.spec.profile_shift;
+    let base_sum = pinion.base_radius + gear.base_radius;
+    let excess = 2.0 * shifts * rack.pressure_angle.tan() - thinning / rack.module;
+    if excess == 0.0 {
+        return pinion.reference_radius + gear.reference_radius;
+    }
+    base_sum / inverse_inv(inv(rack.pressure_angle) + excess / teeth).cos()
+}

@@ -1,0 +1,233 @@
+//! Wear histories: from fresh flanks to the requested cycles, with the balance of worn area at every step.
+
+use crate::contact::cycle::Cycle;
+use crate::contact::deposit::tributary;
+use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::wear::archard::ArchardSystem;
+use crate::wear::integrator::{Stand, StepControl, StepError, advance};
+
+/// The flanks after some cycles, and how they mesh then.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WearState {
+    /// Pinion revolutions.
+    pub cycles: f64,
+    /// Worn depth at the stations of pinion and gear, mm.
+    pub depth: [Vec<f64>; 2],
+    /// Contact at every mesh position.
+    pub contacts: Vec<PositionContact>,
+}
+
+/// Worn area per tooth flank: by the wear law and by geometry, pinion and gear, mm².
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+pub struct Balance {
+    /// ∫ k ∮ F'|v_s| dt, integrated over cycles by the trapezoidal rule from the line loads alone.
+    pub law: [f64; 2],
+    /// ∫ h ds of the worn flanks.
+    pub geometry: [f64; 2],
+}
+
+impl Balance {
+    /// Largest difference of the two, relative to the law (0 before any wear).
+    pub fn error(&self) -> f64 {
+        (0..2)
+            .map(|i| {
+                if self.law[i] > 0.0 {
+                    (self.geometry[i] / self.law[i] - 1.0).abs()
+                } else {
+                    0.0
+                }
+            })
+            .fold(0.0, f64::max)
+    }
+}
+
+/// What an observer is told after each accepted wear step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport<'a> {
+    /// Where the integration stands.
+    pub stand: &'a Stand,
+    /// Worn area so far.
+    pub balance: Balance,
+    /// Largest depth on pinion and gear, mm.
+    pub max_depth: [f64; 2],
+    /// Contact problems solved so far.
+    pub solves: usize,
+}
+
+/// A wear history in progress: everything a resumed run needs besides the model.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Progress {
+    /// The integrator's state.
+    pub stand: Stand,
+    /// Worn areas so far.
+    pub balance: Balance,
+    /// Rate of worn area by the law at the last step's end, mm² per cycle.
+    law_rate: [f64; 2],
+    /// Contact problems solved so far.
+    pub solves: usize,
+    /// Contact sets of the last solution, so that a resumed run walks the same way.
+    warm: Vec<Vec<usize>>,
+}
+
+impl Progress {
+    /// Forgets the contact sets: their numbering has changed.
+    pub fn forget_sets(&mut self) {
+        self.warm.clear();
+    }
+}
+
+/// Archard wear coefficients and step control of a history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WearLaw {
+    /// Wear coefficient of pinion and gear, mm²/N.
+    pub coefficient: [f64; 2],
+    /// Allowed step error relative to the largest depth.
+    pub tolerance: f64,
+}
+
+/// Depth below which the step tolerance is absolute, mm.
+const DEPTH_FLOOR: f64 = 1e-4;
+
+/// Steps never fall below this, cycles.
+const LEAST_STEP: f64 = 1e-3;
+
+impl WearLaw {
+    fn control(&self, rate: &[f64]) -> StepControl {
+        // the first step wears a tenth of the floor where the flank wears fastest
+        let fastest = rate.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(*r));
+        StepControl {
+            tolerance: self.tolerance,
+            floor: DEPTH_FLOOR,
+            first_step: 0.1 * DEPTH_FLOOR / fastest,
+            least_step: LEAST_STEP,
+        }
+    }
+}
+
+/// Integrates wear under `model` from `progress` (or fresh flanks) to `end` cycles; `observe` sees every step and may stop
+/// the run by returning false.
+///
+/// # Errors
+/// [`StepError`] with the cycles reached; `progress` then holds the last accepted step.
+pub fn wear_until<M: ContactModel + ?Sized>(
+    model: &M,
+    law: WearLaw,
+    progress: &mut Option<Progress>,
+    end: f64,
+    observe: &mut dyn FnMut(StepReport) -> bool,
+) -> Result<bool, StepError<ContactError>> {
+    use crate::wear::integrator::WearSystem;
+    let cycle = model.cycle();
+    let mut system = ArchardSystem::new(model, law.coefficient);
+    let fail = |source| StepError::System { n: 0.0, source };
+    let control = match progress {
+        Some(_) => law.control(&[]),
+        None => {
+            let fresh = vec![0.0; cycle.stations.count()];
+            let control = law.control(&system.rate(0.0, &fresh).map_err(fail)?);
+            let law_rate = law_rate(
+                cycle,
+                system.contacts(&fresh).map_err(fail)?,
+                law.coefficient,
+            );
+            *progress = Some(Progress {
+                stand: Stand::new(fresh, control),
+                balance: Balance::default(),
+                law_rate,
+                solves: 0,
+                warm: Vec::new(),
+            });
+            control
+        }
+    };
+    let progress = progress.as_mut().expect("filled above");
+    let solves_before = progress.solves;
+    system.start_from(&progress.warm);
+    while progress.stand.n < end {
+        let from = progress.stand.n;
+        advance(&mut system, &mut progress.stand, end, control)?;
+        let contacts = system
+            .contacts(&progress.stand.u)
+            .map_err(|source| StepError::System {
+                n: progress.stand.n,
+                source,
+            })?;
+        let rate = law_rate(cycle, contacts, law.coefficient);
+        let (pinion, gear) = progress.stand.u.split_at(cycle.stations.arc[0].len());
+        for side in 0..2 {
+            progress.balance.law[side] +=
+                0.5 * (progress.stand.n - from) * (progress.law_rate[side] + rate[side]);
+            progress.balance.geometry[side] =
+                worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
+        }
+        progress.law_rate = rate;
+        progress.solves = solves_before + system.solves;
+        progress.warm = system.warm().to_vec();
+        let max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
+        let report = StepReport {
+            stand: &progress.stand,
+            balance: progress.balance,
+            max_depth,
+            solves: progress.solves,
+        };
+        if !observe(report) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// The state of a history: depths by flank and the contact of every position.
+///
+/// # Errors
+/// [`ContactError`] of the first position that fails.
+pub fn state_of<M: ContactModel + ?Sized>(
+    model: &M,
+    progress: &Progress,
+) -> Result<WearState, ContactError> {
+    let (pinion, gear) = progress
+        .stand
+        .u
+        .split_at(model.cycle().stations.arc[0].len());
+    let contacts = ArchardSystem::new(model, [0.0; 2])
+        .contacts(&progress.stand.u)?
+        .to_vec();
+    Ok(WearState {
+        cycles: progress.stand.n,
+        depth: [pinion.to_vec(), gear.to_vec()],
+        contacts,
+    })
+}
+
+/// ∫ h ds over one flank, mm².
+pub fn worn_area(stations: &[f64], depth: &[f64]) -> f64 {
+    depth
+        .iter()
+        .enumerate()
+        .map(|(i, h)| h * tributary(stations, i))
+        .sum()
+}
+
+/// Worn area per pinion cycle and flank by the law alone, k Σ F'|v_s| Δy, mm².
+fn law_rate(cycle: &Cycle, contacts: &[PositionContact], coefficient: [f64; 2]) -> [f64; 2] {
+    let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
+    let mut sliding_work = 0.0;
+    for (position, contact) in cycle.positions.iter().zip(contacts) {
+        for pair in &position.pairs {
+            sliding_work += line_load(pair, contact) * pair.slip.abs() * step;
+        }
+    }
+    [
+        coefficient[0] * sliding_work,
+        coefficient[1] * sliding_work / cycle.pair.speed_ratio,
+    ]
+}
+
+/// Line load of one tooth pair, N/mm.
+pub fn line_load(pair: &crate::contact::cycle::PairContact, contact: &PositionContact) -> f64 {
+    pair.length
+        .iter()
+        .zip(&contact.pressure[pair.offset..])
+        .map(|(l, p)| l * p)
+        .sum()
+}

@@ -1,0 +1,170 @@
+//! Archard wear of both members over the mesh cycle.
+//!
+//! ```text
+//! dh/dn (mm per pinion cycle) = ∫ k p |v| dy over the passage,  for the gear times z₁/z₂ passages per pinion cycle
+//! ```
+//! Archard, J. Appl. Phys. 24 (1953); the passage integral is that of Andersson & Eriksson's single-point observation
+//! (Nordtrib 1990), here with the pressure solved at every position instead of a Hertz profile.
+
+use faer::Mat;
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::wear::integrator::WearSystem;
+
+/// The two flanks' depths as one vector: pinion stations, then gear stations, mm.
+pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
+    model: &'a M,
+    /// Wear coefficient of pinion and gear, mm²/N.
+    coefficient: [f64; 2],
+    warm: Vec<Vec<usize>>,
+    last: Option<(Vec<f64>, Vec<PositionContact>)>,
+    /// Contact problems solved so far.
+    pub solves: usize,
+}
+
+impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
+    /// Wear under `model` with the coefficients of pinion and gear, mm²/N.
+    pub fn new(model: &'a M, coefficient: [f64; 2]) -> Self {
+        Self {
+            model,
+            coefficient,
+            warm: vec![Vec::new(); model.cycle().positions.len()],
+            last: None,
+            solves: 0,
+        }
+    }
+
+    /// Goes on from the contact sets `warm` (one list of unknowns per position; others are ignored).
+    pub fn start_from(&mut self, warm: &[Vec<usize>]) {
+        if warm.len() == self.warm.len() {
+            self.warm = warm.to_vec();
+        }
+    }
+
+    /// The contact sets of the last solution.
+    pub fn warm(&self) -> &[Vec<usize>] {
+        &self.warm
+    }
+
+    /// The contact of every position for the depths `u`.
+    ///
+    /// # Errors
+    /// [`ContactError`] of the first position that fails.
+    pub fn contacts(&mut self, u: &[f64]) -> Result<&[PositionContact], ContactError> {
+        if self.last.as_ref().is_none_or(|(at, _)| at != u) {
+            let depth = split(self.model, u);
+            let solved: Vec<PositionContact> = self
+                .warm
+                .par_iter()
+                .enumerate()
+                .map(|(q, start)| self.model.solve(q, depth, start))
+                .collect::<Result<_, _>>()?;
+            self.solves += solved.len();
+            for (warm, contact) in self.warm.iter_mut().zip(&solved) {
+                warm.clone_from(&contact.active);
+            }
+            self.last = Some((u.to_vec(), solved));
+        }
+        Ok(&self.last.as_ref().expect("just filled").1)
+    }
+
+    fn factors(&self) -> [f64; 2] {
+        [
+            self.coefficient[0],
+            self.coefficient[1] / self.model.cycle().pair.speed_ratio,
+        ]
+    }
+}
+
+/// Pinion and gear part of the joint depth vector.
+fn split<'u, M: ContactModel + ?Sized>(model: &M, u: &'u [f64]) -> [&'u [f64]; 2] {
+    let (pinion, gear) = u.split_at(model.cycle().stations.arc[0].len());
+    [pinion, gear]
+}
+
+impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
+    type Error = ContactError;
+
+    fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, ContactError> {
+        let factors = self.factors();
+        self.contacts(u)?;
+        let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
+        let cycle = self.model.cycle();
+        let mut rate = vec![0.0; u.len()];
+        let (pinion, gear) = rate.split_at_mut(cycle.stations.arc[0].len());
+        for (position, contact) in cycle.positions.iter().zip(contacts) {
+            for pair in &position.pairs {
+                for (side, depth) in [&mut *pinion, &mut *gear].into_iter().enumerate() {
+                    for k in 0..pair.xi.len() {
+                        let p = contact.pressure[pair.offset + k];
+                        if p > 0.0 {
+                            pair.wear[side].scatter(k, factors[side] * p, depth);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(rate)
+    }
+
+    fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Mat<f64>>, ContactError> {
+        let factors = self.factors();
+        self.contacts(u)?;
+        let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
+        let cycle = self.model.cycle();
+        let shift = [0, cycle.stations.arc[0].len()];
+        let blocks: Vec<Option<DMatrix<f64>>> = contacts
+            .par_iter()
+            .enumerate()
+            .map(|(q, contact)| self.model.sensitivity(q, contact))
+            .collect::<Result<_, _>>()?;
+        let mut jacobian = Mat::zeros(u.len(), u.len());
+        for ((position, contact), block) in cycle.positions.iter().zip(contacts).zip(blocks) {
+            let Some(block) = block else { return Ok(None) };
+            // ∂rate/∂u = − Dᵀ S G with D the deposit and G the opening, both sparse
+            let rows: Vec<Vec<(usize, f64)>> = contact
+                .active
+                .iter()
+                .map(|&k| {
+                    let pair = &position.pairs[position.owner(k)];
+                    (0..2)
+                        .flat_map(|side| {
+                            let (columns, values) = pair.wear[side].row(k - pair.offset);
+                            columns
+                                .iter()
+                                .zip(values)
+                                .map(move |(&c, v)| (shift[side] + c as usize, factors[side] * v))
+                        })
+                        .collect()
+                })
+                .collect();
+            let mut column = vec![0.0; u.len()];
+            let mut touched: Vec<usize> = rows.iter().flatten().map(|e| e.0).collect();
+            touched.sort_unstable();
+            touched.dedup();
+            for (j, &l) in contact.active.iter().enumerate() {
+                for &i in &touched {
+                    column[i] = 0.0;
+                }
+                for (i, row) in rows.iter().enumerate() {
+                    for &(at, value) in row {
+                        column[at] -= value * block[(i, j)];
+                    }
+                }
+                let pair = &position.pairs[position.owner(l)];
+                for side in 0..2 {
+                    let (columns, values) = pair.opening[side].row(l - pair.offset);
+                    for (&c, &v) in columns.iter().zip(values) {
+                        let target = jacobian.col_as_slice_mut(shift[side] + c as usize);
+                        for &i in &touched {
+                            target[i] += v * column[i];
+                        }
+                    }
+                }
+            }
+        }
+        Ok(Some(jacobian))
+    }
+}

@@ -1,0 +1,4 @@
+//! Floor 5: Archard wear of both flanks, and its integration over cycles.
+
+pub mod archard;
+pub mod integrator;
