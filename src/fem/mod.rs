@@ -22,7 +22,8 @@ pub mod structured;
 mod triangle;
 
 pub use assemble::{
-    ElementStiffness, element_stiffness, internal_forces, lame_constants, strain_energy,
+    ElementStiffness, element_stiffness, internal_forces, lame_constants, plane_stress_equivalent,
+    strain_energy,
 };
 pub use body::{Body, Solution};
 pub use compliance::Compliance;

@@ -1,7 +1,7 @@
 //! Floor 0: mathematics without a gear word in it.
 
-pub mod sparse;
 pub mod quadrature;
+pub mod sparse;
 
 /// A point or vector in the plane, mm unless said otherwise.
 pub type Vec2 = nalgebra::Vector2<f64>;

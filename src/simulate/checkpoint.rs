@@ -56,7 +56,9 @@ impl Checkpoint {
     /// # Errors
     /// [`CheckpointError`].
     pub fn from_bytes(bytes: &[u8], run: &Fingerprint) -> Result<Self, CheckpointError> {
-        let rest = bytes.strip_prefix(&FORMAT[..]).ok_or(CheckpointError::Damaged)?;
+        let rest = bytes
+            .strip_prefix(&FORMAT[..])
+            .ok_or(CheckpointError::Damaged)?;
         let (owner, rest) = rest.split_at_checked(32).ok_or(CheckpointError::Damaged)?;
         let (sum, body) = rest.split_at_checked(32).ok_or(CheckpointError::Damaged)?;
         if sum != Sha256::digest(body).as_slice() {
@@ -76,12 +78,22 @@ mod tests {
     #[test]
     fn survives_a_round_trip_and_nothing_else() {
         let run = fingerprint(&["study", "test"]);
-        let checkpoint = Checkpoint { window: 0.25, progress: None, stored: Vec::new() };
+        let checkpoint = Checkpoint {
+            window: 0.25,
+            progress: None,
+            stored: Vec::new(),
+        };
         let bytes = checkpoint.to_bytes(&run);
         assert_eq!(Checkpoint::from_bytes(&bytes, &run).unwrap(), checkpoint);
-        assert_eq!(Checkpoint::from_bytes(&bytes, &fingerprint(&["study", "other"])), Err(CheckpointError::OtherRun));
+        assert_eq!(
+            Checkpoint::from_bytes(&bytes, &fingerprint(&["study", "other"])),
+            Err(CheckpointError::OtherRun)
+        );
         for cut in 0..bytes.len() {
-            assert_eq!(Checkpoint::from_bytes(&bytes[..cut], &run), Err(CheckpointError::Damaged));
+            assert_eq!(
+                Checkpoint::from_bytes(&bytes[..cut], &run),
+                Err(CheckpointError::Damaged)
+            );
         }
         for flip in 0..bytes.len() {
             let mut damaged = bytes.clone();

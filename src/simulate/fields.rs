@@ -31,8 +31,14 @@ impl Forward<'_> {
     ///
     /// # Errors
     /// [`ForwardError`] if a solve misses its residual.
-    pub fn fields(&self, q: usize, contact: &PositionContact) -> Result<Option<[MemberFields; 2]>, ForwardError> {
-        let (Some(members), Some(compliance)) = (self.members(), self.compliance()) else { return Ok(None) };
+    pub fn fields(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
+        let (Some(members), Some(compliance)) = (self.members(), self.compliance()) else {
+            return Ok(None);
+        };
         let position = &self.cycle().positions[q];
         let turns = member_turns(self.cycle(), position.theta);
         let fields = |side: usize| -> Result<MemberFields, FemError> {
@@ -42,9 +48,16 @@ impl Forward<'_> {
             loads.solve(member, turns[side])
         };
         let (pinion, gear) = rayon::join(|| fields(0), || fields(1));
-        let [mut pinion, gear] = [pinion.map_err(crate::simulate::members::MemberError::from)?, gear.map_err(crate::simulate::members::MemberError::from)?];
+        let [mut pinion, gear] = [
+            pinion.map_err(crate::simulate::members::MemberError::from)?,
+            gear.map_err(crate::simulate::members::MemberError::from)?,
+        ];
         // the pinion's bore turns by the approach
-        for (u, x) in pinion.displacement.iter_mut().zip(&members.members[0].mesh.points) {
+        for (u, x) in pinion
+            .displacement
+            .iter_mut()
+            .zip(&members.members[0].mesh.points)
+        {
             *u += contact.approach * Vec2::new(-x.y, x.x);
         }
         Ok(Some([pinion, gear]))
@@ -59,21 +72,45 @@ struct Loads {
 impl Loads {
     fn new(member: &Member) -> Self {
         let n = member.mesh.points.len();
-        Self { force: vec![Vec2::zeros(); n], pressure: vec![0.0; n] }
+        Self {
+            force: vec![Vec2::zeros(); n],
+            pressure: vec![0.0; n],
+        }
     }
 
-    #[expect(clippy::too_many_arguments, reason = "one caller, and each is a different kind of thing")]
-    fn add(&mut self, position: &Position, compliance: &CycleCompliance, q: usize, contact: &PositionContact, side: usize, turn: f64, member: &Member) {
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one caller, and each is a different kind of thing"
+    )]
+    fn add(
+        &mut self,
+        position: &Position,
+        compliance: &CycleCompliance,
+        q: usize,
+        contact: &PositionContact,
+        side: usize,
+        turn: f64,
+        member: &Member,
+    ) {
         for (pair, coupling) in position.pairs.iter().zip(compliance.couplings(q)) {
             let tooth = member_tooth(pair, side);
-            let Some(chain) = member.mesh.flanks.iter().find(|f| f.tooth == tooth) else { continue };
+            let Some(chain) = member.mesh.flanks.iter().find(|f| f.tooth == tooth) else {
+                continue;
+            };
             let mut amount = vec![0.0; chain.nodes.len()];
             for k in 0..pair.xi.len() {
                 coupling.traces[side].scatter(k, contact.pressure[pair.offset + k], &mut amount);
             }
             let sign = if side == 0 { -1.0 } else { 1.0 };
             let traction = rotate(compliance.traction(pair), -turn) * sign;
-            let share = chain_shares(&chain.nodes.iter().map(|&i| member.mesh.points[i as usize]).collect::<Vec<_>>(), member.order());
+            let share = chain_shares(
+                &chain
+                    .nodes
+                    .iter()
+                    .map(|&i| member.mesh.points[i as usize])
+                    .collect::<Vec<_>>(),
+                member.order(),
+            );
             for ((&node, amount), share) in chain.nodes.iter().zip(&amount).zip(&share) {
                 self.force[node as usize] += traction * *amount;
                 self.pressure[node as usize] = amount / share;
@@ -82,11 +119,22 @@ impl Loads {
     }
 
     fn solve(self, member: &Member, turn: f64) -> Result<MemberFields, FemError> {
-        let loads: Vec<(u32, Vec2)> =
-            self.force.iter().enumerate().filter(|(_, f)| f.norm_squared() > 0.0).map(|(i, f)| (i as u32, *f)).collect();
+        let loads: Vec<(u32, Vec2)> = self
+            .force
+            .iter()
+            .enumerate()
+            .filter(|(_, f)| f.norm_squared() > 0.0)
+            .map(|(i, f)| (i as u32, *f))
+            .collect();
         let displacement = member.body.solve(&loads)?;
         let stress = crate::fem::nodal_stress(&member.mesh, member.material, &displacement)?;
-        Ok(MemberFields { turn, displacement, stress, force: self.force, pressure: self.pressure })
+        Ok(MemberFields {
+            turn,
+            displacement,
+            stress,
+            force: self.force,
+            pressure: self.pressure,
+        })
     }
 }
 
@@ -101,9 +149,18 @@ pub fn chain_shares(points: &[Vec2], order: usize) -> Vec<f64> {
             continue;
         }
         let edge = &points[first..first + 3];
-        for (t, weight) in [(0.5 - 0.15f64.sqrt(), 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + 0.15f64.sqrt(), 5.0 / 18.0)] {
-            let slope = edge[0] * (4.0 * t - 3.0) + edge[1] * (4.0 - 8.0 * t) + edge[2] * (4.0 * t - 1.0);
-            let shapes = [(1.0 - t) * (1.0 - 2.0 * t), 4.0 * t * (1.0 - t), t * (2.0 * t - 1.0)];
+        for (t, weight) in [
+            (0.5 - 0.15f64.sqrt(), 5.0 / 18.0),
+            (0.5, 8.0 / 18.0),
+            (0.5 + 0.15f64.sqrt(), 5.0 / 18.0),
+        ] {
+            let slope =
+                edge[0] * (4.0 * t - 3.0) + edge[1] * (4.0 - 8.0 * t) + edge[2] * (4.0 * t - 1.0);
+            let shapes = [
+                (1.0 - t) * (1.0 - 2.0 * t),
+                4.0 * t * (1.0 - t),
+                t * (2.0 * t - 1.0),
+            ];
             for (i, shape) in shapes.iter().enumerate() {
                 share[first + i] += weight * shape * slope.norm();
             }

@@ -72,7 +72,12 @@ impl GearSet {
     /// # Errors
     /// [`PairError`] if the gears cannot run so.
     pub fn mount(&self, misalignment: f64) -> Result<Pair, PairError> {
-        Pair::new(self.gears[0].clone(), self.gears[1].clone(), self.centre_distance, misalignment)
+        Pair::new(
+            self.gears[0].clone(),
+            self.gears[1].clone(),
+            self.centre_distance,
+            misalignment,
+        )
     }
 
     /// Contact modulus E*, MPa.
@@ -84,7 +89,12 @@ impl GearSet {
     ///
     /// # Errors
     /// [`ForwardError`] if a pair cannot run or a member cannot be built.
-    pub fn members(&self, numerics: &Numerics, torques: &[f64], misalignments: &[f64]) -> Result<Members, ForwardError> {
+    pub fn members(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+    ) -> Result<Members, ForwardError> {
         let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
         let greatest = torques.iter().fold(0.0, |m: f64, t| m.max(*t)) / self.face_width;
         let mut teeth: Vec<i32> = Vec::new();
@@ -92,12 +102,21 @@ impl GearSet {
         for &misalignment in misalignments {
             let pair = self.mount(misalignment)?;
             spacing = spacing.min(numerics.flank_spacing(&pair, self.modulus(), least));
-            teeth.extend(Cycle::teeth(&pair, numerics.cycle(&pair, self.modulus(), greatest, spacing)));
+            teeth.extend(Cycle::teeth(
+                &pair,
+                numerics.cycle(&pair, self.modulus(), greatest, spacing),
+            ));
         }
         teeth.sort_unstable();
         teeth.dedup();
         let pair = self.mount(misalignments.first().copied().unwrap_or(0.0))?;
-        Ok(Members::build(&pair, self.materials, &teeth, spacing, numerics.order)?)
+        Ok(Members::build(
+            &pair,
+            self.materials,
+            &teeth,
+            spacing,
+            numerics.order,
+        )?)
     }
 }
 
@@ -117,7 +136,12 @@ impl<'a> Forward<'a> {
     ///
     /// # Errors
     /// [`ForwardError`] if the gears cannot run so or the mesh lacks a tooth that can touch.
-    pub fn new(set: &'a GearSet, members: Option<&'a Members>, conditions: Conditions, numerics: Numerics) -> Result<Self, ForwardError> {
+    pub fn new(
+        set: &'a GearSet,
+        members: Option<&'a Members>,
+        conditions: Conditions,
+        numerics: Numerics,
+    ) -> Result<Self, ForwardError> {
         let pair = set.mount(conditions.misalignment)?;
         let torque = conditions.torque / set.face_width;
         let spacing = match members {
@@ -128,11 +152,27 @@ impl<'a> Forward<'a> {
         let stations = Stations::new(&pair, spacing);
         let cycle = Cycle::new(&pair, &stations, spec);
         let compliance = match members {
-            Some(members) => Some(CycleCompliance::new(&cycle, members.flanks(), numerics.friction)?),
+            Some(members) => Some(CycleCompliance::new(
+                &cycle,
+                members.flanks(),
+                numerics.friction,
+            )?),
             None => None,
         };
-        let kind = if members.is_some() { ContactKind::Fem } else { ContactKind::Hertz };
-        Ok(Self { set, conditions, numerics, kind, members, cycle, compliance })
+        let kind = if members.is_some() {
+            ContactKind::Fem
+        } else {
+            ContactKind::Hertz
+        };
+        Ok(Self {
+            set,
+            conditions,
+            numerics,
+            kind,
+            members,
+            cycle,
+            compliance,
+        })
     }
 
     /// The mesh cycle.
@@ -158,7 +198,9 @@ impl<'a> Forward<'a> {
     /// Calls `work` with the contact model.
     pub fn with_model<R>(&self, work: impl FnOnce(&dyn ContactModel) -> R) -> R {
         match (&self.compliance, self.kind) {
-            (Some(compliance), ContactKind::Fem) => work(&FemContact::new(&self.cycle, compliance, self.torque())),
+            (Some(compliance), ContactKind::Fem) => {
+                work(&FemContact::new(&self.cycle, compliance, self.torque()))
+            }
             _ => {
                 let [pinion, gear] = &self.set.gears;
                 let teeth = iso6336::ToothPair {
@@ -167,7 +209,12 @@ impl<'a> Forward<'a> {
                     ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
                 };
                 let stiffness = teeth.theoretical();
-                work(&HertzContact::new(&self.cycle, self.torque(), self.set.modulus(), stiffness))
+                work(&HertzContact::new(
+                    &self.cycle,
+                    self.torque(),
+                    self.set.modulus(),
+                    stiffness,
+                ))
             }
         }
     }
@@ -184,14 +231,21 @@ impl<'a> Forward<'a> {
         observe: &mut dyn FnMut(StepReport) -> bool,
         store: &mut dyn FnMut(WearState),
     ) -> Result<bool, ForwardError> {
-        let law = WearLaw { coefficient: self.conditions.coefficient, tolerance: self.numerics.step_tolerance };
+        let law = WearLaw {
+            coefficient: self.conditions.coefficient,
+            tolerance: self.numerics.step_tolerance,
+        };
         for &stop in stops {
             loop {
-                let outcome = self.with_model(|model| wear_until(model, law, progress, stop, observe));
+                let outcome =
+                    self.with_model(|model| wear_until(model, law, progress, stop, observe));
                 match outcome {
                     Ok(true) => break,
                     Ok(false) => return Ok(false),
-                    Err(StepError::System { source: ContactError::WindowTooNarrow { .. }, .. }) => {
+                    Err(StepError::System {
+                        source: ContactError::WindowTooNarrow { .. },
+                        ..
+                    }) => {
                         self.widen()?;
                         if let Some(progress) = progress {
                             progress.forget_sets();
@@ -213,7 +267,11 @@ impl<'a> Forward<'a> {
         spec.window *= 1.4;
         self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
         if let Some(members) = self.members {
-            self.compliance = Some(CycleCompliance::new(&self.cycle, members.flanks(), self.numerics.friction)?);
+            self.compliance = Some(CycleCompliance::new(
+                &self.cycle,
+                members.flanks(),
+                self.numerics.friction,
+            )?);
         }
         Ok(())
     }

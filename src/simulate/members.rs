@@ -47,13 +47,22 @@ impl Members {
     ///
     /// # Errors
     /// [`MemberError`].
-    pub fn build(pair: &Pair, materials: [Elastic; 2], teeth: &[i32], spacing: f64, order: usize) -> Result<Self, MemberError> {
+    pub fn build(
+        pair: &Pair,
+        materials: [Elastic; 2],
+        teeth: &[i32],
+        spacing: f64,
+        order: usize,
+    ) -> Result<Self, MemberError> {
         let mirrored: Vec<i32> = teeth.iter().rev().map(|t| -t).collect();
         let (pinion, gear) = join(
             || Member::build(&pair.pinion, materials[0], teeth, spacing, order),
             || Member::build(&pair.gear, materials[1], &mirrored, spacing, order),
         );
-        Ok(Self { members: [pinion?, gear?], spacing })
+        Ok(Self {
+            members: [pinion?, gear?],
+            spacing,
+        })
     }
 
     /// Length of a flank edge, mm.
@@ -76,7 +85,13 @@ impl Member {
         }
     }
 
-    fn build(gear: &Gear, material: Elastic, teeth: &[i32], spacing: f64, order: usize) -> Result<Self, MemberError> {
+    fn build(
+        gear: &Gear,
+        material: Elastic,
+        teeth: &[i32],
+        spacing: f64,
+        order: usize,
+    ) -> Result<Self, MemberError> {
         let mut spec = MeshSpec::new(gear, teeth.to_vec(), spacing, gear.rho_form);
         spec.order = if order == 1 { Order::T3 } else { Order::T6 };
         Self::from_mesh(mesh_gear(gear, &spec)?, material)
@@ -87,7 +102,11 @@ impl Member {
     /// # Errors
     /// [`FemError`] if the stiffness cannot be factored.
     pub fn from_mesh(mesh: Mesh, material: Elastic) -> Result<Self, MemberError> {
-        let interface: Vec<u32> = mesh.flanks.iter().flat_map(|f| f.nodes.iter().copied()).collect();
+        let interface: Vec<u32> = mesh
+            .flanks
+            .iter()
+            .flat_map(|f| f.nodes.iter().copied())
+            .collect();
         let body = Body::new(&mesh, material, &mesh.bore, &interface)?;
         let order = match mesh.cells {
             Cells::T3(_) => 1,
@@ -98,12 +117,25 @@ impl Member {
             .flanks
             .iter()
             .map(|chain| {
-                let flank = ToothFlank { tooth: chain.tooth, first, arc: chain.arc.clone(), order };
+                let flank = ToothFlank {
+                    tooth: chain.tooth,
+                    first,
+                    arc: chain.arc.clone(),
+                    order,
+                };
                 first += chain.nodes.len();
                 flank
             })
             .collect();
-        let flanks = ElasticFlanks { compliance: body.compliance(), flanks };
-        Ok(Self { mesh, material, body, flanks })
+        let flanks = ElasticFlanks {
+            compliance: body.compliance(),
+            flanks,
+        };
+        Ok(Self {
+            mesh,
+            material,
+            body,
+            flanks,
+        })
     }
 }

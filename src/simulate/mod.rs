@@ -7,4 +7,3 @@ pub mod history;
 pub mod members;
 pub mod numerics;
 pub mod result;
-

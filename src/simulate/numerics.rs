@@ -21,7 +21,13 @@ pub struct Numerics {
 
 impl Default for Numerics {
     fn default() -> Self {
-        Self { order: 2, elements_per_half_width: 8.0, positions: 150, step_tolerance: 2e-3, friction: 0.0 }
+        Self {
+            order: 2,
+            elements_per_half_width: 8.0,
+            positions: 150,
+            step_tolerance: 2e-3,
+            friction: 0.0,
+        }
     }
 }
 
@@ -44,17 +50,29 @@ impl Numerics {
     pub fn cycle(&self, pair: &Pair, modulus: f64, torque: f64, spacing: f64) -> CycleSpec {
         let (start, end) = (pair.rho_a - pair.rho_c, pair.rho_e - pair.rho_c);
         let widest = (0..=20)
-            .map(|i| half_width_at(pair, start + (end - start) * f64::from(i) / 20.0, modulus, torque))
+            .map(|i| {
+                half_width_at(
+                    pair,
+                    start + (end - start) * f64::from(i) / 20.0,
+                    modulus,
+                    torque,
+                )
+            })
             .fold(0.0, f64::max);
         CycleSpec {
             positions: self.positions,
             spacing,
             window: (WINDOW * widest).max(12.0 * spacing),
-            reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus) + WORN_REACH,
+            reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus)
+                + WORN_REACH,
         }
     }
 }
 
 fn half_width_at(pair: &Pair, path: f64, modulus: f64, torque: f64) -> f64 {
-    hertz_line::half_width(torque / pair.pinion.base_radius, pair.relative_radius(path), modulus)
+    hertz_line::half_width(
+        torque / pair.pinion.base_radius,
+        pair.relative_radius(path),
+        modulus,
+    )
 }

@@ -3,6 +3,7 @@
 //! Each function runs one family of cases and returns what it measured beside its target and tolerance; `Measured::passed`
 //! is the verdict. Small cases are also tests; the large ones run in the validation only.
 
+pub mod elasticity;
 pub mod sliding;
 pub mod wear_half_plane;
 pub mod wear_punch;

@@ -141,7 +141,9 @@ pub fn advance<S: WearSystem>(
             .chain(&middle)
             .fold(control.floor, |m, u| m.max(u.abs()));
         // root mean square: a sharp corner's few stations must not rule the whole flank
-        let squares: f64 = (k1.iter().zip(&k2)).map(|(a, b)| (0.5 * tau * (a + b)).powi(2)).sum();
+        let squares: f64 = (k1.iter().zip(&k2))
+            .map(|(a, b)| (0.5 * tau * (a + b)).powi(2))
+            .sum();
         let error = (squares / k1.len() as f64).sqrt() / (control.tolerance * scale);
         // the error is of second order in the step
         let factor = if error > 0.0 {
