@@ -43,9 +43,19 @@ impl Staging {
         remove_dead(&target);
         for attempt in 1..=MOST_ATTEMPTS {
             let folder = sibling(&target, &format!("{PARTIAL}{attempt}"));
-            let Some(lock) = Lock::take(&folder).map_err(io_error("lock", &folder))? else { continue };
+            let Some(lock) = Lock::take(&folder).map_err(io_error("lock", &folder))? else {
+                continue;
+            };
             match fs::create_dir(&folder) {
-                Ok(()) => return Ok(Staging { target, folder, written: Vec::new(), lock, committed: false }),
+                Ok(()) => {
+                    return Ok(Staging {
+                        target,
+                        folder,
+                        written: Vec::new(),
+                        lock,
+                        committed: false,
+                    });
+                }
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => lock.release(),
                 Err(error) => {
                     lock.release();
@@ -60,7 +70,9 @@ impl Staging {
     pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
         let mut parts = Path::new(name).components();
         if name.is_empty() || !parts.all(|part| matches!(part, Component::Normal(_))) {
-            return Err(OutputError::OutsideFolder { name: name.to_owned() });
+            return Err(OutputError::OutsideFolder {
+                name: name.to_owned(),
+            });
         }
         let path = self.folder.join(name);
         let parent = parent_of(&path);
@@ -77,7 +89,9 @@ impl Staging {
 
     /// Puts the folder under its final name and returns that.
     pub fn commit(mut self) -> Result<PathBuf, OutputError> {
-        let mut list = String::from("This folder was written by gearwear and is replaced whole by the next run.\n");
+        let mut list = String::from(
+            "This folder was written by gearwear and is replaced whole by the next run.\n",
+        );
         for name in &self.written {
             list.push_str(name);
             list.push('\n');
@@ -157,7 +171,9 @@ impl Lock {
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => Ok(None),
             // A file system without locks (some network ones) still works; it only keeps dead partial folders.
-            Ok(()) | Err(TryLockError::Error(_)) => Ok(path.exists().then_some(Lock { path, _held: file })),
+            Ok(()) | Err(TryLockError::Error(_)) => {
+                Ok(path.exists().then_some(Lock { path, _held: file }))
+            }
         }
     }
 
@@ -177,7 +193,9 @@ fn check_target(target: &Path) -> Result<(), OutputError> {
         return Ok(());
     }
     if !target.is_dir() {
-        return Err(OutputError::NotAFolder { path: target.to_owned() });
+        return Err(OutputError::NotAFolder {
+            path: target.to_owned(),
+        });
     }
     if is_result(target) {
         return Ok(());
@@ -186,8 +204,15 @@ fn check_target(target: &Path) -> Result<(), OutputError> {
     match entries.next() {
         None => Ok(()),
         Some(entry) => {
-            let found = entry.map_err(io_error("read", target))?.file_name().to_string_lossy().into_owned();
-            Err(OutputError::Foreign { folder: target.to_owned(), found })
+            let found = entry
+                .map_err(io_error("read", target))?
+                .file_name()
+                .to_string_lossy()
+                .into_owned();
+            Err(OutputError::Foreign {
+                folder: target.to_owned(),
+                found,
+            })
         }
     }
 }
@@ -201,12 +226,15 @@ fn resolved(target: &Path) -> Result<PathBuf, OutputError> {
     };
     match path.file_name() {
         Some(_) => Ok(path),
-        None => Err(OutputError::Nameless { path: target.to_owned() }),
+        None => Err(OutputError::Nameless {
+            path: target.to_owned(),
+        }),
     }
 }
 
 fn parent_of(path: &Path) -> PathBuf {
-    path.parent().map_or_else(|| PathBuf::from("."), Path::to_owned)
+    path.parent()
+        .map_or_else(|| PathBuf::from("."), Path::to_owned)
 }
 
 /// `.NAME.suffix` beside `target`.
@@ -217,7 +245,11 @@ fn sibling(target: &Path, suffix: &str) -> PathBuf {
 
 fn io_error(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> OutputError {
     let path = path.to_owned();
-    move |source| OutputError::Io { action, path, source }
+    move |source| OutputError::Io {
+        action,
+        path,
+        source,
+    }
 }
 
 fn flushed(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -228,14 +260,31 @@ fn flushed(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Removes partial folders whose program is gone, and the old halves of exchanges that were cut short.
 fn remove_dead(target: &Path) {
-    let prefix = sibling(target, PARTIAL).file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let Ok(entries) = fs::read_dir(parent_of(target)) else { return };
+    let prefix = sibling(target, PARTIAL)
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let Ok(entries) = fs::read_dir(parent_of(target)) else {
+        return;
+    };
     for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if !name.strip_prefix(&prefix).is_some_and(|rest| rest.bytes().next().is_some_and(|c| c.is_ascii_digit())) {
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if !name
+            .strip_prefix(&prefix)
+            .is_some_and(|rest| rest.bytes().next().is_some_and(|c| c.is_ascii_digit()))
+        {
             continue;
         }
-        let folder = if name.ends_with(".lock") { path.with_extension("") } else { path };
+        let folder = if name.ends_with(".lock") {
+            path.with_extension("")
+        } else {
+            path
+        };
         let lock = lock_path(&folder);
         let _held = match OpenOptions::new().write(true).open(&lock) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,

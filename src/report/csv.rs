@@ -90,15 +90,29 @@ pub(super) fn finite(file: &str, what: &str, value: f64) -> Result<f64, OutputEr
     if value.is_finite() {
         Ok(value)
     } else {
-        Err(OutputError::NotFinite { file: file.to_owned(), what: what.to_owned(), value })
+        Err(OutputError::NotFinite {
+            file: file.to_owned(),
+            what: what.to_owned(),
+            value,
+        })
     }
 }
 
-pub(super) fn same_length(file: &str, what: &str, found: usize, expected: usize) -> Result<(), OutputError> {
+pub(super) fn same_length(
+    file: &str,
+    what: &str,
+    found: usize,
+    expected: usize,
+) -> Result<(), OutputError> {
     if found == expected {
         Ok(())
     } else {
-        Err(OutputError::Length { file: file.to_owned(), what: what.to_owned(), found, expected })
+        Err(OutputError::Length {
+            file: file.to_owned(),
+            what: what.to_owned(),
+            found,
+            expected,
+        })
     }
 }
 
@@ -111,7 +125,11 @@ struct Table {
 
 impl Table {
     fn new(file: &'static str, header: &str) -> Self {
-        Table { file, text: format!("{header}\n"), row_begins: true }
+        Table {
+            file,
+            text: format!("{header}\n"),
+            row_begins: true,
+        }
     }
 
     fn text(&mut self, cell: &str) {

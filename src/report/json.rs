@@ -52,8 +52,10 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
 
 /// A document as text, indented, with a newline at its end.
 pub fn text(file: &str, document: &impl Serialize) -> Result<Vec<u8>, OutputError> {
-    let mut bytes =
-        serde_json::to_vec_pretty(document).map_err(|source| OutputError::Json { file: file.to_owned(), source })?;
+    let mut bytes = serde_json::to_vec_pretty(document).map_err(|source| OutputError::Json {
+        file: file.to_owned(),
+        source,
+    })?;
     bytes.push(b'\n');
     Ok(bytes)
 }
@@ -103,7 +105,10 @@ fn check_numbers(run: &Run) -> Result<(), OutputError> {
     let g = &run.geometry;
     let file = "summary.json";
     let mut figures = vec![
-        ("geometry.working_pressure_angle".to_owned(), g.working_pressure_angle_deg),
+        (
+            "geometry.working_pressure_angle".to_owned(),
+            g.working_pressure_angle_deg,
+        ),
         ("geometry.contact_ratio".to_owned(), g.contact_ratio),
         ("geometry.path_of_contact".to_owned(), g.path_of_contact),
         ("geometry.base_pitch".to_owned(), g.base_pitch),
@@ -113,7 +118,11 @@ fn check_numbers(run: &Run) -> Result<(), OutputError> {
         ("wear.balance_error".to_owned(), run.balance_error),
         ("cost.seconds".to_owned(), run.cost.seconds),
     ];
-    figures.extend(g.path_limits.iter().map(|&limit| ("geometry.path_limits".to_owned(), limit)));
+    figures.extend(
+        g.path_limits
+            .iter()
+            .map(|&limit| ("geometry.path_limits".to_owned(), limit)),
+    );
     for member in Member::BOTH {
         let flank = run.last().profile(member);
         for (key, value) in [
@@ -126,12 +135,26 @@ fn check_numbers(run: &Run) -> Result<(), OutputError> {
     }
     for state in [run.first(), run.last()] {
         let at = state.cycles;
-        figures.extend(state.peak_pressure().map(|p| (format!("contact.peak_pressure at {at} cycles"), p.0)));
-        figures
-            .extend(state.te_peak_to_peak_urad().map(|te| (format!("contact.te_peak_to_peak_urad at {at} cycles"), te)));
+        figures.extend(
+            state
+                .peak_pressure()
+                .map(|p| (format!("contact.peak_pressure at {at} cycles"), p.0)),
+        );
+        figures.extend(
+            state
+                .te_peak_to_peak_urad()
+                .map(|te| (format!("contact.te_peak_to_peak_urad at {at} cycles"), te)),
+        );
     }
-    figures.extend(run.single_pair_stiffness().map(|k| ("contact.single_pair_stiffness".to_owned(), k)));
-    figures.extend(run.checks.iter().map(|check| (format!("checks: {}", check.name), check.value)));
+    figures.extend(
+        run.single_pair_stiffness()
+            .map(|k| ("contact.single_pair_stiffness".to_owned(), k)),
+    );
+    figures.extend(
+        run.checks
+            .iter()
+            .map(|check| (format!("checks: {}", check.name), check.value)),
+    );
     for (what, value) in figures {
         finite(file, &what, value)?;
     }

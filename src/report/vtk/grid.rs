@@ -1,7 +1,7 @@
 //! One `.vtu` file.
 use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells as VtkCells, DataArray, DataSet, Piece, UnstructuredGridPiece,
-    Version, VertexNumbers, Vtk,
+    Attribute, Attributes, ByteOrder, CellType, Cells as VtkCells, DataArray, DataSet, Piece,
+    UnstructuredGridPiece, Version, VertexNumbers, Vtk,
 };
 
 use crate::mesh::Cells;
@@ -21,11 +21,18 @@ pub fn vtu(name: &str, frame: &FieldFrame) -> Result<Vec<u8>, OutputError> {
         version: Version::Auto,
         title: String::new(),
         byte_order: ByteOrder::LittleEndian,
-        data: DataSet::UnstructuredGrid { meta: None, pieces: vec![Piece::Inline(Box::new(arrays.into_piece()))] },
+        data: DataSet::UnstructuredGrid {
+            meta: None,
+            pieces: vec![Piece::Inline(Box::new(arrays.into_piece()))],
+        },
         file_path: None,
     };
     let mut bytes = Vec::new();
-    vtk.write_xml(&mut bytes).map_err(|error| OutputError::Vtk { file: name.to_owned(), message: error.to_string() })?;
+    vtk.write_xml(&mut bytes)
+        .map_err(|error| OutputError::Vtk {
+            file: name.to_owned(),
+            message: error.to_string(),
+        })?;
     Ok(bytes)
 }
 
@@ -54,30 +61,44 @@ impl Arrays {
         let turn = Turn::by(field.rotation);
         for node in 0..field.worn.len() {
             let [x, y] = turn.vector(field.worn[node]);
-            self.points.extend([field.centre[0] + x, field.centre[1] + y, 0.0]);
+            self.points
+                .extend([field.centre[0] + x, field.centre[1] + y, 0.0]);
             self.member.push(number);
-            self.displacement.extend(single(turn.vector(field.displacement[node])));
+            self.displacement
+                .extend(single(turn.vector(field.displacement[node])));
             let [xx, yy, xy, zz] = turn.tensor(field.stress[node]);
-            self.stress.extend([xx, yy, zz, xy, 0.0, 0.0].map(|s| s as f32));
+            self.stress
+                .extend([xx, yy, zz, xy, 0.0, 0.0].map(|s| s as f32));
             self.von_mises.push(field.von_mises[node] as f32);
             self.contact_pressure.push(field.contact_pressure[node]);
             let [fx, fy] = turn.vector(field.contact_force[node]);
             self.contact_force.extend([fx, fy, 0.0]);
             self.wear_depth.push(field.wear_depth[node] as f32);
             let [worn, reference] = [field.worn[node], field.reference[node]];
-            self.wear_vector.extend(single(turn.vector([worn[0] - reference[0], worn[1] - reference[1]])));
+            self.wear_vector.extend(single(
+                turn.vector([worn[0] - reference[0], worn[1] - reference[1]]),
+            ));
             self.member_position.extend(single(reference));
         }
         match &field.cells {
             Cells::T3(cells) => self.append_cells(cells, CellType::Triangle, first, number),
-            Cells::T6(cells) => self.append_cells(cells, CellType::QuadraticTriangle, first, number),
+            Cells::T6(cells) => {
+                self.append_cells(cells, CellType::QuadraticTriangle, first, number)
+            }
         }
     }
 
     /// `offsets` holds the end of each cell, without a leading zero.
-    fn append_cells<const N: usize>(&mut self, cells: &[[u32; N]], kind: CellType, first: u64, member: u8) {
+    fn append_cells<const N: usize>(
+        &mut self,
+        cells: &[[u32; N]],
+        kind: CellType,
+        first: u64,
+        member: u8,
+    ) {
         for cell in cells {
-            self.connectivity.extend(cell.iter().map(|&node| first + u64::from(node)));
+            self.connectivity
+                .extend(cell.iter().map(|&node| first + u64::from(node)));
             self.offsets.push(self.connectivity.len() as u64);
             self.types.push(kind);
             self.cell_member.push(member);
@@ -94,14 +115,21 @@ impl Arrays {
             Attribute::DataArray(DataArray::new("contact_force", 3).with_data(self.contact_force)),
             Attribute::DataArray(scalar("wear_depth").with_data(self.wear_depth)),
             Attribute::DataArray(DataArray::new("wear_vector", 3).with_data(self.wear_vector)),
-            Attribute::DataArray(DataArray::new("member_position", 3).with_data(self.member_position)),
+            Attribute::DataArray(
+                DataArray::new("member_position", 3).with_data(self.member_position),
+            ),
             Attribute::DataArray(scalar("member").with_data(self.member)),
         ];
-        let cell = vec![Attribute::DataArray(scalar("member").with_data(self.cell_member))];
+        let cell = vec![Attribute::DataArray(
+            scalar("member").with_data(self.cell_member),
+        )];
         UnstructuredGridPiece {
             points: self.points.into(),
             cells: VtkCells {
-                cell_verts: VertexNumbers::XML { connectivity: self.connectivity, offsets: self.offsets },
+                cell_verts: VertexNumbers::XML {
+                    connectivity: self.connectivity,
+                    offsets: self.offsets,
+                },
                 types: self.types,
             },
             data: Attributes { point, cell },
@@ -163,18 +191,36 @@ fn check(file: &str, member: Member, field: &MemberField) -> Result<(), OutputEr
     };
     if let Some(&node) = largest.filter(|&&node| node as usize >= nodes) {
         let message = format!("{} names node {node}, there are {nodes}", label("cells"));
-        return Err(OutputError::Vtk { file: file.to_owned(), message });
+        return Err(OutputError::Vtk {
+            file: file.to_owned(),
+            message,
+        });
     }
     let all = |what: &str, values: &mut dyn Iterator<Item = f64>| -> Result<(), OutputError> {
-        values.try_for_each(|value| finite(file, &label(what), value).map(drop))
+        for value in values {
+            finite(file, &label(what), value)?;
+        }
+        Ok(())
     };
-    all("rotation and centre", &mut field.centre.into_iter().chain([field.rotation]))?;
+    all(
+        "rotation and centre",
+        &mut field.centre.into_iter().chain([field.rotation]),
+    )?;
     all("reference", &mut field.reference.iter().flatten().copied())?;
     all("worn", &mut field.worn.iter().flatten().copied())?;
-    all("displacement", &mut field.displacement.iter().flatten().copied())?;
+    all(
+        "displacement",
+        &mut field.displacement.iter().flatten().copied(),
+    )?;
     all("stress", &mut field.stress.iter().flatten().copied())?;
     all("von_mises", &mut field.von_mises.iter().copied())?;
-    all("contact_pressure", &mut field.contact_pressure.iter().copied())?;
-    all("contact_force", &mut field.contact_force.iter().flatten().copied())?;
+    all(
+        "contact_pressure",
+        &mut field.contact_pressure.iter().copied(),
+    )?;
+    all(
+        "contact_force",
+        &mut field.contact_force.iter().flatten().copied(),
+    )?;
     all("wear_depth", &mut field.wear_depth.iter().copied())
 }

@@ -44,12 +44,16 @@ fn area(field: &MemberField) -> f64 {
         ax * by - ay * bx
     };
     match &field.cells {
-        Cells::T3(cells) => {
-            cells.iter().map(|&[a, b, c]| (cross(a, b) + cross(b, c) + cross(c, a)) / 2.0).sum()
-        }
+        Cells::T3(cells) => cells
+            .iter()
+            .map(|&[a, b, c]| (cross(a, b) + cross(b, c) + cross(c, a)) / 2.0)
+            .sum(),
         Cells::T6(cells) => {
             let edge = |a, m, b| (4.0 * (cross(a, m) + cross(m, b)) - cross(a, b)) / 6.0;
-            cells.iter().map(|&[a, b, c, ab, bc, ca]| edge(a, ab, b) + edge(b, bc, c) + edge(c, ca, a)).sum()
+            cells
+                .iter()
+                .map(|&[a, b, c, ab, bc, ca]| edge(a, ab, b) + edge(b, bc, c) + edge(c, ca, a))
+                .sum()
         }
     }
 }

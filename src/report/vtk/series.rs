@@ -24,14 +24,20 @@ pub fn names(frames: &[FieldFrame]) -> Vec<FieldFile> {
             Some(last) if frames[index - 1].cycles == frame.cycles => (last.state, last.step + 1),
             Some(last) => (last.state + 1, 0),
         };
-        files.push(FieldFile { name: format!("wear_{state:03}_position_{step:03}.vtu"), state, step });
+        files.push(FieldFile {
+            name: format!("wear_{state:03}_position_{step:03}.vtu"),
+            state,
+            step,
+        });
     }
     files
 }
 
 /// Members of `wear.pvd`: time is cycles; of each state the frame whose position is nearest to that of the very first frame.
 pub fn wear_series(frames: &[FieldFrame], files: &[FieldFile]) -> Vec<(f64, String)> {
-    let Some(start) = frames.first().map(|frame| frame.position) else { return Vec::new() };
+    let Some(start) = frames.first().map(|frame| frame.position) else {
+        return Vec::new();
+    };
     let mut series: Vec<(usize, usize)> = Vec::new();
     for (index, file) in files.iter().enumerate() {
         let distance = |i: usize| (frames[i].position - start).abs();
@@ -44,16 +50,29 @@ pub fn wear_series(frames: &[FieldFrame], files: &[FieldFile]) -> Vec<(f64, Stri
             _ => series.push((file.state, index)),
         }
     }
-    series.into_iter().map(|(_, index)| (frames[index].cycles, files[index].name.clone())).collect()
+    series
+        .into_iter()
+        .map(|(_, index)| (frames[index].cycles, files[index].name.clone()))
+        .collect()
 }
 
 /// One series per wear state that is drawn at several mesh positions, with its file name; time is the position in base pitches.
-pub fn mesh_cycle_series(frames: &[FieldFrame], files: &[FieldFile]) -> Vec<(String, Vec<(f64, String)>)> {
+pub fn mesh_cycle_series(
+    frames: &[FieldFrame],
+    files: &[FieldFile],
+) -> Vec<(String, Vec<(f64, String)>)> {
     let states = files.last().map_or(0, |file| file.state + 1);
     (0..states)
         .map(|state| {
-            let members = || files.iter().zip(frames).filter(move |(file, _)| file.state == state);
-            let series: Vec<_> = members().map(|(file, frame)| (frame.position, file.name.clone())).collect();
+            let members = || {
+                files
+                    .iter()
+                    .zip(frames)
+                    .filter(move |(file, _)| file.state == state)
+            };
+            let series: Vec<_> = members()
+                .map(|(file, frame)| (frame.position, file.name.clone()))
+                .collect();
             (format!("mesh_cycle_{state:03}.pvd"), series)
         })
         .filter(|(_, series)| series.len() > 1)
@@ -67,7 +86,11 @@ pub fn pvd(series: &[(f64, String)]) -> Vec<u8> {
     );
     for (time, name) in series {
         // Writing into a String cannot fail.
-        let _ = writeln!(xml, "    <DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>", exact(*time));
+        let _ = writeln!(
+            xml,
+            "    <DataSet timestep=\"{}\" part=\"0\" file=\"{name}\"/>",
+            exact(*time)
+        );
     }
     xml.push_str("  </Collection>\n</VTKFile>\n");
     xml.into_bytes()
