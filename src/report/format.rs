@@ -20,6 +20,21 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// Up to six significant digits without trailing zeros, for figures that were put in rather than computed.
+pub fn plain(value: f64) -> String {
+    let text = significant(value, 6);
+    let (number, power) = match text.split_once("·10") {
+        Some((number, exponent)) => (number.to_owned(), format!("·10{exponent}")),
+        None => (text, String::new()),
+    };
+    let number = if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &number
+    };
+    format!("{number}{power}")
+}
+
 /// A whole number, thousands apart.
 pub fn whole(value: usize) -> String {
     grouped(&value.to_string())
@@ -101,6 +116,9 @@ mod tests {
         assert_eq!(significant(9.999_9, 3), "10.0");
         assert_eq!(count(50_000.0), "50\u{202f}000");
         assert_eq!(count(1018.0), "1018");
+        assert_eq!(plain(2.0), "2");
+        assert_eq!(plain(1018.868), "1018.87");
+        assert_eq!(plain(6e-10), "6·10\u{207b}\u{b9}\u{2070}");
         assert_eq!(percent(0.0123, 2), "1.2 %");
         assert_eq!(duration(7200.0), "2.00 h");
     }

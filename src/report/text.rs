@@ -1,7 +1,7 @@
 //! What a run found, in words: the conclusion of its report and the summary in the terminal.
 use std::path::Path;
 
-use super::format::{count, duration, percent, significant, whole};
+use super::format::{count, duration, percent, plain, significant, whole};
 use crate::simulate::result::{Member, Run};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
@@ -95,17 +95,14 @@ pub fn asked_for(run: &Run) -> String {
         "{} and {} teeth, module {} mm, {} N·m at {} rpm, {} pinion revolutions, {} model",
         g.pinion.teeth,
         g.gear.teeth,
-        significant_trimmed(g.module),
-        significant_trimmed(c.torque / 1000.0),
-        significant_trimmed(c.speed_rpm),
+        plain(g.module),
+        plain(c.torque / 1000.0),
+        plain(c.speed_rpm),
         count(c.cycles),
         c.model
     );
     if c.misalignment != 0.0 {
-        line.push_str(&format!(
-            ", misalignment {} mm",
-            significant_trimmed(c.misalignment)
-        ));
+        line.push_str(&format!(", misalignment {} mm", plain(c.misalignment)));
     }
     if !c.effects.is_empty() {
         line.push_str(&format!(", with {}", c.effects.join(", ")));
@@ -203,15 +200,5 @@ fn region(run: &Run, path: f64) -> &'static str {
         "where three pairs may touch"
     } else {
         "in single contact"
-    }
-}
-
-/// Up to six digits without trailing zeros.
-fn significant_trimmed(value: f64) -> String {
-    let text = significant(value, 6);
-    if text.contains('.') && !text.contains("·10") {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
     }
 }

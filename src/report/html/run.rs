@@ -3,7 +3,7 @@ use super::files;
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::report::error::OutputError;
-use crate::report::format::{count, duration, percent, significant, whole};
+use crate::report::format::{count, duration, percent, plain, significant, whole};
 use crate::report::plots;
 use crate::report::text;
 use crate::simulate::result::{Member, Run, WheelGeometry};
@@ -40,8 +40,8 @@ fn outcome(run: &Run) -> Section {
 
 fn inputs(run: &Run) -> Section {
     let c = &run.conditions;
-    let both = |values: [f64; 2], unit: &str, digits: usize| {
-        let [pinion, gear] = values.map(|v| significant(v, digits));
+    let both = |values: [f64; 2], unit: &str| {
+        let [pinion, gear] = values.map(plain);
         if pinion == gear {
             format!("{pinion} {unit}")
         } else {
@@ -67,33 +67,30 @@ fn inputs(run: &Run) -> Section {
             ("added effects", effects),
             (
                 "torque on the pinion",
-                format!("{} N·m", significant(c.torque / 1000.0, 5)),
+                format!("{} N·m", plain(c.torque / 1000.0)),
             ),
-            (
-                "speed of the pinion",
-                format!("{} rpm", significant(c.speed_rpm, 5)),
-            ),
+            ("speed of the pinion", format!("{} rpm", plain(c.speed_rpm))),
             (
                 "radial misalignment",
-                format!("{} mm", significant(c.misalignment, 4)),
+                format!("{} mm", plain(c.misalignment)),
             ),
             ("pinion revolutions", count(c.cycles)),
             (
                 "specific wear coefficient k",
-                format!("{} mm²/N", significant(c.wear_coefficient, 4)),
+                format!("{} mm²/N", plain(c.wear_coefficient)),
             ),
-            ("module", format!("{} mm", significant(g.module, 4))),
+            ("module", format!("{} mm", plain(g.module))),
             (
                 "pressure angle",
-                format!("{}°", significant(g.pressure_angle_deg, 4)),
+                format!("{}°", plain(g.pressure_angle_deg)),
             ),
-            ("face width", format!("{} mm", significant(c.face_width, 5))),
-            ("Young's modulus", both(c.youngs_modulus, "MPa", 4)),
+            ("face width", format!("{} mm", plain(c.face_width))),
+            ("Young's modulus", both(c.youngs_modulus, "MPa")),
             (
                 "Poisson's ratio",
-                both(c.poisson_ratio, "", 3).trim_end().to_owned(),
+                both(c.poisson_ratio, "").trim_end().to_owned(),
             ),
-            ("density", both(c.density, "kg/m³", 4)),
+            ("density", both(c.density, "kg/m³")),
         ],
     );
     Section::new("Inputs").table(table)
@@ -123,20 +120,19 @@ fn geometry(run: &Run) -> Section {
         ],
     );
     let mut wheels = Table::new("The wheels, radii in mm", ["", "pinion", "gear"]);
-    let rows: [(&str, fn(&WheelGeometry) -> String); 9] = [
+    type Column = fn(&WheelGeometry) -> String;
+    let rows: [(&str, Column); 9] = [
         ("teeth", |w| w.teeth.to_string()),
-        ("profile shift, modules", |w| {
-            significant(w.profile_shift, 5)
-        }),
-        ("bore", |w| significant(w.bore_radius, 6)),
-        ("root", |w| significant(w.root_radius, 6)),
-        ("base", |w| significant(w.base_radius, 6)),
-        ("form (involute begins)", |w| significant(w.form_radius, 6)),
+        ("profile shift, modules", |w| plain(w.profile_shift)),
+        ("bore", |w| plain(w.bore_radius)),
+        ("root", |w| plain(w.root_radius)),
+        ("base", |w| plain(w.base_radius)),
+        ("form (involute begins)", |w| plain(w.form_radius)),
         ("active (nominal contact begins)", |w| {
-            significant(w.active_radius, 6)
+            plain(w.active_radius)
         }),
-        ("working pitch", |w| significant(w.pitch_radius, 6)),
-        ("tip", |w| significant(w.tip_radius, 6)),
+        ("working pitch", |w| plain(w.pitch_radius)),
+        ("tip", |w| plain(w.tip_radius)),
     ];
     for (name, value) in rows {
         wheels = wheels.row([

@@ -52,7 +52,7 @@ impl Table {
         for (name, value) in values {
             table
                 .rows
-                .push(vec![Cell::Text(name.to_owned()), Cell::Number(value)]);
+                .push(vec![Cell::Text(name.to_owned()), Cell::Text(value)]);
         }
         table
     }

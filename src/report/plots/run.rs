@@ -42,12 +42,13 @@ fn wear(run: &Run, member: Member) -> Plot {
     for (index, &state) in shown.iter().enumerate() {
         let state = states[state];
         let flank = state.profile(member);
-        let points = flank
+        let mut points: Vec<(f64, f64)> = flank
             .path
             .iter()
             .copied()
             .zip(flank.depth.iter().copied())
             .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
         plot = plot.curve(
             &cycles_label(state),
             Style::Time {
@@ -102,7 +103,7 @@ fn peak_pressure(run: &Run) -> Plot {
     along_path(plot, run, |pair| pair.peak_pressure)
 }
 
-/// First and last state; the pairs that touch outside the line of action as crosses of the same colour.
+/// First and last state; the pairs that touch outside the line of action (a tip corner) as crosses of the same colour.
 fn along_path(plot: Plot, run: &Run, value: impl Fn(&PairState) -> f64) -> Plot {
     let mut plot = plot.with_marks(letters(run)).starting_at_zero();
     for (kind, state) in ends(run).into_iter().enumerate() {
@@ -116,7 +117,7 @@ fn along_path(plot: Plot, run: &Run, value: impl Fn(&PairState) -> f64) -> Plot 
             points
         };
         plot = plot.curve(&cycles_label(state), Style::Kind(kind), gather(false));
-        let label = format!("off the line of action, {}", cycles_label(state));
+        let label = format!("{}, tip corner", cycles_label(state));
         plot = plot.curve(&label, Style::Points(kind), gather(true));
     }
     plot
