@@ -98,6 +98,11 @@ impl CycleCompliance {
         pair.frame.normal + friction_direction(pair, self.friction)
     }
 
+    /// Lever of the torque for each unknown of position `q`, friction included, mm·mm.
+    pub fn levers(&self, q: usize) -> &[f64] {
+        &self.positions[q].lever
+    }
+
     /// Coupling of each tooth pair of position `q` to the elements.
     pub fn couplings(&self, q: usize) -> &[FlankCoupling] {
         &self.positions[q].couplings

@@ -13,6 +13,7 @@ use nalgebra::DMatrix;
 use crate::analytic::hertz_line;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
+use crate::numeric::interpolate;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 
 /// Analytic contact over one mesh cycle.
@@ -145,19 +146,6 @@ fn share(springs: &mut [Spring], load: f64) -> f64 {
         delta = (load + offset) / stiffness;
     }
     delta
-}
-
-/// Piecewise linear interpolation, constant beyond the ends.
-fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
-    let next = x.partition_point(|&v| v <= at);
-    if next == 0 {
-        return y[0];
-    }
-    if next == x.len() {
-        return y[next - 1];
-    }
-    let t = (at - x[next - 1]) / (x[next] - x[next - 1]);
-    y[next - 1] + t * (y[next] - y[next - 1])
 }
 
 #[cfg(test)]

@@ -16,3 +16,16 @@ pub fn rotate(v: Vec2, angle: f64) -> Vec2 {
     let (s, c) = angle.sin_cos();
     Vec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
 }
+
+/// Piecewise linear interpolation of `y` over ascending `x`, constant beyond the ends.
+pub fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
+    let next = x.partition_point(|&v| v <= at);
+    if next == 0 {
+        return y[0];
+    }
+    if next == x.len() {
+        return y[next - 1];
+    }
+    let t = (at - x[next - 1]) / (x[next] - x[next - 1]);
+    y[next - 1] + t * (y[next] - y[next - 1])
+}

@@ -2,13 +2,14 @@
 
 use sha2::{Digest, Sha256};
 
+use crate::simulate::forward::Preparation;
 use crate::simulate::history::Progress;
 
 /// A run's state after a wear step.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Checkpoint {
-    /// Half width of the strip contact is looked for in, mm.
-    pub window: f64,
+    /// How the contact was prepared.
+    pub preparation: Preparation,
     /// The integration.
     pub progress: Option<Progress>,
     /// States stored so far.
@@ -79,7 +80,7 @@ mod tests {
     fn survives_a_round_trip_and_nothing_else() {
         let run = fingerprint(&["study", "test"]);
         let checkpoint = Checkpoint {
-            window: 0.25,
+            preparation: Preparation { window: 0.25, condensed_at: Some(vec![1.0]) },
             progress: None,
             stored: Vec::new(),
         };

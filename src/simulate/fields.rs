@@ -25,25 +25,30 @@ pub struct MemberFields {
 }
 
 impl Forward<'_> {
-    /// Fields of pinion and gear at mesh position `q` under `contact`; `worn` holds both members' node positions (mm).
+    /// Fields of pinion and gear at mesh position `q` under `contact`, pressures on the unworn flanks.
     ///
     /// `None` for the analytic contact model.
     ///
     /// # Errors
     /// [`ForwardError`] if a solve misses its residual.
-    pub fn fields(
-        &self,
-        q: usize,
-        contact: &PositionContact,
-    ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
-        let (Some(members), Some(compliance)) = (self.members(), self.compliance()) else {
+    pub fn fields(&self, q: usize, contact: &PositionContact) -> Result<Option<[MemberFields; 2]>, ForwardError> {
+        let points = self.members().map(|m| [&m.members[0].mesh.points[..], &m.members[1].mesh.points[..]]);
+        points.map_or(Ok(None), |points| self.fields_on(q, contact, points))
+    }
+
+    /// As [`Forward::fields`], pressures on the flanks with the (worn) node positions `points` of both members, mm.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a solve misses its residual.
+    pub fn fields_on(&self, q: usize, contact: &PositionContact, points: [&[Vec2]; 2]) -> Result<Option<[MemberFields; 2]>, ForwardError> {
+        let (Some(members), Some(compliance)) = (self.condensed(), self.compliance()) else {
             return Ok(None);
         };
         let position = &self.cycle().positions[q];
         let turns = member_turns(self.cycle(), position.theta);
         let fields = |side: usize| -> Result<MemberFields, FemError> {
             let member = &members.members[side];
-            let mut loads = Loads::new(member);
+            let mut loads = Loads::new(points[side]);
             loads.add(position, compliance, q, contact, side, turns[side], member);
             loads.solve(member, turns[side])
         };
@@ -64,18 +69,15 @@ impl Forward<'_> {
     }
 }
 
-struct Loads {
+struct Loads<'a> {
+    points: &'a [Vec2],
     force: Vec<Vec2>,
     pressure: Vec<f64>,
 }
 
-impl Loads {
-    fn new(member: &Member) -> Self {
-        let n = member.mesh.points.len();
-        Self {
-            force: vec![Vec2::zeros(); n],
-            pressure: vec![0.0; n],
-        }
+impl<'a> Loads<'a> {
+    fn new(points: &'a [Vec2]) -> Self {
+        Self { points, force: vec![Vec2::zeros(); points.len()], pressure: vec![0.0; points.len()] }
     }
 
     #[expect(
@@ -107,7 +109,7 @@ impl Loads {
                 &chain
                     .nodes
                     .iter()
-                    .map(|&i| member.mesh.points[i as usize])
+                    .map(|&i| self.points[i as usize])
                     .collect::<Vec<_>>(),
                 member.order(),
             );

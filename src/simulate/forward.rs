@@ -1,10 +1,10 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
 use crate::analytic::iso6336;
-use crate::contact::cycle::{Cycle, Stations};
+use crate::contact::cycle::{Cycle, CycleSpec, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
-use crate::contact::model::{ContactError, ContactModel};
+use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::simulate::history::{Progress, StepReport, WearLaw, WearState, state_of, wear_until};
@@ -19,6 +19,8 @@ pub struct GearSet {
     pub gears: [Gear; 2],
     /// Elastic constants of both.
     pub materials: [Elastic; 2],
+    /// Densities of both, kg/m³.
+    pub densities: [f64; 2],
     /// Nominal centre distance, mm.
     pub centre_distance: f64,
     /// Face width, mm.
@@ -129,6 +131,9 @@ pub struct Forward<'a> {
     members: Option<&'a Members>,
     cycle: Cycle,
     compliance: Option<CycleCompliance>,
+    condensed_at: Option<Vec<f64>>,
+    worn: Option<Box<Members>>,
+    factorisations: usize,
 }
 
 impl<'a> Forward<'a> {
@@ -164,6 +169,7 @@ impl<'a> Forward<'a> {
         } else {
             ContactKind::Hertz
         };
+        let factorisations = if members.is_some() { 2 } else { 0 };
         Ok(Self {
             set,
             conditions,
@@ -172,6 +178,9 @@ impl<'a> Forward<'a> {
             members,
             cycle,
             compliance,
+            condensed_at: None,
+            worn: None,
+            factorisations,
         })
     }
 
@@ -188,6 +197,11 @@ impl<'a> Forward<'a> {
     /// The elastic members, by finite elements only.
     pub fn members(&self) -> Option<&'a Members> {
         self.members
+    }
+
+    /// The members as last condensed: unworn, or worn by then.
+    pub fn condensed(&self) -> Option<&Members> {
+        self.worn.as_deref().or(self.members)
     }
 
     /// Torque per face width, N·mm/mm.
@@ -231,48 +245,134 @@ impl<'a> Forward<'a> {
         observe: &mut dyn FnMut(StepReport) -> bool,
         store: &mut dyn FnMut(WearState),
     ) -> Result<bool, ForwardError> {
-        let law = WearLaw {
-            coefficient: self.conditions.coefficient,
-            tolerance: self.numerics.step_tolerance,
-        };
         for &stop in stops {
-            loop {
-                let outcome =
-                    self.with_model(|model| wear_until(model, law, progress, stop, observe));
-                match outcome {
-                    Ok(true) => break,
-                    Ok(false) => return Ok(false),
-                    Err(StepError::System {
-                        source: ContactError::WindowTooNarrow { .. },
-                        ..
-                    }) => {
-                        self.widen()?;
-                        if let Some(progress) = progress {
-                            progress.forget_sets();
-                        }
-                    }
-                    Err(error) => return Err(error.into()),
-                }
+            if !self.wear_to(progress, stop, &mut |_, progress| observe(progress.report()))? {
+                return Ok(false);
             }
             if let Some(progress) = progress {
-                store(self.with_model(|model| state_of(model, progress))?);
+                store(self.state(progress)?);
             }
         }
         Ok(true)
     }
 
-    /// Looks for contact in a wider strip: wear flattens contacts.
-    fn widen(&mut self) -> Result<(), ForwardError> {
-        let mut spec = self.cycle.spec;
-        spec.window *= 1.4;
-        self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
-        if let Some(members) = self.members {
-            self.compliance = Some(CycleCompliance::new(
-                &self.cycle,
-                members.flanks(),
-                self.numerics.friction,
-            )?);
+    /// Wears the flanks from `progress` (or fresh) to `stop` cycles; `observe` sees what a resumed run needs after every
+    /// step and may stop the run. Returns false if it did.
+    ///
+    /// # Errors
+    /// [`ForwardError`] with where it happened; `progress` then holds the last accepted step.
+    pub fn wear_to(
+        &mut self,
+        progress: &mut Option<Progress>,
+        stop: f64,
+        observe: &mut dyn FnMut(&Preparation, &Progress) -> bool,
+    ) -> Result<bool, ForwardError> {
+        let law = WearLaw { coefficient: self.conditions.coefficient, tolerance: self.numerics.step_tolerance };
+        loop {
+            let preparation = self.preparation();
+            let mut go_on = true;
+            let mut stale = false;
+            let outcome = self.with_model(|model| {
+                wear_until(model, law, progress, stop, &mut |progress| {
+                    go_on = observe(&preparation, progress);
+                    stale = preparation.is_stale(&progress.stand.u);
+                    go_on && !stale
+                })
+            });
+            match outcome {
+                Ok(_) if !go_on => return Ok(false),
+                Ok(_) if stale => {
+                    let worn = progress.as_ref().map(|p| p.stand.u.clone());
+                    self.prepare(&Preparation { condensed_at: worn, ..preparation })?;
+                }
+                Ok(_) => return Ok(true),
+                Err(StepError::System { source: ContactError::WindowTooNarrow { .. }, .. }) => {
+                    // wear flattens contacts: look for them in a wider strip
+                    self.prepare(&Preparation { window: 1.4 * preparation.window, ..preparation })?;
+                    if let Some(progress) = progress {
+                        progress.forget_sets();
+                    }
+                }
+                Err(error) => return Err(error.into()),
+            }
         }
+    }
+
+    /// Depths and contact of every position where `progress` stands.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a contact cannot be solved.
+    pub fn state(&self, progress: &Progress) -> Result<WearState, ForwardError> {
+        Ok(self.with_model(|model| state_of(model, progress))?)
+    }
+
+    /// How the contact is prepared at the moment.
+    pub fn preparation(&self) -> Preparation {
+        Preparation { window: self.cycle.spec.window, condensed_at: self.condensed_at.clone() }
+    }
+
+    /// Prepares the contact as `preparation` says, as an interrupted run had it.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a worn member cannot be factored.
+    pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
+        if preparation.window != self.cycle.spec.window {
+            let spec = CycleSpec { window: preparation.window, ..self.cycle.spec };
+            self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
+        }
+        let Some(fresh) = self.members else { return Ok(()) };
+        if preparation.condensed_at != self.condensed_at {
+            self.condensed_at.clone_from(&preparation.condensed_at);
+            self.worn = match &self.condensed_at {
+                Some(u) => {
+                    let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
+                    let meshes = fresh.worn_meshes(&self.cycle.pair, &self.cycle.stations, [pinion, gear])?;
+                    self.factorisations += 2;
+                    Some(Box::new(fresh.condensed_on(meshes)?))
+                }
+                None => None,
+            };
+        }
+        let members = self.worn.as_deref().unwrap_or(fresh);
+        self.compliance = Some(CycleCompliance::new(&self.cycle, members.flanks(), self.numerics.friction)?);
         Ok(())
+    }
+
+    /// Stiffness factorisations so far.
+    pub fn factorisations(&self) -> usize {
+        self.factorisations
+    }
+
+    /// Lever of the torque for each unknown of position `q`, mm·mm.
+    pub fn levers(&self, q: usize) -> &[f64] {
+        self.compliance.as_ref().map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
+    }
+
+    /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
+    pub fn torque_of(&self, q: usize, contact: &PositionContact) -> f64 {
+        contact.pressure.iter().zip(self.levers(q)).map(|(p, l)| p * l).sum()
+    }
+}
+
+/// How a [`Forward`] has prepared its contact: what a resumed run must restore before it goes on.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Preparation {
+    /// Half width of the strip contact is looked for in, mm.
+    pub window: f64,
+    /// Worn depths at which the members were last condensed, mm at all stations; none: unworn.
+    pub condensed_at: Option<Vec<f64>>,
+}
+
+/// Wear since the last condensation after which the members are condensed again, mm.
+///
+/// Measured by the validation case `recondensation`: condensing again after this wear changes pressures by less than 0.5 %.
+pub const CONDENSE_AFTER: f64 = 0.03;
+
+impl Preparation {
+    fn is_stale(&self, u: &[f64]) -> bool {
+        match &self.condensed_at {
+            Some(before) => u.iter().zip(before).any(|(now, then)| now - then > CONDENSE_AFTER),
+            None => u.iter().any(|now| *now > CONDENSE_AFTER),
+        }
     }
 }

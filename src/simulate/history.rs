@@ -65,11 +65,18 @@ pub struct Progress {
     law_rate: [f64; 2],
     /// Contact problems solved so far.
     pub solves: usize,
+    /// Largest depth on pinion and gear, mm.
+    pub max_depth: [f64; 2],
     /// Contact sets of the last solution, so that a resumed run walks the same way.
     warm: Vec<Vec<usize>>,
 }
 
 impl Progress {
+    /// What an observer is told of it.
+    pub fn report(&self) -> StepReport<'_> {
+        StepReport { stand: &self.stand, balance: self.balance, max_depth: self.max_depth, solves: self.solves }
+    }
+
     /// Forgets the contact sets: their numbering has changed.
     pub fn forget_sets(&mut self) {
         self.warm.clear();
@@ -114,7 +121,7 @@ pub fn wear_until<M: ContactModel + ?Sized>(
     law: WearLaw,
     progress: &mut Option<Progress>,
     end: f64,
-    observe: &mut dyn FnMut(StepReport) -> bool,
+    observe: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<bool, StepError<ContactError>> {
     use crate::wear::integrator::WearSystem;
     let cycle = model.cycle();
@@ -135,6 +142,7 @@ pub fn wear_until<M: ContactModel + ?Sized>(
                 balance: Balance::default(),
                 law_rate,
                 solves: 0,
+                max_depth: [0.0; 2],
                 warm: Vec::new(),
             });
             control
@@ -163,14 +171,8 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         progress.law_rate = rate;
         progress.solves = solves_before + system.solves;
         progress.warm = system.warm().to_vec();
-        let max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
-        let report = StepReport {
-            stand: &progress.stand,
-            balance: progress.balance,
-            max_depth,
-            solves: progress.solves,
-        };
-        if !observe(report) {
+        progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
+        if !observe(progress) {
             return Ok(false);
         }
     }

@@ -3,11 +3,13 @@
 
 use rayon::join;
 
+use crate::contact::cycle::Stations;
 use crate::contact::fem::{ElasticFlanks, ToothFlank};
+use crate::numeric::interpolate;
 use crate::fem::{Body, FemError};
 use crate::gear::{Gear, Pair};
 use crate::material::Elastic;
-use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, Order, mesh_gear};
+use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, Order, mesh_gear, relocate};
 
 /// One elastic gear.
 pub struct Member {
@@ -68,6 +70,38 @@ impl Members {
     /// Length of a flank edge, mm.
     pub fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// The members with the material of `depth` (mm at the `stations`, pinion then gear) removed: nodes moved along the
+    /// inward normal, the interior following; not factored.
+    ///
+    /// # Errors
+    /// [`MemberError`] if a triangle turns over.
+    pub fn worn_meshes(&self, pair: &Pair, stations: &Stations, depth: [&[f64]; 2]) -> Result<[Mesh; 2], MemberError> {
+        let worn = |side: usize| -> Result<Mesh, MemberError> {
+            let mesh = &self.members[side].mesh;
+            let depths: Vec<Vec<f64>> = mesh
+                .flanks
+                .iter()
+                .map(|chain| chain.arc.iter().map(|&s| interpolate(&stations.arc[side], depth[side], s)).collect())
+                .collect();
+            Ok(relocate(mesh, [&pair.pinion, &pair.gear][side], &depths)?)
+        };
+        let (pinion, gear) = join(|| worn(0), || worn(1));
+        Ok([pinion?, gear?])
+    }
+
+    /// The members factored and condensed again on the given meshes.
+    ///
+    /// # Errors
+    /// [`MemberError`].
+    pub fn condensed_on(&self, meshes: [Mesh; 2]) -> Result<Self, MemberError> {
+        let [pinion, gear] = meshes;
+        let (pinion, gear) = join(
+            || Member::from_mesh(pinion, self.members[0].material),
+            || Member::from_mesh(gear, self.members[1].material),
+        );
+        Ok(Self { members: [pinion?, gear?], spacing: self.spacing })
     }
 
     /// The condensed flanks of both.

@@ -3,7 +3,9 @@
 pub mod checkpoint;
 pub mod fields;
 pub mod forward;
+pub mod gather;
 pub mod history;
 pub mod members;
 pub mod numerics;
 pub mod result;
+pub mod run;

@@ -17,6 +17,7 @@ mod operation;
 mod quantity;
 mod reader;
 mod settings;
+mod setup;
 mod values;
 
 use std::cell::RefCell;

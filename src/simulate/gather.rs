@@ -1,0 +1,185 @@
+//! Turns the solver's states into the plain data of a [`Run`](crate::simulate::result::Run).
+
+use crate::contact::frame::Touch;
+use crate::contact::model::PositionContact;
+use crate::gear::{Gear, Member, Pair};
+use crate::numeric::{Vec2, interpolate};
+use crate::simulate::fields::MemberFields;
+use crate::simulate::forward::{ContactKind, Forward, ForwardError};
+use crate::simulate::history::{WearState, line_load, worn_area};
+use crate::simulate::result::{
+    Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State, WheelGeometry,
+};
+use crate::simulate::run::Plan;
+
+/// What was asked for.
+pub fn conditions(plan: &Plan) -> Conditions {
+    let set = plan.set;
+    Conditions {
+        test: plan.test.map(str::to_owned),
+        model: match plan.kind {
+            ContactKind::Fem => "fem",
+            ContactKind::Hertz => "hertz",
+        }
+        .to_owned(),
+        effects: Vec::new(),
+        torque: plan.conditions.torque,
+        speed_rpm: plan.conditions.speed,
+        misalignment: plan.conditions.misalignment,
+        wear_coefficient: plan.conditions.coefficient[0],
+        cycles: plan.conditions.cycles,
+        face_width: set.face_width,
+        youngs_modulus: set.materials.map(|m| m.youngs_modulus),
+        poisson_ratio: set.materials.map(|m| m.poisson_ratio),
+        density: set.densities,
+    }
+}
+
+/// Working geometry.
+pub fn geometry(pair: &Pair) -> Geometry {
+    let [a, b, _, d, e] = pair.path_points();
+    let wheel = |member: Member, start: f64| {
+        let gear: &Gear = pair.member(member);
+        WheelGeometry {
+            teeth: gear.spec.teeth,
+            profile_shift: gear.spec.profile_shift,
+            base_radius: gear.base_radius,
+            pitch_radius: match member {
+                Member::Pinion => pair.pitch_radius_pinion,
+                Member::Gear => pair.pitch_radius_gear,
+            },
+            tip_radius: gear.tip_radius,
+            root_radius: gear.root_radius,
+            form_radius: gear.form_radius,
+            active_radius: gear.radius_at_rho(pair.rho(member, start)),
+            bore_radius: gear.bore_radius(),
+        }
+    };
+    Geometry {
+        module: pair.pinion.rack.module,
+        pressure_angle_deg: pair.pinion.rack.pressure_angle.to_degrees(),
+        centre_distance: pair.centre_distance,
+        working_pressure_angle_deg: pair.working_pressure_angle.to_degrees(),
+        contact_ratio: pair.contact_ratio,
+        path_of_contact: pair.path_length,
+        base_pitch: pair.base_pitch,
+        backlash_um: 1e3 * pair.backlash,
+        speed_ratio: pair.speed_ratio,
+        path_limits: [a, b, d, e],
+        pinion: wheel(Member::Pinion, a),
+        gear: wheel(Member::Gear, e),
+    }
+}
+
+/// One stored state.
+pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
+    let cycle = forward.cycle();
+    let profile = |member: Member| {
+        let side = usize::from(member == Member::Gear);
+        let gear = cycle.pair.member(member);
+        let arcs = &cycle.stations.arc[side];
+        let rho: Vec<f64> = arcs.iter().map(|&s| gear.rho_at_arc(s)).collect();
+        let area = worn_area(arcs, &state.depth[side]);
+        let volume = area * plan.set.face_width * f64::from(gear.spec.teeth);
+        Profile {
+            radius: rho.iter().map(|&r| gear.radius_at_rho(r)).collect(),
+            path: rho.iter().map(|&r| cycle.pair.path_at_rho(member, r)).collect(),
+            depth: state.depth[side].iter().map(|h| 1e3 * h).collect(),
+            worn_area_mm2: area,
+            // mm³ · kg/m³ = µg
+            mass_loss_mg: 1e-3 * volume * plan.set.densities[side],
+        }
+    };
+    State {
+        cycles: state.cycles,
+        pinion: profile(Member::Pinion),
+        gear: profile(Member::Gear),
+        cycle: (0..cycle.positions.len()).map(|q| position(forward, q, &state.contacts[q])).collect(),
+    }
+}
+
+fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
+    let position = &forward.cycle().positions[q];
+    let torque = forward.torque();
+    let pairs = position
+        .pairs
+        .iter()
+        .map(|pair| {
+            let own = pair.offset..pair.offset + pair.xi.len();
+            let pressure = &contact.pressure[own.clone()];
+            let moment: f64 = pressure.iter().zip(&forward.levers(q)[own]).map(|(p, l)| p * l).sum();
+            PairState {
+                pair: pair.tooth,
+                path: pair.path,
+                load_share: moment / torque,
+                line_load: line_load(pair, contact),
+                peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
+                half_width: half_width(&pair.xi, pressure),
+                off_line_of_action: pair.frame.touch != Touch::Flanks,
+            }
+        })
+        .collect();
+    PositionState { position: position.theta, angle_urad: 1e6 * contact.approach, pairs }
+}
+
+/// Half the width of the strip with pressure: from the zero beyond its first node to that beyond its last, each taken
+/// where a pressure that falls like the root of the distance from the edge would vanish.
+fn half_width(xi: &[f64], pressure: &[f64]) -> f64 {
+    let loaded = |k: &usize| pressure[*k] > 0.0;
+    let (Some(first), Some(last)) = ((0..xi.len()).find(loaded), (0..xi.len()).rev().find(loaded)) else { return 0.0 };
+    let edge = |at: usize, inner: Option<usize>, outer: Option<usize>| {
+        let Some(outer) = outer else { return xi[at] };
+        let Some(inner) = inner.filter(|&i| pressure[i] > pressure[at]) else { return 0.5 * (xi[at] + xi[outer]) };
+        // p² falls linearly to the edge
+        let (p, q) = (pressure[at].powi(2), pressure[inner].powi(2));
+        let beyond = (xi[at] - xi[inner]) * p / (q - p);
+        let room = xi[outer] - xi[at];
+        xi[at] + beyond.clamp(room.min(0.0), room.max(0.0))
+    };
+    let low = edge(first, (first < last).then_some(first + 1), first.checked_sub(1));
+    let high = edge(last, (first < last).then(|| last - 1), Some(last + 1).filter(|&k| k < xi.len()));
+    0.5 * (high - low)
+}
+
+/// Fields of `state` at position `q`; `None` for the analytic model.
+///
+/// # Errors
+/// [`ForwardError`] if a mesh cannot follow the wear or a solve misses its residual.
+pub fn frame(forward: &Forward, state: &WearState, q: usize) -> Result<Option<FieldFrame>, ForwardError> {
+    let Some(members) = forward.members() else { return Ok(None) };
+    let cycle = forward.cycle();
+    let contact = &state.contacts[q];
+    let worn = members.worn_meshes(&cycle.pair, &cycle.stations, [&state.depth[0], &state.depth[1]])?;
+    let Some([pinion, gear]) = forward.fields_on(q, contact, [&worn[0].points, &worn[1].points])? else { return Ok(None) };
+    let member = |side: usize, fields: MemberFields| {
+        let mesh = &members.members[side].mesh;
+        let mut depth = vec![0.0; mesh.points.len()];
+        for chain in &mesh.flanks {
+            for (&node, &s) in chain.nodes.iter().zip(&chain.arc) {
+                depth[node as usize] = 1e3 * interpolate(&cycle.stations.arc[side], &state.depth[side], s);
+            }
+        }
+        let plain = |v: &[Vec2]| v.iter().map(|p| [p.x, p.y]).collect::<Vec<[f64; 2]>>();
+        MemberField {
+            centre: [if side == 0 { 0.0 } else { cycle.pair.centre_distance }, 0.0],
+            rotation: fields.turn,
+            reference: plain(&mesh.points),
+            worn: plain(&worn[side].points),
+            cells: mesh.cells.clone(),
+            displacement: plain(&fields.displacement),
+            von_mises: fields.stress.iter().map(|s| s.von_mises()).collect(),
+            stress: fields.stress.iter().map(|s| [s.xx, s.yy, s.xy, s.zz]).collect(),
+            contact_pressure: fields.pressure,
+            contact_force: plain(&fields.force),
+            wear_depth: depth,
+        }
+    };
+    Ok(Some(FieldFrame {
+        cycles: state.cycles,
+        position: cycle.positions[q].theta,
+        line_load: cycle.positions[q].pairs.iter().map(|p| line_load(p, contact)).sum(),
+        torque_per_width: forward.torque(),
+        pinion: member(0, pinion),
+        gear: member(1, gear),
+    }))
+}

@@ -1,0 +1,265 @@
+//! One whole run: members, mesh cycle, wear history, fields, gathered as a [`Run`].
+
+use std::time::Instant;
+
+use crate::contact::model::PositionContact;
+use crate::gear::{Member, Pair};
+use crate::mesh::Quality;
+use crate::simulate::checkpoint::Checkpoint;
+use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, GearSet};
+use crate::simulate::gather;
+use crate::simulate::history::{Progress, StepReport, WearState};
+use crate::simulate::members::Members;
+use crate::simulate::numerics::Numerics;
+use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, Run};
+
+/// What a run is to do.
+#[derive(Debug, Clone)]
+pub struct Plan<'a> {
+    /// Free text of the study.
+    pub title: &'a str,
+    /// Id of the test, if the conditions are a test's.
+    pub test: Option<&'a str>,
+    /// The gears.
+    pub set: &'a GearSet,
+    /// Conditions.
+    pub conditions: Conditions,
+    /// Resolution.
+    pub numerics: Numerics,
+    /// Contact model.
+    pub kind: ContactKind,
+    /// Worn states to store, evenly over the cycles.
+    pub stored_states: usize,
+    /// Mesh positions to draw at the last state.
+    pub drawn_positions: usize,
+}
+
+/// Where a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Event<'a> {
+    /// A stage begins.
+    Stage(&'static str),
+    /// A wear step is done.
+    Step {
+        /// Fraction of the cycles done.
+        fraction: f64,
+        /// The step.
+        report: StepReport<'a>,
+    },
+}
+
+/// Who watches a run.
+pub trait Observer {
+    /// Told of every event; `false` stops the run.
+    fn event(&mut self, event: Event) -> bool;
+    /// Given the state after each wear step.
+    ///
+    /// # Errors
+    /// A text, if it cannot be kept; the run then ends.
+    fn keep(&mut self, checkpoint: &Checkpoint) -> Result<(), String>;
+}
+
+/// Why a run has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The simulation failed.
+    #[error(transparent)]
+    Forward(#[from] ForwardError),
+    /// The simulation failed after some wear steps.
+    #[error("{source} (after {cycles:.0} of {end:.0} cycles; the steps up to there are kept for --resume)")]
+    Midway {
+        /// Cycles done.
+        cycles: f64,
+        /// Cycles asked for.
+        end: f64,
+        /// What failed.
+        source: ForwardError,
+    },
+    /// A checkpoint could not be kept.
+    #[error("{0}")]
+    Keep(String),
+    /// The observer stopped the run.
+    #[error("stopped after {cycles:.0} cycles")]
+    Stopped {
+        /// Cycles done.
+        cycles: f64,
+    },
+}
+
+/// Largest relative difference of worn area by law and by geometry that passes as balanced (time steps of the two differ).
+const BALANCE_LIMIT: f64 = 5e-3;
+
+/// Largest penetration over the approach that passes.
+const PENETRATION_LIMIT: f64 = 1e-3;
+
+/// Runs `plan`, from `start` if that is given. `members` are built if the plan needs and none are given.
+///
+/// # Errors
+/// [`RunError`]; what was worn until then is with the observer.
+pub fn run(plan: &Plan, members: Option<&Members>, start: Option<Checkpoint>, observer: &mut dyn Observer) -> Result<Run, RunError> {
+    let begun = Instant::now();
+    let mut stages = Stages::default();
+    let built;
+    let members = match (plan.kind, members) {
+        (ContactKind::Hertz, _) => None,
+        (ContactKind::Fem, Some(members)) => Some(members),
+        (ContactKind::Fem, None) => {
+            observer.event(Event::Stage("mesh, factor and condense both gears"));
+            built = plan.set.members(&plan.numerics, &[plan.conditions.torque], &[plan.conditions.misalignment])?;
+            Some(&built)
+        }
+    };
+    stages.end("mesh and compliance");
+    observer.event(Event::Stage("mesh cycle"));
+    let mut forward = Forward::new(plan.set, members, plan.conditions, plan.numerics)?;
+    if let Some(start) = &start {
+        forward.prepare(&start.preparation)?;
+    }
+    stages.end("mesh cycle");
+    let states = wear(plan, &mut forward, start, observer)?;
+    stages.end("contact and wear");
+    observer.event(Event::Stage("fields"));
+    let fields = fields(plan, &forward, &states.states)?;
+    stages.end("fields");
+    let pair = forward.cycle().pair.clone();
+    let worst = states.states.iter().flat_map(|s| &s.contacts).map(|c| c.penetration).fold(0.0, f64::max);
+    let balance_error = states.progress.balance.error();
+    Ok(Run {
+        title: plan.title.to_owned(),
+        conditions: gather::conditions(plan),
+        geometry: gather::geometry(&pair),
+        mesh: members.map(|m| [Member::Pinion, Member::Gear].map(|which| mesh_summary(m, which))),
+        states: states.states.iter().map(|s| gather::state(plan, &forward, s)).collect(),
+        fields,
+        balance_error,
+        checks: vec![
+            check("worn area, law against geometry", balance_error, BALANCE_LIMIT),
+            check("penetration over approach", worst, PENETRATION_LIMIT),
+            check("torque from contact forces against the load", torque_error(&forward, &states.states), 1e-9),
+        ],
+        cost: Cost {
+            seconds: begun.elapsed().as_secs_f64(),
+            factorisations: forward.factorisations(),
+            contact_solves: states.progress.solves,
+            wear_steps: states.progress.stand.accepted,
+            peak_memory_mb: peak_memory_mb(),
+            threads: rayon::current_num_threads(),
+            stages: stages.list,
+        },
+    })
+}
+
+struct Worn {
+    states: Vec<WearState>,
+    progress: Progress,
+}
+
+/// The wear history with its stored states; every step goes to the observer.
+fn wear(plan: &Plan, forward: &mut Forward, start: Option<Checkpoint>, observer: &mut dyn Observer) -> Result<Worn, RunError> {
+    let end = plan.conditions.cycles;
+    let stops: Vec<f64> = (0..=plan.stored_states).map(|i| end * i as f64 / plan.stored_states as f64).collect();
+    let (mut progress, mut stored) = start.map_or((None, Vec::new()), |s| (s.progress, s.stored));
+    let mut states = Vec::new();
+    for earlier in &stored {
+        states.push(forward.state(earlier)?);
+    }
+    for &stop in &stops[stored.len()..] {
+        let mut kept = Ok(());
+        let outcome = forward.wear_to(&mut progress, stop, &mut |preparation, progress| {
+            let fraction = progress.stand.n / end;
+            kept = observer.keep(&Checkpoint { preparation: preparation.clone(), progress: Some(progress.clone()), stored: stored.clone() });
+            kept.is_ok() && observer.event(Event::Step { fraction, report: progress.report() })
+        });
+        kept.map_err(RunError::Keep)?;
+        let reached = progress.as_ref().map_or(0.0, |p| p.stand.n);
+        match outcome {
+            Ok(true) => {}
+            Ok(false) => return Err(RunError::Stopped { cycles: reached }),
+            Err(source) if reached > 0.0 => return Err(RunError::Midway { cycles: reached, end, source }),
+            Err(source) => return Err(source.into()),
+        }
+        let Some(reached) = &progress else { continue };
+        stored.push(reached.clone());
+        states.push(forward.state(reached)?);
+        observer
+            .keep(&Checkpoint { preparation: forward.preparation(), progress: progress.clone(), stored: stored.clone() })
+            .map_err(RunError::Keep)?;
+    }
+    let progress = progress.unwrap_or_else(|| unreachable!("the first stop at zero cycles always leaves a progress"));
+    Ok(Worn { states, progress })
+}
+
+/// Fields of every stored state at the position nearest to the pitch point, and of the last at evenly spread positions.
+fn fields(plan: &Plan, forward: &Forward, states: &[WearState]) -> Result<Vec<FieldFrame>, ForwardError> {
+    use rayon::prelude::*;
+    if plan.drawn_positions == 0 || forward.members().is_none() {
+        return Ok(Vec::new());
+    }
+    let positions = forward.cycle().positions.len();
+    let last = states.len() - 1;
+    let mut wanted: Vec<(usize, usize)> = (0..states.len()).map(|s| (s, 0)).collect();
+    wanted.extend((1..plan.drawn_positions).map(|i| (last, i * positions / plan.drawn_positions)));
+    wanted
+        .into_par_iter()
+        .map(|(s, q)| gather::frame(forward, &states[s], q))
+        .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()
+        .map(|frames| frames.into_iter().flatten().collect())
+}
+
+/// Largest relative difference between the torque of the contact forces and the load, over all states and positions.
+fn torque_error(forward: &Forward, states: &[WearState]) -> f64 {
+    let lever_error = |q: usize, contact: &PositionContact| (forward.torque_of(q, contact) / forward.torque() - 1.0).abs();
+    states.iter().flat_map(|s| s.contacts.iter().enumerate()).map(|(q, c)| lever_error(q, c)).fold(0.0, f64::max)
+}
+
+fn check(name: &str, value: f64, limit: f64) -> Check {
+    Check { name: name.to_owned(), value, limit, unit: "-".to_owned() }
+}
+
+fn mesh_summary(members: &Members, which: Member) -> MeshSummary {
+    let member = &members.members[usize::from(which == Member::Gear)];
+    let quality = Quality::of(&member.mesh);
+    MeshSummary {
+        element: if member.order() == 1 { "T3" } else { "T6" }.to_owned(),
+        nodes: quality.nodes,
+        elements: quality.elements,
+        dof: member.body.dof_count(),
+        min_angle_deg: quality.min_angle_deg,
+        flank_spacing: members.spacing(),
+    }
+}
+
+/// Names and times of stages as they end.
+struct Stages {
+    last: Instant,
+    list: Vec<(String, f64)>,
+}
+
+impl Default for Stages {
+    fn default() -> Self {
+        Self { last: Instant::now(), list: Vec::new() }
+    }
+}
+
+impl Stages {
+    fn end(&mut self, name: &str) {
+        self.list.push((name.to_owned(), self.last.elapsed().as_secs_f64()));
+        self.last = Instant::now();
+    }
+}
+
+/// Peak resident memory of this process, 10⁶ bytes, where the system tells it.
+fn peak_memory_mb() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
+    let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kib * 1024.0 / 1e6)
+}
+
+/// The mounted pair of a plan.
+///
+/// # Errors
+/// [`ForwardError`] if the gears cannot run so.
+pub fn pair_of(plan: &Plan) -> Result<Pair, ForwardError> {
+    Ok(plan.set.mount(plan.conditions.misalignment)?)
+}
