@@ -21,7 +21,8 @@ fn set() -> GearSet {
     };
     GearSet {
         gears: [gear(27, 25.0), gear(53, 40.0)],
-        materials: [steel; 2], densities: [7850.0; 2],
+        materials: [steel; 2],
+        densities: [7850.0; 2],
         centre_distance: 80.0,
         face_width: 33.0,
     }

@@ -3,7 +3,10 @@
 use std::io;
 use std::path::PathBuf;
 
-use super::folder::FolderError;
+use crate::report::OutputError;
+use crate::simulate::checkpoint::CheckpointError;
+use crate::simulate::forward::ForwardError;
+use crate::simulate::run::RunError;
 use crate::study::StudyError;
 
 /// A failed command.
@@ -13,9 +16,20 @@ pub enum CliError {
     /// The study cannot be used.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The result folder cannot be used.
+    /// The result folder cannot be used, or a file not written.
     #[error(transparent)]
-    Folder(#[from] FolderError),
+    Output(#[from] OutputError),
+    /// The simulation did not come to a result.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A checkpoint cannot be used.
+    #[error("{source}: {}; run without --resume to start afresh", .path.display())]
+    Checkpoint {
+        /// Its file.
+        path: PathBuf,
+        /// Why not.
+        source: CheckpointError,
+    },
     /// Files that `init` would overwrite, or a file where its folder should be.
     #[error("{} is there already; --force overwrites it", .path.display())]
     Exists {
@@ -57,13 +71,25 @@ pub enum CliError {
     },
 }
 
+impl From<ForwardError> for CliError {
+    fn from(error: ForwardError) -> Self {
+        CliError::Run(error.into())
+    }
+}
+
 impl CliError {
     /// 2 for unusable input (nothing was written), 1 for any other failure.
     pub(super) fn exit_code(&self) -> u8 {
         match self {
             CliError::Study(_) | CliError::Exists { .. } | CliError::NotAFolder { .. } => 2,
-            CliError::Folder(error) if error.is_unusable_input() => 2,
-            CliError::Folder(_)
+            CliError::Output(
+                OutputError::Foreign { .. }
+                | OutputError::NotAFolder { .. }
+                | OutputError::Nameless { .. },
+            ) => 2,
+            CliError::Checkpoint { .. } => 2,
+            CliError::Output(_)
+            | CliError::Run(_)
             | CliError::Io { .. }
             | CliError::Print(_)
             | CliError::Threads { .. }

@@ -24,7 +24,6 @@ use std::io::{self, IsTerminal, Write};
 use clap::Parser;
 
 pub use error::CliError;
-use folder::ResultFolder;
 use progress::Progress;
 
 /// What a command that did its work hands back.
@@ -36,16 +35,6 @@ pub(crate) struct Outcome {
     pub(crate) text: String,
     /// Whether it went well; `false` (a validation case failed) ends with exit code 1.
     pub(crate) success: bool,
-}
-
-impl Outcome {
-    /// Moves the result folder to its place and says where that is.
-    fn in_folder(mut self, folder: ResultFolder) -> Result<Outcome, CliError> {
-        let path = folder.finish()?;
-        self.text
-            .push_str(&format!("results: {}\n", path.display()));
-        Ok(self)
-    }
 }
 
 /// The general options, as commands see them.
@@ -84,6 +73,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
+    // the program is parallel over bodies, positions and tests; inside a matrix more threads would change the last bits
+    faer::set_global_parallelism(faer::Par::Seq);
     if let Some(threads) = arguments.general.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
         pool.build_global().map_err(|source| CliError::Threads {

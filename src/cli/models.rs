@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 
 use super::args::StudyAndOutput;
-use super::folder::{self, ResultFolder};
+use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
 use crate::study::Study;
@@ -28,8 +28,7 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "models"));
-    let folder = ResultFolder::fresh(&target)?;
-    compare_models(&study, folder.path(), &context.progress("models"))?.in_folder(folder)
+    compare_models(&study, &target, &context.progress("models"))
 }
 
 /// Runs all three models and writes their tables and plots into `folder`; the outcome's JSON is `models.json`.

@@ -25,8 +25,13 @@ impl Progress {
         )
     }
 
+    /// Shows which stage begins.
+    pub(crate) fn stage(&self, name: &'static str) {
+        self.0.set_message(name);
+        self.0.tick();
+    }
+
     /// Shows that the fraction `done` (0 to 1) is behind us, and what is going on.
-    #[expect(dead_code, reason = "called by the command bodies")]
     pub(crate) fn show(&self, done: f64, doing: String) {
         self.0.set_message(doing);
         self.0.set_position((done.clamp(0.0, 1.0) * 1000.0) as u64);

@@ -1,14 +1,21 @@
 //! `gearwear run`: mesh, contact and wear history of one study at its operation or at a test's conditions.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::args::StudyAndOutput;
-use super::folder::{self, ResultFolder, Resumed};
+use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
-use crate::study::{Operation, Study};
+use crate::report::{self, atomic};
+use crate::simulate::checkpoint::{Checkpoint, CheckpointError, Fingerprint, fingerprint};
+use crate::simulate::members::Members;
+use crate::simulate::paper_run;
+use crate::simulate::result::Run;
+use crate::simulate::run::{Event, Observer, Plan, run};
+use crate::study::{ContactKind, Operation, Study};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -26,7 +33,7 @@ pub struct RunArgs {
     resume: bool,
 }
 
-/// Checks the input, prepares the folder, and leaves the work to [`simulate_and_report`].
+/// Checks the input and the folder, simulates, writes.
 pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
     let conditions = study.conditions(args.test.as_deref())?;
@@ -35,27 +42,155 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "run"));
-    let folder = if args.resume {
-        match ResultFolder::resume(&target)? {
-            Resumed::Finished(path) => return already_finished(&path),
-            Resumed::Write(folder) => folder,
-        }
-    } else {
-        ResultFolder::fresh(&target)?
-    };
-    simulate_and_report(&study, conditions, folder.path(), &context.progress("wear"))?
-        .in_folder(folder)
+    atomic::check(&target)?;
+    if args.resume && atomic::is_result(&target) {
+        return already_finished(&target);
+    }
+    let keeper = Keeper::new(&study, args, &target);
+    let start = if args.resume { keeper.read()? } else { None };
+    let result = simulate(
+        &study,
+        conditions,
+        args.test.as_deref(),
+        start,
+        &keeper,
+        &context.progress("wear"),
+    )?;
+    let written = report::write_run(&result, &target)?;
+    keeper.discard();
+    let json = report::json::summary(&result)?;
+    Ok(Outcome {
+        json,
+        text: report::text::summary(&result, &written.folder),
+        success: true,
+    })
 }
 
-/// Simulates and writes all result files into `folder` (`checkpoint*` files there are what `--resume` continues from); the
-/// outcome's JSON is `summary.json`.
-fn simulate_and_report(
-    _study: &Study,
-    _conditions: &Operation,
-    _folder: &Path,
-    _progress: &Progress,
-) -> Result<Outcome, CliError> {
-    Err(CliError::NotBuilt { command: "run" })
+fn simulate(
+    study: &Study,
+    conditions: &Operation,
+    test: Option<&str>,
+    start: Option<Checkpoint>,
+    keeper: &Keeper,
+    progress: &Progress,
+) -> Result<Run, CliError> {
+    let set = study.gear_set();
+    let plan = Plan {
+        title: &study.title,
+        test,
+        set: &set,
+        conditions: conditions.simulated(&study.wear),
+        numerics: study.resolution(),
+        kind: match study.contact {
+            ContactKind::Fem => crate::simulate::forward::ContactKind::Fem,
+            ContactKind::Hertz | ContactKind::Paper => crate::simulate::forward::ContactKind::Hertz,
+        },
+        stored_states: study.numerics.stored_states,
+        drawn_positions: study.numerics.fields,
+    };
+    if study.contact == ContactKind::Paper {
+        return Ok(paper_run::run(&plan)?);
+    }
+    let own = own_members(study, &plan)?;
+    let mut watcher = Watcher { keeper, progress };
+    Ok(run(&plan, own.as_ref(), start, &mut watcher)?)
+}
+
+/// The members on the user's own meshes, if the study names any.
+pub(super) fn own_members(study: &Study, plan: &Plan) -> Result<Option<Members>, CliError> {
+    let named = study.own_meshes();
+    if named.iter().all(|(_, path)| path.is_none()) {
+        return Ok(None);
+    }
+    let torque = [plan.conditions.torque];
+    let misalignment = [plan.conditions.misalignment];
+    let mut meshes = [None, None];
+    for (slot, (member, path)) in meshes.iter_mut().zip(named) {
+        if let Some(path) = path {
+            *slot = Some(super::mesh::read_own(study, member, path)?);
+        }
+    }
+    Ok(Some(plan.set.members_on(
+        &plan.numerics,
+        &torque,
+        &misalignment,
+        meshes,
+    )?))
+}
+
+/// Keeps the checkpoint of one run.
+struct Keeper {
+    path: PathBuf,
+    identity: Fingerprint,
+}
+
+impl Keeper {
+    fn new(study: &Study, args: &RunArgs, target: &Path) -> Self {
+        let identity = fingerprint(&[study.text(), args.test.as_deref().unwrap_or("")]);
+        Self {
+            path: folder::checkpoint_path(target),
+            identity,
+        }
+    }
+
+    fn read(&self) -> Result<Option<Checkpoint>, CliError> {
+        let bytes = match fs::read(&self.path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(source) => {
+                return Err(CliError::Io {
+                    doing: "read",
+                    path: self.path.clone(),
+                    source,
+                });
+            }
+        };
+        match Checkpoint::from_bytes(&bytes, &self.identity) {
+            Ok(checkpoint) => Ok(Some(checkpoint)),
+            // writes are atomic, so a damaged file is another version's or was tampered with: no ground to go on from
+            Err(CheckpointError::Damaged) => Ok(None),
+            Err(source) => Err(CliError::Checkpoint {
+                path: self.path.clone(),
+                source,
+            }),
+        }
+    }
+
+    fn discard(&self) {
+        // the result is in place; a checkpoint that cannot be removed does no harm, --resume looks for the result first
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+struct Watcher<'a> {
+    keeper: &'a Keeper,
+    progress: &'a Progress,
+}
+
+impl Observer for Watcher<'_> {
+    fn event(&mut self, event: Event) -> bool {
+        match event {
+            Event::Stage(name) => self.progress.stage(name),
+            Event::Step { fraction, report } => {
+                let [pinion, gear] = report.max_depth.map(|h| 1e3 * h);
+                let doing = format!(
+                    "{:.0} cycles, pinion {pinion:.2} µm, gear {gear:.2} µm, worn area law/geometry {:.1e}",
+                    report.stand.n,
+                    report.balance.error()
+                );
+                self.progress.show(fraction, doing);
+            }
+        }
+        true
+    }
+
+    fn keep(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
+        atomic::write_file(
+            &self.keeper.path,
+            &checkpoint.to_bytes(&self.keeper.identity),
+        )
+        .map_err(|e| e.to_string())
+    }
 }
 
 fn already_finished(folder: &Path) -> Result<Outcome, CliError> {
@@ -65,12 +200,11 @@ fn already_finished(folder: &Path) -> Result<Outcome, CliError> {
         path: path.clone(),
         source,
     };
-    let text = std::fs::read_to_string(&path).map_err(unreadable)?;
+    let text = fs::read_to_string(&path).map_err(unreadable)?;
     let json = serde_json::from_str(&text).map_err(|error| unreadable(error.into()))?;
-    let text = format!("finished already: {}\n", folder.display());
     Ok(Outcome {
         json,
-        text,
+        text: format!("finished already: {}\n", folder.display()),
         success: true,
     })
 }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::folder::ResultFolder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
 
@@ -24,17 +23,11 @@ pub struct ValidateArgs {
 
 /// Prepares the folder, if one is wanted, and leaves the work to [`run_cases`].
 pub(super) fn execute(args: &ValidateArgs, context: &Context) -> Result<Outcome, CliError> {
-    let folder = args
-        .output
-        .as_deref()
-        .map(ResultFolder::fresh)
-        .transpose()?;
-    let path = folder.as_ref().map(ResultFolder::path);
-    let outcome = run_cases(&args.cases, path, &context.progress("cases"))?;
-    match folder {
-        Some(folder) => outcome.in_folder(folder),
-        None => Ok(outcome),
-    }
+    run_cases(
+        &args.cases,
+        args.output.as_deref(),
+        &context.progress("cases"),
+    )
 }
 
 /// Runs the named cases, all if none is named, and writes `validation.json` into `folder` if there is one; the outcome's JSON

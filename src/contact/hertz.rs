@@ -13,8 +13,8 @@ use nalgebra::DMatrix;
 use crate::analytic::hertz_line;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
-use crate::numeric::interpolate;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::numeric::interpolate;
 
 /// Analytic contact over one mesh cycle.
 #[derive(Debug, Clone)]

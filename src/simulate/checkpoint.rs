@@ -80,7 +80,10 @@ mod tests {
     fn survives_a_round_trip_and_nothing_else() {
         let run = fingerprint(&["study", "test"]);
         let checkpoint = Checkpoint {
-            preparation: Preparation { window: 0.25, condensed_at: Some(vec![1.0]) },
+            preparation: Preparation {
+                window: 0.25,
+                condensed_at: Some(vec![1.0]),
+            },
             progress: None,
             stored: Vec::new(),
         };

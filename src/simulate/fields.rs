@@ -31,8 +31,14 @@ impl Forward<'_> {
     ///
     /// # Errors
     /// [`ForwardError`] if a solve misses its residual.
-    pub fn fields(&self, q: usize, contact: &PositionContact) -> Result<Option<[MemberFields; 2]>, ForwardError> {
-        let points = self.members().map(|m| [&m.members[0].mesh.points[..], &m.members[1].mesh.points[..]]);
+    pub fn fields(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
+        let points = self
+            .members()
+            .map(|m| [&m.members[0].mesh.points[..], &m.members[1].mesh.points[..]]);
         points.map_or(Ok(None), |points| self.fields_on(q, contact, points))
     }
 
@@ -40,7 +46,12 @@ impl Forward<'_> {
     ///
     /// # Errors
     /// [`ForwardError`] if a solve misses its residual.
-    pub fn fields_on(&self, q: usize, contact: &PositionContact, points: [&[Vec2]; 2]) -> Result<Option<[MemberFields; 2]>, ForwardError> {
+    pub fn fields_on(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+        points: [&[Vec2]; 2],
+    ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
         let (Some(members), Some(compliance)) = (self.condensed(), self.compliance()) else {
             return Ok(None);
         };
@@ -77,7 +88,11 @@ struct Loads<'a> {
 
 impl<'a> Loads<'a> {
     fn new(points: &'a [Vec2]) -> Self {
-        Self { points, force: vec![Vec2::zeros(); points.len()], pressure: vec![0.0; points.len()] }
+        Self {
+            points,
+            force: vec![Vec2::zeros(); points.len()],
+            pressure: vec![0.0; points.len()],
+        }
     }
 
     #[expect(

@@ -7,8 +7,9 @@ use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
+use crate::mesh::Mesh;
 use crate::simulate::history::{Progress, StepReport, WearLaw, WearState, state_of, wear_until};
-use crate::simulate::members::{MemberError, Members};
+use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
 use crate::wear::integrator::StepError;
 
@@ -97,29 +98,87 @@ impl GearSet {
         torques: &[f64],
         misalignments: &[f64],
     ) -> Result<Members, ForwardError> {
-        let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
-        let greatest = torques.iter().fold(0.0, |m: f64, t| m.max(*t)) / self.face_width;
-        let mut teeth: Vec<i32> = Vec::new();
-        let mut spacing = f64::INFINITY;
-        for &misalignment in misalignments {
-            let pair = self.mount(misalignment)?;
-            spacing = spacing.min(numerics.flank_spacing(&pair, self.modulus(), least));
-            teeth.extend(Cycle::teeth(
-                &pair,
-                numerics.cycle(&pair, self.modulus(), greatest, spacing),
-            ));
-        }
-        teeth.sort_unstable();
-        teeth.dedup();
-        let pair = self.mount(misalignments.first().copied().unwrap_or(0.0))?;
+        self.members_on(numerics, torques, misalignments, [None, None])
+    }
+
+    /// As [`GearSet::members`], on the user's `own` meshes where there are any.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a pair cannot run or a member cannot be built.
+    pub fn members_on(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+        own: [Option<Mesh>; 2],
+    ) -> Result<Members, ForwardError> {
+        let fineness = self.fineness(numerics, torques, misalignments)?;
         Ok(Members::build(
-            &pair,
+            &self.gears,
             self.materials,
-            &teeth,
-            spacing,
+            &fineness.teeth,
+            fineness.spacing,
             numerics.order,
+            own,
         )?)
     }
+
+    /// The meshes of both members alone.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a pair cannot run or a member cannot be meshed.
+    pub fn meshes(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+        own: [Option<Mesh>; 2],
+    ) -> Result<[Mesh; 2], ForwardError> {
+        let fineness = self.fineness(numerics, torques, misalignments)?;
+        Ok(members::meshes(
+            &self.gears,
+            &fineness.teeth,
+            fineness.spacing,
+            numerics.order,
+            own,
+        )?)
+    }
+
+    fn fineness(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+    ) -> Result<Fineness, ForwardError> {
+        let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
+        let greatest = torques.iter().fold(0.0, |m: f64, t| m.max(*t)) / self.face_width;
+        let pairs = misalignments
+            .iter()
+            .map(|m| self.mount(*m))
+            .collect::<Result<Vec<Pair>, PairError>>()?;
+        let spacing = pairs
+            .iter()
+            .map(|p| numerics.flank_spacing(p, self.modulus(), least))
+            .fold(f64::INFINITY, f64::min);
+        let mut teeth: Vec<i32> = pairs
+            .iter()
+            .flat_map(|pair| {
+                Cycle::teeth(
+                    pair,
+                    numerics.cycle(pair, self.modulus(), greatest, spacing),
+                )
+            })
+            .collect();
+        teeth.sort_unstable();
+        teeth.dedup();
+        Ok(Fineness { teeth, spacing })
+    }
+}
+
+/// Which of the pinion's teeth are meshed finely, and how finely (mm).
+struct Fineness {
+    teeth: Vec<i32>,
+    spacing: f64,
 }
 
 /// A gear pair under one test's conditions, ready to run.
@@ -246,7 +305,9 @@ impl<'a> Forward<'a> {
         store: &mut dyn FnMut(WearState),
     ) -> Result<bool, ForwardError> {
         for &stop in stops {
-            if !self.wear_to(progress, stop, &mut |_, progress| observe(progress.report()))? {
+            if !self.wear_to(progress, stop, &mut |_, progress| {
+                observe(progress.report())
+            })? {
                 return Ok(false);
             }
             if let Some(progress) = progress {
@@ -267,7 +328,10 @@ impl<'a> Forward<'a> {
         stop: f64,
         observe: &mut dyn FnMut(&Preparation, &Progress) -> bool,
     ) -> Result<bool, ForwardError> {
-        let law = WearLaw { coefficient: self.conditions.coefficient, tolerance: self.numerics.step_tolerance };
+        let law = WearLaw {
+            coefficient: self.conditions.coefficient,
+            tolerance: self.numerics.step_tolerance,
+        };
         loop {
             let preparation = self.preparation();
             let mut go_on = true;
@@ -283,12 +347,21 @@ impl<'a> Forward<'a> {
                 Ok(_) if !go_on => return Ok(false),
                 Ok(_) if stale => {
                     let worn = progress.as_ref().map(|p| p.stand.u.clone());
-                    self.prepare(&Preparation { condensed_at: worn, ..preparation })?;
+                    self.prepare(&Preparation {
+                        condensed_at: worn,
+                        ..preparation
+                    })?;
                 }
                 Ok(_) => return Ok(true),
-                Err(StepError::System { source: ContactError::WindowTooNarrow { .. }, .. }) => {
+                Err(StepError::System {
+                    source: ContactError::WindowTooNarrow { .. },
+                    ..
+                }) => {
                     // wear flattens contacts: look for them in a wider strip
-                    self.prepare(&Preparation { window: 1.4 * preparation.window, ..preparation })?;
+                    self.prepare(&Preparation {
+                        window: 1.4 * preparation.window,
+                        ..preparation
+                    })?;
                     if let Some(progress) = progress {
                         progress.forget_sets();
                     }
@@ -308,7 +381,10 @@ impl<'a> Forward<'a> {
 
     /// How the contact is prepared at the moment.
     pub fn preparation(&self) -> Preparation {
-        Preparation { window: self.cycle.spec.window, condensed_at: self.condensed_at.clone() }
+        Preparation {
+            window: self.cycle.spec.window,
+            condensed_at: self.condensed_at.clone(),
+        }
     }
 
     /// Prepares the contact as `preparation` says, as an interrupted run had it.
@@ -317,16 +393,25 @@ impl<'a> Forward<'a> {
     /// [`ForwardError`] if a worn member cannot be factored.
     pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
         if preparation.window != self.cycle.spec.window {
-            let spec = CycleSpec { window: preparation.window, ..self.cycle.spec };
+            let spec = CycleSpec {
+                window: preparation.window,
+                ..self.cycle.spec
+            };
             self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
         }
-        let Some(fresh) = self.members else { return Ok(()) };
+        let Some(fresh) = self.members else {
+            return Ok(());
+        };
         if preparation.condensed_at != self.condensed_at {
             self.condensed_at.clone_from(&preparation.condensed_at);
             self.worn = match &self.condensed_at {
                 Some(u) => {
                     let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
-                    let meshes = fresh.worn_meshes(&self.cycle.pair, &self.cycle.stations, [pinion, gear])?;
+                    let meshes = fresh.worn_meshes(
+                        &self.cycle.pair,
+                        &self.cycle.stations,
+                        [pinion, gear],
+                    )?;
                     self.factorisations += 2;
                     Some(Box::new(fresh.condensed_on(meshes)?))
                 }
@@ -334,7 +419,11 @@ impl<'a> Forward<'a> {
             };
         }
         let members = self.worn.as_deref().unwrap_or(fresh);
-        self.compliance = Some(CycleCompliance::new(&self.cycle, members.flanks(), self.numerics.friction)?);
+        self.compliance = Some(CycleCompliance::new(
+            &self.cycle,
+            members.flanks(),
+            self.numerics.friction,
+        )?);
         Ok(())
     }
 
@@ -345,12 +434,19 @@ impl<'a> Forward<'a> {
 
     /// Lever of the torque for each unknown of position `q`, mm·mm.
     pub fn levers(&self, q: usize) -> &[f64] {
-        self.compliance.as_ref().map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
+        self.compliance
+            .as_ref()
+            .map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
     }
 
     /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
     pub fn torque_of(&self, q: usize, contact: &PositionContact) -> f64 {
-        contact.pressure.iter().zip(self.levers(q)).map(|(p, l)| p * l).sum()
+        contact
+            .pressure
+            .iter()
+            .zip(self.levers(q))
+            .map(|(p, l)| p * l)
+            .sum()
     }
 }
 
@@ -371,7 +467,10 @@ pub const CONDENSE_AFTER: f64 = 0.03;
 impl Preparation {
     fn is_stale(&self, u: &[f64]) -> bool {
         match &self.condensed_at {
-            Some(before) => u.iter().zip(before).any(|(now, then)| now - then > CONDENSE_AFTER),
+            Some(before) => u
+                .iter()
+                .zip(before)
+                .any(|(now, then)| now - then > CONDENSE_AFTER),
             None => u.iter().any(|now| *now > CONDENSE_AFTER),
         }
     }

@@ -8,7 +8,8 @@ use crate::simulate::fields::MemberFields;
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
 use crate::simulate::history::{WearState, line_load, worn_area};
 use crate::simulate::result::{
-    Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State, WheelGeometry,
+    Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State,
+    WheelGeometry,
 };
 use crate::simulate::run::Plan;
 
@@ -83,7 +84,10 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         let volume = area * plan.set.face_width * f64::from(gear.spec.teeth);
         Profile {
             radius: rho.iter().map(|&r| gear.radius_at_rho(r)).collect(),
-            path: rho.iter().map(|&r| cycle.pair.path_at_rho(member, r)).collect(),
+            path: rho
+                .iter()
+                .map(|&r| cycle.pair.path_at_rho(member, r))
+                .collect(),
             depth: state.depth[side].iter().map(|h| 1e3 * h).collect(),
             worn_area_mm2: area,
             // mm³ · kg/m³ = µg
@@ -94,7 +98,9 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         cycles: state.cycles,
         pinion: profile(Member::Pinion),
         gear: profile(Member::Gear),
-        cycle: (0..cycle.positions.len()).map(|q| position(forward, q, &state.contacts[q])).collect(),
+        cycle: (0..cycle.positions.len())
+            .map(|q| position(forward, q, &state.contacts[q]))
+            .collect(),
     }
 }
 
@@ -107,7 +113,11 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
         .map(|pair| {
             let own = pair.offset..pair.offset + pair.xi.len();
             let pressure = &contact.pressure[own.clone()];
-            let moment: f64 = pressure.iter().zip(&forward.levers(q)[own]).map(|(p, l)| p * l).sum();
+            let moment: f64 = pressure
+                .iter()
+                .zip(&forward.levers(q)[own])
+                .map(|(p, l)| p * l)
+                .sum();
             PairState {
                 pair: pair.tooth,
                 path: pair.path,
@@ -119,25 +129,42 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
             }
         })
         .collect();
-    PositionState { position: position.theta, angle_urad: 1e6 * contact.approach, pairs }
+    PositionState {
+        position: position.theta,
+        angle_urad: 1e6 * contact.approach,
+        pairs,
+    }
 }
 
 /// Half the width of the strip with pressure: from the zero beyond its first node to that beyond its last, each taken
 /// where a pressure that falls like the root of the distance from the edge would vanish.
 fn half_width(xi: &[f64], pressure: &[f64]) -> f64 {
     let loaded = |k: &usize| pressure[*k] > 0.0;
-    let (Some(first), Some(last)) = ((0..xi.len()).find(loaded), (0..xi.len()).rev().find(loaded)) else { return 0.0 };
+    let (Some(first), Some(last)) = ((0..xi.len()).find(loaded), (0..xi.len()).rev().find(loaded))
+    else {
+        return 0.0;
+    };
     let edge = |at: usize, inner: Option<usize>, outer: Option<usize>| {
         let Some(outer) = outer else { return xi[at] };
-        let Some(inner) = inner.filter(|&i| pressure[i] > pressure[at]) else { return 0.5 * (xi[at] + xi[outer]) };
+        let Some(inner) = inner.filter(|&i| pressure[i] > pressure[at]) else {
+            return 0.5 * (xi[at] + xi[outer]);
+        };
         // p² falls linearly to the edge
         let (p, q) = (pressure[at].powi(2), pressure[inner].powi(2));
         let beyond = (xi[at] - xi[inner]) * p / (q - p);
         let room = xi[outer] - xi[at];
         xi[at] + beyond.clamp(room.min(0.0), room.max(0.0))
     };
-    let low = edge(first, (first < last).then_some(first + 1), first.checked_sub(1));
-    let high = edge(last, (first < last).then(|| last - 1), Some(last + 1).filter(|&k| k < xi.len()));
+    let low = edge(
+        first,
+        (first < last).then_some(first + 1),
+        first.checked_sub(1),
+    );
+    let high = edge(
+        last,
+        (first < last).then(|| last - 1),
+        Some(last + 1).filter(|&k| k < xi.len()),
+    );
     0.5 * (high - low)
 }
 
@@ -145,30 +172,55 @@ fn half_width(xi: &[f64], pressure: &[f64]) -> f64 {
 ///
 /// # Errors
 /// [`ForwardError`] if a mesh cannot follow the wear or a solve misses its residual.
-pub fn frame(forward: &Forward, state: &WearState, q: usize) -> Result<Option<FieldFrame>, ForwardError> {
-    let Some(members) = forward.members() else { return Ok(None) };
+pub fn frame(
+    forward: &Forward,
+    state: &WearState,
+    q: usize,
+) -> Result<Option<FieldFrame>, ForwardError> {
+    let Some(members) = forward.members() else {
+        return Ok(None);
+    };
     let cycle = forward.cycle();
     let contact = &state.contacts[q];
-    let worn = members.worn_meshes(&cycle.pair, &cycle.stations, [&state.depth[0], &state.depth[1]])?;
-    let Some([pinion, gear]) = forward.fields_on(q, contact, [&worn[0].points, &worn[1].points])? else { return Ok(None) };
+    let worn = members.worn_meshes(
+        &cycle.pair,
+        &cycle.stations,
+        [&state.depth[0], &state.depth[1]],
+    )?;
+    let Some([pinion, gear]) = forward.fields_on(q, contact, [&worn[0].points, &worn[1].points])?
+    else {
+        return Ok(None);
+    };
     let member = |side: usize, fields: MemberFields| {
         let mesh = &members.members[side].mesh;
         let mut depth = vec![0.0; mesh.points.len()];
         for chain in &mesh.flanks {
             for (&node, &s) in chain.nodes.iter().zip(&chain.arc) {
-                depth[node as usize] = 1e3 * interpolate(&cycle.stations.arc[side], &state.depth[side], s);
+                depth[node as usize] =
+                    1e3 * interpolate(&cycle.stations.arc[side], &state.depth[side], s);
             }
         }
         let plain = |v: &[Vec2]| v.iter().map(|p| [p.x, p.y]).collect::<Vec<[f64; 2]>>();
         MemberField {
-            centre: [if side == 0 { 0.0 } else { cycle.pair.centre_distance }, 0.0],
+            centre: [
+                if side == 0 {
+                    0.0
+                } else {
+                    cycle.pair.centre_distance
+                },
+                0.0,
+            ],
             rotation: fields.turn,
             reference: plain(&mesh.points),
             worn: plain(&worn[side].points),
             cells: mesh.cells.clone(),
             displacement: plain(&fields.displacement),
             von_mises: fields.stress.iter().map(|s| s.von_mises()).collect(),
-            stress: fields.stress.iter().map(|s| [s.xx, s.yy, s.xy, s.zz]).collect(),
+            stress: fields
+                .stress
+                .iter()
+                .map(|s| [s.xx, s.yy, s.xy, s.zz])
+                .collect(),
             contact_pressure: fields.pressure,
             contact_force: plain(&fields.force),
             wear_depth: depth,
@@ -177,7 +229,11 @@ pub fn frame(forward: &Forward, state: &WearState, q: usize) -> Result<Option<Fi
     Ok(Some(FieldFrame {
         cycles: state.cycles,
         position: cycle.positions[q].theta,
-        line_load: cycle.positions[q].pairs.iter().map(|p| line_load(p, contact)).sum(),
+        line_load: cycle.positions[q]
+            .pairs
+            .iter()
+            .map(|p| line_load(p, contact))
+            .sum(),
         torque_per_width: forward.torque(),
         pinion: member(0, pinion),
         gear: member(1, gear),

@@ -74,7 +74,12 @@ pub struct Progress {
 impl Progress {
     /// What an observer is told of it.
     pub fn report(&self) -> StepReport<'_> {
-        StepReport { stand: &self.stand, balance: self.balance, max_depth: self.max_depth, solves: self.solves }
+        StepReport {
+            stand: &self.stand,
+            balance: self.balance,
+            max_depth: self.max_depth,
+            solves: self.solves,
+        }
     }
 
     /// Forgets the contact sets: their numbering has changed.

@@ -5,11 +5,11 @@ use rayon::join;
 
 use crate::contact::cycle::Stations;
 use crate::contact::fem::{ElasticFlanks, ToothFlank};
-use crate::numeric::interpolate;
 use crate::fem::{Body, FemError};
 use crate::gear::{Gear, Pair};
 use crate::material::Elastic;
 use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, Order, mesh_gear, relocate};
+use crate::numeric::interpolate;
 
 /// One elastic gear.
 pub struct Member {
@@ -42,24 +42,25 @@ pub struct Members {
 }
 
 impl Members {
-    /// Meshes and condenses both gears of `pair`, in parallel.
+    /// Meshes and condenses both gears, in parallel.
     ///
     /// `teeth` are the pinion's teeth that can touch (the gear's have the opposite numbers), `spacing` the length of
-    /// their flanks' edges (mm), `order` 2 for quadratic triangles or 1 for linear.
+    /// their flanks' edges (mm), `order` 2 for quadratic triangles or 1 for linear; `own` meshes stand in for ours.
     ///
     /// # Errors
     /// [`MemberError`].
     pub fn build(
-        pair: &Pair,
+        gears: &[Gear; 2],
         materials: [Elastic; 2],
         teeth: &[i32],
         spacing: f64,
         order: usize,
+        own: [Option<Mesh>; 2],
     ) -> Result<Self, MemberError> {
-        let mirrored: Vec<i32> = teeth.iter().rev().map(|t| -t).collect();
+        let [pinion, gear] = meshes(gears, teeth, spacing, order, own)?;
         let (pinion, gear) = join(
-            || Member::build(&pair.pinion, materials[0], teeth, spacing, order),
-            || Member::build(&pair.gear, materials[1], &mirrored, spacing, order),
+            || Member::from_mesh(pinion, materials[0]),
+            || Member::from_mesh(gear, materials[1]),
         );
         Ok(Self {
             members: [pinion?, gear?],
@@ -77,13 +78,24 @@ impl Members {
     ///
     /// # Errors
     /// [`MemberError`] if a triangle turns over.
-    pub fn worn_meshes(&self, pair: &Pair, stations: &Stations, depth: [&[f64]; 2]) -> Result<[Mesh; 2], MemberError> {
+    pub fn worn_meshes(
+        &self,
+        pair: &Pair,
+        stations: &Stations,
+        depth: [&[f64]; 2],
+    ) -> Result<[Mesh; 2], MemberError> {
         let worn = |side: usize| -> Result<Mesh, MemberError> {
             let mesh = &self.members[side].mesh;
             let depths: Vec<Vec<f64>> = mesh
                 .flanks
                 .iter()
-                .map(|chain| chain.arc.iter().map(|&s| interpolate(&stations.arc[side], depth[side], s)).collect())
+                .map(|chain| {
+                    chain
+                        .arc
+                        .iter()
+                        .map(|&s| interpolate(&stations.arc[side], depth[side], s))
+                        .collect()
+                })
                 .collect();
             Ok(relocate(mesh, [&pair.pinion, &pair.gear][side], &depths)?)
         };
@@ -101,7 +113,10 @@ impl Members {
             || Member::from_mesh(pinion, self.members[0].material),
             || Member::from_mesh(gear, self.members[1].material),
         );
-        Ok(Self { members: [pinion?, gear?], spacing: self.spacing })
+        Ok(Self {
+            members: [pinion?, gear?],
+            spacing: self.spacing,
+        })
     }
 
     /// The condensed flanks of both.
@@ -117,18 +132,6 @@ impl Member {
             Cells::T3(_) => 1,
             Cells::T6(_) => 2,
         }
-    }
-
-    fn build(
-        gear: &Gear,
-        material: Elastic,
-        teeth: &[i32],
-        spacing: f64,
-        order: usize,
-    ) -> Result<Self, MemberError> {
-        let mut spec = MeshSpec::new(gear, teeth.to_vec(), spacing, gear.rho_form);
-        spec.order = if order == 1 { Order::T3 } else { Order::T6 };
-        Self::from_mesh(mesh_gear(gear, &spec)?, material)
     }
 
     /// Factors and condenses a given mesh.
@@ -172,4 +175,31 @@ impl Member {
             flanks,
         })
     }
+}
+
+/// Meshes of both gears, fine on the loaded flanks of the pinion's `teeth` and of the gear's teeth of opposite number;
+/// `own` meshes stand in for ours.
+///
+/// # Errors
+/// [`MeshError`] if no acceptable mesh is found.
+pub fn meshes(
+    gears: &[Gear; 2],
+    teeth: &[i32],
+    spacing: f64,
+    order: usize,
+    own: [Option<Mesh>; 2],
+) -> Result<[Mesh; 2], MemberError> {
+    let one = |side: usize, own: Option<Mesh>| -> Result<Mesh, MeshError> {
+        if let Some(mesh) = own {
+            return Ok(mesh);
+        }
+        let sign = if side == 0 { 1 } else { -1 };
+        let fine = teeth.iter().map(|t| sign * t).collect();
+        let mut spec = MeshSpec::new(&gears[side], fine, spacing, gears[side].rho_form);
+        spec.order = if order == 1 { Order::T3 } else { Order::T6 };
+        mesh_gear(&gears[side], &spec)
+    };
+    let [own_pinion, own_gear] = own;
+    let (pinion, gear) = join(|| one(0, own_pinion), || one(1, own_gear));
+    Ok([pinion?, gear?])
 }

@@ -7,5 +7,6 @@ pub mod gather;
 pub mod history;
 pub mod members;
 pub mod numerics;
+pub mod paper_run;
 pub mod result;
 pub mod run;

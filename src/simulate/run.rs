@@ -66,7 +66,9 @@ pub enum RunError {
     #[error(transparent)]
     Forward(#[from] ForwardError),
     /// The simulation failed after some wear steps.
-    #[error("{source} (after {cycles:.0} of {end:.0} cycles; the steps up to there are kept for --resume)")]
+    #[error(
+        "{source} (after {cycles:.0} of {end:.0} cycles; the steps up to there are kept for --resume)"
+    )]
     Midway {
         /// Cycles done.
         cycles: f64,
@@ -75,6 +77,9 @@ pub enum RunError {
         /// What failed.
         source: ForwardError,
     },
+    /// The published model does not cover the pair.
+    #[error("the published model: {0}")]
+    Paper(#[from] crate::paper::Error),
     /// A checkpoint could not be kept.
     #[error("{0}")]
     Keep(String),
@@ -96,7 +101,12 @@ const PENETRATION_LIMIT: f64 = 1e-3;
 ///
 /// # Errors
 /// [`RunError`]; what was worn until then is with the observer.
-pub fn run(plan: &Plan, members: Option<&Members>, start: Option<Checkpoint>, observer: &mut dyn Observer) -> Result<Run, RunError> {
+pub fn run(
+    plan: &Plan,
+    members: Option<&Members>,
+    start: Option<Checkpoint>,
+    observer: &mut dyn Observer,
+) -> Result<Run, RunError> {
     let begun = Instant::now();
     let mut stages = Stages::default();
     let built;
@@ -105,7 +115,11 @@ pub fn run(plan: &Plan, members: Option<&Members>, start: Option<Checkpoint>, ob
         (ContactKind::Fem, Some(members)) => Some(members),
         (ContactKind::Fem, None) => {
             observer.event(Event::Stage("mesh, factor and condense both gears"));
-            built = plan.set.members(&plan.numerics, &[plan.conditions.torque], &[plan.conditions.misalignment])?;
+            built = plan.set.members(
+                &plan.numerics,
+                &[plan.conditions.torque],
+                &[plan.conditions.misalignment],
+            )?;
             Some(&built)
         }
     };
@@ -122,20 +136,37 @@ pub fn run(plan: &Plan, members: Option<&Members>, start: Option<Checkpoint>, ob
     let fields = fields(plan, &forward, &states.states)?;
     stages.end("fields");
     let pair = forward.cycle().pair.clone();
-    let worst = states.states.iter().flat_map(|s| &s.contacts).map(|c| c.penetration).fold(0.0, f64::max);
+    let worst = states
+        .states
+        .iter()
+        .flat_map(|s| &s.contacts)
+        .map(|c| c.penetration)
+        .fold(0.0, f64::max);
     let balance_error = states.progress.balance.error();
     Ok(Run {
         title: plan.title.to_owned(),
         conditions: gather::conditions(plan),
         geometry: gather::geometry(&pair),
         mesh: members.map(|m| [Member::Pinion, Member::Gear].map(|which| mesh_summary(m, which))),
-        states: states.states.iter().map(|s| gather::state(plan, &forward, s)).collect(),
+        states: states
+            .states
+            .iter()
+            .map(|s| gather::state(plan, &forward, s))
+            .collect(),
         fields,
         balance_error,
         checks: vec![
-            check("worn area, law against geometry", balance_error, BALANCE_LIMIT),
+            check(
+                "worn area, law against geometry",
+                balance_error,
+                BALANCE_LIMIT,
+            ),
             check("penetration over approach", worst, PENETRATION_LIMIT),
-            check("torque from contact forces against the load", torque_error(&forward, &states.states), 1e-9),
+            check(
+                "torque from contact forces against the load",
+                torque_error(&forward, &states.states),
+                1e-9,
+            ),
         ],
         cost: Cost {
             seconds: begun.elapsed().as_secs_f64(),
@@ -155,9 +186,16 @@ struct Worn {
 }
 
 /// The wear history with its stored states; every step goes to the observer.
-fn wear(plan: &Plan, forward: &mut Forward, start: Option<Checkpoint>, observer: &mut dyn Observer) -> Result<Worn, RunError> {
+fn wear(
+    plan: &Plan,
+    forward: &mut Forward,
+    start: Option<Checkpoint>,
+    observer: &mut dyn Observer,
+) -> Result<Worn, RunError> {
     let end = plan.conditions.cycles;
-    let stops: Vec<f64> = (0..=plan.stored_states).map(|i| end * i as f64 / plan.stored_states as f64).collect();
+    let stops: Vec<f64> = (0..=plan.stored_states)
+        .map(|i| end * i as f64 / plan.stored_states as f64)
+        .collect();
     let (mut progress, mut stored) = start.map_or((None, Vec::new()), |s| (s.progress, s.stored));
     let mut states = Vec::new();
     for earlier in &stored {
@@ -167,30 +205,53 @@ fn wear(plan: &Plan, forward: &mut Forward, start: Option<Checkpoint>, observer:
         let mut kept = Ok(());
         let outcome = forward.wear_to(&mut progress, stop, &mut |preparation, progress| {
             let fraction = progress.stand.n / end;
-            kept = observer.keep(&Checkpoint { preparation: preparation.clone(), progress: Some(progress.clone()), stored: stored.clone() });
-            kept.is_ok() && observer.event(Event::Step { fraction, report: progress.report() })
+            kept = observer.keep(&Checkpoint {
+                preparation: preparation.clone(),
+                progress: Some(progress.clone()),
+                stored: stored.clone(),
+            });
+            kept.is_ok()
+                && observer.event(Event::Step {
+                    fraction,
+                    report: progress.report(),
+                })
         });
         kept.map_err(RunError::Keep)?;
         let reached = progress.as_ref().map_or(0.0, |p| p.stand.n);
         match outcome {
             Ok(true) => {}
             Ok(false) => return Err(RunError::Stopped { cycles: reached }),
-            Err(source) if reached > 0.0 => return Err(RunError::Midway { cycles: reached, end, source }),
+            Err(source) if reached > 0.0 => {
+                return Err(RunError::Midway {
+                    cycles: reached,
+                    end,
+                    source,
+                });
+            }
             Err(source) => return Err(source.into()),
         }
         let Some(reached) = &progress else { continue };
         stored.push(reached.clone());
         states.push(forward.state(reached)?);
         observer
-            .keep(&Checkpoint { preparation: forward.preparation(), progress: progress.clone(), stored: stored.clone() })
+            .keep(&Checkpoint {
+                preparation: forward.preparation(),
+                progress: progress.clone(),
+                stored: stored.clone(),
+            })
             .map_err(RunError::Keep)?;
     }
-    let progress = progress.unwrap_or_else(|| unreachable!("the first stop at zero cycles always leaves a progress"));
+    let progress = progress
+        .unwrap_or_else(|| unreachable!("the first stop at zero cycles always leaves a progress"));
     Ok(Worn { states, progress })
 }
 
 /// Fields of every stored state at the position nearest to the pitch point, and of the last at evenly spread positions.
-fn fields(plan: &Plan, forward: &Forward, states: &[WearState]) -> Result<Vec<FieldFrame>, ForwardError> {
+fn fields(
+    plan: &Plan,
+    forward: &Forward,
+    states: &[WearState],
+) -> Result<Vec<FieldFrame>, ForwardError> {
     use rayon::prelude::*;
     if plan.drawn_positions == 0 || forward.members().is_none() {
         return Ok(Vec::new());
@@ -208,12 +269,23 @@ fn fields(plan: &Plan, forward: &Forward, states: &[WearState]) -> Result<Vec<Fi
 
 /// Largest relative difference between the torque of the contact forces and the load, over all states and positions.
 fn torque_error(forward: &Forward, states: &[WearState]) -> f64 {
-    let lever_error = |q: usize, contact: &PositionContact| (forward.torque_of(q, contact) / forward.torque() - 1.0).abs();
-    states.iter().flat_map(|s| s.contacts.iter().enumerate()).map(|(q, c)| lever_error(q, c)).fold(0.0, f64::max)
+    let lever_error = |q: usize, contact: &PositionContact| {
+        (forward.torque_of(q, contact) / forward.torque() - 1.0).abs()
+    };
+    states
+        .iter()
+        .flat_map(|s| s.contacts.iter().enumerate())
+        .map(|(q, c)| lever_error(q, c))
+        .fold(0.0, f64::max)
 }
 
 fn check(name: &str, value: f64, limit: f64) -> Check {
-    Check { name: name.to_owned(), value, limit, unit: "-".to_owned() }
+    Check {
+        name: name.to_owned(),
+        value,
+        limit,
+        unit: "-".to_owned(),
+    }
 }
 
 fn mesh_summary(members: &Members, which: Member) -> MeshSummary {
@@ -237,13 +309,17 @@ struct Stages {
 
 impl Default for Stages {
     fn default() -> Self {
-        Self { last: Instant::now(), list: Vec::new() }
+        Self {
+            last: Instant::now(),
+            list: Vec::new(),
+        }
     }
 }
 
 impl Stages {
     fn end(&mut self, name: &str) {
-        self.list.push((name.to_owned(), self.last.elapsed().as_secs_f64()));
+        self.list
+            .push((name.to_owned(), self.last.elapsed().as_secs_f64()));
         self.last = Instant::now();
     }
 }

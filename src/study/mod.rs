@@ -185,6 +185,16 @@ impl Study {
         Err(StudyError::new(diagnostic, self.source.clone()))
     }
 
+    /// The text of the study file.
+    pub fn text(&self) -> &str {
+        &self.source.text
+    }
+
+    /// The conditions of the operation and of every test.
+    pub fn all_conditions(&self) -> impl Iterator<Item = &Operation> {
+        std::iter::once(&self.operation).chain(self.tests.iter().map(|test| &test.conditions))
+    }
+
     /// A fault that shows later, at the place of `key` (its path in the file: `numerics.mesh_gear`, `test[0].torque`), or of
     /// the nearest table above it that the file has. Empty texts are left out.
     pub fn refuse(&self, key: &str, message: &str, allowed: &str, hint: &str) -> StudyError {

@@ -21,7 +21,10 @@ impl Study {
     /// Resolution of the simulation.
     pub fn resolution(&self) -> Numerics {
         let stated = &self.numerics;
-        let coefficient = self.lubricant.and_then(|l| l.friction_coefficient).unwrap_or(0.0);
+        let coefficient = self
+            .lubricant
+            .and_then(|l| l.friction_coefficient)
+            .unwrap_or(0.0);
         Numerics {
             order: match stated.order {
                 Order::Linear => 1,

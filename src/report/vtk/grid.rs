@@ -27,6 +27,11 @@ pub fn vtu(name: &str, frame: &FieldFrame) -> Result<Vec<u8>, OutputError> {
         },
         file_path: None,
     };
+    xml(name, vtk)
+}
+
+/// Any VTK data as the bytes of an XML file called `name`.
+pub fn xml(name: &str, vtk: Vtk) -> Result<Vec<u8>, OutputError> {
     let mut bytes = Vec::new();
     vtk.write_xml(&mut bytes)
         .map_err(|error| OutputError::Vtk {

@@ -16,6 +16,6 @@ mod grid;
 mod loads;
 mod series;
 
-pub use grid::vtu;
+pub use grid::{vtu, xml};
 pub use loads::loads;
 pub use series::{FieldFile, mesh_cycle_series, names, pvd, wear_series};
