@@ -23,8 +23,8 @@ impl Default for Numerics {
     fn default() -> Self {
         Self {
             order: 2,
-            elements_per_half_width: 8.0,
-            positions: 150,
+            elements_per_half_width: 5.0,
+            positions: 100,
             step_tolerance: 2e-3,
             friction: 0.0,
         }

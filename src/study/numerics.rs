@@ -55,14 +55,14 @@ impl Default for Numerics {
     fn default() -> Self {
         Self {
             order: Order::Quadratic,
-            elements_per_half_width: 8,
-            positions: 150,
-            step_tolerance: 1e-3,
+            elements_per_half_width: 5,
+            positions: 100,
+            step_tolerance: 2e-3,
             fields: 4,
             friction: false,
             mesh_pinion: None,
             mesh_gear: None,
-            stored_states: 10,
+            stored_states: 5,
         }
     }
 }
@@ -93,7 +93,7 @@ pub(super) fn read(
             .count(
                 "elements_per_half_width",
                 1..=64,
-                "flank elements on the smallest Hertz half width; 8 is the default",
+                "flank elements on the smallest Hertz half width; 5 is the default",
             )?
             .unwrap_or(default.elements_per_half_width),
         positions: table
