@@ -17,8 +17,8 @@ use std::path::Path;
 use gearwear::gear::{BasicRack, Gear, Pair, ToothSpec};
 use gearwear::mesh::{
     Cells, Loop, Mesh, MeshError, MeshSpec, Order, Outline, Quality, SizeField, TriangulateOptions,
-    boundary_edges, check_jacobians, mesh_gear, outer_area, read_msh, read_vtu, relocate,
-    triangulate,
+    boundary_edges, check_jacobians, mesh_gear, mesh_worn_gear, outer_area, read_msh, read_vtu,
+    relocate, triangulate,
 };
 use gearwear::numeric::{Vec2, cross, rotate};
 use proptest::prelude::*;
@@ -508,6 +508,53 @@ fn nodes_follow_wear_deeper_than_an_element() {
     }
     let unworn = relocate(&new, &gear, &depths(&new, 0.0)).expect("unworn");
     assert_eq!(unworn, new);
+}
+
+#[test]
+fn a_worn_gear_can_be_meshed_anew() {
+    let gear = gear(2.0, 27, 0.0, 25.0);
+    let spec = MeshSpec::new(&gear, vec![-1, 0], 0.02, 3.8);
+    let new = mesh_gear(&gear, &spec).expect("new");
+    let start = new.flanks[0].arc[0];
+    let depth =
+        |tooth: i32, s: f64| (0.04 + 0.01 * f64::from(tooth)) * ((s - start) / 0.3).min(1.0);
+    let worn = mesh_worn_gear(&gear, &spec, &depth).expect("worn");
+    assert_complete(&worn, "worn");
+    let depths: Vec<Vec<f64>> = new
+        .flanks
+        .iter()
+        .map(|f| f.arc.iter().map(|s| depth(f.tooth, *s)).collect())
+        .collect();
+    let moved = relocate(&new, &gear, &depths).expect("moved");
+    assert!((outer_area(&worn) - outer_area(&moved)).abs() < 1e-9);
+    for (a, b) in worn.flanks.iter().zip(&moved.flanks) {
+        assert_eq!(a.arc, b.arc);
+        for (k, l) in a.nodes.iter().zip(&b.nodes) {
+            assert!((worn.points[*k as usize] - moved.points[*l as usize]).norm() < 1e-12);
+        }
+    }
+}
+
+/// A tip rounding much shorter than the flank's edges once got a repair point on the outline itself.
+#[test]
+fn regression_repair_point_on_the_outline() {
+    let spec = ToothSpec {
+        profile_shift: 0.4568,
+        tip_rounding: 0.00403362,
+        ..ToothSpec::plain(30, 4.8)
+    };
+    let gear = Gear::new(
+        BasicRack {
+            fillet_radius: 0.1,
+            ..BasicRack::iso53_a(0.8)
+        },
+        spec,
+    )
+    .expect("gear");
+    let from = gear.rho_form + 0.200291488 * (gear.rho_end - gear.rho_form);
+    let mesh =
+        mesh_gear(&gear, &MeshSpec::new(&gear, vec![16, -1], 0.01469455, from)).expect("mesh");
+    assert_complete(&mesh, "small rounding");
 }
 
 #[test]
