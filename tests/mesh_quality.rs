@@ -763,3 +763,89 @@ fn gmsh_files_are_read() {
         );
     }
 }
+
+/// The reference pair as other people's files; gmsh's outline comes from a script of its own.
+#[test]
+fn ready_meshes_are_read() {
+    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let (pinion, wheel) = (gear(2.0, 27, 0.0, 25.0), gear(2.0, 53, 0.0, 40.0));
+    for (name, gear, nodes) in [
+        ("pinion_27.vtu", &pinion, 5_603),
+        ("gear_53.vtu", &wheel, 10_419),
+        ("pinion_27_gmsh.msh", &pinion, 8_780),
+    ] {
+        let path = dir.join(name);
+        let bytes = std::fs::read(&path).expect(name);
+        assert!(bytes.len() < 1_000_000, "{name}");
+        let mesh = match name.ends_with("msh") {
+            true => read_msh(&path, std::str::from_utf8(&bytes).expect("text"), gear),
+            false => read_vtu(&path, &bytes, gear),
+        };
+        let mesh = mesh.unwrap_or_else(|e| panic!("{e}"));
+        assert_complete(&mesh, name);
+        let q = Quality::of(&mesh);
+        assert!(q.min_angle_deg > 20.0, "{name}: {q:?}");
+        assert_eq!(q.nodes, nodes, "{name}");
+        assert_eq!(
+            mesh.flanks.iter().map(|f| f.tooth).collect::<Vec<_>>(),
+            [-1, 0]
+        );
+        assert!(
+            (area(&mesh) / exact_area(gear) - 1.0).abs() < 3e-4,
+            "{name}: {} mm²",
+            area(&mesh)
+        );
+    }
+}
+
+#[test]
+fn ascii_vtu_is_read() {
+    let (gear, spec) = small();
+    let mesh = mesh_gear(
+        &gear,
+        &MeshSpec {
+            order: Order::T3,
+            ..spec
+        },
+    )
+    .expect("mesh");
+    let corners = mesh.corners();
+    let words = |w: Vec<String>| w.join(" ");
+    let points = words(
+        mesh.points
+            .iter()
+            .map(|p| format!("{:e} {:e} 0", p.x, p.y))
+            .collect(),
+    );
+    let connectivity = words(corners.iter().flatten().map(|k| k.to_string()).collect());
+    let offsets = words((1..=corners.len()).map(|i| (3 * i).to_string()).collect());
+    let types = words(corners.iter().map(|_| "5".to_string()).collect());
+    let marks = |set: &[u32]| {
+        words(
+            (0..mesh.points.len() as u32)
+                .map(|k| u8::from(set.contains(&k)).to_string())
+                .collect(),
+        )
+    };
+    let array = |kind: &str, name: &str, more: &str, data: &str| {
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" {more} format=\"ascii\">\n{data}\n</DataArray>\n"
+        )
+    };
+    let text = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n\
+         <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n{}{}</PointData>\n<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n\
+         </Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+        mesh.points.len(),
+        corners.len(),
+        array("Int32", "flank", "", &marks(&mesh.flanks[0].nodes)),
+        array("Int32", "bore", "", &marks(&mesh.bore)),
+        array("Float64", "Points", "NumberOfComponents=\"3\"", &points),
+        array("Int64", "connectivity", "", &connectivity),
+        array("Int64", "offsets", "", &offsets),
+        array("UInt8", "types", "", &types),
+    );
+    let back = read_vtu(Path::new("ascii.vtu"), text.as_bytes(), &gear).expect("read");
+    assert_eq!((&back.points, &back.cells), (&mesh.points, &mesh.cells));
+    assert_eq!(back.flanks[0].nodes, mesh.flanks[0].nodes);
+}
