@@ -29,7 +29,7 @@ pub(super) fn wear_outline(
         // Backwards along rounding and land, to where the boundary leaves the tip circle.
         let (mut behind, mut length, mut at) = (Vec::new(), 0.0, flank.start);
         let mut here = tip;
-        while at > 0 && !(on_tip_circle(gear, here) && !on_tip_circle(gear, outer.points[at - 1])) {
+        while at > 0 && (on_tip_circle(gear, outer.points[at - 1]) || !on_tip_circle(gear, here)) {
             at -= 1;
             let step = (outer.points[at] - here).norm();
             here = outer.points[at];
