@@ -17,8 +17,8 @@ use std::path::Path;
 use gearwear::gear::{BasicRack, Gear, Pair, ToothSpec};
 use gearwear::mesh::{
     Cells, Loop, Mesh, MeshError, MeshSpec, Order, Outline, Quality, SizeField, TriangulateOptions,
-    boundary_edges, check_jacobians, mesh_gear, outer_area, read_msh, read_vtu, relocate,
-    triangulate,
+    boundary_edges, check_jacobians, mesh_gear, mesh_worn_gear, outer_area, read_msh, read_vtu,
+    relocate, triangulate,
 };
 use gearwear::numeric::{Vec2, cross, rotate};
 use proptest::prelude::*;
@@ -511,6 +511,53 @@ fn nodes_follow_wear_deeper_than_an_element() {
 }
 
 #[test]
+fn a_worn_gear_can_be_meshed_anew() {
+    let gear = gear(2.0, 27, 0.0, 25.0);
+    let spec = MeshSpec::new(&gear, vec![-1, 0], 0.02, 3.8);
+    let new = mesh_gear(&gear, &spec).expect("new");
+    let start = new.flanks[0].arc[0];
+    let depth =
+        |tooth: i32, s: f64| (0.04 + 0.01 * f64::from(tooth)) * ((s - start) / 0.3).min(1.0);
+    let worn = mesh_worn_gear(&gear, &spec, &depth).expect("worn");
+    assert_complete(&worn, "worn");
+    let depths: Vec<Vec<f64>> = new
+        .flanks
+        .iter()
+        .map(|f| f.arc.iter().map(|s| depth(f.tooth, *s)).collect())
+        .collect();
+    let moved = relocate(&new, &gear, &depths).expect("moved");
+    assert!((outer_area(&worn) - outer_area(&moved)).abs() < 1e-9);
+    for (a, b) in worn.flanks.iter().zip(&moved.flanks) {
+        assert_eq!(a.arc, b.arc);
+        for (k, l) in a.nodes.iter().zip(&b.nodes) {
+            assert!((worn.points[*k as usize] - moved.points[*l as usize]).norm() < 1e-12);
+        }
+    }
+}
+
+/// A tip rounding much shorter than the flank's edges once got a repair point on the outline itself.
+#[test]
+fn regression_repair_point_on_the_outline() {
+    let spec = ToothSpec {
+        profile_shift: 0.4568,
+        tip_rounding: 0.00403362,
+        ..ToothSpec::plain(30, 4.8)
+    };
+    let gear = Gear::new(
+        BasicRack {
+            fillet_radius: 0.1,
+            ..BasicRack::iso53_a(0.8)
+        },
+        spec,
+    )
+    .expect("gear");
+    let from = gear.rho_form + 0.200291488 * (gear.rho_end - gear.rho_form);
+    let mesh =
+        mesh_gear(&gear, &MeshSpec::new(&gear, vec![16, -1], 0.01469455, from)).expect("mesh");
+    assert_complete(&mesh, "small rounding");
+}
+
+#[test]
 fn a_step_in_the_depth_asks_for_a_new_mesh() {
     let (gear, spec) = small();
     let new = mesh_gear(&gear, &spec).expect("mesh");
@@ -715,4 +762,90 @@ fn gmsh_files_are_read() {
             "b.msh: line 2: format 4.1, type 1; allowed 2.2 or 4.1, ASCII (type 0)"
         );
     }
+}
+
+/// The reference pair as other people's files; gmsh's outline comes from a script of its own.
+#[test]
+fn ready_meshes_are_read() {
+    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes");
+    let (pinion, wheel) = (gear(2.0, 27, 0.0, 25.0), gear(2.0, 53, 0.0, 40.0));
+    for (name, gear, nodes) in [
+        ("pinion_27.vtu", &pinion, 5_603),
+        ("gear_53.vtu", &wheel, 10_419),
+        ("pinion_27_gmsh.msh", &pinion, 8_780),
+    ] {
+        let path = dir.join(name);
+        let bytes = std::fs::read(&path).expect(name);
+        assert!(bytes.len() < 1_000_000, "{name}");
+        let mesh = match name.ends_with("msh") {
+            true => read_msh(&path, std::str::from_utf8(&bytes).expect("text"), gear),
+            false => read_vtu(&path, &bytes, gear),
+        };
+        let mesh = mesh.unwrap_or_else(|e| panic!("{e}"));
+        assert_complete(&mesh, name);
+        let q = Quality::of(&mesh);
+        assert!(q.min_angle_deg > 20.0, "{name}: {q:?}");
+        assert_eq!(q.nodes, nodes, "{name}");
+        assert_eq!(
+            mesh.flanks.iter().map(|f| f.tooth).collect::<Vec<_>>(),
+            [-1, 0]
+        );
+        assert!(
+            (area(&mesh) / exact_area(gear) - 1.0).abs() < 3e-4,
+            "{name}: {} mm²",
+            area(&mesh)
+        );
+    }
+}
+
+#[test]
+fn ascii_vtu_is_read() {
+    let (gear, spec) = small();
+    let mesh = mesh_gear(
+        &gear,
+        &MeshSpec {
+            order: Order::T3,
+            ..spec
+        },
+    )
+    .expect("mesh");
+    let corners = mesh.corners();
+    let words = |w: Vec<String>| w.join(" ");
+    let points = words(
+        mesh.points
+            .iter()
+            .map(|p| format!("{:e} {:e} 0", p.x, p.y))
+            .collect(),
+    );
+    let connectivity = words(corners.iter().flatten().map(|k| k.to_string()).collect());
+    let offsets = words((1..=corners.len()).map(|i| (3 * i).to_string()).collect());
+    let types = words(corners.iter().map(|_| "5".to_string()).collect());
+    let marks = |set: &[u32]| {
+        words(
+            (0..mesh.points.len() as u32)
+                .map(|k| u8::from(set.contains(&k)).to_string())
+                .collect(),
+        )
+    };
+    let array = |kind: &str, name: &str, more: &str, data: &str| {
+        format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" {more} format=\"ascii\">\n{data}\n</DataArray>\n"
+        )
+    };
+    let text = format!(
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n\
+         <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n{}{}</PointData>\n<Points>\n{}</Points>\n<Cells>\n{}{}{}</Cells>\n\
+         </Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+        mesh.points.len(),
+        corners.len(),
+        array("Int32", "flank", "", &marks(&mesh.flanks[0].nodes)),
+        array("Int32", "bore", "", &marks(&mesh.bore)),
+        array("Float64", "Points", "NumberOfComponents=\"3\"", &points),
+        array("Int64", "connectivity", "", &connectivity),
+        array("Int64", "offsets", "", &offsets),
+        array("UInt8", "types", "", &types),
+    );
+    let back = read_vtu(Path::new("ascii.vtu"), text.as_bytes(), &gear).expect("read");
+    assert_eq!((&back.points, &back.cells), (&mesh.points, &mesh.cells));
+    assert_eq!(back.flanks[0].nodes, mesh.flanks[0].nodes);
 }

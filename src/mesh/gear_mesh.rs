@@ -9,6 +9,7 @@
 use super::gear_outline::{FineFlank, gear_outline};
 use super::order::Order;
 use super::triangulate::{TriangulateOptions, triangulate};
+use super::worn::wear_outline;
 use super::{FlankChain, Mesh, MeshError, SizeField, check_jacobians, raise_order};
 use crate::gear::Gear;
 
@@ -104,8 +105,25 @@ impl MeshSpec {
 /// # Errors
 /// Sizes out of range, or a mesh that stays below `min_angle_deg` or has a Jacobian that is not positive.
 pub fn mesh_gear(gear: &Gear, spec: &MeshSpec) -> Result<Mesh, MeshError> {
+    mesh_worn_gear(gear, spec, &|_, _| 0.0)
+}
+
+/// Meshes a worn gear: when [`super::relocate`] cannot move the nodes any further.
+///
+/// `depth(tooth, arc)` is the material lost on the fine flank of a tooth at an arc coordinate, mm, normal to the nominal
+/// involute. It should be zero at the start of the fine part. The chains keep the nominal arc coordinates, so that
+/// [`super::relocate`] goes on from here with the depth lost since.
+///
+/// # Errors
+/// As [`mesh_gear`]; a depth so uneven that the outline crosses itself is a [`MeshError::Outline`].
+pub fn mesh_worn_gear(
+    gear: &Gear,
+    spec: &MeshSpec,
+    depth: &dyn Fn(i32, f64) -> f64,
+) -> Result<Mesh, MeshError> {
     spec.check(gear)?;
-    let (outline, fine_flanks) = gear_outline(gear, spec);
+    let (mut outline, fine_flanks) = gear_outline(gear, spec);
+    wear_outline(&mut outline, &fine_flanks, gear, depth);
     let field = SizeField::of_outline(&outline, spec.growth, f64::INFINITY);
     let options = TriangulateOptions {
         min_angle_deg: spec.min_angle_deg,

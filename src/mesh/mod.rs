@@ -17,10 +17,11 @@ mod smooth;
 mod triangulate;
 mod user;
 mod vtu;
+mod worn;
 
 pub use boundary::{BoundaryEdge, boundary_edges, outer_area};
 pub use error::MeshError;
-pub use gear_mesh::{MeshSpec, mesh_gear};
+pub use gear_mesh::{MeshSpec, mesh_gear, mesh_worn_gear};
 pub use grading::SizeField;
 pub use msh::read_msh;
 pub use order::{Order, raise_order};

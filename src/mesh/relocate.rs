@@ -11,6 +11,7 @@
 //! nodes of more than an element side turns elements inside out: that is reported, and the body has to be meshed again.
 
 use super::boundary::boundary_edges;
+use super::worn::{follow_tip, on_tip_circle};
 use super::{Cells, Mesh, MeshError, check_jacobians};
 use crate::gear::Gear;
 use crate::numeric::{Vec2, cross, rotate};
@@ -83,8 +84,7 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
     Ok(mesh)
 }
 
-/// Lets rounding and tip land behind the corner `tip` follow it, by an amount that falls to zero at the land's other end.
-/// Nodes of the tip circle stay on it but for those next to the corner.
+/// Lets the nodes of rounding and tip land behind the corner `tip` follow it.
 fn slide_tip(
     mesh: &Mesh,
     gear: &Gear,
@@ -94,7 +94,7 @@ fn slide_tip(
     moved: &mut [Option<Vec2>],
 ) {
     let at = |k: u32| mesh.points[k as usize];
-    let on_circle = |k: u32| (at(k).norm() - gear.tip_radius).abs() < 1e-6 * gear.tip_radius;
+    let on_circle = |k: u32| on_tip_circle(gear, at(k));
     let mut path = vec![(tip, 0.0)];
     let (mut node, mut length) = (tip, 0.0);
     // The boundary is walked against its direction; it ends where it leaves the tip circle.
@@ -114,24 +114,10 @@ fn slide_tip(
         node = e.start;
     }
     let shift = moved[tip as usize].unwrap_or_default();
-    let drop = at(tip).norm() - (at(tip) + shift).norm();
-    if shift == Vec2::zeros() {
-        return;
-    }
-    for (k, s) in path.into_iter().skip(1) {
-        let to = at(k) + (1.0 - s / length) * shift;
-        // A worn corner lies a little below the tip circle: the land drops to it over about the corner's own shift.
-        let drop = if on_circle(k) {
-            drop * (1.0 - s / shift.norm()).max(0.0)
-        } else {
-            0.0
-        };
-        let radius = if on_circle(k) {
-            at(k).norm() - drop
-        } else {
-            to.norm()
-        };
-        moved[k as usize] = Some(to * (radius / to.norm()) - at(k));
+    let behind: Vec<(Vec2, f64)> = path[1..].iter().map(|(k, s)| (at(*k), *s)).collect();
+    let places = follow_tip(gear, at(tip), shift, &behind);
+    for (((k, _), (p, _)), to) in path[1..].iter().zip(&behind).zip(places) {
+        moved[*k as usize] = Some(to - p);
     }
 }
 

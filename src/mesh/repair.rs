@@ -8,9 +8,10 @@ use crate::numeric::{Vec2, cross};
 const ROUNDS: usize = 10;
 
 /// Repairs until no angle is below `good` degrees or the rounds are used up; returns the best mesh met.
-/// `delaunay` makes the triangles of a set of points.
+/// `edges` are the outline's, edge i starting at point i; `delaunay` makes the triangles of a set of points.
 pub(super) fn repair(
     mesh: Triangles,
+    edges: &[[usize; 2]],
     size: &dyn Fn(Vec2) -> f64,
     good: f64,
     delaunay: impl Fn(&[Vec2]) -> Result<Vec<[u32; 3]>, MeshError>,
@@ -21,7 +22,7 @@ pub(super) fn repair(
         if best.0 >= good {
             break;
         }
-        if round % 2 == 1 && !edit_points(&mut mesh, size, good) {
+        if round % 2 == 1 && !edit_points(&mut mesh, edges, size, good) {
             break;
         } else if round % 2 == 1 {
             mesh.corners = delaunay(&mesh.points)?;
@@ -38,7 +39,12 @@ pub(super) fn repair(
 
 /// Changes the number of points at triangles thinner than `good` degrees: an interior end of a short edge goes, a long edge gets a
 /// point in its middle. At most one change at a point a call. The triangles must be made anew afterwards.
-fn edit_points(mesh: &mut Triangles, size: &dyn Fn(Vec2) -> f64, good: f64) -> bool {
+fn edit_points(
+    mesh: &mut Triangles,
+    edges: &[[usize; 2]],
+    size: &dyn Fn(Vec2) -> f64,
+    good: f64,
+) -> bool {
     let mut touched = vec![false; mesh.points.len()];
     let mut gone = vec![false; mesh.points.len()];
     let mut new = Vec::new();
@@ -58,6 +64,7 @@ fn edit_points(mesh: &mut Triangles, size: &dyn Fn(Vec2) -> f64, good: f64) -> b
         let (short, a, b) = sides[0];
         let (long, c, d) = sides[2];
         let inner = |k: usize| k >= mesh.boundary;
+        let on_outline = |c: usize, d: usize| edges[c][1] == d || edges[d][1] == c;
         let drop = [a, b].into_iter().filter(|k| inner(*k)).max();
         if let Some(k) = drop.filter(|_| short < 0.75 * h) {
             gone[k] = true;
@@ -65,7 +72,7 @@ fn edit_points(mesh: &mut Triangles, size: &dyn Fn(Vec2) -> f64, good: f64) -> b
             if inner(other) {
                 mesh.points[other] = 0.5 * (mesh.points[a] + mesh.points[b]);
             }
-        } else if inner(c) || inner(d) || long > 1.2 * h {
+        } else if inner(c) || inner(d) || (long > 1.2 * h && !on_outline(c, d)) {
             new.push(0.5 * (mesh.points[c] + mesh.points[d]));
         } else {
             continue;
@@ -96,8 +103,8 @@ fn improve_stars(mesh: &mut Triangles, good: f64) -> usize {
     }
     let mut moved = 0;
     for _ in 0..4 {
-        for k in 0..mesh.points.len() {
-            if marked[k] && move_to_best(mesh, k, stars.of(k)) {
+        for (k, _) in marked.iter().enumerate().filter(|m| *m.1) {
+            if move_to_best(mesh, k, stars.of(k)) {
                 moved += 1;
             }
         }

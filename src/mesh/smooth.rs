@@ -8,7 +8,7 @@ use crate::numeric::{Vec2, cross};
 /// ```text
 /// x_i <- Σ w_T c_T / Σ w_T     w_T = A_T / h_T³   (Chen & Holst, Comput. Methods Appl. Mech. Engrg. 200 (2011) 967, graded form)
 /// ```
-/// Circumcentres of obtuse triangles are drawn towards the centroid so that no point leaves its star.
+/// Circumcentres of obtuse triangles are drawn towards the centroid; moves that turn a triangle over are taken back.
 pub(super) fn smooth(mesh: &mut Triangles, size: &dyn Fn(Vec2) -> f64) {
     let n = mesh.points.len();
     let mut sum = vec![(Vec2::zeros(), 0.0); n];
@@ -25,9 +25,30 @@ pub(super) fn smooth(mesh: &mut Triangles, size: &dyn Fn(Vec2) -> f64) {
             s.1 += w;
         }
     }
-    for (p, (s, w)) in mesh.points.iter_mut().zip(sum).skip(mesh.boundary) {
+    let mut places = mesh.points.clone();
+    for (p, (s, w)) in places.iter_mut().zip(sum).skip(mesh.boundary) {
         if w > 0.0 {
             *p = s / w;
+        }
+    }
+    take_back_inversions(mesh, &mut places);
+    mesh.points = places;
+}
+
+/// Puts points of triangles that `places` turns over back to where they are, until none is turned over: no point can
+/// leave the body this way.
+fn take_back_inversions(mesh: &Triangles, places: &mut [Vec2]) {
+    let mut again = true;
+    while again {
+        again = false;
+        for t in &mesh.corners {
+            let [a, b, c] = t.map(|k| places[k as usize]);
+            if cross(b - a, c - a) <= 0.0 {
+                for k in t.map(|k| k as usize) {
+                    again |= places[k] != mesh.points[k];
+                    places[k] = mesh.points[k];
+                }
+            }
         }
     }
 }

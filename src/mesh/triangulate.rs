@@ -71,9 +71,8 @@ pub fn triangulate(
         smooth(&mut mesh, size);
         mesh.corners = delaunay(&mesh.points, &edges)?;
     }
-    let mesh = repair(mesh, size, GOOD_DEG.max(options.min_angle_deg), |points| {
-        delaunay(points, &edges)
-    })?;
+    let good = GOOD_DEG.max(options.min_angle_deg);
+    let mesh = repair(mesh, &edges, size, good, |points| delaunay(points, &edges))?;
     let (angle_deg, centre) = worst_triangle(&mesh);
     if angle_deg < options.min_angle_deg {
         let limit_deg = options.min_angle_deg;
