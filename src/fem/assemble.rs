@@ -1,0 +1,236 @@
+//! Element stiffness, and its assembly into the lower triangle of a sparse matrix whose pattern is built once.
+//!
+//! ```text
+//! K_ab = ∫ [ λ ∇N_a ∇N_bᵀ + μ ∇N_b ∇N_aᵀ + μ (∇N_a · ∇N_b) I ] dA        N/mm per mm of width, 2 x 2 for nodes a, b
+//! λ = E nu / ((1 + nu)(1 − 2 nu)),  μ = E / (2 (1 + nu))
+//! ```
+//! Plane strain: no strain across the width. Zienkiewicz, Taylor & Zhu (2005), Eq. (4.20) with the constants of section 4.5.
+
+use super::FemError;
+use super::triangle::{Element, element_count, nodes_of};
+use crate::material::Elastic;
+use crate::mesh::{Cells, Mesh};
+use crate::numeric::Vec2;
+
+/// Stiffness of one element; row and column 2 a + d for node a, direction d (0 x, 1 y).
+pub type ElementStiffness = [[f64; 12]; 12];
+
+/// Lamé's constants λ and μ, MPa.
+pub fn lame_constants(material: Elastic) -> (f64, f64) {
+    let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
+    (
+        e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+        e / (2.0 * (1.0 + nu)),
+    )
+}
+
+/// Stiffness of a triangle per mm of width. `number` only labels an error.
+pub fn element_stiffness(
+    element: &Element,
+    material: Elastic,
+    number: usize,
+) -> Result<ElementStiffness, FemError> {
+    let (lambda, mu) = lame_constants(material);
+    let mut k = [[0.0; 12]; 12];
+    let n = element.len;
+    for point in element.stiffness_rule() {
+        let at = element.at(point.xi, point.eta);
+        if at.jacobian.is_nan() || at.jacobian <= 0.0 {
+            return Err(FemError::Inverted {
+                element: number,
+                jacobian: at.jacobian,
+                at: at.position,
+            });
+        }
+        let weight = point.weight * at.jacobian;
+        for a in 0..n {
+            let ga = weight * at.gradient[a];
+            for b in 0..=a {
+                let gb = at.gradient[b];
+                let dot = mu * (ga.x * gb.x + ga.y * gb.y);
+                k[2 * a][2 * b] += (lambda + mu) * ga.x * gb.x + dot;
+                k[2 * a][2 * b + 1] += lambda * ga.x * gb.y + mu * ga.y * gb.x;
+                k[2 * a + 1][2 * b] += lambda * ga.y * gb.x + mu * ga.x * gb.y;
+                k[2 * a + 1][2 * b + 1] += (lambda + mu) * ga.y * gb.y + dot;
+            }
+        }
+    }
+    for i in 0..2 * n {
+        for j in 0..i {
+            k[j][i] = k[i][j];
+        }
+    }
+    Ok(k)
+}
+
+/// Nodal forces K u of a displacement field, N per mm of width, summed over the elements in order.
+pub fn internal_forces(
+    mesh: &Mesh,
+    material: Elastic,
+    displacement: &[Vec2],
+) -> Result<Vec<Vec2>, FemError> {
+    if displacement.len() != mesh.points.len() {
+        return Err(FemError::FieldLength {
+            found: displacement.len(),
+            expected: mesh.points.len(),
+        });
+    }
+    let mut force = vec![Vec2::zeros(); mesh.points.len()];
+    for index in 0..element_count(&mesh.cells) {
+        let element = Element::of(mesh, index);
+        if element
+            .nodes()
+            .iter()
+            .all(|&node| displacement[node as usize] == Vec2::zeros())
+        {
+            continue;
+        }
+        let k = element_stiffness(&element, material, index)?;
+        for (a, &node_a) in element.nodes().iter().enumerate() {
+            for (b, &node_b) in element.nodes().iter().enumerate() {
+                let u = displacement[node_b as usize];
+                let (x, y) = (2 * a, 2 * a + 1);
+                force[node_a as usize] += Vec2::new(
+                    k[x][2 * b] * u.x + k[x][2 * b + 1] * u.y,
+                    k[y][2 * b] * u.x + k[y][2 * b + 1] * u.y,
+                );
+            }
+        }
+    }
+    Ok(force)
+}
+
+/// Elastic energy ½ uᵀ K u per mm of width, N.
+pub fn strain_energy(
+    mesh: &Mesh,
+    material: Elastic,
+    displacement: &[Vec2],
+) -> Result<f64, FemError> {
+    let force = internal_forces(mesh, material, displacement)?;
+    Ok(0.5
+        * force
+            .iter()
+            .zip(displacement)
+            .map(|(f, u)| f.dot(u))
+            .sum::<f64>())
+}
+
+/// No equation: the unknown is fixed.
+pub(super) const FIXED: u32 = u32::MAX;
+
+/// Lower triangle of the stiffness of the free unknowns, by columns, with the place of every element entry in it.
+#[derive(Debug, Clone)]
+pub(super) struct StiffnessPattern {
+    pub(super) column_start: Vec<u32>,
+    pub(super) row: Vec<u32>,
+    /// For each element and each of its lower-triangle entries (row by row) the index into the values, or `FIXED`.
+    scatter: Vec<u32>,
+}
+
+impl StiffnessPattern {
+    /// `equation[node]` numbers the two unknowns of each node, or says `FIXED`.
+    pub(super) fn new(cells: &Cells, equation: &[[u32; 2]], unknowns: usize) -> StiffnessPattern {
+        let count = element_count(cells);
+        let mut column_start = vec![0u32; unknowns + 1];
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); unknowns];
+        for index in 0..count {
+            let dofs = element_dofs(cells, index, equation);
+            for &i in dofs.as_slice() {
+                for &j in dofs.as_slice() {
+                    if i != FIXED && j != FIXED && i >= j {
+                        rows[j as usize].push(i);
+                    }
+                }
+            }
+        }
+        for (j, list) in rows.iter_mut().enumerate() {
+            list.sort_unstable();
+            list.dedup();
+            column_start[j + 1] = column_start[j] + list.len() as u32;
+        }
+        let row: Vec<u32> = rows.concat();
+        let mut scatter = Vec::with_capacity(count * 78);
+        for index in 0..count {
+            let dofs = element_dofs(cells, index, equation);
+            let dofs = dofs.as_slice();
+            for (p, &i) in dofs.iter().enumerate() {
+                for &j in &dofs[..=p] {
+                    if i == FIXED || j == FIXED {
+                        scatter.push(FIXED);
+                        continue;
+                    }
+                    let (column, target) = (i.min(j) as usize, i.max(j));
+                    let range = column_start[column] as usize..column_start[column + 1] as usize;
+                    let place = row[range.clone()].partition_point(|&r| r < target);
+                    scatter.push((range.start + place) as u32);
+                }
+            }
+        }
+        StiffnessPattern {
+            column_start,
+            row,
+            scatter,
+        }
+    }
+
+    /// Fills `values` with the stiffness of the mesh, in element order.
+    pub(super) fn fill(
+        &self,
+        mesh: &Mesh,
+        material: Elastic,
+        values: &mut Vec<f64>,
+    ) -> Result<(), FemError> {
+        values.clear();
+        values.resize(self.row.len(), 0.0);
+        let mut place = self.scatter.iter();
+        for index in 0..element_count(&mesh.cells) {
+            let element = Element::of(mesh, index);
+            let k = element_stiffness(&element, material, index)?;
+            for (i, row) in k.iter().enumerate().take(2 * element.len) {
+                for (&value, &target) in row[..=i].iter().zip(place.by_ref()) {
+                    if target != FIXED {
+                        values[target as usize] += value;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// y = K x of the symmetric matrix.
+    pub(super) fn multiply(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; x.len()];
+        for j in 0..x.len() {
+            for place in self.column_start[j] as usize..self.column_start[j + 1] as usize {
+                let (i, value) = (self.row[place] as usize, values[place]);
+                y[i] += value * x[j];
+                if i != j {
+                    y[j] += value * x[i];
+                }
+            }
+        }
+        y
+    }
+}
+
+/// The up to 12 equation numbers of an element.
+struct ElementDofs {
+    dofs: [u32; 12],
+    len: usize,
+}
+
+impl ElementDofs {
+    fn as_slice(&self) -> &[u32] {
+        &self.dofs[..self.len]
+    }
+}
+
+fn element_dofs(cells: &Cells, index: usize, equation: &[[u32; 2]]) -> ElementDofs {
+    let (len, nodes) = nodes_of(cells, index);
+    let mut dofs = [FIXED; 12];
+    for (a, &node) in nodes[..len].iter().enumerate() {
+        dofs[2 * a] = equation[node as usize][0];
+        dofs[2 * a + 1] = equation[node as usize][1];
+    }
+    ElementDofs { dofs, len: 2 * len }
+}
