@@ -1,5 +1,4 @@
 //! x
-use gearwear::verify::hertz_cylinders::*;
 use gearwear::verify::*;
 fn check(measured: Result<Vec<Measured>, CaseError>) {
     let all = measured.unwrap();
@@ -8,9 +7,17 @@ fn check(measured: Result<Vec<Measured>, CaseError>) {
 }
 #[test]
 fn explore() {
-    check(hertz(&[6, 10, 16, 32, 64], Grid::Corners));
-    check(hertz(&[6, 10, 16, 32, 64], Grid::Nodes));
-    check(finite_body_effect(32));
-    check(partial_slip(16));
-    check(partial_slip(32));
+    check(patch::all());
+    for n in [12, 24, 48] {
+        check(nafems_cylinder::frictionless(n));
+    }
+    for n in [32, 64, 128] {
+        check(flat_punch::fresh(n));
+    }
+    let t = std::time::Instant::now();
+    check(flat_punch::worn(64, 2e-3));
+    eprintln!("{:?}", t.elapsed());
+    let t = std::time::Instant::now();
+    check(wear_block::cylinder(12, 3.0, 2e-3));
+    eprintln!("{:?}", t.elapsed());
 }

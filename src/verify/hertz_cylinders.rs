@@ -222,7 +222,10 @@ pub fn run(case: &Cylinders) -> Result<(HertzFit, Solution, f64), CaseError> {
     Ok((fit, solution, balance))
 }
 
-/// B2 with quadratic edges on the meshes `per_half_width` (ascending), pressure on all nodes of a surface.
+/// B2 with quadratic edges on the meshes `per_half_width` (ascending).
+///
+/// With [`Grid::Corners`] the pressure's own interpolation error at the kink is about 2 % on 16 edges, so the limits are
+/// those for meshes half as fine.
 ///
 /// # Errors
 /// [`CaseError`] if a mesh is refused or the contact has no solution.
@@ -244,7 +247,7 @@ pub fn hertz(per_half_width: &[usize], grid: Grid) -> Result<Vec<Measured>, Case
                 "B2",
                 format!("{at}: L2 error of p"),
                 fit.l2,
-                0.03,
+                l2_limit(if grid == Grid::Nodes { n } else { n / 2 }),
             ));
         }
         out.push(Measured::absolute(
@@ -279,6 +282,15 @@ pub fn hertz(per_half_width: &[usize], grid: Grid) -> Result<Vec<Measured>, Case
         ));
     }
     Ok(out)
+}
+
+/// Largest L2 error asked for with `n` edges on b: 3 % of the benchmark, tighter as the kink at the edge is resolved.
+fn l2_limit(n: usize) -> f64 {
+    match n {
+        64.. => 0.007,
+        16.. => 0.015,
+        _ => 0.03,
+    }
 }
 
 /// B2: p(0)/p₀ of fine meshes for R = 8 and R = 80 at equal load; the deviation falls as (b/R)², that is as 1/R.

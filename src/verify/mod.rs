@@ -3,10 +3,14 @@
 //! Each function runs one family of cases and returns what it measured beside its target and tolerance; `Measured::passed`
 //! is the verdict. Small cases are also tests; the large ones run in the validation only.
 
+pub mod flat_punch;
 pub mod half_bodies;
 pub mod hertz_cylinders;
+pub mod nafems_cylinder;
+pub mod patch;
 pub mod sliding;
 pub mod two_bodies;
+pub mod wear_block;
 pub mod wear_half_plane;
 pub mod wear_punch;
 pub mod wear_steps;
