@@ -80,6 +80,15 @@ impl HalfBody {
             spec.radius.map_or(z, |r| bend(z, r))
         };
         let mut patch = Patch::new(edges, (levels - 1) / order, spec.order, place)?;
+        if let Outline::Block(half_width, height) = spec.outline {
+            for x in [-half_width, half_width] {
+                snap(
+                    &mut patch.mesh,
+                    patch.top.iter().step_by(order),
+                    Vec2::new(x, height),
+                );
+            }
+        }
         straighten(&mut patch.mesh, &patch.bottom);
         let axis = if arc[(columns - 1) / 2] == 0.0 {
             (0..levels)
@@ -184,6 +193,14 @@ fn confocal(theta: f64, mu: f64, c: f64, end: f64, outline: Outline) -> Vec2 {
     }
 }
 
+/// Moves the nearest of `nodes` to `corner`.
+fn snap<'a>(mesh: &mut Mesh, nodes: impl Iterator<Item = &'a u32>, corner: Vec2) {
+    let distance = |n: u32| (mesh.points[n as usize] - corner).norm();
+    if let Some(&nearest) = nodes.min_by(|a, b| distance(**a).total_cmp(&distance(**b))) {
+        mesh.points[nearest as usize] = corner;
+    }
+}
+
 /// Puts mid-side nodes on straight edges, except those of the surface.
 fn straighten(mesh: &mut Mesh, surface: &[u32]) {
     let Cells::T6(cells) = &mesh.cells else {
@@ -263,6 +280,11 @@ mod tests {
             .points
             .iter()
             .fold(Vec2::zeros(), |m: Vec2, p| m.sup(&p.abs()));
+        let corners = body
+            .outer
+            .iter()
+            .map(|&n| body.mesh.points[n as usize].abs());
+        assert_eq!(corners.filter(|p| *p == Vec2::new(20.0, 40.0)).count(), 2);
         assert!((size.x - 20.0).abs() < 1e-12 && (size.y - 40.0).abs() < 1e-12);
     }
 }

@@ -232,6 +232,7 @@ pub fn run(case: &Cylinders) -> Result<(HertzFit, Solution, f64), CaseError> {
 pub fn hertz(per_half_width: &[usize], grid: Grid) -> Result<Vec<Measured>, CaseError> {
     let mut out = Vec::new();
     let mut centres = Vec::new();
+    let mut errors = Vec::new();
     for &n in per_half_width {
         let (fit, solution, balance) = run(&Cylinders::benchmark(n, Order::Quadratic, grid))?;
         let at = format!("{n} edges per b, {grid:?}");
@@ -271,6 +272,20 @@ pub fn hertz(per_half_width: &[usize], grid: Grid) -> Result<Vec<Measured>, Case
         ));
         out.extend(discipline("B2", &at, &solution));
         centres.push(fit.centre);
+        errors.push(fit.l2);
+    }
+    if let ([.., coarse, fine], [.., n, m]) = (&errors[..], per_half_width)
+        && *m >= 64
+    {
+        // piecewise linear pressure at a square-root edge: order 1, scattered by where the edge falls in its cell
+        let order = (coarse / fine).ln() / (*m as f64 / *n as f64).ln();
+        out.push(Measured::absolute(
+            "B2",
+            format!("{grid:?}: observed order of the L2 error, {n} to {m} edges"),
+            order,
+            1.0,
+            0.3,
+        ));
     }
     if grid == Grid::Nodes {
         let back = centres.windows(2).map(|w| w[0] - w[1]).fold(0.0, f64::max);

@@ -3,9 +3,11 @@
 //! Each function runs one family of cases and returns what it measured beside its target and tolerance; `Measured::passed`
 //! is the verdict. Small cases are also tests; the large ones run in the validation only.
 
+pub mod contact_and_wear;
 pub mod flat_punch;
 pub mod half_bodies;
 pub mod hertz_cylinders;
+pub mod invariance;
 pub mod nafems_cylinder;
 pub mod patch;
 pub mod sliding;
@@ -137,6 +139,11 @@ pub const SKIPPED: &[Skipped] = &[
         id: "B3",
         what: "cylinder on block with friction 0.1",
         reason: "the contact knows full slip in a given direction only; under a normal load most of this contact sticks",
+    },
+    Skipped {
+        id: "B3",
+        what: "settlement against Code_Aster's -1.308 mm",
+        reason: "computed with large displacements there; the small-strain value is checked by a second mesh instead",
     },
     Skipped {
         id: "B4",
