@@ -9,11 +9,17 @@
 //! Lengths are mm, forces N, stresses MPa (N/mm²) throughout; angles are radians inside the program.
 
 pub mod analytic;
+pub mod cli;
 pub mod contact;
 pub mod fem;
 pub mod gear;
 pub mod material;
 pub mod mesh;
 pub mod numeric;
+pub mod paper;
+pub mod report;
+pub mod simulate;
+pub mod study;
+pub mod tribology;
 pub mod verify;
 pub mod wear;

@@ -109,6 +109,22 @@ pub struct Cycle {
 }
 
 impl Cycle {
+    /// The pinion's teeth that can touch somewhere in the mesh cycle (the gear's have the opposite numbers).
+    pub fn teeth(pair: &Pair, spec: CycleSpec) -> Vec<i32> {
+        let mut teeth = Vec::new();
+        for q in 0..spec.positions {
+            let theta = (q as f64 + 0.5) / spec.positions as f64;
+            for contact in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch) {
+                if Frame::new(pair, contact.path).is_some_and(|f| f.separation <= spec.reach) {
+                    teeth.push(contact.pinion_tooth);
+                }
+            }
+        }
+        teeth.sort_unstable();
+        teeth.dedup();
+        teeth
+    }
+
     /// Builds all positions, in parallel.
     pub fn new(pair: &Pair, stations: &Stations, spec: CycleSpec) -> Self {
         let positions = (0..spec.positions)

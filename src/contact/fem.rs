@@ -7,6 +7,7 @@ use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::contact::mortar::{Trace, couple};
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
+use crate::fem::Compliance;
 use crate::numeric::sparse::SparseRows;
 use crate::numeric::{Vec2, cross, rotate};
 
@@ -26,8 +27,8 @@ pub struct ToothFlank {
 /// Condensed compliance of one member's candidate flanks.
 #[derive(Debug, Clone)]
 pub struct ElasticFlanks {
-    /// Displacements (x, y of each interface node, member frame) per unit nodal loads, mm per N/mm.
-    pub compliance: faer::Mat<f64>,
+    /// Displacements of the interface nodes per unit nodal loads, member frame.
+    pub compliance: Compliance,
     /// The flanks, by interface node.
     pub flanks: Vec<ToothFlank>,
 }
@@ -90,6 +91,11 @@ impl CycleCompliance {
             positions,
             friction,
         })
+    }
+
+    /// Traction on the gear per unit pressure, friction included, fixed frame (the pinion's is the opposite).
+    pub fn traction(&self, pair: &PairContact) -> Vec2 {
+        pair.frame.normal + friction_direction(pair, self.friction)
     }
 
     /// Coupling of each tooth pair of position `q` to the elements.
@@ -232,8 +238,8 @@ fn add_weighted(weighted: &mut DMatrix<f64>, views: &[SideView], member: &Elasti
         for target in views {
             let block = DMatrix::from_fn(target.count, source.count, |i, j| {
                 let (row, column) = (2 * (target.first_node + i), 2 * (source.first_node + j));
-                let c = member.compliance.col(column);
-                let d = member.compliance.col(column + 1);
+                let c = member.compliance.column(column);
+                let d = member.compliance.column(column + 1);
                 let force = source.traction;
                 target.normal.x * (c[row] * force.x + d[row] * force.y)
                     + target.normal.y * (c[row + 1] * force.x + d[row + 1] * force.y)

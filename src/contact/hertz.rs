@@ -31,7 +31,12 @@ impl<'a> HertzContact<'a> {
     /// Contact under a pinion torque per face width (N·mm/mm) with the contact modulus E* (MPa) and the largest tooth
     /// pair stiffness `stiffness` (N/(mm·µm)).
     pub fn new(cycle: &'a Cycle, torque: f64, modulus: f64, stiffness: f64) -> Self {
-        Self { cycle, load: torque / cycle.pair.pinion.base_radius, modulus, stiffness: 1e3 * stiffness }
+        Self {
+            cycle,
+            load: torque / cycle.pair.pinion.base_radius,
+            modulus,
+            stiffness: 1e3 * stiffness,
+        }
     }
 
     fn stiffness_at(&self, pair: &PairContact) -> f64 {
@@ -45,7 +50,15 @@ impl<'a> HertzContact<'a> {
     /// What separates the flanks of a pair where they should touch, mm.
     fn deviation(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
         let facing = pair.frame.facing(&self.cycle.pair, 0.0);
-        let worn: f64 = (0..2).map(|side| interpolate(&self.cycle.stations.arc[side], depth[side], facing.arc[side])).sum();
+        let worn: f64 = (0..2)
+            .map(|side| {
+                interpolate(
+                    &self.cycle.stations.arc[side],
+                    depth[side],
+                    facing.arc[side],
+                )
+            })
+            .sum();
         facing.gap + worn
     }
 }
@@ -55,12 +68,21 @@ impl ContactModel for HertzContact<'_> {
         self.cycle
     }
 
-    fn solve(&self, q: usize, depth: [&[f64]; 2], _: &[usize]) -> Result<PositionContact, ContactError> {
+    fn solve(
+        &self,
+        q: usize,
+        depth: [&[f64]; 2],
+        _: &[usize],
+    ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
         let mut springs: Vec<Spring> = Vec::new();
         for (index, pair) in position.pairs.iter().enumerate() {
             if pair.frame.touch == Touch::Flanks {
-                springs.push(Spring { index, stiffness: self.stiffness_at(pair), gap: self.deviation(pair, depth) });
+                springs.push(Spring {
+                    index,
+                    stiffness: self.stiffness_at(pair),
+                    gap: self.deviation(pair, depth),
+                });
             }
         }
         let delta = share(&mut springs, self.load);
@@ -69,8 +91,16 @@ impl ContactModel for HertzContact<'_> {
         for spring in springs.iter().filter(|s| delta > s.gap) {
             let pair = &position.pairs[spring.index];
             let load = spring.stiffness * (delta - spring.gap);
-            let half_width = hertz_line::half_width(load, self.cycle.pair.relative_radius(pair.path), self.modulus);
-            let shape: Vec<f64> = pair.xi.iter().map(|x| (1.0 - (x / half_width).powi(2)).max(0.0).sqrt()).collect();
+            let half_width = hertz_line::half_width(
+                load,
+                self.cycle.pair.relative_radius(pair.path),
+                self.modulus,
+            );
+            let shape: Vec<f64> = pair
+                .xi
+                .iter()
+                .map(|x| (1.0 - (x / half_width).powi(2)).max(0.0).sqrt())
+                .collect();
             let area: f64 = shape.iter().zip(&pair.length).map(|(s, l)| s * l).sum();
             for (k, s) in shape.iter().enumerate().filter(|(_, s)| **s > 0.0) {
                 pressure[pair.offset + k] = s * load / area;
@@ -78,10 +108,20 @@ impl ContactModel for HertzContact<'_> {
             }
         }
         let approach = delta / self.cycle.pair.pinion.base_radius;
-        Ok(PositionContact { pressure, approach, active, iterations: 1, penetration: 0.0 })
+        Ok(PositionContact {
+            pressure,
+            approach,
+            active,
+            iterations: 1,
+            penetration: 0.0,
+        })
     }
 
-    fn sensitivity(&self, _: usize, _: &PositionContact) -> Result<Option<DMatrix<f64>>, ContactError> {
+    fn sensitivity(
+        &self,
+        _: usize,
+        _: &PositionContact,
+    ) -> Result<Option<DMatrix<f64>>, ContactError> {
         Ok(None)
     }
 }
@@ -126,7 +166,20 @@ mod tests {
 
     #[test]
     fn springs_share_the_load() {
-        let springs = || vec![Spring { index: 0, stiffness: 10.0, gap: 0.0 }, Spring { index: 1, stiffness: 30.0, gap: 0.2 }];
+        let springs = || {
+            vec![
+                Spring {
+                    index: 0,
+                    stiffness: 10.0,
+                    gap: 0.0,
+                },
+                Spring {
+                    index: 1,
+                    stiffness: 30.0,
+                    gap: 0.2,
+                },
+            ]
+        };
         // too small a load to close the second gap
         assert!((share(&mut springs(), 1.0) - 0.1).abs() < 1e-15);
         // 10 δ + 30 (δ − 0.2) = 10

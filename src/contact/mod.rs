@@ -4,6 +4,7 @@ pub mod cycle;
 pub mod deposit;
 pub mod fem;
 pub mod frame;
+pub mod hertz;
 pub mod model;
 pub mod mortar;
 pub mod unilateral;

@@ -24,6 +24,20 @@ pub fn lame_constants(material: Elastic) -> (f64, f64) {
     )
 }
 
+/// The constants with which a plane-strain model has the in-plane stresses and displacements of a plane-stress one.
+///
+/// ```text
+/// E' = E (1 + 2 nu) / (1 + nu)²,   nu' = nu / (1 + nu)
+/// ```
+/// Timoshenko & Goodier (1970), section 20. σ_zz of the result has no meaning for the plane-stress body.
+pub fn plane_stress_equivalent(material: Elastic) -> Elastic {
+    let (e, nu) = (material.youngs_modulus, material.poisson_ratio);
+    Elastic {
+        youngs_modulus: e * (1.0 + 2.0 * nu) / (1.0 + nu).powi(2),
+        poisson_ratio: nu / (1.0 + nu),
+    }
+}
+
 /// Stiffness of a triangle per mm of width. `number` only labels an error.
 pub fn element_stiffness(
     element: &Element,
@@ -55,12 +69,18 @@ pub fn element_stiffness(
             }
         }
     }
-    for i in 0..2 * n {
-        for j in 0..i {
-            k[j][i] = k[i][j];
+    mirror(&mut k, 2 * n);
+    Ok(k)
+}
+
+/// Copies the lower triangle of the leading `size` rows to the upper one.
+fn mirror(k: &mut ElementStiffness, size: usize) {
+    for row in 1..size {
+        let (above, below) = k.split_at_mut(row);
+        for (target, value) in above.iter_mut().zip(&below[0]) {
+            target[row] = *value;
         }
     }
-    Ok(k)
 }
 
 /// Nodal forces K u of a displacement field, N per mm of width, summed over the elements in order.
@@ -200,9 +220,10 @@ impl StiffnessPattern {
     /// y = K x of the symmetric matrix.
     pub(super) fn multiply(&self, values: &[f64], x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; x.len()];
-        for j in 0..x.len() {
-            for place in self.column_start[j] as usize..self.column_start[j + 1] as usize {
-                let (i, value) = (self.row[place] as usize, values[place]);
+        for (j, range) in self.column_start.windows(2).enumerate() {
+            let range = range[0] as usize..range[1] as usize;
+            for (&i, &value) in self.row[range.clone()].iter().zip(&values[range]) {
+                let i = i as usize;
                 y[i] += value * x[j];
                 if i != j {
                     y[j] += value * x[i];

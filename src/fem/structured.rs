@@ -13,6 +13,15 @@ pub enum Order {
     Quadratic,
 }
 
+/// How the cells are cut into triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Diagonals {
+    /// The direction changes from cell to cell (checkerboard), so that none is preferred.
+    Alternating,
+    /// All from the lower left to the upper right corner.
+    Parallel,
+}
+
 /// A mesh of a mapped unit square with its four sides, each running counter-clockwise (the body on its left).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Patch {
@@ -30,13 +39,23 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Splits the unit square into `nx` x `ny` cells of two triangles and maps the nodes by `map(s, t)`.
-    ///
-    /// The diagonal changes direction from cell to cell (checkerboard), so that no direction is preferred.
+    /// Splits the unit square into `nx` x `ny` cells of two triangles, diagonals alternating, and maps the nodes by
+    /// `map(s, t)`.
     pub fn new(
         nx: usize,
         ny: usize,
         order: Order,
+        map: impl Fn(f64, f64) -> Vec2,
+    ) -> Result<Patch, FemError> {
+        Patch::with_diagonals(nx, ny, order, Diagonals::Alternating, map)
+    }
+
+    /// As [`Patch::new`] with a choice of diagonals.
+    pub fn with_diagonals(
+        nx: usize,
+        ny: usize,
+        order: Order,
+        diagonals: Diagonals,
         map: impl Fn(f64, f64) -> Vec2,
     ) -> Result<Patch, FemError> {
         if nx == 0 || ny == 0 {
@@ -62,7 +81,7 @@ impl Patch {
             for i in 0..nx {
                 let [a, b, c, d] = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
                     .map(|(i, j)| (i * step, j * step));
-                if (i + j) % 2 == 0 {
+                if diagonals == Diagonals::Parallel || (i + j) % 2 == 0 {
                     corners.extend([[a, b, c], [a, c, d]]);
                 } else {
                     corners.extend([[a, b, d], [b, c, d]]);

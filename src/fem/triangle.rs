@@ -184,9 +184,9 @@ mod tests {
             let (_, slope) = shape(len, 0.21, 0.34);
             let dxi = (shape(len, 0.21 + h, 0.34).0, shape(len, 0.21 - h, 0.34).0);
             let deta = (shape(len, 0.21, 0.34 + h).0, shape(len, 0.21, 0.34 - h).0);
-            for i in 0..len {
-                assert!((slope[i][0] - (dxi.0[i] - dxi.1[i]) / (2.0 * h)).abs() < 1e-9);
-                assert!((slope[i][1] - (deta.0[i] - deta.1[i]) / (2.0 * h)).abs() < 1e-9);
+            for (i, slope) in slope.iter().enumerate() {
+                assert!((slope[0] - (dxi.0[i] - dxi.1[i]) / (2.0 * h)).abs() < 1e-9);
+                assert!((slope[1] - (deta.0[i] - deta.1[i]) / (2.0 * h)).abs() < 1e-9);
             }
         }
     }

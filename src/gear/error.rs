@@ -175,7 +175,8 @@ pub enum PairError {
     },
     /// A tip touches the mate's root circle.
     #[error(
-        "the {member}'s tip meets its mate's root: clearance {clearance:.4} mm at centre distance {centre_distance:.4} mm, above 0 is needed"
+        "the {member}'s tip meets its mate's root: clearance {clearance:.4} mm at centre distance {centre_distance:.4} mm; more than \
+         {min:.4} mm is needed, or less addendum"
     )]
     RootClearance {
         /// Whose tip.
@@ -184,6 +185,8 @@ pub enum PairError {
         clearance: f64,
         /// Working centre distance, mm.
         centre_distance: f64,
+        /// Working centre distance at which the clearance is 0, mm.
+        min: f64,
     },
     /// Fewer than one pair of teeth in contact.
     #[error(
@@ -200,10 +203,10 @@ pub enum PairError {
         /// The same as misalignment, mm.
         max_misalignment: f64,
     },
-    /// The mate's tip would work below the involute.
+    /// The mate's tip would work below the involute or dip into the fillet.
     #[error(
-        "interference: contact on the {member} would begin at radius {start_radius:.4} mm, below its involute, which begins at \
-         {form_radius:.4} mm"
+        "interference: the mate's tip meets the {member}'s fillet: contact would begin at radius {start_radius:.4} mm, the involute \
+         begins at {form_radius:.4} mm (centre distance {centre_distance:.4} mm); free from {min:.4} mm on, or with less addendum of the mate"
     )]
     Interference {
         /// Whose fillet is met.
@@ -212,5 +215,9 @@ pub enum PairError {
         start_radius: f64,
         /// Form radius, mm.
         form_radius: f64,
+        /// Working centre distance, mm.
+        centre_distance: f64,
+        /// Smallest working centre distance at which the tip stays clear of the fillet, mm.
+        min: f64,
     },
 }

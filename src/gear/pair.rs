@@ -12,6 +12,7 @@
 
 use super::Member;
 use super::error::PairError;
+use super::fillet::bisect;
 use super::involute::{inv, inverse_inv};
 use super::tooth::Gear;
 use crate::numeric::{Vec2, rotate};
@@ -123,6 +124,7 @@ impl Pair {
                     member,
                     clearance,
                     centre_distance: a,
+                    min: tip + root,
                 });
             }
         }
@@ -294,62 +296,69 @@ impl Pair {
     }
 
     fn check_interference(&self) -> Result<(), PairError> {
-        for (member, mate_end) in [
-            (Member::Pinion, self.gear.rho_end),
-            (Member::Gear, self.pinion.rho_end),
-        ] {
-            let own = self.member(member);
-            let start = self.line_length - mate_end;
-            let slack = 1e-9 * own.rack.module;
-            let met = if own.undercut {
-                start < own.rho_form && !self.tip_clears_undercut(member)
-            } else {
-                start < own.rho_form - slack
-            };
-            if met {
-                return Err(PairError::Interference {
-                    member,
-                    start_radius: if start > 0.0 {
-                        own.radius_at_rho(start)
-                    } else {
-                        0.0
-                    },
-                    form_radius: own.form_radius,
-                });
+        for member in Member::BOTH {
+            let (own, mate) = (self.member(member), self.member(member.other()));
+            if free_of_interference(own, mate, self.centre_distance) {
+                continue;
             }
+            let start = self.line_length - mate.rho_end;
+            let base_sum = own.base_radius + mate.base_radius;
+            let lower = self
+                .centre_distance
+                .max((own.rho_form + mate.rho_end).hypot(base_sum));
+            let free = |a: f64| {
+                if free_of_interference(own, mate, a) {
+                    1.0
+                } else {
+                    -1.0
+                }
+            };
+            return Err(PairError::Interference {
+                member,
+                start_radius: if start > 0.0 {
+                    own.radius_at_rho(start)
+                } else {
+                    0.0
+                },
+                form_radius: own.form_radius,
+                centre_distance: self.centre_distance,
+                min: bisect(lower, lower + own.rack.module, free),
+            });
         }
         Ok(())
     }
+}
 
-    /// Whether the sharp tip corner of the mate stays out of `member`'s undercut foot while it swings through.
-    fn tip_clears_undercut(&self, member: Member) -> bool {
-        let own = self.member(member);
-        let mate = self.member(member.other());
-        // The problem is the same for both members when seen from `member`: swap the roles.
-        let a = self.centre_distance;
-        let own_angle = |rho: f64| -self.working_pressure_angle - own.tangent_angle(rho);
-        let mate_angle = |rho: f64| {
-            std::f64::consts::PI
-                - self.working_pressure_angle
-                - mate.tangent_angle(self.line_length - rho)
-        };
-        let corner = mate.involute_point(mate.rho_tip);
-        let (from, to) = (
-            self.line_length - mate.rho_tip - 2.0 * self.base_pitch,
-            own.rho_form,
-        );
-        const STEPS: u32 = 2000;
-        (0..=STEPS).all(|i| {
-            let rho = from + (to - from) * f64::from(i) / f64::from(STEPS);
-            let fixed = rotate(corner, mate_angle(rho)) + Vec2::new(a, 0.0);
-            let p = rotate(fixed, -own_angle(rho));
-            let r = p.norm();
-            if r >= own.form_radius {
-                return true;
-            }
-            r > own.root_radius && p.y.atan2(p.x) >= own.solid_half_angle(r) - 1e-6
-        })
+/// Whether the mate's tip works on `own`'s involute only, at the centre distance `a`, mm. Two conditions: contact does not
+/// begin below the form point (on an undercut flank it cannot), and the tip corner stays out of the fillet on the loaded
+/// side while it swings through the space.
+fn free_of_interference(own: &Gear, mate: &Gear, a: f64) -> bool {
+    const STEPS: u32 = 300;
+    let module = own.rack.module;
+    let base_sum = own.base_radius + mate.base_radius;
+    let line_length = ((a - base_sum) * (a + base_sum)).sqrt();
+    let start = line_length - mate.rho_end;
+    if !own.undercut && start < own.rho_form - 1e-9 * module {
+        return false;
     }
+    let alpha = line_length.atan2(base_sum);
+    let corner = match mate.tip_rounding_arc() {
+        Some(arc) => arc.points(4),
+        None => vec![mate.involute_point(mate.rho_tip)],
+    };
+    // Seen from either member the pair looks the same, so `own` stands at the origin. The corner is on the line of action
+    // at `start` and deepest soon after.
+    (0..=STEPS).all(|i| {
+        let rho = start + (-1.0 + 3.0 * f64::from(i) / f64::from(STEPS)) * own.rack.base_pitch();
+        let own_angle = -alpha - own.tangent_angle(rho);
+        let mate_angle = std::f64::consts::PI - alpha - mate.tangent_angle(line_length - rho);
+        corner.iter().all(|&point| {
+            let p = rotate(rotate(point, mate_angle) + Vec2::new(a, 0.0), -own_angle);
+            let r = p.norm();
+            let gap = || r * (p.y.atan2(p.x) - own.solid_half_angle(r));
+            r >= own.form_radius || r > own.root_radius && gap() >= -1e-5 * module
+        })
+    })
 }
 
 /// Where contact begins on `own`, given where the mate's tip would begin it, mm of own curvature radius.

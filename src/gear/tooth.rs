@@ -234,12 +234,12 @@ impl Gear {
 
     /// Point of the loaded side's fillet of tooth 0 with the tool's normal angle `beta`, rad, member frame, mm.
     pub fn fillet_point(&self, beta: f64) -> Vec2 {
-        self.from_space(self.trochoid.point(beta))
+        self.space_to_member(self.trochoid.point(beta))
     }
 
     /// Outward unit normal of the fillet there.
     pub fn fillet_normal(&self, beta: f64) -> Vec2 {
-        self.from_space(self.trochoid.normal(beta))
+        self.space_to_member(self.trochoid.normal(beta))
     }
 
     /// Half the angle of the root land between two fillets, rad; 0 for a fully rounded tool.
@@ -263,7 +263,7 @@ impl Gear {
     }
 
     /// From the frame of the tooth space above tooth 0 (mirrored: there tooth 0 is at negative y) to the member frame.
-    fn from_space(&self, p: Vec2) -> Vec2 {
+    fn space_to_member(&self, p: Vec2) -> Vec2 {
         crate::numeric::rotate(Vec2::new(p.x, -p.y), 0.5 * self.pitch_angle())
     }
 

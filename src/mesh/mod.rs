@@ -1,5 +1,36 @@
 //! Floor 2: triangle meshes of whole gears.
 
+mod boundary;
+mod error;
+mod gear_mesh;
+mod gear_outline;
+mod grading;
+mod msh;
+mod order;
+mod outline;
+mod profile;
+mod quality;
+mod relocate;
+mod repair;
+mod seed;
+mod smooth;
+mod triangulate;
+mod user;
+mod vtu;
+
+pub use boundary::{BoundaryEdge, boundary_edges, outer_area};
+pub use error::MeshError;
+pub use gear_mesh::{MeshSpec, mesh_gear};
+pub use grading::SizeField;
+pub use msh::read_msh;
+pub use order::{Order, raise_order};
+pub use outline::{Loop, Outline};
+pub use quality::{Quality, check_jacobians};
+pub use relocate::relocate;
+pub use triangulate::{Triangles, TriangulateOptions, triangulate};
+pub use user::{BORE_TOLERANCE, FLANK_TOLERANCE};
+pub use vtu::read_vtu;
+
 use crate::numeric::Vec2;
 
 /// Triangles of a mesh; nodes counter-clockwise, corners first; T6 then the mid-sides of edges 0-1, 1-2, 2-0 (VTK order).
@@ -9,6 +40,29 @@ pub enum Cells {
     T3(Vec<[u32; 3]>),
     /// Quadratic triangles; only edges on curved boundaries are curved.
     T6(Vec<[u32; 6]>),
+}
+
+impl Cells {
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        match self {
+            Cells::T3(t) => t.len(),
+            Cells::T6(t) => t.len(),
+        }
+    }
+
+    /// True if there is no triangle.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Corner nodes of triangle `element`.
+    pub fn corners(&self, element: usize) -> [u32; 3] {
+        match self {
+            Cells::T3(t) => t[element],
+            Cells::T6(t) => [t[element][0], t[element][1], t[element][2]],
+        }
+    }
 }
 
 /// The finely meshed loaded flank of one tooth, ordered from the root side to the tip corner.
@@ -33,4 +87,13 @@ pub struct Mesh {
     pub flanks: Vec<FlankChain>,
     /// Nodes on the bore circle (held rigid).
     pub bore: Vec<u32>,
+}
+
+impl Mesh {
+    /// Corner nodes of all triangles.
+    pub fn corners(&self) -> Vec<[u32; 3]> {
+        (0..self.cells.len())
+            .map(|e| self.cells.corners(e))
+            .collect()
+    }
 }

@@ -29,7 +29,15 @@ pub struct Balance {
 impl Balance {
     /// Largest difference of the two, relative to the law (0 before any wear).
     pub fn error(&self) -> f64 {
-        (0..2).map(|i| if self.law[i] > 0.0 { (self.geometry[i] / self.law[i] - 1.0).abs() } else { 0.0 }).fold(0.0, f64::max)
+        (0..2)
+            .map(|i| {
+                if self.law[i] > 0.0 {
+                    (self.geometry[i] / self.law[i] - 1.0).abs()
+                } else {
+                    0.0
+                }
+            })
+            .fold(0.0, f64::max)
     }
 }
 
@@ -57,6 +65,15 @@ pub struct Progress {
     law_rate: [f64; 2],
     /// Contact problems solved so far.
     pub solves: usize,
+    /// Contact sets of the last solution, so that a resumed run walks the same way.
+    warm: Vec<Vec<usize>>,
+}
+
+impl Progress {
+    /// Forgets the contact sets: their numbering has changed.
+    pub fn forget_sets(&mut self) {
+        self.warm.clear();
+    }
 }
 
 /// Archard wear coefficients and step control of a history.
@@ -78,7 +95,12 @@ impl WearLaw {
     fn control(&self, rate: &[f64]) -> StepControl {
         // the first step wears a tenth of the floor where the flank wears fastest
         let fastest = rate.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(*r));
-        StepControl { tolerance: self.tolerance, floor: DEPTH_FLOOR, first_step: 0.1 * DEPTH_FLOOR / fastest, least_step: LEAST_STEP }
+        StepControl {
+            tolerance: self.tolerance,
+            floor: DEPTH_FLOOR,
+            first_step: 0.1 * DEPTH_FLOOR / fastest,
+            least_step: LEAST_STEP,
+        }
     }
 }
 
@@ -87,7 +109,7 @@ impl WearLaw {
 ///
 /// # Errors
 /// [`StepError`] with the cycles reached; `progress` then holds the last accepted step.
-pub fn wear_until<M: ContactModel>(
+pub fn wear_until<M: ContactModel + ?Sized>(
     model: &M,
     law: WearLaw,
     progress: &mut Option<Progress>,
@@ -103,27 +125,51 @@ pub fn wear_until<M: ContactModel>(
         None => {
             let fresh = vec![0.0; cycle.stations.count()];
             let control = law.control(&system.rate(0.0, &fresh).map_err(fail)?);
-            let law_rate = law_rate(cycle, system.contacts(&fresh).map_err(fail)?, law.coefficient);
-            *progress = Some(Progress { stand: Stand::new(fresh, control), balance: Balance::default(), law_rate, solves: 0 });
+            let law_rate = law_rate(
+                cycle,
+                system.contacts(&fresh).map_err(fail)?,
+                law.coefficient,
+            );
+            *progress = Some(Progress {
+                stand: Stand::new(fresh, control),
+                balance: Balance::default(),
+                law_rate,
+                solves: 0,
+                warm: Vec::new(),
+            });
             control
         }
     };
     let progress = progress.as_mut().expect("filled above");
     let solves_before = progress.solves;
+    system.start_from(&progress.warm);
     while progress.stand.n < end {
         let from = progress.stand.n;
         advance(&mut system, &mut progress.stand, end, control)?;
-        let contacts = system.contacts(&progress.stand.u).map_err(|source| StepError::System { n: progress.stand.n, source })?;
+        let contacts = system
+            .contacts(&progress.stand.u)
+            .map_err(|source| StepError::System {
+                n: progress.stand.n,
+                source,
+            })?;
         let rate = law_rate(cycle, contacts, law.coefficient);
         let (pinion, gear) = progress.stand.u.split_at(cycle.stations.arc[0].len());
         for side in 0..2 {
-            progress.balance.law[side] += 0.5 * (progress.stand.n - from) * (progress.law_rate[side] + rate[side]);
-            progress.balance.geometry[side] = worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
+            progress.balance.law[side] +=
+                0.5 * (progress.stand.n - from) * (progress.law_rate[side] + rate[side]);
+            progress.balance.geometry[side] =
+                worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
         }
         progress.law_rate = rate;
         progress.solves = solves_before + system.solves;
+        progress.warm = system.warm().to_vec();
         let max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
-        let report = StepReport { stand: &progress.stand, balance: progress.balance, max_depth, solves: progress.solves };
+        let report = StepReport {
+            stand: &progress.stand,
+            balance: progress.balance,
+            max_depth,
+            solves: progress.solves,
+        };
         if !observe(report) {
             return Ok(false);
         }
@@ -135,15 +181,31 @@ pub fn wear_until<M: ContactModel>(
 ///
 /// # Errors
 /// [`ContactError`] of the first position that fails.
-pub fn state_of<M: ContactModel>(model: &M, progress: &Progress) -> Result<WearState, ContactError> {
-    let (pinion, gear) = progress.stand.u.split_at(model.cycle().stations.arc[0].len());
-    let contacts = ArchardSystem::new(model, [0.0; 2]).contacts(&progress.stand.u)?.to_vec();
-    Ok(WearState { cycles: progress.stand.n, depth: [pinion.to_vec(), gear.to_vec()], contacts })
+pub fn state_of<M: ContactModel + ?Sized>(
+    model: &M,
+    progress: &Progress,
+) -> Result<WearState, ContactError> {
+    let (pinion, gear) = progress
+        .stand
+        .u
+        .split_at(model.cycle().stations.arc[0].len());
+    let contacts = ArchardSystem::new(model, [0.0; 2])
+        .contacts(&progress.stand.u)?
+        .to_vec();
+    Ok(WearState {
+        cycles: progress.stand.n,
+        depth: [pinion.to_vec(), gear.to_vec()],
+        contacts,
+    })
 }
 
 /// ∫ h ds over one flank, mm².
 pub fn worn_area(stations: &[f64], depth: &[f64]) -> f64 {
-    depth.iter().enumerate().map(|(i, h)| h * tributary(stations, i)).sum()
+    depth
+        .iter()
+        .enumerate()
+        .map(|(i, h)| h * tributary(stations, i))
+        .sum()
 }
 
 /// Worn area per pinion cycle and flank by the law alone, k Σ F'|v_s| Δy, mm².
@@ -155,10 +217,17 @@ fn law_rate(cycle: &Cycle, contacts: &[PositionContact], coefficient: [f64; 2]) 
             sliding_work += line_load(pair, contact) * pair.slip.abs() * step;
         }
     }
-    [coefficient[0] * sliding_work, coefficient[1] * sliding_work / cycle.pair.speed_ratio]
+    [
+        coefficient[0] * sliding_work,
+        coefficient[1] * sliding_work / cycle.pair.speed_ratio,
+    ]
 }
 
 /// Line load of one tooth pair, N/mm.
 pub fn line_load(pair: &crate::contact::cycle::PairContact, contact: &PositionContact) -> f64 {
-    pair.length.iter().zip(&contact.pressure[pair.offset..]).map(|(l, p)| l * p).sum()
+    pair.length
+        .iter()
+        .zip(&contact.pressure[pair.offset..])
+        .map(|(l, p)| l * p)
+        .sum()
 }

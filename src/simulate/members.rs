@@ -7,12 +7,14 @@ use crate::contact::fem::{ElasticFlanks, ToothFlank};
 use crate::fem::{Body, FemError};
 use crate::gear::{Gear, Pair};
 use crate::material::Elastic;
-use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, mesh_gear};
+use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, Order, mesh_gear};
 
 /// One elastic gear.
 pub struct Member {
     /// Its mesh, member frame.
     pub mesh: Mesh,
+    /// Elastic constants.
+    pub material: Elastic,
     /// Its factored stiffness, bore held.
     pub body: Body,
     /// Its compliance at the candidate flanks.
@@ -34,6 +36,7 @@ pub enum MemberError {
 pub struct Members {
     /// Pinion, then gear.
     pub members: [Member; 2],
+    spacing: f64,
 }
 
 impl Members {
@@ -44,13 +47,27 @@ impl Members {
     ///
     /// # Errors
     /// [`MemberError`].
-    pub fn build(pair: &Pair, materials: [Elastic; 2], teeth: &[i32], spacing: f64, order: usize) -> Result<Self, MemberError> {
+    pub fn build(
+        pair: &Pair,
+        materials: [Elastic; 2],
+        teeth: &[i32],
+        spacing: f64,
+        order: usize,
+    ) -> Result<Self, MemberError> {
         let mirrored: Vec<i32> = teeth.iter().rev().map(|t| -t).collect();
         let (pinion, gear) = join(
             || Member::build(&pair.pinion, materials[0], teeth, spacing, order),
             || Member::build(&pair.gear, materials[1], &mirrored, spacing, order),
         );
-        Ok(Self { members: [pinion?, gear?] })
+        Ok(Self {
+            members: [pinion?, gear?],
+            spacing,
+        })
+    }
+
+    /// Length of a flank edge, mm.
+    pub fn spacing(&self) -> f64 {
+        self.spacing
     }
 
     /// The condensed flanks of both.
@@ -60,8 +77,23 @@ impl Members {
 }
 
 impl Member {
-    fn build(gear: &Gear, material: Elastic, teeth: &[i32], spacing: f64, order: usize) -> Result<Self, MemberError> {
-        let spec = MeshSpec::new(gear, teeth, spacing, order);
+    /// 2 for quadratic triangles, 1 for linear.
+    pub fn order(&self) -> usize {
+        match self.mesh.cells {
+            Cells::T3(_) => 1,
+            Cells::T6(_) => 2,
+        }
+    }
+
+    fn build(
+        gear: &Gear,
+        material: Elastic,
+        teeth: &[i32],
+        spacing: f64,
+        order: usize,
+    ) -> Result<Self, MemberError> {
+        let mut spec = MeshSpec::new(gear, teeth.to_vec(), spacing, gear.rho_form);
+        spec.order = if order == 1 { Order::T3 } else { Order::T6 };
         Self::from_mesh(mesh_gear(gear, &spec)?, material)
     }
 
@@ -70,7 +102,11 @@ impl Member {
     /// # Errors
     /// [`FemError`] if the stiffness cannot be factored.
     pub fn from_mesh(mesh: Mesh, material: Elastic) -> Result<Self, MemberError> {
-        let interface: Vec<u32> = mesh.flanks.iter().flat_map(|f| f.nodes.iter().copied()).collect();
+        let interface: Vec<u32> = mesh
+            .flanks
+            .iter()
+            .flat_map(|f| f.nodes.iter().copied())
+            .collect();
         let body = Body::new(&mesh, material, &mesh.bore, &interface)?;
         let order = match mesh.cells {
             Cells::T3(_) => 1,
@@ -81,12 +117,25 @@ impl Member {
             .flanks
             .iter()
             .map(|chain| {
-                let flank = ToothFlank { tooth: chain.tooth, first, arc: chain.arc.clone(), order };
+                let flank = ToothFlank {
+                    tooth: chain.tooth,
+                    first,
+                    arc: chain.arc.clone(),
+                    order,
+                };
                 first += chain.nodes.len();
                 flank
             })
             .collect();
-        let flanks = ElasticFlanks { compliance: body.compliance().into_matrix(), flanks };
-        Ok(Self { mesh, body, flanks })
+        let flanks = ElasticFlanks {
+            compliance: body.compliance(),
+            flanks,
+        };
+        Ok(Self {
+            mesh,
+            material,
+            body,
+            flanks,
+        })
     }
 }

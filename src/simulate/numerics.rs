@@ -21,15 +21,24 @@ pub struct Numerics {
 
 impl Default for Numerics {
     fn default() -> Self {
-        Self { order: 2, elements_per_half_width: 8.0, positions: 150, step_tolerance: 2e-3, friction: 0.0 }
+        Self {
+            order: 2,
+            elements_per_half_width: 8.0,
+            positions: 150,
+            step_tolerance: 2e-3,
+            friction: 0.0,
+        }
     }
 }
 
 /// Half width of the searched strip, in Hertz half widths of the largest load: room for contacts that wear has flattened.
 const WINDOW: f64 = 2.2;
 
-/// Corners farther apart than this are not looked at, in modules: loaded teeth deflect by less than half of it.
-const REACH: f64 = 0.02;
+/// Room for corners that wear brings into contact beyond those the load does, mm.
+const WORN_REACH: f64 = 0.008;
+
+/// Stiffness of a tooth pair over 2 E* that the reach allows for; solid steel gears show 0.05 to 0.06.
+const LEAST_STIFFNESS: f64 = 0.045;
 
 impl Numerics {
     /// Length of a flank element's edge for the least pinion torque per width (N·mm/mm) it has to resolve, mm.
@@ -41,17 +50,29 @@ impl Numerics {
     pub fn cycle(&self, pair: &Pair, modulus: f64, torque: f64, spacing: f64) -> CycleSpec {
         let (start, end) = (pair.rho_a - pair.rho_c, pair.rho_e - pair.rho_c);
         let widest = (0..=20)
-            .map(|i| half_width_at(pair, start + (end - start) * f64::from(i) / 20.0, modulus, torque))
+            .map(|i| {
+                half_width_at(
+                    pair,
+                    start + (end - start) * f64::from(i) / 20.0,
+                    modulus,
+                    torque,
+                )
+            })
             .fold(0.0, f64::max);
         CycleSpec {
             positions: self.positions,
             spacing,
             window: (WINDOW * widest).max(12.0 * spacing),
-            reach: REACH * pair.pinion.rack.module,
+            reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus)
+                + WORN_REACH,
         }
     }
 }
 
 fn half_width_at(pair: &Pair, path: f64, modulus: f64, torque: f64) -> f64 {
-    hertz_line::half_width(torque / pair.pinion.base_radius, pair.relative_radius(path), modulus)
+    hertz_line::half_width(
+        torque / pair.pinion.base_radius,
+        pair.relative_radius(path),
+        modulus,
+    )
 }

@@ -7,6 +7,7 @@
 
 use std::f64::consts::PI;
 
+use crate::analytic::half_plane::flat_punch_pressure;
 use crate::contact::mortar::Facing;
 use crate::contact::unilateral::Drive;
 use crate::fem::structured::Order;
@@ -63,7 +64,7 @@ pub fn fresh(elements: usize) -> Result<Vec<Measured>, CaseError> {
     let (a, _, _, load) = DATA;
     let pair = punch(elements)?;
     let solution = pair.solve(Drive::Load(load))?;
-    let exact = |x: f64| load / (PI * (a * a - x * x).sqrt());
+    let exact = |x: f64| flat_punch_pressure(x, load, a);
     let at = format!("{elements} edges under the punch");
     let mut out: Vec<Measured> = [0.0, 0.5, 0.8]
         .into_iter()

@@ -10,7 +10,8 @@
 
 use std::f64::consts::PI;
 
-use crate::analytic::half_plane_elements::hertz_half_width;
+use crate::analytic::cattaneo::PartialSlip;
+use crate::analytic::hertz_line;
 use crate::contact::mortar::Facing;
 use crate::contact::unilateral::{Drive, Problem, Solution, solve};
 use crate::fem::structured::Order;
@@ -77,7 +78,7 @@ impl Cylinders {
 
     /// Hertz half width, mm.
     pub fn half_width(&self) -> f64 {
-        hertz_half_width(
+        hertz_line::half_width(
             self.load(),
             0.5 * self.radius,
             contact_modulus(MATERIAL, MATERIAL),
@@ -86,7 +87,8 @@ impl Cylinders {
 
     /// Hertz peak pressure, MPa.
     pub fn peak(&self) -> f64 {
-        2.0 * self.load() / (PI * self.half_width())
+        let modulus = contact_modulus(MATERIAL, MATERIAL);
+        hertz_line::peak_pressure(self.load(), 0.5 * self.radius, modulus)
     }
 
     /// Meshes, condenses and couples both.
@@ -195,10 +197,7 @@ pub fn compare(xi: &[f64], solution: &Solution, b: f64, p0: f64) -> HertzFit {
         let h = (x[1] - x[0]) / 40.0;
         for i in 0..40 {
             let t = (f64::from(i) + 0.5) / 40.0;
-            let hertz = p0
-                * (1.0 - ((x[0] + t * (x[1] - x[0])) / b).powi(2))
-                    .max(0.0)
-                    .sqrt();
+            let hertz = hertz_line::pressure(x[0] + t * (x[1] - x[0]), p0, b);
             sum += h * (y[0] + t * (y[1] - y[0]) - hertz).powi(2);
         }
     }
@@ -384,8 +383,7 @@ pub fn partial_slip(per_half_width: usize) -> Result<Vec<Measured>, CaseError> {
         .map(|(l, c)| l - c)
         .collect();
     let b = case.half_width();
-    let c = b * (1.0 - pull / (friction * case.load())).sqrt();
-    let peak = friction * case.peak() * (1.0 - (c / b).powi(2)).sqrt();
+    let exact = PartialSlip::new(case.peak(), b, friction, pull);
     let largest = q.iter().fold(0.0f64, |m, q| m.max(*q));
     let over = q
         .iter()
@@ -398,10 +396,16 @@ pub fn partial_slip(per_half_width: usize) -> Result<Vec<Measured>, CaseError> {
             "B5",
             format!("{at}: stick half width c, mm"),
             half_width(&pair.xi, &stick.active),
-            c,
+            exact.stick,
             b / per_half_width as f64,
         ),
-        Measured::relative("B5", format!("{at}: largest q, MPa"), largest, peak, 0.03),
+        Measured::relative(
+            "B5",
+            format!("{at}: largest q, MPa"),
+            largest,
+            exact.peak_traction(),
+            0.03,
+        ),
         Measured::relative(
             "B5",
             format!("{at}: integral of q, N/mm"),

@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use crate::analytic::half_plane_elements::hertz_half_width;
+use crate::analytic::hertz_line;
 use crate::contact::mortar::Facing;
 use crate::contact::unilateral::{Drive, UnilateralError};
 use crate::fem::structured::Order;
@@ -244,7 +244,7 @@ pub fn all(per_half_width: usize) -> Result<Vec<Measured>, CaseError> {
 }
 
 fn half_width() -> f64 {
-    hertz_half_width(LOAD, RADIUS, contact_modulus(MATERIALS[0], MATERIALS[1]))
+    hertz_line::half_width(LOAD, RADIUS, contact_modulus(MATERIALS[0], MATERIALS[1]))
 }
 
 /// The cylinder touches the block off its middle by a fraction of an edge, mm.

@@ -4,6 +4,7 @@
 //! is the verdict. Small cases are also tests; the large ones run in the validation only.
 
 pub mod contact_and_wear;
+pub mod elasticity;
 pub mod flat_punch;
 pub mod half_bodies;
 pub mod hertz_cylinders;

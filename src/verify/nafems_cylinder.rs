@@ -11,7 +11,7 @@
 
 use std::f64::consts::PI;
 
-use crate::analytic::half_plane_elements::hertz_half_width;
+use crate::analytic::hertz_line;
 use crate::contact::mortar::Facing;
 use crate::contact::unilateral::Drive;
 use crate::fem::structured::{Order, Patch};
@@ -43,7 +43,7 @@ const MATERIALS: [Elastic; 2] = [
 /// # Errors
 /// [`CaseError`] if a mesh is refused or the contact has no solution.
 pub fn frictionless(per_half_length: usize) -> Result<Vec<Measured>, CaseError> {
-    let b = hertz_half_width(LOAD, RADIUS, contact_modulus(MATERIALS[0], MATERIALS[1]));
+    let b = hertz_line::half_width(LOAD, RADIUS, contact_modulus(MATERIALS[0], MATERIALS[1]));
     let p0 = 2.0 * LOAD / (PI * b);
     let fine = 1.25 * b;
     let upper = 2 * (1.25 * per_half_length as f64).ceil() as usize;

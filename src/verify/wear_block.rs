@@ -5,7 +5,8 @@
 
 use std::f64::consts::PI;
 
-use crate::analytic::half_plane_elements::hertz_half_width;
+use crate::analytic::cylinder_wear::HISTORY;
+use crate::analytic::hertz_line;
 use crate::contact::mortar::Facing;
 use crate::fem::structured::Order;
 use crate::numeric::Vec2;
@@ -13,7 +14,7 @@ use crate::verify::half_bodies::{HalfBody, HalfBodySpec, Outline, fine_surface};
 use crate::verify::hertz_cylinders::{MATERIAL, both};
 use crate::verify::sliding::SlidingContact;
 use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
-use crate::verify::wear_half_plane::{DATA, TABLE, table_rows};
+use crate::verify::wear_half_plane::{DATA, table_rows};
 use crate::verify::{CaseError, Measured};
 
 /// F6 with `per_half_width` edges on a₀ of the coarser block, up to the σ `last`.
@@ -26,9 +27,9 @@ pub fn cylinder(
     tolerance: f64,
 ) -> Result<Vec<Measured>, CaseError> {
     let (load, radius, modulus, k) = DATA;
-    let a0 = hertz_half_width(load, radius, modulus);
-    let rows: Vec<_> = TABLE.iter().filter(|row| row[0] <= last).collect();
-    let widest = rows.iter().map(|row| row[1]).fold(1.0, f64::max) + 0.15;
+    let a0 = hertz_line::half_width(load, radius, modulus);
+    let rows: Vec<_> = HISTORY.iter().filter(|row| row.sliding <= last).collect();
+    let widest = rows.iter().map(|row| row.half_width).fold(1.0, f64::max) + 0.15;
     let upper = 2 * (widest * per_half_width as f64).ceil() as usize;
     let fine = 0.5 * a0 * upper as f64 / per_half_width as f64;
     let lower = 2 * (0.6 * upper as f64).ceil() as usize;

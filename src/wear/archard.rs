@@ -14,7 +14,7 @@ use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::wear::integrator::WearSystem;
 
 /// The two flanks' depths as one vector: pinion stations, then gear stations, mm.
-pub struct ArchardSystem<'a, M: ContactModel> {
+pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
     model: &'a M,
     /// Wear coefficient of pinion and gear, mm²/N.
     coefficient: [f64; 2],
@@ -24,7 +24,7 @@ pub struct ArchardSystem<'a, M: ContactModel> {
     pub solves: usize,
 }
 
-impl<'a, M: ContactModel> ArchardSystem<'a, M> {
+impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     /// Wear under `model` with the coefficients of pinion and gear, mm²/N.
     pub fn new(model: &'a M, coefficient: [f64; 2]) -> Self {
         Self {
@@ -34,6 +34,18 @@ impl<'a, M: ContactModel> ArchardSystem<'a, M> {
             last: None,
             solves: 0,
         }
+    }
+
+    /// Goes on from the contact sets `warm` (one list of unknowns per position; others are ignored).
+    pub fn start_from(&mut self, warm: &[Vec<usize>]) {
+        if warm.len() == self.warm.len() {
+            self.warm = warm.to_vec();
+        }
+    }
+
+    /// The contact sets of the last solution.
+    pub fn warm(&self) -> &[Vec<usize>] {
+        &self.warm
     }
 
     /// The contact of every position for the depths `u`.
@@ -67,12 +79,12 @@ impl<'a, M: ContactModel> ArchardSystem<'a, M> {
 }
 
 /// Pinion and gear part of the joint depth vector.
-fn split<'u, M: ContactModel>(model: &M, u: &'u [f64]) -> [&'u [f64]; 2] {
+fn split<'u, M: ContactModel + ?Sized>(model: &M, u: &'u [f64]) -> [&'u [f64]; 2] {
     let (pinion, gear) = u.split_at(model.cycle().stations.arc[0].len());
     [pinion, gear]
 }
 
-impl<M: ContactModel> WearSystem for ArchardSystem<'_, M> {
+impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
     type Error = ContactError;
 
     fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, ContactError> {

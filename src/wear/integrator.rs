@@ -35,7 +35,7 @@ pub trait WearSystem {
 /// Step control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl {
-    /// Allowed error of a step relative to the largest depth.
+    /// Allowed error of a step, root mean square over the unknowns, relative to the largest depth.
     pub tolerance: f64,
     /// Smallest depth the tolerance refers to (unit of u).
     pub floor: f64,
@@ -140,12 +140,11 @@ pub fn advance<S: WearSystem>(
             .iter()
             .chain(&middle)
             .fold(control.floor, |m, u| m.max(u.abs()));
-        let error = k1
-            .iter()
-            .zip(&k2)
-            .map(|(a, b)| (0.5 * tau * (a + b)).abs())
-            .fold(0.0, f64::max)
-            / (control.tolerance * scale);
+        // root mean square: a sharp corner's few stations must not rule the whole flank
+        let squares: f64 = (k1.iter().zip(&k2))
+            .map(|(a, b)| (0.5 * tau * (a + b)).powi(2))
+            .sum();
+        let error = (squares / k1.len() as f64).sqrt() / (control.tolerance * scale);
         // the error is of second order in the step
         let factor = if error > 0.0 {
             (SAFETY / error.sqrt()).clamp(0.2, 4.0)

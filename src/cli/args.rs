@@ -1,0 +1,103 @@
+//! The arguments of the program: general options and one variant per command.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+use super::{CliError, Context, Outcome, init, mesh, models, run, validate};
+
+/// Finite-element contact and wear of spur gears.
+#[derive(Debug, Parser)]
+#[command(
+    name = "gearwear",
+    version,
+    about,
+    long_about = "Finite-element contact and wear of spur gears, from one study file (TOML).\n\n\
+        Exit codes: 0 success, 2 unusable input (nothing is written), 1 any other failure.",
+    after_help = "Examples:\n  gearwear init my-gears\n  gearwear run my-gears/study.toml\n  gearwear run my-gears/study.toml --test A -o results/A\n  gearwear validate",
+    max_term_width = 100
+)]
+pub struct Arguments {
+    /// Options of every command.
+    #[command(flatten)]
+    pub general: General,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Options of every command.
+#[derive(Debug, Args)]
+pub struct General {
+    /// Show no progress and no summary; errors are still shown
+    #[arg(short, long, global = true)]
+    pub quiet: bool,
+    /// Print one JSON document on standard output instead of a summary
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Number of threads [default: all cores]; results do not depend on it
+    #[arg(long, value_name = "N", global = true)]
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// The study file of a command and where its results go.
+#[derive(Debug, Args)]
+pub struct StudyAndOutput {
+    /// Study file (TOML)
+    #[arg(value_name = "STUDY")]
+    pub study: PathBuf,
+    /// Result folder; a finished one is replaced, any other that is not empty is refused [default: STUDYSTEM.out/COMMAND beside the study]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Write a commented study file and example measurements to start from
+    Init(init::InitArgs),
+    /// Mesh, contact and wear history at the study's operation or a test's conditions: fields, tables, plots, report
+    Run(run::RunArgs),
+    /// Compare the finite-element, Hertz and published models, and say which assumption makes each difference
+    Models(models::ModelsArgs),
+    /// Mesh both members, report the quality and write the meshes
+    Mesh(mesh::MeshArgs),
+    /// Run the verification and validation cases; exit code 1 if one fails
+    Validate(validate::ValidateArgs),
+}
+
+impl Command {
+    /// Does what the command is for.
+    pub(super) fn execute(&self, context: &Context) -> Result<Outcome, CliError> {
+        match self {
+            Command::Init(args) => init::execute(args),
+            Command::Run(args) => run::execute(args, context),
+            Command::Models(args) => models::execute(args, context),
+            Command::Mesh(args) => mesh::execute(args, context),
+            Command::Validate(args) => validate::execute(args, context),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn every_command_shows_an_example() {
+        Arguments::command().debug_assert();
+        for command in Arguments::command().get_subcommands() {
+            let help = command
+                .get_after_help()
+                .map(ToString::to_string)
+                .unwrap_or_default();
+            assert!(
+                help.contains(&format!("gearwear {}", command.get_name())),
+                "{}: {help}",
+                command.get_name()
+            );
+        }
+    }
+}

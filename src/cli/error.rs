@@ -1,0 +1,81 @@
+//! Why a command failed, and with which exit code the program then ends.
+
+use std::io;
+use std::path::PathBuf;
+
+use super::folder::FolderError;
+use crate::study::StudyError;
+
+/// A failed command.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CliError {
+    /// The study cannot be used.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The result folder cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// Files that `init` would overwrite, or a file where its folder should be.
+    #[error("{} is there already; --force overwrites it", .path.display())]
+    Exists {
+        /// The first of them.
+        path: PathBuf,
+    },
+    /// `init` was given a file instead of a folder.
+    #[error("{} is a file; init needs a folder", .path.display())]
+    NotAFolder {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Reading or writing failed.
+    #[error("cannot {doing} {}: {source}", .path.display())]
+    Io {
+        /// What was tried, as a verb.
+        doing: &'static str,
+        /// With which file or folder.
+        path: PathBuf,
+        /// The system's answer.
+        source: io::Error,
+    },
+    /// Standard output does not take the result.
+    #[error("cannot print the result: {0}")]
+    Print(io::Error),
+    /// The threads cannot be started.
+    #[error("cannot start {threads} threads: {source}")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// Why not.
+        source: rayon::ThreadPoolBuildError,
+    },
+    /// The command's body is not part of this version.
+    #[error("`gearwear {command}` is not built yet in this version")]
+    NotBuilt {
+        /// The command.
+        command: &'static str,
+    },
+}
+
+impl CliError {
+    /// 2 for unusable input (nothing was written), 1 for any other failure.
+    pub(super) fn exit_code(&self) -> u8 {
+        match self {
+            CliError::Study(_) | CliError::Exists { .. } | CliError::NotAFolder { .. } => 2,
+            CliError::Folder(error) if error.is_unusable_input() => 2,
+            CliError::Folder(_)
+            | CliError::Io { .. }
+            | CliError::Print(_)
+            | CliError::Threads { .. }
+            | CliError::NotBuilt { .. } => 1,
+        }
+    }
+
+    /// The whole message for standard error.
+    pub(super) fn render(&self, coloured: bool) -> String {
+        match self {
+            CliError::Study(error) => error.render(coloured),
+            other => format!("error: {other}"),
+        }
+    }
+}

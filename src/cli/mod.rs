@@ -1,0 +1,113 @@
+//! Floor 10: the command line. The only place that prints and that knows exit codes.
+//!
+//! ```text
+//! arguments -> one command -> Outcome (a JSON document and a text) -> standard output, exit code
+//!                          -> CliError                              -> standard error, exit code
+//! ```
+//!
+//! A command is one file with its arguments and one function, one variant of [`args::Command`] and one arm of its
+//! `execute`.
+
+pub mod args;
+mod error;
+mod folder;
+mod init;
+mod mesh;
+mod models;
+mod progress;
+mod run;
+mod validate;
+
+use std::ffi::OsString;
+use std::io::{self, IsTerminal, Write};
+
+use clap::Parser;
+
+pub use error::CliError;
+use folder::ResultFolder;
+use progress::Progress;
+
+/// What a command that did its work hands back.
+#[derive(Debug)]
+pub(crate) struct Outcome {
+    /// The document `--json` prints.
+    pub(crate) json: serde_json::Value,
+    /// What a person reads otherwise; several lines, the last one ended.
+    pub(crate) text: String,
+    /// Whether it went well; `false` (a validation case failed) ends with exit code 1.
+    pub(crate) success: bool,
+}
+
+impl Outcome {
+    /// Moves the result folder to its place and says where that is.
+    fn in_folder(mut self, folder: ResultFolder) -> Result<Outcome, CliError> {
+        let path = folder.finish()?;
+        self.text
+            .push_str(&format!("results: {}\n", path.display()));
+        Ok(self)
+    }
+}
+
+/// The general options, as commands see them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Context {
+    quiet: bool,
+}
+
+impl Context {
+    /// A progress bar on standard error, hidden with `--quiet` and where nobody looks.
+    pub(crate) fn progress(&self, what: &'static str) -> Progress {
+        Progress::new(what, self.quiet)
+    }
+}
+
+/// Runs the program with its arguments (the first is its name) and returns its exit code: 0 success, 2 unusable input
+/// (nothing was written), 1 any other failure.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let arguments = match args::Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        // Help and version are asked for; the rest is a mistake. A closed pipe is neither.
+        Err(usage) => {
+            let _ = usage.print();
+            return if usage.use_stderr() { 2 } else { 0 };
+        }
+    };
+    match execute(&arguments) {
+        Ok(code) => code,
+        Err(error) => {
+            let coloured = io::stderr().is_terminal()
+                && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
+            let _ = writeln!(io::stderr(), "{}", error.render(coloured));
+            error.exit_code()
+        }
+    }
+}
+
+fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
+    if let Some(threads) = arguments.general.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
+        pool.build_global().map_err(|source| CliError::Threads {
+            threads: threads.get(),
+            source,
+        })?;
+    }
+    let general = &arguments.general;
+    let outcome = arguments.command.execute(&Context {
+        quiet: general.quiet,
+    })?;
+    let mut text = if general.json {
+        format!("{:#}\n", outcome.json)
+    } else {
+        outcome.text
+    };
+    if general.quiet && !general.json {
+        text.clear();
+    }
+    match io::stdout()
+        .write_all(text.as_bytes())
+        .and_then(|()| io::stdout().flush())
+    {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(CliError::Print(error)),
+        _ => Ok(if outcome.success { 0 } else { 1 }),
+    }
+}

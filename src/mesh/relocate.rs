@@ -1,0 +1,216 @@
+//! Nodes follow the worn flank.
+//!
+//! Flank nodes move along the inward normal of the nominal involute by the worn depth; the tip land slides with the tip
+//! corner; all other boundary nodes stay. Inside, the displacement u is the harmonic extension, which at the flank is nearly
+//! a rigid shift, so that depths of several element sides keep the elements' shape as long as the depth varies slowly:
+//!
+//! ```text
+//! find u: ∫ ∇u : ∇v = 0 for all v that vanish on the boundary,  u given there        (linear triangles, corners only)
+//! ```
+//! Mid-side nodes move by the mean of their ends unless they lie on the flank. A step of the depth between two neighbouring
+//! nodes of more than an element side turns elements inside out: that is reported, and the body has to be meshed again.
+
+use super::boundary::boundary_edges;
+use super::{Cells, Mesh, MeshError, check_jacobians};
+use crate::gear::Gear;
+use crate::numeric::{Vec2, cross, rotate};
+
+/// Relative residual at which the extension counts as solved; it only shapes the inside.
+const TOLERANCE: f64 = 1e-5;
+
+/// The mesh of the worn gear.
+///
+/// `nominal` is the mesh of the new gear; `depths[f][i]` is the material lost at node `i` of flank `f` since then, mm,
+/// positive inwards. The depth should be zero at the first node (the root end): the profile below stays.
+///
+/// # Errors
+/// Wrong numbers of depths; [`MeshError::Inverted`] if an element lost its positive Jacobian.
+pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh, MeshError> {
+    let mut moved: Vec<Option<Vec2>> = vec![None; nominal.points.len()];
+    let edges = boundary_edges(nominal);
+    for e in &edges {
+        for k in [Some(e.start), e.mid, Some(e.end)].into_iter().flatten() {
+            moved[k as usize] = Some(Vec2::zeros());
+        }
+    }
+    if depths.len() != nominal.flanks.len() {
+        return Err(MeshError::WrongLength {
+            flank: depths.len(),
+            given: 0,
+            nodes: 0,
+        });
+    }
+    let mut before = vec![u32::MAX; nominal.points.len()];
+    for (i, e) in edges.iter().enumerate() {
+        before[e.end as usize] = i as u32;
+    }
+    for (flank, (chain, depth)) in nominal.flanks.iter().zip(depths).enumerate() {
+        if depth.len() != chain.nodes.len() {
+            return Err(MeshError::WrongLength {
+                flank,
+                given: depth.len(),
+                nodes: chain.nodes.len(),
+            });
+        }
+        let turn = f64::from(chain.tooth) * gear.pitch_angle();
+        for ((node, s), h) in chain.nodes.iter().zip(&chain.arc).zip(depth) {
+            let normal = rotate(gear.involute_normal(gear.rho_at_arc(*s)), turn);
+            moved[*node as usize] = Some(-*h * normal);
+        }
+        if let Some(tip) = chain.nodes.last() {
+            slide_tip(nominal, gear, *tip, &edges, &before, &mut moved);
+        }
+    }
+    let fixed: Vec<bool> = moved.iter().map(Option::is_some).collect();
+    let mut u: Vec<Vec2> = moved.into_iter().map(Option::unwrap_or_default).collect();
+    extend(nominal, &fixed, &mut u);
+    if let Cells::T6(cells) = &nominal.cells {
+        for t in cells {
+            for (i, (a, b)) in [(0, 1), (1, 2), (2, 0)].into_iter().enumerate() {
+                let mid = t[3 + i] as usize;
+                if !fixed[mid] {
+                    u[mid] = 0.5 * (u[t[a] as usize] + u[t[b] as usize]);
+                }
+            }
+        }
+    }
+    let points = nominal.points.iter().zip(&u).map(|(p, u)| p + u).collect();
+    let mesh = Mesh {
+        points,
+        ..nominal.clone()
+    };
+    check_jacobians(&mesh)?;
+    Ok(mesh)
+}
+
+/// Lets rounding and tip land behind the corner `tip` follow it, by an amount that falls to zero at the land's other end.
+/// Nodes of the tip circle stay on it but for those next to the corner.
+fn slide_tip(
+    mesh: &Mesh,
+    gear: &Gear,
+    tip: u32,
+    edges: &[super::BoundaryEdge],
+    before: &[u32],
+    moved: &mut [Option<Vec2>],
+) {
+    let at = |k: u32| mesh.points[k as usize];
+    let on_circle = |k: u32| (at(k).norm() - gear.tip_radius).abs() < 1e-6 * gear.tip_radius;
+    let mut path = vec![(tip, 0.0)];
+    let (mut node, mut length) = (tip, 0.0);
+    // The boundary is walked against its direction; it ends where it leaves the tip circle.
+    while path.len() < mesh.points.len() {
+        let Some(e) = edges.get(before[node as usize] as usize) else {
+            break;
+        };
+        if on_circle(node) && !on_circle(e.start) {
+            break;
+        }
+        let step = (at(e.start) - at(e.end)).norm();
+        if let Some(mid) = e.mid {
+            path.push((mid, length + 0.5 * step));
+        }
+        length += step;
+        path.push((e.start, length));
+        node = e.start;
+    }
+    let shift = moved[tip as usize].unwrap_or_default();
+    let drop = at(tip).norm() - (at(tip) + shift).norm();
+    if shift == Vec2::zeros() {
+        return;
+    }
+    for (k, s) in path.into_iter().skip(1) {
+        let to = at(k) + (1.0 - s / length) * shift;
+        // A worn corner lies a little below the tip circle: the land drops to it over about the corner's own shift.
+        let drop = if on_circle(k) {
+            drop * (1.0 - s / shift.norm()).max(0.0)
+        } else {
+            0.0
+        };
+        let radius = if on_circle(k) {
+            at(k).norm() - drop
+        } else {
+            to.norm()
+        };
+        moved[k as usize] = Some(to * (radius / to.norm()) - at(k));
+    }
+}
+
+/// Harmonic extension of `u` from the fixed corners to the free ones by conjugate gradients with diagonal scaling.
+fn extend(mesh: &Mesh, fixed: &[bool], u: &mut [Vec2]) {
+    let laplacian = Laplacian::new(mesh, fixed);
+    let free: Vec<usize> = (0..u.len())
+        .filter(|k| laplacian.diagonal[*k] > 0.0)
+        .collect();
+    let mut r = vec![Vec2::zeros(); u.len()];
+    laplacian.apply(u, &mut r);
+    free.iter().for_each(|&k| r[k] = -r[k]);
+    let scaled = |r: &[Vec2], k: usize| r[k] / laplacian.diagonal[k];
+    let dot = |a: &dyn Fn(usize) -> f64| free.iter().map(|k| a(*k)).sum::<f64>();
+    let mut d = vec![Vec2::zeros(); u.len()];
+    free.iter().for_each(|&k| d[k] = scaled(&r, k));
+    let mut rho = dot(&|k| r[k].dot(&d[k]));
+    let goal = rho * TOLERANCE * TOLERANCE;
+    let mut q = vec![Vec2::zeros(); u.len()];
+    for _ in 0..4 * free.len() {
+        if rho <= goal {
+            break;
+        }
+        laplacian.apply(&d, &mut q);
+        let alpha = rho / dot(&|k| d[k].dot(&q[k]));
+        for &k in &free {
+            u[k] += alpha * d[k];
+            r[k] -= alpha * q[k];
+        }
+        let next = dot(&|k| r[k].dot(&scaled(&r, k)));
+        for &k in &free {
+            d[k] = scaled(&r, k) + (next / rho) * d[k];
+        }
+        rho = next;
+    }
+}
+
+/// Rows of the Laplace matrix of the corner triangles at the free nodes; `diagonal` is 0 at all others.
+struct Laplacian {
+    diagonal: Vec<f64>,
+    entries: Vec<(u32, u32, f64)>,
+}
+
+impl Laplacian {
+    fn new(mesh: &Mesh, fixed: &[bool]) -> Laplacian {
+        let mut diagonal = vec![0.0; mesh.points.len()];
+        let mut entries = Vec::new();
+        for t in mesh.corners() {
+            let p = t.map(|k| mesh.points[k as usize]);
+            for i in 0..3 {
+                // The edge opposite corner i carries half the cotangent of the angle there.
+                let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+                let (v, w) = (p[a] - p[i], p[b] - p[i]);
+                let weight = 0.5 * v.dot(&w) / cross(v, w);
+                for (k, l) in [(t[a], t[b]), (t[b], t[a])] {
+                    if !fixed[k as usize] {
+                        diagonal[k as usize] += weight;
+                        entries.push((k, l, weight));
+                    }
+                }
+            }
+        }
+        entries.sort_unstable_by_key(|e| (e.0, e.1));
+        entries.dedup_by(|b, a| {
+            let same = (a.0, a.1) == (b.0, b.1);
+            if same {
+                a.2 += b.2;
+            }
+            same
+        });
+        Laplacian { diagonal, entries }
+    }
+
+    fn apply(&self, u: &[Vec2], out: &mut [Vec2]) {
+        for (k, d) in self.diagonal.iter().enumerate() {
+            out[k] = *d * u[k];
+        }
+        for (k, l, w) in &self.entries {
+            out[*k as usize] -= *w * u[*l as usize];
+        }
+    }
+}

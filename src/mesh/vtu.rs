@@ -1,0 +1,180 @@
+//! Meshes as VTK unstructured grids (.vtu): writing our own, reading a user's.
+//!
+//! Point data: integer array `flank`, 0 off the flanks, k > 0 on the loaded flank of the k-th candidate tooth; integer array
+//! `bore`, 1 on the bore, else 0. Cell types 5 (three nodes) or 22 (six nodes), not mixed.
+
+use std::path::Path;
+
+use vtkio::model::{
+    Attribute, Attributes, ByteOrder, CellType, Cells as VtkCells, DataSet, Piece,
+    UnstructuredGridPiece, Version, VertexNumbers, Vtk,
+};
+
+use super::user::RawMesh;
+use super::{Cells, Mesh, MeshError};
+use crate::gear::Gear;
+use crate::numeric::Vec2;
+
+impl Mesh {
+    /// The mesh as a VTK model with the arrays [`read_vtu`] wants; fields may be added to its point and cell data.
+    pub fn to_vtk(&self, title: &str) -> Vtk {
+        let points: Vec<f64> = self.points.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
+        let (connectivity, nodes, kind): (Vec<u64>, u64, CellType) = match &self.cells {
+            Cells::T3(t) => (
+                t.iter().flatten().map(|k| u64::from(*k)).collect(),
+                3,
+                CellType::Triangle,
+            ),
+            Cells::T6(t) => (
+                t.iter().flatten().map(|k| u64::from(*k)).collect(),
+                6,
+                CellType::QuadraticTriangle,
+            ),
+        };
+        let count = self.cells.len();
+        let mut flank = vec![0i32; self.points.len()];
+        for (i, chain) in self.flanks.iter().enumerate() {
+            chain
+                .nodes
+                .iter()
+                .for_each(|k| flank[*k as usize] = i as i32 + 1);
+        }
+        let mut bore = vec![0i32; self.points.len()];
+        self.bore.iter().for_each(|k| bore[*k as usize] = 1);
+        Vtk {
+            version: Version::new_xml(1, 0),
+            title: title.to_owned(),
+            byte_order: ByteOrder::LittleEndian,
+            file_path: None,
+            data: DataSet::inline(UnstructuredGridPiece {
+                points: points.into(),
+                cells: VtkCells {
+                    // End positions only: a leading zero makes readers shift all cells.
+                    cell_verts: VertexNumbers::XML {
+                        connectivity,
+                        offsets: (1..=count as u64).map(|i| i * nodes).collect(),
+                    },
+                    types: vec![kind; count],
+                },
+                data: Attributes {
+                    point: vec![
+                        Attribute::scalars("flank", 1).with_data(flank),
+                        Attribute::scalars("bore", 1).with_data(bore),
+                    ],
+                    cell: Vec::new(),
+                },
+            }),
+        }
+    }
+}
+
+/// Reads a mesh of `gear` from the bytes of a .vtu file (ASCII or inline base64). `path` only names it in errors.
+///
+/// # Errors
+/// [`MeshError::File`] with what is wrong and what is allowed.
+pub fn read_vtu(path: &Path, bytes: &[u8], gear: &Gear) -> Result<Mesh, MeshError> {
+    raw(bytes)
+        .and_then(|raw| raw.check(gear))
+        .map_err(|problem| MeshError::File {
+            path: path.to_owned(),
+            problem,
+        })
+}
+
+fn raw(bytes: &[u8]) -> Result<RawMesh, String> {
+    let vtk =
+        Vtk::parse_xml(bytes).map_err(|e| format!("not a VTK XML file with inline data: {e}"))?;
+    let DataSet::UnstructuredGrid { pieces, .. } = vtk.data else {
+        return Err("not an unstructured grid".into());
+    };
+    let piece = match <[Piece<_>; 1]>::try_from(pieces) {
+        Ok([Piece::Inline(piece)]) => *piece,
+        _ => {
+            return Err(
+                "more than one piece, or a piece in another file; one inline piece is allowed"
+                    .into(),
+            );
+        }
+    };
+    let xyz = piece
+        .points
+        .cast_into::<f64>()
+        .ok_or("point coordinates are not numbers")?;
+    let points: Vec<Vec2> = xyz.chunks_exact(3).map(|p| Vec2::new(p[0], p[1])).collect();
+    if let Some(p) = xyz.chunks_exact(3).find(|p| p[2].abs() > 1e-9) {
+        return Err(format!(
+            "a point has z = {}; the mesh must lie in the plane z = 0",
+            p[2]
+        ));
+    }
+    let cells = cells(&piece.cells, points.len())?;
+    let flank = numbers(&piece.data.point, "flank", points.len())?;
+    let bore = numbers(&piece.data.point, "bore", points.len())?;
+    let marked = |list: &[i64], value: i64| -> Vec<u32> {
+        (0u32..)
+            .zip(list)
+            .filter(|(_, v)| **v == value)
+            .map(|(k, _)| k)
+            .collect()
+    };
+    let mut found = flank.clone();
+    found.sort_unstable();
+    found.dedup();
+    if let Some(v) = found.iter().find(|v| **v < 0) {
+        return Err(format!(
+            "point data `flank` holds {v}; allowed 0 (not on a flank) and 1, 2, ..."
+        ));
+    }
+    let flanks = found
+        .iter()
+        .filter(|v| **v > 0)
+        .map(|v| (*v, marked(&flank, *v)))
+        .collect();
+    Ok(RawMesh {
+        points,
+        cells,
+        bore: marked(&bore, 1),
+        flanks,
+    })
+}
+
+fn cells(cells: &VtkCells, points: usize) -> Result<Cells, String> {
+    let (connectivity, _) = cells.cell_verts.clone().into_xml();
+    if let Some(k) = connectivity.iter().find(|k| **k >= points as u64) {
+        return Err(format!(
+            "a cell names node {k}; there are {points} nodes, counted from 0"
+        ));
+    }
+    let nodes: Vec<u32> = connectivity.iter().map(|k| *k as u32).collect();
+    let all = |kind: CellType, n: usize| {
+        cells.types.iter().all(|t| *t == kind) && nodes.len() == n * cells.types.len()
+    };
+    if all(CellType::Triangle, 3) {
+        Ok(Cells::T3(nodes.as_chunks().0.to_vec()))
+    } else if all(CellType::QuadraticTriangle, 6) {
+        Ok(Cells::T6(nodes.as_chunks().0.to_vec()))
+    } else {
+        Err("cells other than triangles, or a mixture; allowed type 5 (3 nodes) or type 22 (6 nodes) throughout".into())
+    }
+}
+
+fn numbers(attributes: &[Attribute], name: &str, points: usize) -> Result<Vec<i64>, String> {
+    let found = attributes.iter().find_map(|a| match a {
+        Attribute::DataArray(a) if a.name == name => Some(&a.data),
+        _ => None,
+    });
+    let data = found.ok_or_else(|| format!("point data `{name}` is missing"))?;
+    let values = data.cast_into::<f64>().unwrap_or_default();
+    if values.len() != points {
+        return Err(format!(
+            "point data `{name}` holds {} numbers for {points} nodes",
+            values.len()
+        ));
+    }
+    match values.iter().find(|v| v.fract() != 0.0) {
+        Some(v) => Err(format!(
+            "point data `{name}` holds {v}; whole numbers are allowed"
+        )),
+        None => Ok(values.iter().map(|v| *v as i64).collect()),
+    }
+}

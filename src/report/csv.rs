@@ -1,0 +1,157 @@
+//! Tables: `wear.csv`, `contact.csv`, `transmission_error.csv`.
+//!
+//! Numbers are the shortest digits that read back to the same double, so a table loses nothing.
+use super::error::OutputError;
+use crate::simulate::result::{Member, Run};
+
+/// `wear.csv`: every stored state, both members, in the order cycles, member, radius.
+///
+/// Columns `cycles,member,radius,path,depth`: pinion revolutions; radius mm; signed mm along the path of contact from the
+/// pitch point; µm.
+pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
+    let mut table = Table::new("wear.csv", "cycles,member,radius,path,depth");
+    for state in &run.states {
+        for member in Member::BOTH {
+            let flank = state.profile(member);
+            for (what, column) in [("path", &flank.path), ("depth", &flank.depth)] {
+                same_length("wear.csv", what, column.len(), flank.radius.len())?;
+            }
+            for ((radius, path), depth) in flank.radius.iter().zip(&flank.path).zip(&flank.depth) {
+                table.number("cycles", state.cycles)?;
+                table.text(member.name());
+                table.number("radius", *radius)?;
+                table.number("path", *path)?;
+                table.number("depth", *depth)?;
+                table.end_row();
+            }
+        }
+    }
+    Ok(table.into_bytes())
+}
+
+/// `contact.csv`: every pair of every mesh position of every stored state.
+///
+/// Columns `cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action`: position is the
+/// pinion rotation from the pitch point in base pitches; mm; -; N/mm; MPa; mm; 1 where the pair touches outside the nominal
+/// line of action.
+pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
+    let mut table = Table::new(
+        "contact.csv",
+        "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action",
+    );
+    for state in &run.states {
+        for position in &state.cycle {
+            for pair in &position.pairs {
+                table.number("cycles", state.cycles)?;
+                table.number("position", position.position)?;
+                table.text(&pair.pair.to_string());
+                table.number("path", pair.path)?;
+                table.number("load_share", pair.load_share)?;
+                table.number("line_load", pair.line_load)?;
+                table.number("peak_pressure", pair.peak_pressure)?;
+                table.number("half_width", pair.half_width)?;
+                table.text(if pair.off_line_of_action { "1" } else { "0" });
+                table.end_row();
+            }
+        }
+    }
+    Ok(table.into_bytes())
+}
+
+/// `transmission_error.csv`: lag of the gear seen at the pinion under load, µrad, worn material included.
+///
+/// Columns `cycles,position,angle`.
+pub fn transmission_error(run: &Run) -> Result<Vec<u8>, OutputError> {
+    let mut table = Table::new("transmission_error.csv", "cycles,position,angle");
+    for state in &run.states {
+        for position in &state.cycle {
+            table.number("cycles", state.cycles)?;
+            table.number("position", position.position)?;
+            table.number("angle", position.angle_urad)?;
+            table.end_row();
+        }
+    }
+    Ok(table.into_bytes())
+}
+
+/// Shortest digits that read back to the same double; very large and very small ones with an exponent.
+pub(super) fn exact(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".to_owned()
+    } else if (1e-5..1e16).contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
+pub(super) fn finite(file: &str, what: &str, value: f64) -> Result<f64, OutputError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(OutputError::NotFinite {
+            file: file.to_owned(),
+            what: what.to_owned(),
+            value,
+        })
+    }
+}
+
+pub(super) fn same_length(
+    file: &str,
+    what: &str,
+    found: usize,
+    expected: usize,
+) -> Result<(), OutputError> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(OutputError::Length {
+            file: file.to_owned(),
+            what: what.to_owned(),
+            found,
+            expected,
+        })
+    }
+}
+
+/// A table being built; rows end explicitly, commas come by themselves.
+struct Table {
+    file: &'static str,
+    text: String,
+    row_begins: bool,
+}
+
+impl Table {
+    fn new(file: &'static str, header: &str) -> Self {
+        Table {
+            file,
+            text: format!("{header}\n"),
+            row_begins: true,
+        }
+    }
+
+    fn text(&mut self, cell: &str) {
+        if !self.row_begins {
+            self.text.push(',');
+        }
+        self.text.push_str(cell);
+        self.row_begins = false;
+    }
+
+    fn number(&mut self, what: &str, value: f64) -> Result<(), OutputError> {
+        let cell = exact(finite(self.file, what, value)?);
+        self.text(&cell);
+        Ok(())
+    }
+
+    fn end_row(&mut self) {
+        self.text.push('\n');
+        self.row_begins = true;
+    }
+
+    fn into_bytes(self) -> Vec<u8> {
+        self.text.into_bytes()
+    }
+}

@@ -1,0 +1,125 @@
+//! Numbers as people read them.
+
+/// `value` with `digits` significant digits, thousands apart, a true minus sign; tiny and huge values with a power of ten.
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "not a number".to_owned();
+    }
+    let digits = digits.max(1);
+    let scientific = format!("{value:.*e}", digits - 1);
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-4..7).contains(&exponent) {
+        let decimals = (digits as i32 - 1 - exponent).max(0) as usize;
+        grouped(&format!("{value:.decimals$}"))
+    } else {
+        format!("{}·10{}", grouped(mantissa), superscript(exponent))
+    }
+}
+
+/// Up to six significant digits without trailing zeros, for figures that were put in rather than computed.
+pub fn plain(value: f64) -> String {
+    let text = significant(value, 6);
+    let (number, power) = match text.split_once("·10") {
+        Some((number, exponent)) => (number.to_owned(), format!("·10{exponent}")),
+        None => (text, String::new()),
+    };
+    let number = if number.contains('.') {
+        number.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &number
+    };
+    format!("{number}{power}")
+}
+
+/// A whole number, thousands apart.
+pub fn whole(value: usize) -> String {
+    grouped(&value.to_string())
+}
+
+/// A count such as cycles: whole where it is whole.
+pub fn count(value: f64) -> String {
+    if value.fract() == 0.0 && value.abs() < 1e15 {
+        grouped(&format!("{value:.0}"))
+    } else {
+        significant(value, 6)
+    }
+}
+
+/// A percentage of a ratio.
+pub fn percent(ratio: f64, digits: usize) -> String {
+    format!("{} %", significant(100.0 * ratio, digits))
+}
+
+/// Seconds as seconds, or minutes and hours when long.
+pub fn duration(seconds: f64) -> String {
+    if seconds < 120.0 {
+        format!("{} s", significant(seconds, 3))
+    } else if seconds < 7200.0 {
+        format!("{} min", significant(seconds / 60.0, 3))
+    } else {
+        format!("{} h", significant(seconds / 3600.0, 3))
+    }
+}
+
+/// Puts narrow no-break spaces between thousands of five and more digits and a true minus sign in front.
+pub fn grouped(number: &str) -> String {
+    let (sign, rest) = match number.strip_prefix('-') {
+        Some(rest) => ("\u{2212}", rest),
+        None => ("", number),
+    };
+    let (int, fraction) = match rest.split_once('.') {
+        Some((int, fraction)) => (int, Some(fraction)),
+        None => (rest, None),
+    };
+    let mut text = sign.to_owned();
+    for (place, digit) in int.chars().enumerate() {
+        if int.len() > 4 && place > 0 && (int.len() - place).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    if let Some(fraction) = fraction {
+        text.push('.');
+        text.push_str(fraction);
+    }
+    text
+}
+
+fn superscript(exponent: i32) -> String {
+    exponent
+        .to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '\u{207b}',
+            '1' => '\u{b9}',
+            '2' => '\u{b2}',
+            '3' => '\u{b3}',
+            digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_as_people_write_them() {
+        assert_eq!(significant(2.333_49, 4), "2.333");
+        assert_eq!(significant(-0.012_345, 3), "\u{2212}0.0123");
+        assert_eq!(significant(6e-10, 2), "6.0·10\u{207b}\u{b9}\u{2070}");
+        assert_eq!(significant(115_385.2, 3), "115\u{202f}385");
+        assert_eq!(significant(9.999_9, 3), "10.0");
+        assert_eq!(count(50_000.0), "50\u{202f}000");
+        assert_eq!(count(1018.0), "1018");
+        assert_eq!(plain(2.0), "2");
+        assert_eq!(plain(1018.868), "1018.87");
+        assert_eq!(plain(6e-10), "6·10\u{207b}\u{b9}\u{2070}");
+        assert_eq!(percent(0.0123, 2), "1.2 %");
+        assert_eq!(duration(7200.0), "2.00 h");
+    }
+}

@@ -1,0 +1,33 @@
+//! Self-contained HTML pages: no scripts, no network, light and dark, fit for print.
+//!
+//! A [`Page`] is a conclusion, then sections of text, tables and plots. The same page can be had as Markdown.
+mod files;
+mod models;
+mod page;
+mod run;
+mod table;
+mod validation;
+
+pub use models::{Difference, ModelColumn, Models, models};
+pub use page::{Page, Section};
+pub use run::run;
+pub use table::{Cell, Table};
+pub use validation::{Case, Verdict, validation};
+
+/// Text made safe for HTML, in elements and attributes.
+pub fn escape(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            // Control characters have no place in a page.
+            c if c.is_control() && c != '\n' && c != '\t' => safe.push('\u{fffd}'),
+            c => safe.push(c),
+        }
+    }
+    safe
+}

@@ -1,0 +1,292 @@
+//! `report.html` of one run.
+use super::files;
+use super::page::{Page, Section};
+use super::table::{Cell, Table};
+use crate::report::error::OutputError;
+use crate::report::format::{count, duration, percent, plain, significant, whole};
+use crate::report::plots;
+use crate::report::text;
+use crate::simulate::result::{Member, Run, WheelGeometry};
+
+/// The page; `files` are the names in the result folder.
+pub fn run(run: &Run, files: &[String]) -> Result<String, OutputError> {
+    let mut page = Page {
+        title: if run.title.is_empty() {
+            "Gear wear run".to_owned()
+        } else {
+            run.title.clone()
+        },
+        kicker: text::asked_for(run),
+        conclusion: text::conclusion(run),
+        sections: vec![
+            outcome(run),
+            inputs(run),
+            geometry(run),
+            mesh_and_cost(run),
+            checks(run),
+            states(run),
+        ],
+    };
+    page.sections.push(files_section(run, files));
+    page.html()
+}
+
+fn outcome(run: &Run) -> Section {
+    Section::new("Results").plots(plots::of_run(run)).note(
+        "A and E are the ends of the nominal path of contact, B and D the ends of single contact, C is the pitch point; \
+         negative distances lie in the pinion's dedendum. Lines join neighbouring points only.",
+    )
+}
+
+fn inputs(run: &Run) -> Section {
+    let c = &run.conditions;
+    let both = |values: [f64; 2], unit: &str| {
+        let [pinion, gear] = values.map(plain);
+        if pinion == gear {
+            format!("{pinion} {unit}")
+        } else {
+            format!("{pinion} {unit} pinion, {gear} {unit} gear")
+        }
+    };
+    let effects = if c.effects.is_empty() {
+        "none".to_owned()
+    } else {
+        c.effects.join("; ")
+    };
+    let g = &run.geometry;
+    let table = Table::of_values(
+        "",
+        [
+            (
+                "conditions",
+                c.test
+                    .as_ref()
+                    .map_or("[operation]".to_owned(), |id| format!("test {id}")),
+            ),
+            ("contact model", c.model.clone()),
+            ("added effects", effects),
+            (
+                "torque on the pinion",
+                format!("{} N·m", plain(c.torque / 1000.0)),
+            ),
+            ("speed of the pinion", format!("{} rpm", plain(c.speed_rpm))),
+            (
+                "radial misalignment",
+                format!("{} mm", plain(c.misalignment)),
+            ),
+            ("pinion revolutions", count(c.cycles)),
+            (
+                "specific wear coefficient k",
+                format!("{} mm²/N", plain(c.wear_coefficient)),
+            ),
+            ("module", format!("{} mm", plain(g.module))),
+            (
+                "pressure angle",
+                format!("{}°", plain(g.pressure_angle_deg)),
+            ),
+            ("face width", format!("{} mm", plain(c.face_width))),
+            ("Young's modulus", both(c.youngs_modulus, "MPa")),
+            (
+                "Poisson's ratio",
+                both(c.poisson_ratio, "").trim_end().to_owned(),
+            ),
+            ("density", both(c.density, "kg/m³")),
+        ],
+    );
+    Section::new("Inputs").table(table)
+}
+
+fn geometry(run: &Run) -> Section {
+    let g = &run.geometry;
+    let mm = |value: f64| format!("{} mm", significant(value, 6));
+    let [a, b, d, e] = g.path_limits.map(|limit| significant(limit, 5));
+    let pair = Table::of_values(
+        "The pair at its working centre distance",
+        [
+            ("centre distance", mm(g.centre_distance)),
+            (
+                "working pressure angle",
+                format!("{}°", significant(g.working_pressure_angle_deg, 6)),
+            ),
+            ("contact ratio", significant(g.contact_ratio, 6)),
+            ("path of contact", mm(g.path_of_contact)),
+            ("base pitch", mm(g.base_pitch)),
+            (
+                "A, B, D, E from the pitch point",
+                format!("{a}, {b}, {d}, {e} mm"),
+            ),
+            ("backlash", format!("{} µm", significant(g.backlash_um, 4))),
+            ("speed ratio", significant(g.speed_ratio, 6)),
+        ],
+    );
+    let mut wheels = Table::new("The wheels, radii in mm", ["", "pinion", "gear"]);
+    type Column = fn(&WheelGeometry) -> String;
+    let rows: [(&str, Column); 9] = [
+        ("teeth", |w| w.teeth.to_string()),
+        ("profile shift, modules", |w| plain(w.profile_shift)),
+        ("bore", |w| plain(w.bore_radius)),
+        ("root", |w| plain(w.root_radius)),
+        ("base", |w| plain(w.base_radius)),
+        ("form (involute begins)", |w| plain(w.form_radius)),
+        ("active (nominal contact begins)", |w| {
+            plain(w.active_radius)
+        }),
+        ("working pitch", |w| plain(w.pitch_radius)),
+        ("tip", |w| plain(w.tip_radius)),
+    ];
+    for (name, value) in rows {
+        wheels = wheels.row([
+            Cell::text(name),
+            Cell::number(value(&g.pinion)),
+            Cell::number(value(&g.gear)),
+        ]);
+    }
+    Section::new("Geometry").table(pair).table(wheels)
+}
+
+fn mesh_and_cost(run: &Run) -> Section {
+    let mut section = Section::new("Mesh and cost");
+    match &run.mesh {
+        None => {
+            section =
+                section.paragraph(format!("The {} model needs no mesh.", run.conditions.model))
+        }
+        Some(meshes) => {
+            let head = [
+                "",
+                "element",
+                "nodes",
+                "elements",
+                "unknowns",
+                "smallest angle, °",
+                "flank spacing, µm",
+            ];
+            let mut table = Table::new("", head);
+            for (member, mesh) in Member::BOTH.into_iter().zip(meshes) {
+                table = table.row([
+                    Cell::text(member.name()),
+                    Cell::text(mesh.element.clone()),
+                    Cell::number(whole(mesh.nodes)),
+                    Cell::number(whole(mesh.elements)),
+                    Cell::number(whole(mesh.dof)),
+                    Cell::number(significant(mesh.min_angle_deg, 3)),
+                    Cell::number(significant(mesh.flank_spacing * 1000.0, 3)),
+                ]);
+            }
+            section = section.table(table);
+        }
+    }
+    let cost = &run.cost;
+    let memory = cost.peak_memory_mb.map_or("not known".to_owned(), |mb| {
+        format!("{} MB", significant(mb, 3))
+    });
+    section = section.table(Table::of_values(
+        "",
+        [
+            ("time", duration(cost.seconds)),
+            ("threads", whole(cost.threads)),
+            ("largest memory", memory),
+            ("factorisations", whole(cost.factorisations)),
+            ("contact problems solved", whole(cost.contact_solves)),
+            ("wear steps", whole(cost.wear_steps)),
+        ],
+    ));
+    if !cost.stages.is_empty() {
+        let mut stages = Table::new("Time per stage", ["stage", "time", "share"]);
+        let total: f64 = cost.stages.iter().map(|(_, seconds)| seconds).sum();
+        for (name, seconds) in &cost.stages {
+            let share = if total > 0.0 {
+                percent(seconds / total, 2)
+            } else {
+                String::new()
+            };
+            stages = stages.row([
+                Cell::text(name.clone()),
+                Cell::number(duration(*seconds)),
+                Cell::number(share),
+            ]);
+        }
+        section = section.table(stages);
+    }
+    section
+}
+
+fn checks(run: &Run) -> Section {
+    let mut table = Table::new("", ["check", "found", "allowed", "verdict"]);
+    for check in &run.checks {
+        let unit = if check.unit == "-" {
+            String::new()
+        } else {
+            format!(" {}", check.unit)
+        };
+        let verdict = if check.passed() {
+            Cell::Badge("pass", "pass".into())
+        } else {
+            Cell::Badge("fail", "fail".into())
+        };
+        table = table.row([
+            Cell::text(check.name.clone()),
+            Cell::number(format!("{}{unit}", significant(check.value, 3))),
+            Cell::number(format!("{}{unit}", significant(check.limit, 3))),
+            verdict,
+        ]);
+    }
+    let balance = format!(
+        "Balance of the worn area: the area missing from the flanks and the area the wear law removed differ by {}.",
+        percent(run.balance_error, 2)
+    );
+    let section = Section::new("Checks").paragraph(balance);
+    if table.rows.is_empty() {
+        section
+    } else {
+        section.table(table)
+    }
+}
+
+fn states(run: &Run) -> Section {
+    let head = [
+        "pinion revolutions",
+        "pinion: largest depth, µm",
+        "at radius, mm",
+        "mass lost, mg",
+        "gear: largest depth, µm",
+        "at radius, mm",
+        "mass lost, mg",
+        "peak pressure, MPa",
+        "transmission error peak to peak, µrad",
+    ];
+    let mut table = Table::new("", head);
+    let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 4));
+    for state in &run.states {
+        let mut row = vec![Cell::number(count(state.cycles))];
+        for member in Member::BOTH {
+            let flank = state.profile(member);
+            let deepest = flank.deepest().filter(|_| flank.max_depth() > 0.0);
+            row.push(Cell::number(significant(flank.max_depth(), 4)));
+            row.push(Cell::number(
+                deepest.map_or("–".to_owned(), |i| significant(flank.radius[i], 5)),
+            ));
+            row.push(Cell::number(significant(flank.mass_loss_mg, 4)));
+        }
+        row.push(Cell::number(or_dash(state.peak_pressure().map(|p| p.0))));
+        row.push(Cell::number(or_dash(state.te_peak_to_peak_urad())));
+        table = table.row(row);
+    }
+    Section::new("Stored states")
+        .paragraph("Depth is normal to the loaded flank of an average tooth; mass is that of the loaded flanks of all teeth.")
+        .table(table)
+}
+
+fn files_section(run: &Run, names: &[String]) -> Section {
+    let section = Section::new("Files").table(files::table(names));
+    if run.fields.is_empty() {
+        return section;
+    }
+    section.note(
+        "To look at the fields, open `fields/wear.pvd` in ParaView, press Apply and choose an array to colour by \
+         (`von_mises`, `contact_pressure`, `wear_depth`). The time slider runs over pinion revolutions; \
+         `fields/mesh_cycle_NNN.pvd` runs over one base pitch instead. The filter Warp By Vector with `displacement` or \
+         `wear_vector` and a scale factor of about 1000 makes deflection or wear visible. Quadratic triangles are drawn \
+         smoothly after raising Nonlinear Subdivision Level. Units are mm, N and MPa; `wear_depth` is in µm.",
+    )
+}

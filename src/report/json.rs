@@ -1,0 +1,162 @@
+//! Machine-readable results: `summary.json`, and any other document a command writes.
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use super::csv::finite;
+use super::error::OutputError;
+use crate::simulate::result::{Member, MeshSummary, Run, State};
+
+/// `summary.json`. Lengths mm, angles degrees, pressures MPa, stiffness N/(mm·µm); the unit stands in the key where another is meant.
+///
+/// `contact` describes the first stored state, `contact_end` the last. A figure that does not exist for a run (a mesh for a
+/// model without one, a single pair where two always touch) is null.
+pub fn summary(run: &Run) -> Result<Value, OutputError> {
+    let g = &run.geometry;
+    let c = &run.conditions;
+    let mut wear = Map::new();
+    for member in Member::BOTH {
+        wear.insert(member.name().to_owned(), member_wear(run, member));
+    }
+    wear.insert("balance_error".to_owned(), json!(run.balance_error));
+    wear.insert("cycles".to_owned(), json!(run.last().cycles));
+    let mut contact = contact_of(run.first());
+    contact["single_pair_stiffness"] = json!(run.single_pair_stiffness());
+    let cost = &run.cost;
+    let document = json!({
+        "title": run.title,
+        "conditions": {
+            "test": c.test, "model": c.model, "effects": c.effects, "torque": c.torque / 1000.0, "speed": c.speed_rpm,
+            "misalignment": c.misalignment, "coefficient": c.wear_coefficient, "cycles": c.cycles, "face_width": c.face_width,
+        },
+        "geometry": {
+            "working_pressure_angle": g.working_pressure_angle_deg, "contact_ratio": g.contact_ratio,
+            "path_of_contact": g.path_of_contact, "base_pitch": g.base_pitch, "backlash_um": g.backlash_um,
+            "speed_ratio": g.speed_ratio, "centre_distance": g.centre_distance, "path_limits": g.path_limits,
+        },
+        "mesh": mesh(run.mesh.as_ref()),
+        "contact": contact,
+        "contact_end": contact_of(run.last()),
+        "wear": wear,
+        "checks": run.checks.iter().map(|k| json!({
+            "name": k.name, "value": k.value, "limit": k.limit, "unit": k.unit, "passed": k.passed(),
+        })).collect::<Vec<_>>(),
+        "cost": {
+            "seconds": cost.seconds, "factorisations": cost.factorisations, "contact_solves": cost.contact_solves,
+            "wear_steps": cost.wear_steps, "peak_memory_mb": cost.peak_memory_mb, "threads": cost.threads,
+            "stages": cost.stages.iter().map(|(name, seconds)| json!({"name": name, "seconds": seconds})).collect::<Vec<_>>(),
+        },
+    });
+    check_numbers(run)?;
+    Ok(document)
+}
+
+/// A document as text, indented, with a newline at its end.
+pub fn text(file: &str, document: &impl Serialize) -> Result<Vec<u8>, OutputError> {
+    let mut bytes = serde_json::to_vec_pretty(document).map_err(|source| OutputError::Json {
+        file: file.to_owned(),
+        source,
+    })?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+fn member_wear(run: &Run, member: Member) -> Value {
+    let flank = run.last().profile(member);
+    json!({
+        "max_depth_um": flank.max_depth(),
+        "max_depth_radius": flank.deepest().map(|i| flank.radius[i]),
+        "worn_area_mm2": flank.worn_area_mm2,
+        "mass_loss_mg": flank.mass_loss_mg,
+    })
+}
+
+fn contact_of(state: &State) -> Value {
+    let peak = state.peak_pressure();
+    json!({
+        "cycles": state.cycles,
+        "peak_pressure": peak.map(|p| p.0),
+        "peak_pressure_path": peak.map(|p| p.1),
+        "te_peak_to_peak_urad": state.te_peak_to_peak_urad(),
+    })
+}
+
+/// Sums over both members; the worse of the two for angle and spacing.
+fn mesh(both: Option<&[MeshSummary; 2]>) -> Value {
+    let Some([pinion, gear]) = both else {
+        return json!({"nodes": 0, "elements": 0, "dof": 0, "min_angle": null, "flank_spacing": null});
+    };
+    let member = |m: &MeshSummary| {
+        json!({"element": m.element, "nodes": m.nodes, "elements": m.elements, "dof": m.dof,
+               "min_angle": m.min_angle_deg, "flank_spacing": m.flank_spacing})
+    };
+    json!({
+        "nodes": pinion.nodes + gear.nodes,
+        "elements": pinion.elements + gear.elements,
+        "dof": pinion.dof + gear.dof,
+        "min_angle": pinion.min_angle_deg.min(gear.min_angle_deg),
+        "flank_spacing": pinion.flank_spacing.max(gear.flank_spacing),
+        "pinion": member(pinion),
+        "gear": member(gear),
+    })
+}
+
+/// JSON has no NaN, it would turn into null without a word: refuse it instead.
+fn check_numbers(run: &Run) -> Result<(), OutputError> {
+    let g = &run.geometry;
+    let file = "summary.json";
+    let mut figures = vec![
+        (
+            "geometry.working_pressure_angle".to_owned(),
+            g.working_pressure_angle_deg,
+        ),
+        ("geometry.contact_ratio".to_owned(), g.contact_ratio),
+        ("geometry.path_of_contact".to_owned(), g.path_of_contact),
+        ("geometry.base_pitch".to_owned(), g.base_pitch),
+        ("geometry.backlash_um".to_owned(), g.backlash_um),
+        ("geometry.speed_ratio".to_owned(), g.speed_ratio),
+        ("geometry.centre_distance".to_owned(), g.centre_distance),
+        ("wear.balance_error".to_owned(), run.balance_error),
+        ("cost.seconds".to_owned(), run.cost.seconds),
+    ];
+    figures.extend(
+        g.path_limits
+            .iter()
+            .map(|&limit| ("geometry.path_limits".to_owned(), limit)),
+    );
+    for member in Member::BOTH {
+        let flank = run.last().profile(member);
+        for (key, value) in [
+            ("max_depth_um", flank.max_depth()),
+            ("worn_area_mm2", flank.worn_area_mm2),
+            ("mass_loss_mg", flank.mass_loss_mg),
+        ] {
+            figures.push((format!("wear.{}.{key}", member.name()), value));
+        }
+    }
+    for state in [run.first(), run.last()] {
+        let at = state.cycles;
+        figures.extend(
+            state
+                .peak_pressure()
+                .map(|p| (format!("contact.peak_pressure at {at} cycles"), p.0)),
+        );
+        figures.extend(
+            state
+                .te_peak_to_peak_urad()
+                .map(|te| (format!("contact.te_peak_to_peak_urad at {at} cycles"), te)),
+        );
+    }
+    figures.extend(
+        run.single_pair_stiffness()
+            .map(|k| ("contact.single_pair_stiffness".to_owned(), k)),
+    );
+    figures.extend(
+        run.checks
+            .iter()
+            .map(|check| (format!("checks: {}", check.name), check.value)),
+    );
+    for (what, value) in figures {
+        finite(file, &what, value)?;
+    }
+    Ok(())
+}

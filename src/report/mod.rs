@@ -1,0 +1,21 @@
+//! Floor 9: results in, files out.
+//!
+//! ```text
+//! Run ─► write_run ─► summary.json report.html wear.csv contact.csv transmission_error.csv
+//!                     plots/*.svg fields/*.vtu fields/*.pvd fields/loads.json        all of them or none (atomic)
+//! ```
+//! Every command that writes a folder does so through [`Staging`], every single file through [`write_file`].
+pub mod atomic;
+pub mod csv;
+mod error;
+pub mod format;
+pub mod html;
+pub mod json;
+pub mod plots;
+mod run;
+pub mod text;
+pub mod vtk;
+
+pub use atomic::{Staging, write_file};
+pub use error::OutputError;
+pub use run::{Written, write_models, write_page, write_run, write_validation};

@@ -1,0 +1,346 @@
+//! From [`Plot`] to SVG.
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::{Curve, Plot, Style, finite};
+use crate::report::error::OutputError;
+use crate::report::html::escape;
+
+/// Size in which the plot is meant to be seen, pixels.
+const SIZE: (u32, u32) = (600, 390);
+/// plotters rounds to whole units: drawn this many times larger and shown smaller, curves have no steps.
+const FINE: i32 = 8;
+const TEXT: i32 = 19 * FINE;
+const INK: RGBColor = RGBColor(40, 40, 40);
+const GRID: RGBColor = RGBColor(222, 222, 222);
+const MARK: RGBColor = RGBColor(130, 130, 130);
+const FONT: &str = "sans-serif";
+
+/// Okabe and Ito's palette without its yellow and sky blue, which are too light on white.
+const KINDS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 140, 105),
+    RGBColor(178, 90, 145),
+    RGBColor(120, 120, 120),
+    RGBColor(186, 130, 0),
+];
+
+/// The viridis map from where it is still seen on white to its dark end: the latest state is the strongest.
+const RAMP: [RGBColor; 6] = [
+    RGBColor(122, 190, 70),
+    RGBColor(53, 175, 121),
+    RGBColor(33, 145, 140),
+    RGBColor(49, 104, 142),
+    RGBColor(68, 57, 131),
+    RGBColor(68, 1, 84),
+];
+
+impl Plot {
+    /// The plot as a complete SVG document without a background of its own.
+    pub fn svg(&self) -> Result<String, OutputError> {
+        let mut text = String::new();
+        {
+            let area =
+                SVGBackend::with_string(&mut text, (SIZE.0 * FINE as u32, SIZE.1 * FINE as u32))
+                    .into_drawing_area();
+            self.draw(&area).map_err(|message| OutputError::Plot {
+                title: self.title.clone(),
+                message,
+            })?;
+        }
+        Ok(accessible(&text, &self.title))
+    }
+
+    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), String> {
+        let said = |error: &dyn std::fmt::Display| error.to_string();
+        let (x, y) = self.ranges();
+        let legend_rows = self.curves.len().div_ceil(self.legend_columns()) as i32;
+        let (legend, below) = area.split_vertically(legend_rows * LEGEND_ROW + 8 * FINE);
+        let top = if self.marks.is_empty() {
+            10 * FINE
+        } else {
+            24 * FINE
+        };
+        let mut chart = ChartBuilder::on(&below)
+            .margin_top(top)
+            .margin_right(32 * FINE)
+            .margin_bottom(6 * FINE)
+            .margin_left(6 * FINE)
+            .x_label_area_size(52 * FINE)
+            .y_label_area_size(80 * FINE)
+            .build_cartesian_2d(x.0..x.1, y.0..y.1)
+            .map_err(|e| said(&e))?;
+        let (x_digits, y_digits) = (digits(x), digits(y));
+        chart
+            .configure_mesh()
+            .x_labels(7)
+            .y_labels(6)
+            .bold_line_style(GRID.stroke_width(FINE as u32))
+            .light_line_style(TRANSPARENT)
+            .axis_style(INK.stroke_width(FINE as u32))
+            .set_all_tick_mark_size(5 * FINE)
+            .label_style((FONT, TEXT).into_font().color(&INK))
+            .axis_desc_style((FONT, TEXT).into_font().color(&INK))
+            .x_desc(&self.x_label)
+            .y_desc(&self.y_label)
+            .x_label_formatter(&|v| tick(*v, x_digits))
+            .y_label_formatter(&|v| tick(*v, y_digits))
+            .draw()
+            .map_err(|e| said(&e))?;
+        let mark_text = TextStyle::from((FONT, TEXT).into_font())
+            .color(&MARK)
+            .pos(Pos::new(HPos::Center, VPos::Bottom));
+        for (at, letter) in self.marks.iter().filter(|(at, _)| (x.0..=x.1).contains(at)) {
+            chart
+                .draw_series([PathElement::new(
+                    vec![(*at, y.0), (*at, y.1)],
+                    MARK.stroke_width(FINE as u32),
+                )])
+                .map_err(|e| said(&e))?;
+            let (px, py) = chart.backend_coord(&(*at, y.1));
+            area.draw(&Text::new(
+                letter.clone(),
+                (px, py - 4 * FINE),
+                mark_text.clone(),
+            ))
+            .map_err(|e| said(&e))?;
+        }
+        for (number, curve) in self.curves.iter().enumerate() {
+            let color = curve.style.color();
+            let shown: Vec<(f64, f64)> = curve.points.iter().copied().filter(finite).collect();
+            if !matches!(curve.style, Style::Points(_)) {
+                chart
+                    .draw_series(LineSeries::new(
+                        shown.clone(),
+                        color.stroke_width(2 * FINE as u32),
+                    ))
+                    .map_err(|e| said(&e))?;
+            }
+            for at in curve.marker_places(&shown, x.1 - x.0, number) {
+                let (px, py) = chart.backend_coord(&at);
+                draw_marker(area, curve.style.marker(), (px, py), color).map_err(|e| said(&e))?;
+            }
+        }
+        self.draw_legend(&legend).map_err(|e| said(&e))?;
+        area.present().map_err(|e| said(&e))
+    }
+
+    fn draw_legend(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), DrawError> {
+        let style = TextStyle::from((FONT, TEXT).into_font())
+            .color(&INK)
+            .pos(Pos::new(HPos::Left, VPos::Center));
+        let columns = self.legend_columns();
+        let column = (SIZE.0 as i32 - 40) * FINE / columns as i32;
+        for (number, curve) in self.curves.iter().enumerate() {
+            let x = 30 * FINE + (number % columns) as i32 * column;
+            let y = 14 * FINE + (number / columns) as i32 * LEGEND_ROW;
+            let color = curve.style.color();
+            if !matches!(curve.style, Style::Points(_)) {
+                area.draw(&PathElement::new(
+                    vec![(x, y), (x + 28 * FINE, y)],
+                    color.stroke_width(2 * FINE as u32),
+                ))?;
+            }
+            draw_marker(area, curve.style.marker(), (x + 14 * FINE, y), color)?;
+            area.draw(&Text::new(
+                curve.label.clone(),
+                (x + 36 * FINE, y),
+                style.clone(),
+            ))?;
+        }
+        Ok(())
+    }
+
+    /// Three columns where the labels are short enough, else two or one.
+    fn legend_columns(&self) -> usize {
+        match self
+            .curves
+            .iter()
+            .map(|curve| curve.label.chars().count())
+            .max()
+            .unwrap_or(0)
+        {
+            0..=16 => 3,
+            17..=28 => 2,
+            _ => 1,
+        }
+    }
+
+    /// What the axes span: all finite points with a little air above and below, and the vertical marks.
+    fn ranges(&self) -> ((f64, f64), (f64, f64)) {
+        let points = || {
+            self.curves
+                .iter()
+                .flat_map(|curve| curve.points.iter().copied())
+                .filter(finite)
+        };
+        let span = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                (low.min(v), high.max(v))
+            })
+        };
+        let marks = self.marks.iter().map(|mark| mark.0);
+        let x = widened(span(&mut points().map(|p| p.0).chain(marks)));
+        let (mut low, mut high) = widened(span(&mut points().map(|p| p.1)));
+        let air = 0.05 * (high - low);
+        if self.from_zero && low >= 0.0 {
+            (low, high) = (0.0, high + air);
+        } else {
+            (low, high) = (low - air, high + air);
+        }
+        (x, (low, high))
+    }
+}
+
+type DrawError = DrawingAreaErrorKind<std::io::Error>;
+
+const LEGEND_ROW: i32 = 23 * FINE;
+
+impl Style {
+    fn color(self) -> RGBColor {
+        match self {
+            Style::Kind(kind) | Style::Points(kind) => KINDS[kind % KINDS.len()],
+            Style::Time { index, count } => RAMP[ramp_place(index, count)],
+        }
+    }
+
+    fn marker(self) -> usize {
+        match self {
+            Style::Kind(kind) => kind % SHAPES,
+            Style::Time { index, count } => ramp_place(index, count) % SHAPES,
+            Style::Points(_) => CROSS,
+        }
+    }
+}
+
+fn ramp_place(index: usize, count: usize) -> usize {
+    if count < 2 {
+        0
+    } else {
+        (index * (RAMP.len() - 1) + (count - 1) / 2) / (count - 1)
+    }
+}
+
+impl Curve {
+    /// About nine markers along a line, shifted from curve to curve; every point where there is no line or few points.
+    fn marker_places(&self, shown: &[(f64, f64)], width: f64, number: usize) -> Vec<(f64, f64)> {
+        if matches!(self.style, Style::Points(_)) || shown.len() <= 12 {
+            return shown.to_vec();
+        }
+        let spacing = width / 9.0;
+        let mut wanted = spacing * (0.25 + 0.3 * number as f64).fract();
+        let mut last = shown[0].0;
+        let mut places = Vec::new();
+        for &point in shown {
+            if (point.0 - last).abs() >= wanted {
+                places.push(point);
+                (last, wanted) = (point.0, spacing);
+            }
+        }
+        places
+    }
+}
+
+const SHAPES: usize = 6;
+const CROSS: usize = SHAPES;
+
+/// Markers that differ in outline: disc, ring, square, triangle, open square, diamond; and a cross.
+fn draw_marker(
+    area: &DrawingArea<SVGBackend<'_>, Shift>,
+    shape: usize,
+    (x, y): (i32, i32),
+    color: RGBColor,
+) -> Result<(), DrawError> {
+    let line = color.stroke_width(2 * FINE as u32);
+    match shape {
+        0 => area.draw(&Circle::new((x, y), 4 * FINE, color.filled())),
+        1 => area.draw(&Circle::new((x, y), 4 * FINE, line)),
+        2 => area.draw(&Rectangle::new(
+            [(x - 4 * FINE, y - 4 * FINE), (x + 4 * FINE, y + 4 * FINE)],
+            color.filled(),
+        )),
+        3 => area.draw(&Polygon::new(
+            vec![
+                (x - 5 * FINE, y + 4 * FINE),
+                (x + 5 * FINE, y + 4 * FINE),
+                (x, y - 5 * FINE),
+            ],
+            color,
+        )),
+        4 => area.draw(&Rectangle::new(
+            [(x - 4 * FINE, y - 4 * FINE), (x + 4 * FINE, y + 4 * FINE)],
+            line,
+        )),
+        5 => area.draw(&Polygon::new(
+            vec![
+                (x - 5 * FINE, y),
+                (x, y + 5 * FINE),
+                (x + 5 * FINE, y),
+                (x, y - 5 * FINE),
+            ],
+            color,
+        )),
+        _ => {
+            area.draw(&PathElement::new(
+                vec![(x - 4 * FINE, y - 4 * FINE), (x + 4 * FINE, y + 4 * FINE)],
+                line,
+            ))?;
+            area.draw(&PathElement::new(
+                vec![(x - 4 * FINE, y + 4 * FINE), (x + 4 * FINE, y - 4 * FINE)],
+                line,
+            ))
+        }
+    }
+}
+
+/// A range that is not empty.
+fn widened((low, high): (f64, f64)) -> (f64, f64) {
+    if !(low.is_finite() && high.is_finite()) {
+        (0.0, 1.0)
+    } else if high - low > 1e-9 * high.abs().max(low.abs()) {
+        (low, high)
+    } else {
+        let air = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };
+        (low - air, high + air)
+    }
+}
+
+/// Decimals that tell ticks about a tenth of the range apart.
+fn digits((low, high): (f64, f64)) -> usize {
+    (1.0 - (high - low).log10().floor()).clamp(0.0, 9.0) as usize
+}
+
+/// A tick label; a true minus sign, no trailing zeros, thousands apart.
+fn tick(value: f64, digits: usize) -> String {
+    let mut text = format!("{value:.digits$}");
+    if text.contains('.') {
+        text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
+    }
+    if text == "-0" {
+        text = "0".to_owned();
+    }
+    crate::report::format::grouped(&text)
+}
+
+/// Adds what a screen reader says, and sets the size in which the drawing is seen.
+fn accessible(svg: &str, title: &str) -> String {
+    let title = escape(title);
+    let tag = format!("<svg role=\"img\" aria-label=\"{title}\" font-family=\"sans-serif\" ");
+    let large = format!(
+        "width=\"{}\" height=\"{}\"",
+        SIZE.0 * FINE as u32,
+        SIZE.1 * FINE as u32
+    );
+    let shown = format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1);
+    let text = svg.replacen("<svg ", &tag, 1).replacen(&large, &shown, 1);
+    match text.find('>') {
+        Some(end) => format!(
+            "{}<title>{title}</title>{}",
+            &text[..=end],
+            &text[end + 1..]
+        ),
+        None => text,
+    }
+}

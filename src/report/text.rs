@@ -1,0 +1,204 @@
+//! What a run found, in words: the conclusion of its report and the summary in the terminal.
+use std::path::Path;
+
+use super::format::{count, duration, percent, plain, significant, whole};
+use crate::simulate::result::{Member, Run};
+
+/// A few lines for the terminal: the figures that matter, where the files are, what to do next.
+pub fn summary(run: &Run, folder: &Path) -> String {
+    let mut lines = Vec::new();
+    if !run.title.is_empty() {
+        lines.push(run.title.clone());
+    }
+    lines.push(asked_for(run));
+    lines.push(String::new());
+    let (first, last) = (run.first(), run.last());
+    for member in Member::BOTH {
+        let flank = last.profile(member);
+        let place = match flank.deepest().filter(|_| flank.max_depth() > 0.0) {
+            Some(i) => format!(" at radius {} mm", significant(flank.radius[i], 5)),
+            None => String::new(),
+        };
+        lines.push(format!(
+            "  {:<20}{} µm{place}, {} mg lost",
+            format!("{} wear", member.name()),
+            significant(flank.max_depth(), 4),
+            significant(flank.mass_loss_mg, 4)
+        ));
+    }
+    let change = |name: &str, unit: &str, first: Option<f64>, last: Option<f64>| {
+        let (first, last) = (first?, last?);
+        let figures = if run.states.len() > 1 {
+            format!(
+                "{} {unit} new, {} {unit} worn",
+                significant(first, 4),
+                significant(last, 4)
+            )
+        } else {
+            format!("{} {unit}", significant(first, 4))
+        };
+        Some(format!("  {name:<20}{figures}"))
+    };
+    let pressure = |state: &crate::simulate::result::State| state.peak_pressure().map(|p| p.0);
+    lines.extend(change(
+        "peak pressure",
+        "MPa",
+        pressure(first),
+        pressure(last),
+    ));
+    let te = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad());
+    lines.extend(change("transmission error", "µrad p-p", te.0, te.1));
+    lines.push(format!(
+        "  {:<20}{}",
+        "area balance",
+        percent(run.balance_error, 2)
+    ));
+    let failed: Vec<_> = run.checks.iter().filter(|check| !check.passed()).collect();
+    for check in &failed {
+        lines.push(format!(
+            "  warning: {} is {} {}, allowed {}",
+            check.name,
+            significant(check.value, 3),
+            check.unit,
+            significant(check.limit, 3)
+        ));
+    }
+    let cost = &run.cost;
+    lines.push(format!(
+        "  {:<20}{} on {} threads, {} wear steps, {} contact solves",
+        "cost",
+        duration(cost.seconds),
+        cost.threads,
+        whole(cost.wear_steps),
+        whole(cost.contact_solves)
+    ));
+    lines.push(String::new());
+    lines.push(format!("Written to {}", folder.display()));
+    lines.push("  report.html          open in a browser".to_owned());
+    if !run.fields.is_empty() {
+        lines.push("  fields/wear.pvd      open in ParaView".to_owned());
+    }
+    if !failed.is_empty() {
+        lines.push("Next: read Checks in report.html before using the figures".to_owned());
+    } else if last.cycles > 0.0 {
+        lines.push("Next: gearwear compare STUDY sets the model against measurements".to_owned());
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}
+
+/// What was run, in one line.
+pub fn asked_for(run: &Run) -> String {
+    let c = &run.conditions;
+    let g = &run.geometry;
+    let mut line = format!(
+        "{} and {} teeth, module {} mm, {} N·m at {} rpm, {} pinion revolutions, {} model",
+        g.pinion.teeth,
+        g.gear.teeth,
+        plain(g.module),
+        plain(c.torque / 1000.0),
+        plain(c.speed_rpm),
+        count(c.cycles),
+        c.model
+    );
+    if c.misalignment != 0.0 {
+        line.push_str(&format!(", misalignment {} mm", plain(c.misalignment)));
+    }
+    if !c.effects.is_empty() {
+        line.push_str(&format!(", with {}", c.effects.join(", ")));
+    }
+    if let Some(test) = &c.test {
+        line.push_str(&format!(" (test {test})"));
+    }
+    line
+}
+
+/// What came out, in two or three sentences.
+pub fn conclusion(run: &Run) -> String {
+    let (first, last) = (run.first(), run.last());
+    let mut said = Vec::new();
+    if last.cycles > 0.0 {
+        let wear = Member::BOTH.map(|member| {
+            let flank = last.profile(member);
+            let place = match flank.deepest().filter(|_| flank.max_depth() > 0.0) {
+                Some(i) => format!(" ({})", region(run, flank.path[i])),
+                None => String::new(),
+            };
+            format!(
+                "the {} by up to {} µm{place}",
+                member.name(),
+                significant(flank.max_depth(), 3)
+            )
+        });
+        said.push(format!(
+            "After {} pinion revolutions wear has lowered {} and {}.",
+            count(last.cycles),
+            wear[0],
+            wear[1]
+        ));
+    }
+    if let (Some(new), Some(worn)) = (first.peak_pressure(), last.peak_pressure()) {
+        if run.states.len() > 1 {
+            said.push(format!(
+                "The largest contact pressure went from {} to {} MPa.",
+                significant(new.0, 4),
+                significant(worn.0, 4)
+            ));
+        } else {
+            let place = region(run, new.1);
+            said.push(format!(
+                "The largest contact pressure is {} MPa ({place}).",
+                significant(new.0, 4)
+            ));
+        }
+    }
+    if let (Some(new), Some(worn)) = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad()) {
+        if run.states.len() > 1 {
+            said.push(format!(
+                "The transmission error, peak to peak at the pinion, went from {} to {} µrad.",
+                significant(new, 4),
+                significant(worn, 4)
+            ));
+        } else {
+            said.push(format!(
+                "The transmission error is {} µrad peak to peak at the pinion.",
+                significant(new, 4)
+            ));
+        }
+    }
+    let failed = run.checks.iter().filter(|check| !check.passed()).count();
+    if failed > 0 {
+        let verb = if failed == 1 {
+            "check of the run on itself failed"
+        } else {
+            "checks of the run on itself failed"
+        };
+        said.push(format!(
+            "{failed} {verb}: see Checks before using these figures."
+        ));
+    }
+    said.join(" ")
+}
+
+/// Where on the path of contact a point lies, in words.
+fn region(run: &Run, path: f64) -> &'static str {
+    let [a, b, d, e] = run.geometry.path_limits;
+    let near = 0.03 * (e - a);
+    if (path - a).abs() <= near {
+        "near the start of contact"
+    } else if (path - e).abs() <= near {
+        "near the end of contact"
+    } else if path.abs() <= near {
+        "at the pitch point"
+    } else if path < a || path > e {
+        "outside the nominal path of contact"
+    } else if path < b.min(d) {
+        "in the lower double contact"
+    } else if path > d.max(b) {
+        "in the upper double contact"
+    } else if b > d {
+        "where three pairs may touch"
+    } else {
+        "in single contact"
+    }
+}

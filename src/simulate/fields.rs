@@ -1,0 +1,170 @@
+//! Displacement, stress and flank loads of both members at one mesh position, for drawing and for root stresses.
+
+use crate::contact::cycle::Position;
+use crate::contact::fem::{CycleCompliance, member_tooth, member_turns};
+use crate::contact::model::PositionContact;
+use crate::fem::{FemError, Stress};
+use crate::numeric::{Vec2, rotate};
+use crate::simulate::forward::{Forward, ForwardError};
+use crate::simulate::members::Member;
+
+/// Fields of one member at one mesh position, by node, in the member's frame.
+#[derive(Debug, Clone)]
+pub struct MemberFields {
+    /// Rotation of the member frame into the fixed frame, rad (the gear's centre sits on the x axis).
+    pub turn: f64,
+    /// Displacement, mm.
+    pub displacement: Vec<Vec2>,
+    /// Nodal stresses, MPa.
+    pub stress: Vec<Stress>,
+    /// Contact force on the node per face width, N/mm.
+    pub force: Vec<Vec2>,
+    /// Contact pressure on flank nodes, MPa: consistent force over the node's share of the flank, so that its integral
+    /// over the flank's edges is the load.
+    pub pressure: Vec<f64>,
+}
+
+impl Forward<'_> {
+    /// Fields of pinion and gear at mesh position `q` under `contact`; `worn` holds both members' node positions (mm).
+    ///
+    /// `None` for the analytic contact model.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a solve misses its residual.
+    pub fn fields(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
+        let (Some(members), Some(compliance)) = (self.members(), self.compliance()) else {
+            return Ok(None);
+        };
+        let position = &self.cycle().positions[q];
+        let turns = member_turns(self.cycle(), position.theta);
+        let fields = |side: usize| -> Result<MemberFields, FemError> {
+            let member = &members.members[side];
+            let mut loads = Loads::new(member);
+            loads.add(position, compliance, q, contact, side, turns[side], member);
+            loads.solve(member, turns[side])
+        };
+        let (pinion, gear) = rayon::join(|| fields(0), || fields(1));
+        let [mut pinion, gear] = [
+            pinion.map_err(crate::simulate::members::MemberError::from)?,
+            gear.map_err(crate::simulate::members::MemberError::from)?,
+        ];
+        // the pinion's bore turns by the approach
+        for (u, x) in pinion
+            .displacement
+            .iter_mut()
+            .zip(&members.members[0].mesh.points)
+        {
+            *u += contact.approach * Vec2::new(-x.y, x.x);
+        }
+        Ok(Some([pinion, gear]))
+    }
+}
+
+struct Loads {
+    force: Vec<Vec2>,
+    pressure: Vec<f64>,
+}
+
+impl Loads {
+    fn new(member: &Member) -> Self {
+        let n = member.mesh.points.len();
+        Self {
+            force: vec![Vec2::zeros(); n],
+            pressure: vec![0.0; n],
+        }
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one caller, and each is a different kind of thing"
+    )]
+    fn add(
+        &mut self,
+        position: &Position,
+        compliance: &CycleCompliance,
+        q: usize,
+        contact: &PositionContact,
+        side: usize,
+        turn: f64,
+        member: &Member,
+    ) {
+        for (pair, coupling) in position.pairs.iter().zip(compliance.couplings(q)) {
+            let tooth = member_tooth(pair, side);
+            let Some(chain) = member.mesh.flanks.iter().find(|f| f.tooth == tooth) else {
+                continue;
+            };
+            let mut amount = vec![0.0; chain.nodes.len()];
+            for k in 0..pair.xi.len() {
+                coupling.traces[side].scatter(k, contact.pressure[pair.offset + k], &mut amount);
+            }
+            let sign = if side == 0 { -1.0 } else { 1.0 };
+            let traction = rotate(compliance.traction(pair), -turn) * sign;
+            let share = chain_shares(
+                &chain
+                    .nodes
+                    .iter()
+                    .map(|&i| member.mesh.points[i as usize])
+                    .collect::<Vec<_>>(),
+                member.order(),
+            );
+            for ((&node, amount), share) in chain.nodes.iter().zip(&amount).zip(&share) {
+                self.force[node as usize] += traction * *amount;
+                self.pressure[node as usize] = amount / share;
+            }
+        }
+    }
+
+    fn solve(self, member: &Member, turn: f64) -> Result<MemberFields, FemError> {
+        let loads: Vec<(u32, Vec2)> = self
+            .force
+            .iter()
+            .enumerate()
+            .filter(|(_, f)| f.norm_squared() > 0.0)
+            .map(|(i, f)| (i as u32, *f))
+            .collect();
+        let displacement = member.body.solve(&loads)?;
+        let stress = crate::fem::nodal_stress(&member.mesh, member.material, &displacement)?;
+        Ok(MemberFields {
+            turn,
+            displacement,
+            stress,
+            force: self.force,
+            pressure: self.pressure,
+        })
+    }
+}
+
+/// ∫ φ_i ds of each node of a flank chain, mm: by Gauss quadrature along its (curved) edges.
+pub fn chain_shares(points: &[Vec2], order: usize) -> Vec<f64> {
+    let mut share = vec![0.0; points.len()];
+    for first in (0..points.len() - 1).step_by(order) {
+        if order == 1 {
+            let length = (points[first + 1] - points[first]).norm();
+            share[first] += 0.5 * length;
+            share[first + 1] += 0.5 * length;
+            continue;
+        }
+        let edge = &points[first..first + 3];
+        for (t, weight) in [
+            (0.5 - 0.15f64.sqrt(), 5.0 / 18.0),
+            (0.5, 8.0 / 18.0),
+            (0.5 + 0.15f64.sqrt(), 5.0 / 18.0),
+        ] {
+            let slope =
+                edge[0] * (4.0 * t - 3.0) + edge[1] * (4.0 - 8.0 * t) + edge[2] * (4.0 * t - 1.0);
+            let shapes = [
+                (1.0 - t) * (1.0 - 2.0 * t),
+                4.0 * t * (1.0 - t),
+                t * (2.0 * t - 1.0),
+            ];
+            for (i, shape) in shapes.iter().enumerate() {
+                share[first + i] += weight * shape * slope.norm();
+            }
+        }
+    }
+    share
+}

@@ -1,0 +1,274 @@
+//! Floor 7: the study file. `study.toml` becomes a [`Study`] that is valid by construction, or one [`StudyError`] that
+//! shows the place, what was found, what is allowed and a way out. The only reader of TOML.
+//!
+//! ```text
+//! text -> toml tables with spans -> Table (types, ranges, keys) -> sections -> Study
+//! ```
+//!
+//! Inside a `Study` lengths are mm, torques N mm, angles rad; a field whose name ends in a unit keeps that of the file.
+
+mod diagnostic;
+mod effect;
+mod file;
+mod gears;
+mod materials;
+mod numerics;
+mod operation;
+mod quantity;
+mod reader;
+mod settings;
+mod values;
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use toml::de::DeTable;
+
+pub use diagnostic::{Diagnostic, Fault, Source, StudyError, nearest};
+pub use effect::{EffectSpec, Formula, Hook, ParamValue};
+pub use gears::Gears;
+pub use materials::{Lubricant, Material, Materials, Thermal};
+pub use numerics::{Numerics, Order};
+pub use operation::{Operation, Role, Test};
+pub use settings::{ContactKind, FreeParameter, Noise, Scatter, Wear};
+
+use reader::{Spans, Table, shown};
+
+/// Keys before the first table and the tables' names.
+const ROOT_KEYS: &[&str] = &[
+    "title",
+    "gears",
+    "material",
+    "lubricant",
+    "thermal",
+    "operation",
+    "wear",
+    "model",
+    "fit",
+    "noise",
+    "effect",
+    "test",
+    "measurements",
+    "numerics",
+];
+
+/// Every table with its keys, in the order of the contract.
+pub const KEYS: &[(&str, &[&str])] = &[
+    ("", &["title"]),
+    ("gears", gears::KEYS),
+    ("gears.pinion", gears::MEMBER_KEYS),
+    ("material", materials::MATERIAL_KEYS),
+    ("lubricant", materials::LUBRICANT_KEYS),
+    ("thermal", materials::THERMAL_KEYS),
+    ("operation", operation::OPERATION_KEYS),
+    ("wear", settings::WEAR_KEYS),
+    ("model", settings::MODEL_KEYS),
+    ("fit", settings::FIT_KEYS),
+    ("noise", settings::NOISE_KEYS),
+    ("test", operation::TEST_KEYS),
+    ("measurements", settings::MEASUREMENTS_KEYS),
+    ("numerics", numerics::KEYS),
+];
+
+/// A valid study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// The study's own words; empty if it has none.
+    pub title: String,
+    /// Gear set.
+    pub gears: Gears,
+    /// Materials of both members.
+    pub materials: Materials,
+    /// `[lubricant]`.
+    pub lubricant: Option<Lubricant>,
+    /// `[thermal]`.
+    pub thermal: Option<Thermal>,
+    /// `[operation]`, with the cycles of `[wear]`.
+    pub operation: Operation,
+    /// `[wear]`.
+    pub wear: Wear,
+    /// `[model] contact`.
+    pub contact: ContactKind,
+    /// `[fit] free`.
+    pub free: Vec<FreeParameter>,
+    /// `[noise]`.
+    pub noise: Noise,
+    /// `[[effect]]`.
+    pub effects: Vec<EffectSpec>,
+    /// `[[test]]`.
+    pub tests: Vec<Test>,
+    /// The measurement file, if one is named.
+    pub measurements: Option<PathBuf>,
+    /// `[numerics]`.
+    pub numerics: Numerics,
+    source: Source,
+    spans: Spans,
+}
+
+type Result<T> = std::result::Result<T, Box<Diagnostic>>;
+
+impl Study {
+    /// Reads and checks a study file.
+    ///
+    /// # Errors
+    /// A [`StudyError`] for the first fault: unreadable, not UTF-8, syntax, keys, values, impossible gears.
+    pub fn load(path: &Path) -> std::result::Result<Study, StudyError> {
+        let study = Study::read(file::read(path)?, path.parent().unwrap_or(Path::new("")))?;
+        let meshes = [
+            ("numerics.mesh_pinion", &study.numerics.mesh_pinion),
+            ("numerics.mesh_gear", &study.numerics.mesh_gear),
+        ];
+        for (key, mesh) in meshes {
+            if let Some(mesh) = mesh.as_deref().filter(|mesh| !mesh.is_file()) {
+                return Err(study.refuse(
+                    key,
+                    &format!("there is no file {}", mesh.display()),
+                    "the path of a mesh file, relative to the study file",
+                    "",
+                ));
+            }
+        }
+        Ok(study)
+    }
+
+    /// Checks a study's text; `name` stands in messages, and relative paths start from its folder.
+    ///
+    /// # Errors
+    /// As [`Study::load`].
+    pub fn parse(text: &str, name: &str) -> std::result::Result<Study, StudyError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text).to_owned();
+        Study::read(
+            Source {
+                name: name.to_owned(),
+                text,
+            },
+            Path::new(name).parent().unwrap_or(Path::new("")),
+        )
+    }
+
+    /// The conditions of `[operation]`, or of the test with that id.
+    ///
+    /// # Errors
+    /// A [`StudyError`] that names the tests if there is none with that id.
+    pub fn conditions(&self, test: Option<&str>) -> std::result::Result<&Operation, StudyError> {
+        let Some(id) = test else {
+            return Ok(&self.operation);
+        };
+        if let Some(test) = self.tests.iter().find(|test| test.id == id) {
+            return Ok(&test.conditions);
+        }
+        let ids = self.tests.iter().map(|test| test.id.as_str());
+        let hint = match nearest(id, ids.clone()) {
+            Some(near) => format!("the nearest is \"{near}\""),
+            None => "the study has no [[test]]; leave the test away to use [operation]".to_owned(),
+        };
+        let allowed: Vec<String> = ids.map(|id| format!("\"{id}\"")).collect();
+        let diagnostic = Diagnostic::new(
+            Fault::BadValue,
+            "test.id",
+            format!("the study has no test.id \"{id}\""),
+        )
+        .with_values(
+            format!("\"{id}\""),
+            if allowed.is_empty() {
+                "none".to_owned()
+            } else {
+                allowed.join(", ")
+            },
+        )
+        .with_hint(hint);
+        let diagnostic = match self.spans.get("test") {
+            Some(span) => diagnostic.with_span(span.clone()),
+            None => diagnostic,
+        };
+        Err(StudyError::new(diagnostic, self.source.clone()))
+    }
+
+    /// A fault that shows later, at the place of `key` (its path in the file: `numerics.mesh_gear`, `test[0].torque`), or of
+    /// the nearest table above it that the file has. Empty texts are left out.
+    pub fn refuse(&self, key: &str, message: &str, allowed: &str, hint: &str) -> StudyError {
+        let stated = self.spans.get(key);
+        let found = stated.map_or("no such key here", |span| {
+            self.source.text[span.clone()].lines().next().unwrap_or("")
+        });
+        let shown_key = shown(key);
+        let diagnostic = Diagnostic::new(
+            Fault::Inconsistent,
+            shown_key.as_str(),
+            format!("{shown_key}: {message}"),
+        )
+        .with_values(found, allowed)
+        .with_hint(hint);
+        let above =
+            std::iter::successors(Some(key), |path| path.rfind('.').map(|dot| &path[..dot]));
+        let span = above
+            .filter_map(|path| self.spans.get(path))
+            .next()
+            .cloned();
+        let end = self.source.text.trim_end().len();
+        StudyError::new(
+            diagnostic.with_span(span.unwrap_or(end..end)),
+            self.source.clone(),
+        )
+    }
+
+    /// The study's text and the name under which it was read.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    fn read(source: Source, folder: &Path) -> std::result::Result<Study, StudyError> {
+        match Study::sections(&source, folder) {
+            Ok((study, spans)) => Ok(Study {
+                source,
+                spans,
+                ..study
+            }),
+            Err(diagnostic) => Err(StudyError::new(*diagnostic, source)),
+        }
+    }
+
+    fn sections(source: &Source, folder: &Path) -> Result<(Study, Spans)> {
+        let spans = RefCell::new(Spans::new());
+        let document =
+            DeTable::parse(&source.text).map_err(|error| file::syntax(source, &error))?;
+        let root = Table::root(source, document.get_ref(), ROOT_KEYS, KEYS, &spans)?;
+        let title = root.text("title")?.unwrap_or_default().to_owned();
+        let gears = gears::read(&root)?;
+        let materials = materials::read(&root)?;
+        let lubricant = materials::read_lubricant(&root)?;
+        let thermal = materials::read_thermal(&root)?;
+        let wear = settings::read_wear(&root)?;
+        let limits = operation::Limits {
+            root: &root,
+            gears: &gears,
+            materials: &materials,
+        };
+        let operation = operation::read(&limits, wear.cycles, lubricant, thermal)?;
+        let tests = operation::read_tests(&limits, operation)?;
+        let effects = effect::read(&root)?;
+        let study = Study {
+            title,
+            materials,
+            lubricant,
+            thermal,
+            operation,
+            wear,
+            contact: settings::read_model(&root)?,
+            free: settings::read_fit(&root, &effects)?,
+            noise: settings::read_noise(&root)?,
+            effects,
+            tests,
+            measurements: settings::read_measurements(&root, folder)?,
+            numerics: numerics::read(&root, folder, lubricant)?,
+            gears,
+            source: Source {
+                name: String::new(),
+                text: String::new(),
+            },
+            spans: Spans::new(),
+        };
+        drop(document);
+        Ok((study, spans.into_inner()))
+    }
+}

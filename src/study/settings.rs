@@ -1,0 +1,202 @@
+//! `[wear]`, `[model]`, `[fit]`, `[noise]`, `[measurements]`: what is computed and what may be adjusted.
+
+use std::path::{Path, PathBuf};
+
+use toml::de::DeValue;
+
+use super::diagnostic::{Diagnostic, Fault, nearest};
+use super::effect::EffectSpec;
+use super::quantity as q;
+use super::reader::Table;
+
+pub(super) const WEAR_KEYS: &[&str] = &["coefficient", "cycles"];
+pub(super) const MODEL_KEYS: &[&str] = &["contact"];
+pub(super) const FIT_KEYS: &[&str] = &["free"];
+pub(super) const NOISE_KEYS: &[&str] = &["coefficient_scatter", "datum"];
+pub(super) const MEASUREMENTS_KEYS: &[&str] = &["file"];
+
+/// `[wear]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wear {
+    /// Specific wear coefficient k = K/H of both members, mm²/N.
+    pub coefficient: f64,
+    /// Length of the run, pinion revolutions.
+    pub cycles: f64,
+}
+
+/// `[model] contact`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ContactKind {
+    /// Finite elements.
+    Fem,
+    /// Analytic line contact with load sharing by tooth stiffness.
+    Hertz,
+    /// The published model, mistakes included.
+    Paper,
+}
+
+impl ContactKind {
+    /// The word in the study file.
+    pub fn name(self) -> &'static str {
+        match self {
+            ContactKind::Fem => "fem",
+            ContactKind::Hertz => "hertz",
+            ContactKind::Paper => "paper",
+        }
+    }
+}
+
+/// One entry of `[fit] free`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FreeParameter {
+    /// `wear.coefficient`.
+    WearCoefficient,
+    /// A parameter of an effect.
+    Effect {
+        /// Which of `Study::effects`.
+        effect: usize,
+        /// The parameter's name.
+        parameter: String,
+    },
+}
+
+/// `[noise]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Noise {
+    /// Scatter of k between tests.
+    pub coefficient_scatter: Scatter,
+    /// Prior standard deviation of a trace's unknown constant datum, µm.
+    pub datum_um: f64,
+}
+
+/// Scatter of the wear coefficient between tests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scatter {
+    /// Estimated from the measurements.
+    Estimate,
+    /// Known: relative standard deviation, 0 = none.
+    Relative(f64),
+}
+
+type Result<T> = std::result::Result<T, Box<Diagnostic>>;
+
+pub(super) fn read_wear(root: &Table<'_>) -> Result<Wear> {
+    let table = root.required_table("wear", WEAR_KEYS)?;
+    Ok(Wear {
+        coefficient: table.required_number("coefficient", &q::WEAR_COEFFICIENT)?,
+        cycles: table.required_number("cycles", &q::CYCLES)?,
+    })
+}
+
+pub(super) fn read_model(root: &Table<'_>) -> Result<ContactKind> {
+    let kinds =
+        [ContactKind::Fem, ContactKind::Hertz, ContactKind::Paper].map(|kind| (kind.name(), kind));
+    let table = root.table("model", MODEL_KEYS)?;
+    let kind = table.map_or(Ok(None), |table| table.choice("contact", &kinds))?;
+    Ok(kind.unwrap_or(ContactKind::Fem))
+}
+
+pub(super) fn read_fit(root: &Table<'_>, effects: &[EffectSpec]) -> Result<Vec<FreeParameter>> {
+    let names = root.table("fit", FIT_KEYS)?;
+    let Some((table, names)) = names.map_or(Ok(None), |table| {
+        table.texts("free").map(|names| names.map(|n| (table, n)))
+    })?
+    else {
+        return Ok(vec![FreeParameter::WearCoefficient]);
+    };
+    let mut known = vec![(
+        "wear.coefficient".to_owned(),
+        FreeParameter::WearCoefficient,
+    )];
+    for (effect, spec) in effects.iter().enumerate() {
+        let parameters = spec.parameters.iter().map(|(parameter, _)| parameter);
+        known.extend(parameters.map(|parameter| {
+            let free = FreeParameter::Effect {
+                effect,
+                parameter: parameter.clone(),
+            };
+            (format!("{}.{parameter}", spec.name()), free)
+        }));
+    }
+    let mut free = Vec::new();
+    for (name, span) in names {
+        let refusal = |says: &str| {
+            let allowed: Vec<&str> = known.iter().map(|(name, _)| name.as_str()).collect();
+            let quoted = |name: &str| format!("\"{name}\"");
+            let mut refusal = table.refuse(
+                "free",
+                "",
+                allowed
+                    .iter()
+                    .map(|name| quoted(name))
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            );
+            refusal.message = format!("fit.free: \"{name}\" {says}");
+            refusal.found = quoted(name);
+            refusal.span = Some(span.clone());
+            let near = nearest(name, allowed).unwrap_or_default();
+            Box::new(refusal.with_hint(format!("the nearest is \"{near}\"")))
+        };
+        let Some((_, parameter)) = known.iter().find(|(known, _)| known == name) else {
+            return Err(refusal("is no parameter of this study"));
+        };
+        if free.contains(parameter) {
+            return Err(refusal("stands there twice"));
+        }
+        free.push(parameter.clone());
+    }
+    Ok(free)
+}
+
+pub(super) fn read_noise(root: &Table<'_>) -> Result<Noise> {
+    let mut noise = Noise {
+        coefficient_scatter: Scatter::Estimate,
+        datum_um: 0.5,
+    };
+    let Some(table) = root.table("noise", NOISE_KEYS)? else {
+        return Ok(noise);
+    };
+    let scatter = "coefficient_scatter";
+    match table.get(scatter) {
+        None => {}
+        Some((DeValue::String(_), _)) => {
+            let word = table.choice(scatter, &[("estimate", Scatter::Estimate)]);
+            noise.coefficient_scatter = word
+                .map_err(|mut refusal| {
+                    refusal.allowed = format!("\"estimate\" or a number, {}", q::SCATTER);
+                    refusal
+                })?
+                .unwrap_or(Scatter::Estimate);
+        }
+        Some(_) => {
+            let number = table
+                .required_number(scatter, &q::SCATTER)
+                .map_err(|mut refusal| {
+                    if refusal.fault == Fault::WrongType {
+                        refusal.allowed = format!("\"estimate\" or {}", refusal.allowed);
+                    }
+                    refusal
+                })?;
+            noise.coefficient_scatter = Scatter::Relative(number);
+        }
+    }
+    noise.datum_um = table.number("datum", &q::DATUM)?.unwrap_or(noise.datum_um);
+    Ok(noise)
+}
+
+/// The measurement file's path, relative ones from the study's folder. It is not opened here.
+pub(super) fn read_measurements(root: &Table<'_>, folder: &Path) -> Result<Option<PathBuf>> {
+    let Some(table) = root.table("measurements", MEASUREMENTS_KEYS)? else {
+        return Ok(None);
+    };
+    let what = "relative to the study file";
+    match table.name("file", what)? {
+        Some(file) => Ok(Some(folder.join(file))),
+        None => Err(Box::new(
+            table
+                .missing("file", "a text, the measurements' file name")
+                .with_hint(what),
+        )),
+    }
+}

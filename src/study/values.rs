@@ -1,0 +1,190 @@
+//! Values of one table's keys: numbers with their bounds, counts, flags, texts, choices.
+
+use std::ops::{Range, RangeInclusive};
+
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::diagnostic::{Diagnostic, Fault, nearest};
+use super::quantity::Quantity;
+use super::reader::{Result, Table, shown};
+
+/// A text and where it stands.
+type Placed<'a> = (&'a str, Range<usize>);
+
+impl<'a> Table<'a> {
+    /// A number that may be absent.
+    pub(super) fn number(&self, key: &str, quantity: &Quantity) -> Result<Option<f64>> {
+        let Some((value, span)) = self.get(key) else {
+            return Ok(None);
+        };
+        let number = match value {
+            DeValue::Float(float) => float.as_str().parse::<f64>().ok(),
+            DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .map(|i| i as f64),
+            _ => {
+                return Err(self
+                    .wrong_type(key, value, span, &format!("a number, {quantity}"))
+                    .into());
+            }
+        };
+        match number {
+            Some(number) if quantity.allows(number) => Ok(Some(number)),
+            _ => {
+                let number = number.unwrap_or(f64::NAN);
+                let unit = if quantity.unit == "-" {
+                    String::new()
+                } else {
+                    format!(" {}", quantity.unit)
+                };
+                let written = self.written(&span);
+                let why = if number.is_finite() {
+                    "is out of range"
+                } else {
+                    "is not a finite number"
+                };
+                let message = format!("{} = {written}{unit} {why}", shown(&self.path_of(key)));
+                Err(
+                    Diagnostic::new(Fault::BadValue, shown(&self.path_of(key)), message)
+                        .with_values(written, quantity.to_string())
+                        .with_hint(quantity.slip(number).unwrap_or_default())
+                        .with_hint(quantity.reason)
+                        .with_span(span)
+                        .into(),
+                )
+            }
+        }
+    }
+
+    /// A number that must be there.
+    pub(super) fn required_number(&self, key: &str, quantity: &Quantity) -> Result<f64> {
+        match self.number(key, quantity)? {
+            Some(number) => Ok(number),
+            None => Err(self
+                .missing(key, &format!("a number, {quantity}"))
+                .with_hint(quantity.reason)
+                .into()),
+        }
+    }
+
+    /// A whole number within `range` that may be absent.
+    pub(super) fn count(
+        &self,
+        key: &str,
+        range: RangeInclusive<usize>,
+        reason: &str,
+    ) -> Result<Option<usize>> {
+        let Some((value, span)) = self.get(key) else {
+            return Ok(None);
+        };
+        let allowed = format!("a whole number, {} to {}", range.start(), range.end());
+        let DeValue::Integer(integer) = value else {
+            let hint = match value {
+                DeValue::Float(_) => "write it without a decimal point",
+                _ => "",
+            };
+            return Err(self
+                .wrong_type(key, value, span, &allowed)
+                .with_hint(hint)
+                .into());
+        };
+        match usize::from_str_radix(integer.as_str(), integer.radix()) {
+            Ok(count) if range.contains(&count) => Ok(Some(count)),
+            _ => Err(self
+                .refuse(key, "is out of range", allowed)
+                .with_hint(reason)
+                .into()),
+        }
+    }
+
+    /// A whole number that must be there.
+    pub(super) fn required_count(
+        &self,
+        key: &str,
+        range: RangeInclusive<usize>,
+        reason: &str,
+    ) -> Result<usize> {
+        let allowed = format!("a whole number, {} to {}", range.start(), range.end());
+        self.count(key, range, reason)?
+            .ok_or_else(|| self.missing(key, &allowed).into())
+    }
+
+    /// `true` or `false`, if present.
+    pub(super) fn flag(&self, key: &str) -> Result<Option<bool>> {
+        match self.get(key) {
+            None => Ok(None),
+            Some((DeValue::Boolean(flag), _)) => Ok(Some(*flag)),
+            Some((value, span)) => Err(self.wrong_type(key, value, span, "true or false").into()),
+        }
+    }
+
+    /// A text, if present.
+    pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>> {
+        match self.get(key) {
+            None => Ok(None),
+            Some((DeValue::String(text), _)) => Ok(Some(text.as_ref())),
+            Some((value, span)) => {
+                Err(self.wrong_type(key, value, span, "a text in quotes").into())
+            }
+        }
+    }
+
+    /// A text that is not blank, if present.
+    pub(super) fn name(&self, key: &str, reason: &str) -> Result<Option<&'a str>> {
+        match self.text(key)? {
+            Some(text)
+                if text.trim().is_empty()
+                    || text.chars().any(char::is_control)
+                    || text.trim() != text =>
+            {
+                Err(self
+                    .refuse(
+                        key,
+                        "is not usable",
+                        "a text that is not blank, without line breaks and outer spaces",
+                    )
+                    .with_hint(reason)
+                    .into())
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// One of a few words, if present.
+    pub(super) fn choice<T: Copy>(&self, key: &str, choices: &[(&str, T)]) -> Result<Option<T>> {
+        let Some(text) = self.text(key)? else {
+            return Ok(None);
+        };
+        if let Some((_, value)) = choices.iter().find(|(word, _)| *word == text) {
+            return Ok(Some(*value));
+        }
+        let words = choices.iter().map(|(word, _)| *word);
+        let hint = nearest(text, words.clone())
+            .map_or(String::new(), |near| format!("the nearest is \"{near}\""));
+        let quoted: Vec<String> = words.map(|word| format!("\"{word}\"")).collect();
+        Err(self
+            .refuse(key, "is not known", quoted.join(" or "))
+            .with_hint(hint)
+            .into())
+    }
+
+    /// A list of texts with their places, if present.
+    pub(super) fn texts(&self, key: &str) -> Result<Option<Vec<Placed<'a>>>> {
+        let Some((value, span)) = self.get(key) else {
+            return Ok(None);
+        };
+        let DeValue::Array(items) = value else {
+            return Err(self
+                .wrong_type(key, value, span, "a list of texts, [\"...\"]")
+                .into());
+        };
+        let read = |item: &'a Spanned<DeValue<'a>>| match item.get_ref() {
+            DeValue::String(text) => Ok((text.as_ref(), item.span())),
+            other => Err(self
+                .wrong_type(key, other, item.span(), "a text in quotes")
+                .into()),
+        };
+        items.iter().map(read).collect::<Result<Vec<_>>>().map(Some)
+    }
+}

@@ -1,0 +1,257 @@
+//! Claim: pages stand on their own, carry the figures of the data, and say first what matters; plots are drawn to scale.
+use std::collections::BTreeSet;
+use std::fs;
+
+use gearwear::report::html::{self, Case, Difference, ModelColumn, Models, Verdict};
+use gearwear::report::plots::{Plot, Style};
+use gearwear::report::{text, write_models, write_validation};
+use serde_json::Value;
+
+use super::{read, synthetic, written};
+
+/// Every address in a page: values of href, src and url(...).
+fn addresses(page: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    for (opening, end) in [
+        ("href=\"", '"'),
+        ("src=\"", '"'),
+        ("url(", ')'),
+        ("@import", ';'),
+    ] {
+        found.extend(
+            page.split(opening)
+                .skip(1)
+                .map(|rest| rest.split(end).next().unwrap_or_default().to_owned()),
+        );
+    }
+    found
+}
+
+#[test]
+fn the_report_is_self_contained_and_complete() {
+    let (dir, run) = written();
+    let page = read(&dir, "report.html");
+    for address in addresses(&page) {
+        let inside =
+            address.starts_with('#') || dir.path().join("study.out/run").join(&address).is_file();
+        assert!(inside, "{address}");
+    }
+    let without_namespace = page.replace("http://www.w3.org/2000/svg", "");
+    assert!(
+        !without_namespace.contains("http") && !page.contains("<script") && !page.contains("<link")
+    );
+    assert!(
+        page.contains("Made-up pair &lt;27/53&gt; &amp; &quot;quotes&quot;")
+            && !page.contains("<27/53>")
+    );
+    assert_eq!(page.matches("<figure>").count(), 6);
+    for heading in [
+        "Results",
+        "Inputs",
+        "Geometry",
+        "Mesh and cost",
+        "Checks",
+        "Stored states",
+        "Files",
+    ] {
+        assert!(page.contains(&format!("\">{heading}</h2>")), "{heading}");
+    }
+    assert!(page.contains("prefers-color-scheme: dark") && page.contains("@media print"));
+    // The conclusion carries the figures: the depth that the profile holds, to three digits.
+    let deepest = run.last().pinion.max_depth();
+    let conclusion = page
+        .split("class=\"conclusion\">")
+        .nth(1)
+        .unwrap()
+        .split("</p>")
+        .next()
+        .unwrap();
+    assert!(
+        conclusion.contains(&format!("{deepest:.2} µm")),
+        "{conclusion}"
+    );
+    for tag in [
+        "table", "tr", "td", "section", "figure", "svg", "p", "div", "text",
+    ] {
+        let opened =
+            page.matches(&format!("<{tag}>")).count() + page.matches(&format!("<{tag} ")).count();
+        assert_eq!(opened, page.matches(&format!("</{tag}>")).count(), "{tag}");
+    }
+    // A failed check is said at the top.
+    let mut failed = run;
+    failed.checks[0].value = 1.0;
+    let page = html::run(&failed, &[]).unwrap();
+    let conclusion = page
+        .split("class=\"conclusion\">")
+        .nth(1)
+        .unwrap()
+        .split("</p>")
+        .next()
+        .unwrap();
+    assert!(conclusion.contains("1 check") && page.contains("badge fail"));
+}
+
+#[test]
+fn plots_draw_the_numbers() {
+    // A straight line stays one: three points on it, to two units of rounding each (an eighth of a pixel).
+    let plot = Plot::new("line", "A <line>", "x, mm", "y, µm").starting_at_zero();
+    let svg = plot
+        .curve(
+            "here",
+            Style::Kind(0),
+            vec![(0.0, 0.0), (1.0, 10.0), (3.0, 30.0)],
+        )
+        .svg()
+        .unwrap();
+    let line = svg
+        .split("<polyline")
+        .filter(|part| part.contains("#0072B2"))
+        .find_map(|part| {
+            let points = part.split("points=\"").nth(1)?.split('"').next()?;
+            let points: Vec<(f64, f64)> = points
+                .split_whitespace()
+                .map(|p| {
+                    p.split_once(',')
+                        .map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()))
+                        .unwrap()
+                })
+                .collect();
+            (points.len() == 3).then_some(points)
+        });
+    let line = line.unwrap_or_else(|| panic!("no curve in {svg}"));
+    let [(x0, y0), (x1, y1), (x2, y2)] = [line[0], line[1], line[2]];
+    assert!(
+        ((x2 - x0) - 3.0 * (x1 - x0)).abs() <= 4.0 && ((y2 - y0) - 3.0 * (y1 - y0)).abs() <= 4.0,
+        "{line:?}"
+    );
+    assert!(x2 > x0 + 3200.0 && y2 < y0 - 1600.0, "{line:?}");
+    for text in ["x, mm", "y, µm", "here", "A &lt;line&gt;", "role=\"img\""] {
+        assert!(svg.contains(text), "{text}");
+    }
+    // Same data, same bytes.
+    let run = synthetic::run();
+    let draw = || {
+        gearwear::report::plots::of_run(&run)
+            .iter()
+            .map(|plot| plot.svg().unwrap())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(draw(), draw());
+    // Nothing to draw and constant data do no harm.
+    let flat = Plot::new("flat", "", "", "").curve(
+        "c",
+        Style::Points(1),
+        vec![(1.0, 5.0), (f64::NAN, 1.0)],
+    );
+    assert!(flat.svg().is_ok() && Plot::new("none", "", "", "").svg().is_ok());
+}
+
+#[test]
+fn models_stand_side_by_side() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = synthetic::run();
+    let column = |name: &str| ModelColumn {
+        name: name.to_owned(),
+        ..ModelColumn::of_run(&run, "assumes | little")
+    };
+    let models = Models {
+        title: "Three models".to_owned(),
+        conditions: text::asked_for(&run),
+        conclusion: "They differ at the ends of contact.".to_owned(),
+        path_limits: run.geometry.path_limits,
+        models: vec![column("fem"), column("hertz"), column("paper")],
+        differences: vec![Difference {
+            quantity: "peak pressure, MPa".to_owned(),
+            values: vec![Some(858.1), Some(875.8), None],
+            cause: "load sharing".to_owned(),
+        }],
+    };
+    let done = write_models(&models, &dir.path().join("models")).unwrap();
+    let json: Value =
+        serde_json::from_slice(&fs::read(done.folder.join("models.json")).unwrap()).unwrap();
+    assert_eq!(json["models"][2]["name"], "paper");
+    assert_eq!(json["differences"][0]["values"][2], Value::Null);
+    let page = fs::read_to_string(done.folder.join("report.html")).unwrap();
+    assert!(page.contains("875.8") && page.matches("<figure>").count() == 4);
+}
+
+#[test]
+fn validation_is_written_for_people_and_programs() {
+    let case = |id: &str, group: &str, verdict: Verdict| Case {
+        id: id.to_owned(),
+        group: group.to_owned(),
+        what: "peak pressure, MPa".to_owned(),
+        target: Some(3585.37),
+        source: "NAFEMS, \"Cylinder\" | roller".to_owned(),
+        value: (verdict != Verdict::Skipped).then_some(3590.0),
+        error: (verdict != Verdict::Skipped).then_some(0.0013),
+        tolerance: 0.02,
+        measure: "relative".to_owned(),
+        verdict,
+        note: if verdict == Verdict::Pass {
+            String::new()
+        } else {
+            format!("see {id}")
+        },
+    };
+    let cases = [
+        case("B3", "Contact", Verdict::Pass),
+        case("C1", "Geometry", Verdict::Fail),
+        case("B4", "Contact", Verdict::Skipped),
+        case("P9", "Paper", Verdict::ContradictsTheory),
+    ];
+    let dir = tempfile::tempdir().unwrap();
+    let done = write_validation(&cases, &dir.path().join("validate")).unwrap();
+    let json: Value =
+        serde_json::from_slice(&fs::read(done.folder.join("validation.json")).unwrap()).unwrap();
+    let verdicts: Vec<_> = json["cases"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|case| case["verdict"].clone())
+        .collect();
+    assert_eq!(verdicts, ["pass", "fail", "skipped", "contradicts_theory"]);
+    for key in [
+        "id",
+        "target",
+        "source",
+        "value",
+        "error",
+        "tolerance",
+        "verdict",
+    ] {
+        assert!(json["cases"][0].get(key).is_some(), "{key}");
+    }
+    let markdown = fs::read_to_string(done.folder.join("RESULTS.md")).unwrap();
+    assert!(markdown.contains("1 of 4 cases pass, 1 fail"), "{markdown}");
+    let rows: Vec<&str> = markdown
+        .lines()
+        .filter(|line| line.contains("`B3`") || line.contains("`B4`"))
+        .collect();
+    assert!(
+        rows.len() >= 2 && rows[0].contains("\\| roller") && rows[0].contains("**pass**"),
+        "{rows:?}"
+    );
+    let page = fs::read_to_string(done.folder.join("report.html")).unwrap();
+    assert!(
+        page.contains("badge pass") && page.contains("badge fail") && page.contains("badge theory")
+    );
+}
+
+#[test]
+fn the_terminal_summary_tells_figures_files_and_next_step() {
+    let (dir, run) = written();
+    let said = text::summary(&run, &dir.path().join("study.out/run"));
+    let deepest = format!("{:.3} µm", run.last().pinion.max_depth());
+    for part in [
+        deepest.as_str(),
+        "report.html",
+        "ParaView",
+        "Next:",
+        "100 N·m",
+        "50\u{202f}000 pinion revolutions",
+    ] {
+        assert!(said.contains(part), "{part} not in\n{said}");
+    }
+    assert!(said.lines().count() < 20 && said.lines().all(|line| line.chars().count() < 160));
+}

@@ -1,0 +1,551 @@
+//! Claim: a study file that is not right is refused with one message that names the place (file, line, column), the key, what
+//! was found and what is allowed; a right one gives the values it states, in the units the program works in; no text at all
+//! makes the reader panic.
+//!
+//! Source: the format's description in the README's study section; the limits of the reference pair (27/53 teeth, module 2,
+//! centre distance 80 mm) from the closed forms of involute geometry. Tolerance: none for texts; 1e-12 relative for units.
+
+use gearwear::study::{ContactKind, Fault, FreeParameter, Order, Role, Scatter, Study};
+use proptest::prelude::*;
+
+/// Every key of the format once, each on its own line.
+const FULL: &str = include_str!("../src/cli/examples/paper.toml");
+
+const SHORT: &str = "\
+[gears]
+module = 2.0
+pressure_angle = 20.0
+face_width = 33.0
+[gears.pinion]
+teeth = 27
+bore_diameter = 25.0
+[gears.gear]
+teeth = 53
+bore_diameter = 40.0
+[material]
+youngs_modulus = 2.1e5
+poisson_ratio = 0.3
+density = 7850.0
+[operation]
+torque = 100.0
+speed = 2000.0
+[wear]
+coefficient = 6e-10
+cycles = 50000
+";
+
+/// `SHORT` with the line that starts with `old` replaced by `new` (several lines may be given).
+fn with(old: &str, new: &str) -> String {
+    assert_eq!(SHORT.matches(old).count(), 1, "{old} must stand once");
+    SHORT.replace(old, new)
+}
+
+struct Refusal {
+    fault: Fault,
+    key: &'static str,
+    line: usize,
+    column: usize,
+    found: &'static str,
+    allowed: &'static str,
+    says: &'static str,
+}
+
+/// Asserts on the parts and on the whole message.
+fn refused(text: &str, expected: Refusal) {
+    let error = Study::parse(text, "some/study.toml").expect_err("must be refused");
+    let message = error.to_string();
+    let diagnostic = error.diagnostic();
+    assert_eq!(diagnostic.fault, expected.fault, "{message}");
+    assert_eq!(diagnostic.key, expected.key, "{message}");
+    assert_eq!(
+        error.position(),
+        Some((expected.line, expected.column)),
+        "{message}"
+    );
+    let place = format!("some/study.toml:{}:{}", expected.line, expected.column);
+    for part in [
+        place.as_str(),
+        expected.key,
+        expected.found,
+        expected.allowed,
+        expected.says,
+        "^",
+    ] {
+        assert!(message.contains(part), "no `{part}` in:\n{message}");
+    }
+    assert!(diagnostic.found.contains(expected.found), "{message}");
+    assert!(diagnostic.allowed.contains(expected.allowed), "{message}");
+}
+
+macro_rules! refusals {
+    ($($name:ident: $text:expr => $fault:ident $key:literal at $line:literal:$column:literal, $found:literal, $allowed:literal, $says:literal;)+) => {
+        $(#[test]
+        fn $name() {
+            refused(&$text, Refusal {
+                fault: Fault::$fault, key: $key, line: $line, column: $column,
+                found: $found, allowed: $allowed, says: $says,
+            });
+        })+
+    };
+}
+
+refusals! {
+    negative_module: with("module = 2.0", "module = -2.0")
+        => BadValue "gears.module" at 2:10, "-2.0", "0.05 to 100 mm", "out of range";
+    nan: with("module = 2.0", "module = nan")
+        => BadValue "gears.module" at 2:10, "nan", "0.05 to 100 mm", "not a finite number";
+    infinity: with("torque = 100.0", "torque = inf")
+        => BadValue "operation.torque" at 16:10, "inf", "N m", "not a finite number";
+    number_too_large_for_a_double: with("torque = 100.0", "torque = 1e400")
+        => BadValue "operation.torque" at 16:10, "1e400", "N m", "not a finite number";
+    unknown_key: with("module = 2.0", "modul = 2.0")
+        => UnknownKey "gears.modul" at 2:1, "`modul`", "module, pressure_angle", "the nearest valid key is `module`";
+    unknown_table: format!("{SHORT}[measurement]\nfile = \"m.csv\"\n")
+        => UnknownKey "measurement" at 21:2, "`measurement`", "measurements", "the nearest valid key is `measurements`";
+    key_of_another_table: with("coefficient = 6e-10", "coefficient = 6e-10\ntorque = 1.0")
+        => UnknownKey "wear.torque" at 20:1, "`torque`", "coefficient, cycles", "`torque` stands in [operation]";
+    missing_key: with("module = 2.0\n", "")
+        => MissingKey "gears.module" at 1:1, "no key `module`", "0.05 to 100 mm", "gears.module is missing";
+    missing_table: with("[wear]\ncoefficient = 6e-10\ncycles = 50000\n", "")
+        => MissingKey "wear" at 17:15, "nothing", "coefficient, cycles", "the table [wear] is missing";
+    text_for_a_number: with("module = 2.0", "module = \"2.0\"")
+        => WrongType "gears.module" at 2:10, "the text \"2.0\"", "a number, 0.05 to 100 mm", "without quotes";
+    text_with_unit: with("module = 2.0", "module = \"2 mm\"")
+        => WrongType "gears.module" at 2:10, "\"2 mm\"", "a number", "without quotes and unit";
+    list_for_a_number: with("module = 2.0", "module = [2.0]")
+        => WrongType "gears.module" at 2:10, "a list", "a number", "gears.module is a list";
+    number_for_a_table: format!("lubricant = 3\n{SHORT}")
+        => WrongType "lubricant" at 1:13, "3", "a table [lubricant]", "the whole number";
+    single_brackets_for_tests: format!("{SHORT}[test]\nid = \"A\"\n")
+        => WrongType "test" at 21:1, "a table", "tables [[test]]", "double brackets";
+    double_brackets_for_a_table: with("[wear]", "[[wear]]")
+        => WrongType "wear" at 18:1, "a list", "[wear]", "single brackets";
+    number_for_a_title: format!("title = 3\n{SHORT}")
+        => WrongType "title" at 1:9, "3", "a text in quotes", "the whole number";
+    fractional_teeth: with("teeth = 27", "teeth = 27.5")
+        => WrongType "gears.pinion.teeth" at 6:9, "27.5", "a whole number, 5 to 1000", "decimal point";
+    three_teeth: with("teeth = 27", "teeth = 3")
+        => BadValue "gears.pinion.teeth" at 6:9, "3", "a whole number, 5 to 1000", "keep contact";
+    negative_teeth: with("teeth = 27", "teeth = -27")
+        => BadValue "gears.pinion.teeth" at 6:9, "-27", "5 to 1000", "out of range";
+    pressure_angle_in_radians: with("pressure_angle = 20.0", "pressure_angle = 0.349")
+        => BadValue "gears.pressure_angle" at 3:18, "0.349", "10 to 35 deg", "looks like radians";
+    face_width_in_metres: with("face_width = 33.0", "face_width = 0.033")
+        => BadValue "gears.face_width" at 4:14, "0.033", "0.1 to 5000 mm", "looks like metres";
+    pointed_tooth: with("teeth = 27", "teeth = 27\nprofile_shift = 1.9")
+        => Inconsistent "gears.pinion.profile_shift" at 7:17, "1.9", "tip thickness", "tip thickness is";
+    bore_wider_than_the_root: with("bore_diameter = 25.0", "bore_diameter = 49.0")
+        => Inconsistent "gears.pinion.bore_diameter" at 7:17, "49.0", "0.1 to 47 mm", "rim";
+    fillet_too_round: with("face_width = 33.0", "face_width = 33.0\nfillet_radius = 0.9")
+        => Inconsistent "gears.fillet_radius" at 5:17, "0.9", "0 to 0.4719 modules", "full round";
+    relief_without_a_length: with("teeth = 53", "teeth = 53\ntip_relief_amount = 20.0")
+        => Inconsistent "gears.gear.tip_relief_length" at 8:1, "its default", "above 0", "tip relief length";
+    gears_too_close: with("face_width = 33.0", "face_width = 33.0\ncentre_distance = 79.5")
+        => Inconsistent "gears.centre_distance" at 5:19, "79.5", "80 to 81.499 mm", "jam";
+    gears_too_far: with("face_width = 33.0", "face_width = 33.0\ncentre_distance = 84.0")
+        => Inconsistent "gears.centre_distance" at 5:19, "84.0", "80 to 81.499 mm", "contact ratio is";
+    misalignment_pulls_apart: with("speed = 2000.0", "speed = 2000.0\nmisalignment = 2.4")
+        => Inconsistent "operation.misalignment" at 18:16, "2.4", "to 1.499 mm", "contact ratio is";
+    misalignment_jams: with("speed = 2000.0", "speed = 2000.0\nmisalignment = -0.1")
+        => Inconsistent "operation.misalignment" at 18:16, "-0.1", "to 1.499 mm", "jam";
+    misalignment_of_a_test: format!("{SHORT}[[test]]\nid = \"A\"\n[[test]]\nid = \"B\"\nmisalignment = 2.4\n")
+        => Inconsistent "test.misalignment" at 25:16, "2.4", "to 1.499 mm", "contact ratio is";
+    interference: with("face_width = 33.0", "face_width = 33.0\naddendum = 1.15")
+        => Inconsistent "gears.centre_distance" at 1:1, "its default", "for this pair", "free from 80.0480 mm on";
+    youngs_modulus_in_gpa: with("youngs_modulus = 2.1e5", "youngs_modulus = 210")
+        => BadValue "material.youngs_modulus" at 12:18, "210", "500 to 1.5e6 MPa", "looks like GPa";
+    youngs_modulus_in_pa: with("youngs_modulus = 2.1e5", "youngs_modulus = 2.1e11")
+        => BadValue "material.youngs_modulus" at 12:18, "2.1e11", "500 to 1.5e6 MPa", "looks like Pa";
+    incompressible: with("poisson_ratio = 0.3", "poisson_ratio = 0.5")
+        => BadValue "material.poisson_ratio" at 13:17, "0.5", "above -1, up to 0.4999", "incompressible";
+    density_in_g_per_cm3: with("density = 7850.0", "density = 7.85")
+        => BadValue "material.density" at 14:11, "7.85", "100 to 25000 kg/m3", "looks like g/cm3";
+    material_twice: with("density = 7850.0", "density = 7850.0\n[material.gear]\nyoungs_modulus = 2.8e3\npoisson_ratio = 0.38\ndensity = 1400")
+        => Inconsistent "material.youngs_modulus" at 12:18, "2.1e5", "[material.pinion]", "beside a member's own";
+    torque_zero: with("torque = 100.0", "torque = 0")
+        => BadValue "operation.torque" at 16:10, "0", "above 0", "out of range";
+    torque_negative: with("torque = 100.0", "torque = -100.0")
+        => BadValue "operation.torque" at 16:10, "-100.0", "above 0", "reversed = true";
+    torque_in_nmm: with("torque = 100.0", "torque = 100000.0")
+        => Inconsistent "operation.torque" at 16:10, "100000.0", "above 0, up to", "is it in N mm?";
+    speed_zero: with("speed = 2000.0", "speed = 0")
+        => BadValue "operation.speed" at 17:9, "0", "rpm", "out of range";
+    wear_negative: with("coefficient = 6e-10", "coefficient = -6e-10")
+        => BadValue "wear.coefficient" at 19:15, "-6e-10", "mm2/N", "out of range";
+    wear_without_its_power: with("coefficient = 6e-10", "coefficient = 6.0")
+        => BadValue "wear.coefficient" at 19:15, "6.0", "mm2/N", "power of ten";
+    cycles_zero: with("cycles = 50000", "cycles = 0")
+        => BadValue "wear.cycles" at 20:10, "0", "pinion revolutions", "out of range";
+    cycles_negative: with("cycles = 50000", "cycles = -1e3")
+        => BadValue "wear.cycles" at 20:10, "-1e3", "above 0", "out of range";
+    unknown_contact: format!("{SHORT}[model]\ncontact = \"fme\"\n")
+        => BadValue "model.contact" at 22:11, "\"fme\"", "\"fem\" or \"hertz\" or \"paper\"", "the nearest is \"fem\"";
+    viscosity_in_cp: format!("{SHORT}[lubricant]\nviscosity = 15\n")
+        => BadValue "lubricant.viscosity" at 22:13, "15", "Pa s", "looks like mPa s";
+    temperature_in_kelvin: format!("{SHORT}[thermal]\nbulk_temperature = 333.0\n")
+        => BadValue "thermal.bulk_temperature" at 22:20, "333.0", "-80 to 300 degC", "looks like kelvin";
+    free_unknown: format!("{SHORT}[fit]\nfree = [\"wear.coeficient\"]\n")
+        => BadValue "fit.free" at 22:9, "\"wear.coeficient\"", "\"wear.coefficient\"", "the nearest is";
+    free_twice: format!("{SHORT}[fit]\nfree = [\"wear.coefficient\", \"wear.coefficient\"]\n")
+        => BadValue "fit.free" at 22:29, "\"wear.coefficient\"", "\"wear.coefficient\"", "twice";
+    free_of_numbers: format!("{SHORT}[fit]\nfree = [1]\n")
+        => WrongType "fit.free" at 22:9, "1", "a text in quotes", "the whole number";
+    scatter_of_an_unknown_word: format!("{SHORT}[noise]\ncoefficient_scatter = \"estimated\"\n")
+        => BadValue "noise.coefficient_scatter" at 22:23, "\"estimated\"", "\"estimate\" or a number", "";
+    scatter_negative: format!("{SHORT}[noise]\ncoefficient_scatter = -0.1\n")
+        => BadValue "noise.coefficient_scatter" at 22:23, "-0.1", "0 to 10", "";
+    effect: format!("{SHORT}[[effect]]\nkind = \"running_in\"\namplitude = 3.0\n")
+        => NotAvailable "effect.kind" at 22:8, "\"running_in\"", "no [[effect]]", "effects are not available in this version";
+    effect_parameter_outside_its_bounds: format!("{SHORT}[[effect]]\nkind = \"x\"\na = {{ value = 3.0, upper = 2.0 }}\n")
+        => BadValue "effect.a.value" at 23:15, "3.0", "2", "outside its own bounds";
+    effect_without_a_kind: format!("{SHORT}[[effect]]\namplitude = 3.0\n")
+        => MissingKey "effect.kind" at 21:1, "no key `kind`", "a text", "is missing";
+    formula_with_two_expressions: format!("{SHORT}[[effect]]\nkind = \"formula\"\nname = \"n\"\nprofile = \"1\"\nwear_factor = \"2\"\n")
+        => BadValue "effect.profile" at 24:11, "\"1\"", "one of wear_factor", "second expression";
+    test_without_an_id: format!("{SHORT}[[test]]\ntorque = 10\n")
+        => MissingKey "test.id" at 21:1, "no key `id`", "a text", "is missing";
+    test_twice: format!("{SHORT}[[test]]\nid = \"A\"\n[[test]]\nid = \"A\"\n")
+        => BadValue "test.id" at 24:6, "\"A\"", "different in each test", "is taken";
+    test_role: format!("{SHORT}[[test]]\nid = \"A\"\nrole = \"hold-out\"\n")
+        => BadValue "test.role" at 23:8, "\"hold-out\"", "\"fit\" or \"holdout\"", "the nearest is \"holdout\"";
+    test_reversed: format!("{SHORT}[[test]]\nid = \"A\"\nreversed = 1\n")
+        => WrongType "test.reversed" at 23:12, "1", "true or false", "the whole number";
+    measurements_without_a_file: format!("{SHORT}[measurements]\n")
+        => MissingKey "measurements.file" at 21:1, "no key `file`", "file name", "is missing";
+    order_three: format!("{SHORT}[numerics]\norder = 3\n")
+        => BadValue "numerics.order" at 22:9, "3", "1 to 2", "linear";
+    friction_without_a_coefficient: format!("{SHORT}[numerics]\nfriction = true\n")
+        => Inconsistent "numerics.friction" at 22:12, "true", "lubricant.friction_coefficient", "[lubricant]";
+    duplicate_key: with("module = 2.0", "module = 2.0\nmodule = 3.0")
+        => Syntax "module" at 3:1, "`module`", "each key once", "stands twice";
+    duplicate_table: format!("{SHORT}[wear]\n")
+        => Syntax "wear" at 21:2, "`wear`", "each key once", "stands twice";
+    syntax_value: with("module = 2.0", "module = two")
+        => Syntax "module" at 2:10, "`two`", "a number, a text in quotes", "not valid TOML";
+    syntax_header: with("[wear]", "[wear")
+        => Syntax "" at 18:6, "the end of the line", "`]`", "unclosed table";
+    syntax_decimal_comma: with("module = 2.0", "module = 2,0")
+        => Syntax "module" at 2:11, "`,", "", "not valid TOML";
+    syntax_end: "[gears]\nmodule ="
+        => Syntax "module" at 2:9, "the end", "", "not valid TOML";
+}
+
+#[test]
+fn empty_file_names_the_first_table() {
+    let error = Study::parse("", "study.toml").unwrap_err();
+    let message = error.to_string();
+    assert_eq!(error.diagnostic().key, "gears");
+    assert!(message.contains("study.toml:1:1"), "{message}");
+}
+
+#[test]
+fn a_message_looks_like_a_compilers() {
+    let error = Study::parse(
+        &with("speed = 2000.0", "speed = 2000.0\nmisalignment = 2.4"),
+        "study.toml",
+    )
+    .unwrap_err();
+    insta_like(
+        &error.to_string(),
+        "\
+error: operation.misalignment = 2.4: contact ratio is 0.6168, at least 1 is needed: centre distance 82.4000 mm found, at most 81.4996 mm allowed, a misalignment of at most 1.4996 mm
+  --> study.toml:18:16
+   |
+18 | misalignment = 2.4
+   |                ^^^ found 2.4, allowed: 0 to 1.499 mm for this pair
+   |
+   = help: the misalignment is added to the centre distance (80 mm)",
+    );
+}
+
+fn insta_like(found: &str, expected: &str) {
+    assert_eq!(
+        found.trim_end(),
+        expected.trim_end(),
+        "\nfound:\n{found}\nexpected:\n{expected}"
+    );
+}
+
+#[test]
+fn values_arrive_in_the_units_of_the_program() {
+    let study = Study::parse(FULL, "folder/study.toml").unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(study.gears.pinion.spec.teeth, 27);
+    assert_eq!(study.gears.gear.spec.teeth, 53);
+    assert!((study.gears.pinion.rack.pressure_angle - std::f64::consts::PI / 9.0).abs() < 1e-15);
+    assert_eq!(study.gears.centre_distance, 80.0);
+    assert_eq!(study.operation.torque_nmm, 1e5, "100 N m");
+    assert_eq!(study.operation.cycles, 50_000.0);
+    assert_eq!(study.operation.bulk_temperature_c, Some(60.0));
+    assert_eq!(study.operation.viscosity_pa_s, Some(0.015));
+    assert_eq!(study.wear.coefficient, 6e-10);
+    assert_eq!(study.contact, ContactKind::Fem);
+    assert_eq!(study.free, [FreeParameter::WearCoefficient]);
+    assert_eq!(study.noise.coefficient_scatter, Scatter::Estimate);
+    assert_eq!(
+        study.measurements.as_deref(),
+        Some(std::path::Path::new("folder/measurements.csv"))
+    );
+    assert_eq!(study.materials.pinion, study.materials.gear);
+}
+
+#[test]
+fn defaults_are_those_of_the_format() {
+    let study = Study::parse(SHORT, "study.toml").unwrap();
+    let rack = study.gears.pinion.rack;
+    assert_eq!(
+        (rack.addendum, rack.dedendum, rack.fillet_radius),
+        (1.0, 1.25, 0.38),
+        "ISO 53 profile A"
+    );
+    assert_eq!(
+        study.gears.centre_distance, 80.0,
+        "zero backlash: m (z1 + z2)/2 without profile shift"
+    );
+    assert_eq!(study.operation.misalignment_mm, 0.0);
+    assert_eq!(
+        (study.lubricant, study.thermal, study.measurements.clone()),
+        (None, None, None)
+    );
+    assert_eq!(study.contact, ContactKind::Fem);
+    assert_eq!(study.free, [FreeParameter::WearCoefficient]);
+    assert_eq!(
+        (study.noise.coefficient_scatter, study.noise.datum_um),
+        (Scatter::Estimate, 0.5)
+    );
+    let n = &study.numerics;
+    assert_eq!(
+        (n.order, n.elements_per_half_width, n.positions, n.fields),
+        (Order::Quadratic, 8, 150, 4)
+    );
+    assert_eq!(
+        (n.step_tolerance, n.friction, n.stored_states),
+        (1e-3, false, 10)
+    );
+}
+
+/// FZG type C: 91.5001 mm is free of backlash for x = 0.1817/0.1715, m 4.5, 16/24 teeth (published: 91.5 nominal).
+#[test]
+fn default_centre_distance_follows_the_profile_shifts() {
+    let text = SHORT
+        .replace("module = 2.0", "module = 4.5")
+        .replace("face_width = 33.0", "face_width = 14.0")
+        .replace("teeth = 27", "teeth = 16\nprofile_shift = 0.1817")
+        .replace("teeth = 53", "teeth = 24\nprofile_shift = 0.1715");
+    let study = Study::parse(&text, "study.toml").unwrap_or_else(|error| panic!("{error}"));
+    assert!(
+        (study.gears.centre_distance - 91.5001).abs() < 1e-4,
+        "{}",
+        study.gears.centre_distance
+    );
+}
+
+#[test]
+fn relief_is_stated_in_micrometres_and_used_in_millimetres() {
+    let text = with(
+        "teeth = 53",
+        "teeth = 53\ntip_relief_amount = 20\ntip_relief_length = 2",
+    );
+    let study = Study::parse(&text, "study.toml").unwrap();
+    assert!((study.gears.gear.spec.tip_relief_amount - 0.02).abs() < 1e-15);
+    assert_eq!(study.gears.gear.spec.tip_relief_length, 2.0);
+}
+
+#[test]
+fn tests_override_the_operation() {
+    let text = format!(
+        "{SHORT}[[test]]\nid = \"A\"\n[[test]]\nid = \"B\"\nrole = \"holdout\"\ntorque = 50\nspeed = 600\nmisalignment = 0.5\n\
+         cycles = 1e6\nviscosity = 0.03\nbulk_temperature = 80\nreversed = true\n"
+    );
+    let study = Study::parse(&text, "study.toml").unwrap();
+    assert_eq!(study.tests[0].conditions, study.operation);
+    assert_eq!(study.tests[0].role, Role::Fit);
+    let b = study.conditions(Some("B")).unwrap();
+    assert_eq!(study.tests[1].role, Role::Holdout);
+    assert_eq!(
+        (b.torque_nmm, b.speed_rpm, b.misalignment_mm, b.cycles),
+        (5e4, 600.0, 0.5, 1e6)
+    );
+    assert_eq!(
+        (b.viscosity_pa_s, b.bulk_temperature_c, b.reversed),
+        (Some(0.03), Some(80.0), true)
+    );
+    assert_eq!(study.conditions(None).unwrap(), &study.operation);
+    let message = study.conditions(Some("b")).unwrap_err().to_string();
+    for part in [
+        "study.toml:21:1",
+        "\"b\"",
+        "\"A\", \"B\"",
+        "the nearest is \"B\"",
+    ] {
+        assert!(message.contains(part), "{part} in:\n{message}");
+    }
+}
+
+#[test]
+fn each_member_may_have_its_own_material() {
+    let text = with(
+        "[material]\nyoungs_modulus = 2.1e5\npoisson_ratio = 0.3\ndensity = 7850.0\n",
+        "[material.pinion]\nyoungs_modulus = 2.1e5\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+         [material.gear]\nyoungs_modulus = 2800\npoisson_ratio = 0.38\ndensity = 1410\n",
+    );
+    let study = Study::parse(&text, "study.toml").unwrap();
+    assert_eq!(study.materials.gear.elastic.youngs_modulus, 2800.0);
+    assert_eq!(study.materials.pinion.elastic.youngs_modulus, 2.1e5);
+}
+
+#[test]
+fn a_byte_order_mark_and_windows_line_ends_change_nothing() {
+    let plain = Study::parse(SHORT, "study.toml").unwrap();
+    let windows = Study::parse(
+        &format!("\u{feff}{}", SHORT.replace('\n', "\r\n")),
+        "study.toml",
+    )
+    .unwrap();
+    assert_eq!(windows.gears, plain.gears);
+    assert_eq!(windows.operation, plain.operation);
+    let bad = with("module = 2.0", "module = -2.0").replace('\n', "\r\n");
+    let error = Study::parse(&format!("\u{feff}{bad}"), "study.toml").unwrap_err();
+    assert_eq!(error.position(), Some((2, 10)));
+    assert!(!error.to_string().contains('\r'), "{error}");
+}
+
+#[test]
+fn files_that_cannot_be_read_are_refused_with_their_name() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("good.toml"), SHORT).unwrap();
+    let missing = Study::load(&folder.path().join("god.toml")).unwrap_err();
+    assert_eq!(missing.diagnostic().fault, Fault::Unreadable);
+    for part in ["god.toml", "no such file", "study files here: good.toml"] {
+        assert!(missing.to_string().contains(part), "{missing}");
+    }
+    let of_folder = Study::load(folder.path()).unwrap_err();
+    assert!(
+        of_folder.to_string().contains("found a folder"),
+        "{of_folder}"
+    );
+
+    let latin = folder.path().join("latin.toml");
+    std::fs::write(&latin, b"# ok\ntitle = \"Zahnr\xe4der\"\n").unwrap();
+    let error = Study::load(&latin).unwrap_err();
+    assert_eq!(error.diagnostic().fault, Fault::NotUtf8);
+    assert_eq!(error.position(), Some((2, 15)));
+    for part in [
+        "latin.toml:2:15",
+        "found the byte 0xE4",
+        "allowed: UTF-8 text",
+        "save the file as UTF-8",
+    ] {
+        assert!(error.to_string().contains(part), "{error}");
+    }
+    let wide = folder.path().join("wide.toml");
+    std::fs::write(&wide, b"\xff\xfet\0i\0t\0l\0e\0").unwrap();
+    assert!(
+        Study::load(&wide)
+            .unwrap_err()
+            .to_string()
+            .contains("looks like UTF-16")
+    );
+    assert!(Study::load(&folder.path().join("good.toml")).is_ok());
+}
+
+#[test]
+fn a_mesh_file_must_be_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.toml");
+    std::fs::write(
+        &path,
+        format!("{SHORT}[numerics]\nmesh_gear = \"gear.msh\"\n"),
+    )
+    .unwrap();
+    let error = Study::load(&path).unwrap_err();
+    assert_eq!(error.position(), Some((22, 13)), "{error}");
+    std::fs::write(folder.path().join("gear.msh"), "").unwrap();
+    let study = Study::load(&path).unwrap();
+    assert_eq!(
+        study.numerics.mesh_gear,
+        Some(folder.path().join("gear.msh"))
+    );
+}
+
+#[test]
+fn later_faults_find_the_place_of_their_key() {
+    let study = Study::parse(SHORT, "study.toml").unwrap();
+    let stated = study.refuse("wear.coefficient", "is too small", "1 to 2", "try 1");
+    assert_eq!(stated.position(), Some((19, 15)));
+    assert_eq!(stated.diagnostic().found, "6e-10");
+    let absent = study.refuse("operation.misalignment", "is missing", "", "");
+    assert_eq!(absent.position(), Some((15, 1)), "the table's header");
+    assert!(
+        study
+            .refuse("lubricant.viscosity", "is needed", "", "")
+            .position()
+            .is_some()
+    );
+}
+
+/// Nesting as deep as the text allows: refused, without running out of stack.
+#[test]
+fn deep_nesting_is_refused() {
+    let deep = 200_000;
+    for text in [
+        format!("a = {}", "[".repeat(deep)),
+        format!("a = {}1{}", "[".repeat(deep), "]".repeat(deep)),
+        format!("a = {}", "{a=".repeat(deep)),
+        format!("{} = 1", vec!["a"; deep].join(".")),
+        format!("[{}]", vec!["a"; deep].join(".")),
+    ] {
+        assert!(Study::parse(&text, "study.toml").is_err());
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, rng_seed: proptest::test_runner::RngSeed::Fixed(20), failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn truncated_studies_never_panic(cut in 0..FULL.len(), seed in any::<prop::sample::Index>()) {
+        let mut end = cut;
+        while !FULL.is_char_boundary(end) { end -= 1; }
+        check(&FULL[..end])?;
+        let start = seed.index(end + 1);
+        if FULL.is_char_boundary(start) { check(&FULL[start..])?; }
+    }
+
+    #[test]
+    fn mutated_studies_never_panic(edits in prop::collection::vec((any::<prop::sample::Index>(), "[ -~äµ\u{0}\n\r\t]{0,3}", 0..6usize), 1..6)) {
+        let mut text: Vec<char> = FULL.chars().collect();
+        for (at, insert, remove) in edits {
+            let at = at.index(text.len());
+            let end = (at + remove).min(text.len());
+            text.splice(at..end, insert.chars());
+        }
+        check(&text.into_iter().collect::<String>())?;
+    }
+
+    #[test]
+    fn swapped_values_never_panic(
+        line in any::<prop::sample::Index>(),
+        value in prop::sample::select(vec!["0", "-1", "1e308", "-1e308", "1e-308", "nan", "-inf", "[]", "{}", "\"\"", "true",
+            "1979-05-27", "99999999999999999999999999999999999999999999", "0x7fffffffffffffff", "[[1]]", "{ value = 1 }", "'x'"]),
+    ) {
+        let mut lines: Vec<String> = FULL.lines().map(str::to_owned).collect();
+        let keyed: Vec<usize> = (0..lines.len()).filter(|&i| lines[i].contains(" = ")).collect();
+        let at = keyed[line.index(keyed.len())];
+        let key = lines[at].split(" = ").next().unwrap().to_owned();
+        lines[at] = format!("{key} = {value}");
+        check(&lines.join("\n"))?;
+    }
+}
+
+/// Either a study, or a message with its parts.
+fn check(text: &str) -> Result<(), TestCaseError> {
+    if let Err(error) = Study::parse(text, "study.toml") {
+        let message = error.to_string();
+        prop_assert!(message.starts_with("error: "), "{message}");
+        prop_assert!(message.contains("--> study.toml:"), "{message}");
+        prop_assert!(
+            !error.diagnostic().found.is_empty() && !error.diagnostic().allowed.is_empty(),
+            "{message}"
+        );
+    }
+    Ok(())
+}
