@@ -10,9 +10,9 @@ use gearwear::verify::contact_and_wear::{Effort, FAMILIES};
 use gearwear::verify::sliding::{self, DEFAULT_TOLERANCE, SlidingContact};
 use gearwear::verify::wear_winkler;
 
-fn check(ids: &str) {
+fn check(id: &str) {
     let mut count = 0;
-    for family in FAMILIES.iter().filter(|f| f.ids == ids) {
+    for family in FAMILIES.iter().filter(|f| f.ids.contains(&id)) {
         let all = (family.run)(Effort::Quick).unwrap();
         let failed: Vec<String> = all
             .iter()
@@ -27,7 +27,7 @@ fn check(ids: &str) {
         );
         count += all.len();
     }
-    assert!(count > 0, "no case {ids}");
+    assert!(count > 0, "no case {id}");
 }
 
 #[test]
@@ -42,7 +42,7 @@ fn full_winkler_contact_relaxes_at_second_order() {
 
 #[test]
 fn parabola_on_winkler_grows_towards_even_pressure() {
-    check("F4 F5");
+    check("F4");
 }
 
 #[test]

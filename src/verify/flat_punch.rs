@@ -14,9 +14,8 @@ use crate::fem::structured::Order;
 use crate::material::Elastic;
 use crate::numeric::Vec2;
 use crate::verify::half_bodies::{HalfBody, HalfBodySpec, Outline};
-use crate::verify::hertz_cylinders::both;
 use crate::verify::sliding::{SlidingContact, value_at};
-use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
+use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies, both};
 use crate::verify::wear_punch::{DATA, graded_grid, table_rows};
 use crate::verify::{CaseError, Measured, discipline};
 

@@ -1,26 +1,24 @@
-//! Hertz contact of two half cylinders of finite elements (benchmark B2), and partial slip on top of it (B5).
+//! Hertz contact of two half cylinders of finite elements (benchmark B2).
 //!
 //! ```text
 //! b = √(4 F' ρ/(π E*))   p₀ = 2 F'/(π b)   p(x) = p₀ √(1 − x²/b²)
-//! c = b √(1 − Q'/(μ F'))   q(x) = μ p₀ (√(1 − x²/b²) − (c/b) √(1 − x²/c²))
 //! ```
-//! Johnson, Contact Mechanics (1985), Eqs. (4.43) to (4.45) and (7.27), for bodies that are half planes near the contact.
+//! Johnson, Contact Mechanics (1985), Eqs. (4.43) to (4.45), for bodies that are half planes near the contact.
 //! Half cylinders of radius R with flat loaded tops are not quite: what is left when the mesh is fine is of the order
 //! (b/R)², measured by [`finite_body_effect`].
 
 use std::f64::consts::PI;
 
-use crate::analytic::cattaneo::PartialSlip;
 use crate::analytic::hertz_line;
 use crate::contact::mortar::Facing;
-use crate::contact::unilateral::{Drive, Problem, Solution, solve};
+use crate::contact::unilateral::{Drive, Solution};
 use crate::fem::structured::Order;
 use crate::fem::{Axis, edge_traction};
 use crate::material::{Elastic, contact_modulus};
 use crate::numeric::Vec2;
 use crate::verify::half_bodies::{HalfBody, HalfBodySpec, Outline, fine_surface};
 use crate::verify::sliding::{half_width, value_at};
-use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
+use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies, both};
 use crate::verify::{CaseError, Measured, discipline};
 
 /// Two equal half cylinders.
@@ -166,14 +164,6 @@ impl Cylinders {
             .with_loads(loads, Vec::new())?;
         Ok((side, surface))
     }
-}
-
-/// Both directions of each node.
-pub(crate) fn both(nodes: &[u32]) -> Vec<(u32, Axis)> {
-    nodes
-        .iter()
-        .flat_map(|&n| [(n, Axis::X), (n, Axis::Y)])
-        .collect()
 }
 
 /// How a pressure compares with Hertz's of half width b and peak p₀.
@@ -341,80 +331,5 @@ pub fn finite_body_effect(per_half_width: usize) -> Result<Vec<Measured>, CaseEr
         10.0,
         0.5,
     ));
-    Ok(out)
-}
-
-/// B5: partial slip under a tangential load after B2, by the product's operators.
-///
-/// The bodies are alike, so normal and tangential problems do not couple; q = μp − c where the correction c ≥ 0 solves a
-/// unilateral problem of the same form with the tangential compliance (Jäger, Arch. Appl. Mech. 68, 1998):
-/// r = δ L − W_t (μ p − c) ≥ 0 is the slip, L·c = μF' − Q'.
-///
-/// # Errors
-/// [`CaseError`] if a mesh is refused or a contact has no solution.
-pub fn partial_slip(per_half_width: usize) -> Result<Vec<Measured>, CaseError> {
-    let (friction, pull) = (0.2, 16.0 * 0.05851);
-    let case = Cylinders {
-        held: true,
-        ..Cylinders::benchmark(per_half_width, Order::Quadratic, Grid::Nodes)
-    };
-    let pair = case.build()?;
-    let normal = pair.solve(Drive::Load(case.load()))?;
-    let w = pair.compliance_along(Vec2::x());
-    let limit = nalgebra::DVector::from_iterator(
-        pair.xi.len(),
-        normal.pressure.iter().map(|p| friction * p),
-    );
-    let gap: Vec<f64> = (&w * &limit * -1.0).iter().copied().collect();
-    let length = &pair.coupling.length;
-    let drive = Drive::Load(friction * case.load() - pull);
-    let problem = Problem {
-        w: &w,
-        gap: &gap,
-        arm: length,
-        lever: length,
-        drive,
-        symmetric: true,
-    };
-    let stick = solve(&problem, &[])?;
-    let q: Vec<f64> = limit
-        .iter()
-        .zip(&stick.pressure)
-        .map(|(l, c)| l - c)
-        .collect();
-    let b = case.half_width();
-    let exact = PartialSlip::new(case.peak(), b, friction, pull);
-    let largest = q.iter().fold(0.0f64, |m, q| m.max(*q));
-    let over = q
-        .iter()
-        .zip(&limit)
-        .map(|(q, l)| q.abs() - l)
-        .fold(0.0, f64::max);
-    let at = format!("{per_half_width} edges per b");
-    let mut out = vec![
-        Measured::absolute(
-            "B5",
-            format!("{at}: stick half width c, mm"),
-            half_width(&pair.xi, &stick.active),
-            exact.stick,
-            b / per_half_width as f64,
-        ),
-        Measured::relative(
-            "B5",
-            format!("{at}: largest q, MPa"),
-            largest,
-            exact.peak_traction(),
-            0.03,
-        ),
-        Measured::relative(
-            "B5",
-            format!("{at}: integral of q, N/mm"),
-            pair.resultant(&q),
-            pull,
-            1e-8,
-        ),
-        Measured::bound("B5", format!("{at}: largest |q| - mu p, MPa"), over, 1e-9),
-    ];
-    out.extend(discipline("B5", &at, &stick));
     Ok(out)
 }

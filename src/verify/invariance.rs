@@ -14,9 +14,8 @@ use crate::material::{Elastic, contact_modulus};
 use crate::mesh::{Cells, Mesh};
 use crate::numeric::{Vec2, rotate};
 use crate::verify::half_bodies::{HalfBody, HalfBodySpec, Outline, fine_surface};
-use crate::verify::hertz_cylinders::both;
 use crate::verify::sliding::value_at;
-use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
+use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies, both};
 use crate::verify::{CaseError, Measured};
 
 /// How the problem is put.

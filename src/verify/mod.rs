@@ -10,6 +10,7 @@ pub mod half_bodies;
 pub mod hertz_cylinders;
 pub mod invariance;
 pub mod nafems_cylinder;
+pub mod partial_slip;
 pub mod patch;
 pub mod sliding;
 pub mod two_bodies;

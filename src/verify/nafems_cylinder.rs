@@ -19,8 +19,8 @@ use crate::fem::{Body, edge_traction};
 use crate::material::{Elastic, contact_modulus};
 use crate::numeric::Vec2;
 use crate::verify::half_bodies::{HalfBody, HalfBodySpec, Outline, fine_surface};
-use crate::verify::hertz_cylinders::{both, compare};
-use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
+use crate::verify::hertz_cylinders::compare;
+use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies, both};
 use crate::verify::{CaseError, Measured, discipline};
 
 /// Line load, N/mm; cylinder radius, mm.

@@ -13,8 +13,7 @@ use crate::fem::structured::{Order, Patch};
 use crate::fem::{Axis, edge_traction};
 use crate::material::Elastic;
 use crate::numeric::{Vec2, rotate};
-use crate::verify::hertz_cylinders::both;
-use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
+use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies, both};
 use crate::verify::{CaseError, Measured, discipline};
 
 /// How the upper block is pushed.

@@ -244,6 +244,14 @@ impl TwoBodies {
     }
 }
 
+/// Both directions of each node.
+pub(crate) fn both(nodes: &[u32]) -> Vec<(u32, Axis)> {
+    nodes
+        .iter()
+        .flat_map(|&n| [(n, Axis::X), (n, Axis::Y)])
+        .collect()
+}
+
 /// w += D A Dᵀ.
 fn add_projected(w: &mut DMatrix<f64>, rows: &SparseRows, a: &DMatrix<f64>) {
     for l in 0..rows.len() {

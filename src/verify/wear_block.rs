@@ -11,9 +11,9 @@ use crate::contact::mortar::Facing;
 use crate::fem::structured::Order;
 use crate::numeric::Vec2;
 use crate::verify::half_bodies::{HalfBody, HalfBodySpec, Outline, fine_surface};
-use crate::verify::hertz_cylinders::{MATERIAL, both};
+use crate::verify::hertz_cylinders::MATERIAL;
 use crate::verify::sliding::SlidingContact;
-use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies};
+use crate::verify::two_bodies::{ElasticSide, Surface, TwoBodies, both};
 use crate::verify::wear_half_plane::{DATA, table_rows};
 use crate::verify::{CaseError, Measured};
 
