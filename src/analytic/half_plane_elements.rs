@@ -11,7 +11,11 @@
 //! end of the grid), and ln|z| is the fourth derivative of z⁴/24 (ln|z| − 25/12). For hats far apart that form loses
 //! digits; there the integrand is smooth and Gauss's rule takes over.
 
+use std::f64::consts::FRAC_2_PI;
+
 use nalgebra::DMatrix;
+
+use super::half_plane::strip_influence;
 
 /// Weighted compliance of the hats on the nodes `x` (ascending, mm) for the contact modulus `modulus` (E*, MPa), mm³/N.
 ///
@@ -34,25 +38,17 @@ pub fn weighted_compliance(x: &[f64], modulus: f64, reference: f64) -> DMatrix<f
     w
 }
 
-/// Half width of a line contact of cylinders, mm: √(4 F' R / (π E*)); Johnson (1985), Eq. (4.43).
-pub fn hertz_half_width(load: f64, radius: f64, modulus: f64) -> f64 {
-    (4.0 * load * radius / (std::f64::consts::PI * modulus)).sqrt()
-}
-
 /// Eigenvalues ν_n of −∫ ln|x − t| φ dt = ν φ + const with ∫ φ = 0 on (−1, 1), the largest `count`, descending.
 ///
-/// Constant panels with collocation at their centres, `panels` of them (even); the parity of φ alternates, odd first.
+/// Panels of constant pressure as in [`PunchWear`](super::punch_wear::PunchWear), `panels` of them (even), but only the
+/// largest by subspace iteration on each parity, so thousands of panels are cheap. Odd and even modes alternate.
 /// They are the relaxation numbers of the pressure under a wearing flat punch: mode n decays as exp(−π k E* s/(2 a ν_n)).
 pub fn punch_eigenvalues(panels: usize, count: usize) -> Vec<f64> {
     let half = panels / 2;
     let h = 2.0 / panels as f64;
-    // −∫ ln|z| over a panel at distance d, exact
+    // a contact modulus of 2/π leaves the bare kernel −ln
     let influence: Vec<f64> = (0..panels)
-        .map(|d| {
-            let (a, b) = ((d as f64 - 0.5) * h, (d as f64 + 0.5) * h);
-            let f = |z: f64| z * (z.abs().ln() - 1.0);
-            f(a) - f(b)
-        })
+        .map(|d| strip_influence(d as f64 * h, h, FRAC_2_PI))
         .collect();
     let mut all: Vec<f64> = [-1.0, 1.0]
         .into_iter()
@@ -269,7 +265,7 @@ mod tests {
     fn hertz_pressure_deflects_to_a_parabola() {
         // w(0) − w(x) = x²/2R inside the contact; Johnson (1985), section 4.2(c)
         let (modulus, radius, load) = (109.89, 4.0, 10.0);
-        let a = hertz_half_width(load, radius, modulus);
+        let a = super::super::hertz_line::half_width(load, radius, modulus);
         let p0 = 2.0 * load / (PI * a);
         let x: Vec<f64> = (-200..=200).map(|i| a * f64::from(i) / 200.0).collect();
         let p: Vec<f64> = x

@@ -8,18 +8,11 @@
 
 use std::f64::consts::PI;
 
-use crate::analytic::half_plane_elements::{hertz_half_width, weighted_compliance};
+use crate::analytic::cylinder_wear::{HISTORY, Row, worn_area};
+use crate::analytic::half_plane_elements::weighted_compliance;
+use crate::analytic::hertz_line;
 use crate::verify::sliding::{SlidingContact, even_grid, half_width, history};
 use crate::verify::{CaseError, Measured};
-
-/// σ, a/a₀, p(0)/p₀, w(0)·R/a₀².
-pub const TABLE: [[f64; 4]; 5] = [
-    [0.1, 1.107, 0.9373, 0.0968],
-    [0.3, 1.247, 0.8287, 0.2730],
-    [1.0, 1.553, 0.6045, 0.7633],
-    [3.0, 2.067, 0.4123, 1.7339],
-    [10.0, 2.960, 0.2743, 4.0084],
-];
 
 /// Load per width N/mm, relative radius mm, contact modulus MPa, wear coefficient mm²/N.
 pub const DATA: (f64, f64, f64, f64) = (10.0, 4.0, 109.8901, 1e-3);
@@ -34,9 +27,9 @@ pub fn cylinder(
     tolerance: f64,
 ) -> Result<Vec<Measured>, CaseError> {
     let (load, radius, modulus, k) = DATA;
-    let a0 = hertz_half_width(load, radius, modulus);
-    let rows: Vec<_> = TABLE.iter().filter(|row| row[0] <= last).collect();
-    let widest = rows.iter().map(|row| row[1]).fold(1.0, f64::max);
+    let a0 = hertz_line::half_width(load, radius, modulus);
+    let rows: Vec<_> = HISTORY.iter().filter(|row| row.sliding <= last).collect();
+    let widest = rows.iter().map(|row| row.half_width).fold(1.0, f64::max);
     let cells = ((widest + 0.15) * per_half_width as f64).ceil() as usize;
     let reach = a0 * cells as f64 / per_half_width as f64;
     let compliance = |x: &[f64], _: &_| weighted_compliance(x, modulus, 8.0 * reach);
@@ -58,12 +51,12 @@ pub fn cylinder(
     )
 }
 
-/// Runs `system` (centre node `centre`) through rows of [`TABLE`]; `data` is load, radius, modulus, a₀.
+/// Runs `system` (centre node `centre`) through rows of [`HISTORY`]; `data` is load, radius, modulus, a₀.
 pub(crate) fn table_rows(
     id: &'static str,
     body: &str,
     system: &mut SlidingContact,
-    rows: &[&[f64; 4]],
+    rows: &[&Row],
     centre: usize,
     data: [f64; 4],
     tolerance: f64,
@@ -73,14 +66,19 @@ pub(crate) fn table_rows(
     let element = system.x[centre + 1] - system.x[centre];
     let stops: Vec<f64> = rows
         .iter()
-        .map(|row| 2.0 * a0 * row[0] / (system.coefficient * modulus))
+        .map(|row| 2.0 * a0 * row.sliding / (system.coefficient * modulus))
         .collect();
     let mut out = Vec::new();
     for (row, snap) in rows
         .iter()
         .zip(history(system, &stops, tolerance, 1e-3 * a0 * a0 / radius)?)
     {
-        let [sigma, a, p, w] = **row;
+        let Row {
+            sliding: sigma,
+            half_width: a,
+            pressure: p,
+            depth: w,
+        } = **row;
         let width = half_width(&system.x, &snap.active) / a0;
         let at = format!("{body}, sigma {sigma} ({} steps)", snap.steps);
         out.push(Measured::absolute(
@@ -104,7 +102,7 @@ pub(crate) fn table_rows(
             w,
             0.02,
         ));
-        let area = 0.5 * PI * sigma * a0.powi(3) / radius;
+        let area = worn_area(sigma, a0, radius);
         out.push(Measured::relative(
             id,
             format!("{at}: F1 balance, worn area, mm2"),

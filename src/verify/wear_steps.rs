@@ -8,6 +8,7 @@
 
 use nalgebra::DVector;
 
+use crate::analytic::half_plane::stable_sliding;
 use crate::analytic::half_plane_elements::weighted_compliance;
 use crate::verify::sliding::{SlidingContact, even_grid, history};
 use crate::verify::wear_winkler::full_contact;
@@ -144,7 +145,7 @@ fn rough_flat(elements: usize) -> SlidingContact {
 pub fn explicit_limit(elements: usize, tolerance: f64) -> Result<Vec<Measured>, CaseError> {
     let (a, modulus, k, mean) = FLAT;
     let h = 2.0 * a / elements as f64;
-    let limit = 4.0 / std::f64::consts::PI * h / (k * modulus);
+    let limit = stable_sliding(h, k, modulus);
     let floor = 1e-2 * a * mean / modulus;
     let mut system = rough_flat(elements);
     let even_after = 40.0 * a / (k * modulus);

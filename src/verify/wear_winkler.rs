@@ -9,6 +9,7 @@
 
 use nalgebra::DMatrix;
 
+use crate::analytic::winkler::{Parabola, full_contact_pressure, worn_half_width};
 use crate::contact::mortar::Coupling;
 use crate::verify::sliding::{SlidingContact, even_grid, half_width, history, value_at};
 use crate::verify::{CaseError, Measured};
@@ -112,7 +113,10 @@ pub fn full_winkler(tolerance: f64) -> Result<Vec<Measured>, CaseError> {
             .pressure
             .iter()
             .zip(&fresh)
-            .map(|(p, p0)| (p - mean - (p0 - mean) * (-tau).exp()).abs() / mean)
+            .map(|(p, p0)| {
+                let exact = full_contact_pressure(*p0, mean, COEFFICIENT, FOUNDATION, snap.s);
+                (p - exact).abs() / mean
+            })
             .fold(0.0, f64::max);
         out.push(Measured::bound(
             "F3",
@@ -138,6 +142,12 @@ pub fn parabola(per_half_width: usize, tolerance: f64) -> Result<Vec<Measured>, 
     let cells = (3.3 * per_half_width as f64).ceil() as usize;
     let x = even_grid(-h * cells as f64, h * cells as f64, 2 * cells);
     let mut system = SlidingContact::new(x, |x| x * x / (2.0 * radius), winkler, load, COEFFICIENT);
+    let exact = Parabola {
+        foundation: FOUNDATION,
+        radius,
+        load,
+        k: COEFFICIENT,
+    };
     let taus = [0.2, 0.6, 1.0, 2.0, 6.0, 20.0, 28.0];
     let stops = taus.map(|tau| tau / (COEFFICIENT * FOUNDATION));
     let mut out = Vec::new();
@@ -147,33 +157,30 @@ pub fn parabola(per_half_width: usize, tolerance: f64) -> Result<Vec<Measured>, 
     {
         let a = half_width(&system.x, &snap.active);
         let centre = snap.pressure[cells];
-        let growth = (1.0 + tau).cbrt();
         if *tau <= 20.0 {
-            let pressure = parabola_pressure(*tau);
-            let worn = growth * growth - pressure;
             out.push(Measured::absolute(
                 "F4",
                 format!("tau {tau}: a/a0"),
                 a / a0,
-                growth,
+                exact.half_width(snap.s) / a0,
                 h / a0,
             ));
             out.push(Measured::relative(
                 "F4",
                 format!("tau {tau}: p(0)/p0"),
                 centre / p0,
-                pressure,
+                exact.centre_pressure(snap.s) / p0,
                 5e-3,
             ));
             out.push(Measured::relative(
                 "F4",
                 format!("tau {tau}: w(0)/delta0"),
                 snap.depth[cells] / approach,
-                worn,
+                exact.centre_depth(snap.s) / approach,
                 5e-3,
             ));
         } else {
-            let rigid = (1.5 * COEFFICIENT * load * radius * snap.s).cbrt();
+            let rigid = worn_half_width(COEFFICIENT, load, radius, snap.s);
             out.push(Measured::relative(
                 "F5",
                 format!("tau {tau}: a against the rigid limit, mm"),
@@ -200,21 +207,6 @@ pub fn parabola(per_half_width: usize, tolerance: f64) -> Result<Vec<Measured>, 
         out.push(balance("F4", &system, &snap.depth, snap.s));
     }
     Ok(out)
-}
-
-/// p(0)/p₀ of the growing contact: exp(−τ) (1 + (2/3) ∫ e^t (1 + t)^(−1/3) dt), by Simpson's rule.
-pub fn parabola_pressure(tau: f64) -> f64 {
-    let pieces = 2000;
-    let h = tau / f64::from(pieces);
-    // e^(t − τ) keeps the numbers small
-    let f = |t: f64| (t - tau).exp() * (1.0 + t).powf(-1.0 / 3.0);
-    let integral: f64 = (0..pieces)
-        .map(|i| {
-            let t = h * f64::from(i);
-            h / 6.0 * (f(t) + 4.0 * f(t + 0.5 * h) + f(t + h))
-        })
-        .sum();
-    (-tau).exp() + 2.0 / 3.0 * integral
 }
 
 /// F1: worn area against k F' s.
