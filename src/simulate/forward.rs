@@ -462,7 +462,7 @@ pub struct Preparation {
 /// Wear since the last condensation after which the members are condensed again, mm.
 ///
 /// Measured by the validation case `recondensation`: condensing again after this wear changes pressures by less than 0.5 %.
-pub const CONDENSE_AFTER: f64 = 0.03;
+pub const CONDENSE_AFTER: f64 = 0.02;
 
 impl Preparation {
     fn is_stale(&self, u: &[f64]) -> bool {
