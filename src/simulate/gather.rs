@@ -64,7 +64,12 @@ pub fn geometry(pair: &Pair) -> Geometry {
         contact_ratio: pair.contact_ratio,
         path_of_contact: pair.path_length,
         base_pitch: pair.base_pitch,
-        backlash_um: 1e3 * pair.backlash,
+        // a pair at its zero-backlash distance leaves rounding of the order of 1e-14 mm
+        backlash_um: if pair.backlash.abs() < 1e-12 {
+            0.0
+        } else {
+            1e3 * pair.backlash
+        },
         speed_ratio: pair.speed_ratio,
         path_limits: [a, b, d, e],
         pinion: wheel(Member::Pinion, a),
