@@ -8,7 +8,9 @@ use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
-use crate::simulate::history::{Progress, StepReport, WearLaw, WearState, state_of, wear_until};
+use crate::simulate::history::{
+    Progress, StepReport, WearLaw, WearState, line_load, state_of, wear_until,
+};
 use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
 use crate::wear::integrator::StepError;
@@ -432,20 +434,27 @@ impl<'a> Forward<'a> {
         self.factorisations
     }
 
-    /// Lever of the torque for each unknown of position `q`, mm·mm.
-    pub fn levers(&self, q: usize) -> &[f64] {
-        self.compliance
-            .as_ref()
-            .map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
+    /// Torque per face width that tooth pair number `index` of position `q` puts on the pinion, N·mm/mm.
+    pub fn moment(&self, q: usize, index: usize, contact: &PositionContact) -> f64 {
+        let pair = &self.cycle.positions[q].pairs[index];
+        match &self.compliance {
+            Some(compliance) => {
+                let own = pair.offset..pair.offset + pair.xi.len();
+                contact.pressure[own.clone()]
+                    .iter()
+                    .zip(&compliance.levers(q)[own])
+                    .map(|(p, l)| p * l)
+                    .sum()
+            }
+            // the analytic model puts each pair's load on the line of action
+            None => line_load(pair, contact) * self.cycle.pair.pinion.base_radius,
+        }
     }
 
     /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
     pub fn torque_of(&self, q: usize, contact: &PositionContact) -> f64 {
-        contact
-            .pressure
-            .iter()
-            .zip(self.levers(q))
-            .map(|(p, l)| p * l)
+        (0..self.cycle.positions[q].pairs.len())
+            .map(|index| self.moment(q, index, contact))
             .sum()
     }
 }

@@ -115,18 +115,13 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
     let pairs = position
         .pairs
         .iter()
-        .map(|pair| {
-            let own = pair.offset..pair.offset + pair.xi.len();
-            let pressure = &contact.pressure[own.clone()];
-            let moment: f64 = pressure
-                .iter()
-                .zip(&forward.levers(q)[own])
-                .map(|(p, l)| p * l)
-                .sum();
+        .enumerate()
+        .map(|(index, pair)| {
+            let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
             PairState {
                 pair: pair.tooth,
                 path: pair.path,
-                load_share: moment / torque,
+                load_share: forward.moment(q, index, contact) / torque,
                 line_load: line_load(pair, contact),
                 peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
                 half_width: half_width(&pair.xi, pressure),
