@@ -13,7 +13,16 @@ pub struct Checkpoint {
     /// The integration.
     pub progress: Option<Progress>,
     /// States stored so far.
-    pub stored: Vec<Progress>,
+    pub stored: Vec<Stored>,
+}
+
+/// A stored state: its contact is solved again from it, prepared as it was then.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Stored {
+    /// How the contact was prepared.
+    pub preparation: Preparation,
+    /// The integration.
+    pub progress: Progress,
 }
 
 /// Why a checkpoint cannot be used.
@@ -31,7 +40,7 @@ pub enum CheckpointError {
 pub type Fingerprint = [u8; 32];
 
 /// Changes with the layout of [`Checkpoint`].
-const FORMAT: &[u8; 8] = b"gwcheck1";
+const FORMAT: &[u8; 8] = b"gwcheck2";
 
 /// Fingerprint of the given texts and of this program's version.
 pub fn fingerprint(parts: &[&str]) -> Fingerprint {
