@@ -335,25 +335,22 @@ impl<'a> Forward<'a> {
             tolerance: self.numerics.step_tolerance,
         };
         loop {
+            // here and not after the step that calls for it: a run resumed from that step does the same
+            self.condense_if_stale(progress.as_ref())?;
             let preparation = self.preparation();
+            let elastic = self.members.is_some();
             let mut go_on = true;
             let mut stale = false;
             let outcome = self.with_model(|model| {
                 wear_until(model, law, progress, stop, &mut |progress| {
                     go_on = observe(&preparation, progress);
-                    stale = preparation.is_stale(&progress.stand.u);
+                    stale = elastic && preparation.is_stale(&progress.stand.u);
                     go_on && !stale
                 })
             });
             match outcome {
                 Ok(_) if !go_on => return Ok(false),
-                Ok(_) if stale => {
-                    let worn = progress.as_ref().map(|p| p.stand.u.clone());
-                    self.prepare(&Preparation {
-                        condensed_at: worn,
-                        ..preparation
-                    })?;
-                }
+                Ok(_) if stale => {}
                 Ok(_) => return Ok(true),
                 Err(StepError::System {
                     source: ContactError::WindowTooNarrow { .. },
@@ -370,6 +367,20 @@ impl<'a> Forward<'a> {
                 }
                 Err(error) => return Err(error.into()),
             }
+        }
+    }
+
+    /// Condenses the members anew if they have worn too far since they were last.
+    fn condense_if_stale(&mut self, progress: Option<&Progress>) -> Result<(), ForwardError> {
+        let preparation = self.preparation();
+        match progress {
+            Some(progress) if self.members.is_some() && preparation.is_stale(&progress.stand.u) => {
+                self.prepare(&Preparation {
+                    condensed_at: Some(progress.stand.u.clone()),
+                    ..preparation
+                })
+            }
+            _ => Ok(()),
         }
     }
 
@@ -394,6 +405,9 @@ impl<'a> Forward<'a> {
     /// # Errors
     /// [`ForwardError`] if a worn member cannot be factored.
     pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
+        if *preparation == self.preparation() {
+            return Ok(());
+        }
         if preparation.window != self.cycle.spec.window {
             let spec = CycleSpec {
                 window: preparation.window,

@@ -1,5 +1,6 @@
 //! Turns the solver's states into the plain data of a [`Run`](crate::simulate::result::Run).
 
+use crate::contact::cycle::PairContact;
 use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Gear, Member, Pair};
@@ -126,6 +127,8 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
                 peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
                 half_width: half_width(&pair.xi, pressure),
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
+                at_corner: pair.frame.touch != Touch::Flanks
+                    || ends_loaded(pair, pressure, forward.cycle().spec.window),
             }
         })
         .collect();
@@ -134,6 +137,14 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
         angle_urad: 1e6 * contact.approach,
         pairs,
     }
+}
+
+/// Whether there is pressure where a flank ends: at the first or last node, if that is the end of a flank (tip or form circle)
+/// and not of the strip ±`window` (mm) in which contact is looked for.
+fn ends_loaded(pair: &PairContact, pressure: &[f64], window: f64) -> bool {
+    let (low, high) = pair.frame.extent(window);
+    let loaded = |node: Option<&f64>| node.is_some_and(|p| *p > 0.0);
+    (low > -window && loaded(pressure.first())) || (high < window && loaded(pressure.last()))
 }
 
 /// Half the width of the strip with pressure: from the zero beyond its first node to that beyond its last, each taken
