@@ -93,6 +93,8 @@ pub struct Position {
     pub gap: Vec<f64>,
     /// Weighted lever arm about the pinion's centre: closing of the gap per rotation (mm·mm/rad).
     pub arm: Vec<f64>,
+    /// Smallest distance of a tooth pair that was left out as out of reach, mm.
+    pub left_out: f64,
 }
 
 /// The mesh cycle of one gear pair at one centre distance.
@@ -189,6 +191,7 @@ impl Position {
             pairs: Vec::new(),
             gap: Vec::new(),
             arm: Vec::new(),
+            left_out: f64::INFINITY,
         };
         for ToothContact {
             pinion_tooth: tooth,
@@ -196,9 +199,13 @@ impl Position {
             ..
         } in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch)
         {
-            let Some(frame) = Frame::new(pair, path).filter(|f| f.separation <= spec.reach) else {
+            let Some(frame) = Frame::new(pair, path) else {
                 continue;
             };
+            if frame.separation > spec.reach {
+                out.left_out = out.left_out.min(frame.separation);
+                continue;
+            }
             let (low, high) = frame.extent(spec.window);
             let Some(xi) = grid(low, high, spec) else {
                 continue;
