@@ -7,6 +7,10 @@ pub mod contact_and_wear;
 pub mod convergence;
 pub mod elasticity;
 pub mod flat_punch;
+pub mod gear_geometry;
+pub mod gear_pairs;
+pub mod gear_stiffness;
+pub mod gears;
 pub mod half_bodies;
 pub mod hertz_cylinders;
 pub mod invariance;
@@ -170,10 +174,25 @@ pub enum CaseError {
     /// The elastic solver refused a mesh, a support or a load.
     #[error(transparent)]
     Elasticity(#[from] FemError),
+    /// A gear pair could not be built or its contact not solved.
+    #[error("gears: {reason}")]
+    Gears {
+        /// What the gear, mesh or contact code said.
+        reason: String,
+    },
     /// The displacements of a rigid body were asked for.
     #[error("body {side} is rigid")]
     Rigid {
         /// 0 or 1.
         side: usize,
     },
+}
+
+impl CaseError {
+    /// A case that failed in the gear, mesh or contact code.
+    pub(crate) fn gears(error: impl std::fmt::Display) -> Self {
+        Self::Gears {
+            reason: error.to_string(),
+        }
+    }
 }
