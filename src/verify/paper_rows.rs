@@ -81,9 +81,15 @@ fn text(printed: &Printed) -> String {
         "-" => "",
         unit => unit,
     };
+    let fate = match printed.verdict {
+        Fate::Quirk => " (reproduced with a quirk)",
+        Fate::NotReproduced => " (not reproduced)",
+        Fate::ContradictsTheory => " (contradicts theory)",
+        Fate::Input | Fate::Reproduced => "",
+    };
     let ours = printed.ours.map_or("none".to_owned(), |v| short(v));
     format!(
-        "{}, {}: paper {}, ours {ours}, theory {} {unit}",
+        "{}, {}: paper {}{fate}, ours {ours}, theory {} {unit}",
         printed.quantity,
         printed.condition,
         short(printed.paper),

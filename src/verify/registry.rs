@@ -4,7 +4,9 @@ use crate::fem::FemError;
 use crate::paper::reference::ReferenceError;
 use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
-use crate::verify::{CaseError, Measured, SKIPPED, Skipped, elasticity, paper_rows, runner::Row};
+use crate::verify::{
+    CaseError, Measured, SKIPPED, Skipped, elasticity, gears, paper_rows, runner::Row,
+};
 
 /// Cases that belong together, as the runner takes them.
 #[derive(Debug, Clone)]
@@ -50,7 +52,7 @@ pub const GROUPS: [&str; 7] = [
 /// Every family, group by group.
 pub fn entries() -> Vec<Entry> {
     let mut all: Vec<Entry> = ELASTIC.iter().map(elastic).collect();
-    let families = contact_and_wear::FAMILIES.iter();
+    let families = contact_and_wear::FAMILIES.iter().chain(gears::FAMILIES);
     all.extend(families.map(|f| family(f.ids, f.title, Work::Family(f.run))));
     all.push(Entry {
         ids: convergence::IDS.map(str::to_owned).to_vec(),
@@ -196,6 +198,32 @@ fn origin(id: &str) -> (&'static str, &'static str) {
             "the reference's own spread and the mesh",
         ),
         "F8" => ("closed form: stability limit on a half plane", ""),
+        "C" => (
+            "closed form: involute geometry; published: GEARpie report of FZG-C",
+            "last digit of the targets",
+        ),
+        "D1" | "D2" | "D3" | "D5" => (
+            "closed form: Hertz at the contact's radii; published: GEARpie report",
+            "0.1 to 0.5 % for the formula, 3 % for elements",
+        ),
+        "D4" => ("published: FZG test standard", ""),
+        "D6" => ("property: global equilibrium", "rounding"),
+        "E1" => (
+            "published: ISO 6336-1, ISO/TR 6336-30",
+            "last digit of the targets",
+        ),
+        "E2" | "E3" => (
+            "independent program: plane-strain elements with Hertz pressure on the flank",
+            "the two programs' assumptions about the pressure differ",
+        ),
+        "E4" => (
+            "independent program: plane-strain elements; published: DIN 3990 value",
+            "stress gradient in the fillet, 5 %",
+        ),
+        "F9" => (
+            "closed form: single-point observation (Andersson and Eriksson)",
+            "share and pressure shape of real contact, 3 %",
+        ),
         _ => ("", ""),
     }
 }

@@ -132,16 +132,19 @@ fn judged(entry: &Entry, measured: Measured) -> Row {
     } else {
         Verdict::Fail
     };
-    let id = if measured.quantity.contains("B8 ") {
-        format!("B8.{}", measured.id)
-    } else {
-        measured.id.to_owned()
-    };
+    // conditions that every family checks beside its own: B8 contact iterations, F1 balance of the worn area
+    let id = ["B8", "F1"]
+        .into_iter()
+        .find(|common| *common != measured.id && measured.quantity.contains(&format!("{common} ")))
+        .map_or(measured.id.to_owned(), |common| {
+            format!("{common}.{}", measured.id)
+        });
     Row {
         id,
         group: entry.group,
         // the measure is not kept, but is what `Measured::relative` computes, to the last bit
-        relative: (measured.value / measured.target - 1.0).abs() == measured.error,
+        relative: measured.tolerance > 0.0
+            && (measured.value / measured.target - 1.0).abs() == measured.error,
         quantity: measured.quantity,
         target: Some(measured.target),
         source: entry.source.to_owned(),
