@@ -121,9 +121,9 @@ impl PositionCompliance {
         let mut couplings = Vec::new();
         for pair in &position.pairs {
             let mut traces = Vec::new();
-            for side in 0..2 {
+            for (side, member) in members.iter().enumerate() {
                 let tooth = member_tooth(pair, side);
-                let flank = members[side]
+                let flank = member
                     .flank(tooth)
                     .ok_or(ContactError::NoFlank { side, tooth })?;
                 traces.push(Trace {

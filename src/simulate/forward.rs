@@ -8,7 +8,9 @@ use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
-use crate::simulate::history::{Progress, StepReport, WearLaw, WearState, state_of, wear_until};
+use crate::simulate::history::{
+    Progress, StepReport, WearLaw, WearState, line_load, state_of, wear_until,
+};
 use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
 use crate::wear::integrator::StepError;
@@ -333,25 +335,22 @@ impl<'a> Forward<'a> {
             tolerance: self.numerics.step_tolerance,
         };
         loop {
+            // here and not after the step that calls for it: a run resumed from that step does the same
+            self.condense_if_stale(progress.as_ref())?;
             let preparation = self.preparation();
+            let elastic = self.members.is_some();
             let mut go_on = true;
             let mut stale = false;
             let outcome = self.with_model(|model| {
                 wear_until(model, law, progress, stop, &mut |progress| {
                     go_on = observe(&preparation, progress);
-                    stale = preparation.is_stale(&progress.stand.u);
+                    stale = elastic && preparation.is_stale(&progress.stand.u);
                     go_on && !stale
                 })
             });
             match outcome {
                 Ok(_) if !go_on => return Ok(false),
-                Ok(_) if stale => {
-                    let worn = progress.as_ref().map(|p| p.stand.u.clone());
-                    self.prepare(&Preparation {
-                        condensed_at: worn,
-                        ..preparation
-                    })?;
-                }
+                Ok(_) if stale => {}
                 Ok(_) => return Ok(true),
                 Err(StepError::System {
                     source: ContactError::WindowTooNarrow { .. },
@@ -368,6 +367,20 @@ impl<'a> Forward<'a> {
                 }
                 Err(error) => return Err(error.into()),
             }
+        }
+    }
+
+    /// Condenses the members anew if they have worn too far since they were last.
+    fn condense_if_stale(&mut self, progress: Option<&Progress>) -> Result<(), ForwardError> {
+        let preparation = self.preparation();
+        match progress {
+            Some(progress) if self.members.is_some() && preparation.is_stale(&progress.stand.u) => {
+                self.prepare(&Preparation {
+                    condensed_at: Some(progress.stand.u.clone()),
+                    ..preparation
+                })
+            }
+            _ => Ok(()),
         }
     }
 
@@ -392,6 +405,9 @@ impl<'a> Forward<'a> {
     /// # Errors
     /// [`ForwardError`] if a worn member cannot be factored.
     pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
+        if *preparation == self.preparation() {
+            return Ok(());
+        }
         if preparation.window != self.cycle.spec.window {
             let spec = CycleSpec {
                 window: preparation.window,
@@ -432,20 +448,27 @@ impl<'a> Forward<'a> {
         self.factorisations
     }
 
-    /// Lever of the torque for each unknown of position `q`, mm·mm.
-    pub fn levers(&self, q: usize) -> &[f64] {
-        self.compliance
-            .as_ref()
-            .map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
+    /// Torque per face width that tooth pair number `index` of position `q` puts on the pinion, N·mm/mm.
+    pub fn moment(&self, q: usize, index: usize, contact: &PositionContact) -> f64 {
+        let pair = &self.cycle.positions[q].pairs[index];
+        match &self.compliance {
+            Some(compliance) => {
+                let own = pair.offset..pair.offset + pair.xi.len();
+                contact.pressure[own.clone()]
+                    .iter()
+                    .zip(&compliance.levers(q)[own])
+                    .map(|(p, l)| p * l)
+                    .sum()
+            }
+            // the analytic model puts each pair's load on the line of action
+            None => line_load(pair, contact) * self.cycle.pair.pinion.base_radius,
+        }
     }
 
     /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
     pub fn torque_of(&self, q: usize, contact: &PositionContact) -> f64 {
-        contact
-            .pressure
-            .iter()
-            .zip(self.levers(q))
-            .map(|(p, l)| p * l)
+        (0..self.cycle.positions[q].pairs.len())
+            .map(|index| self.moment(q, index, contact))
             .sum()
     }
 }

@@ -1,5 +1,6 @@
 //! Turns the solver's states into the plain data of a [`Run`](crate::simulate::result::Run).
 
+use crate::contact::cycle::PairContact;
 use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Gear, Member, Pair};
@@ -64,7 +65,12 @@ pub fn geometry(pair: &Pair) -> Geometry {
         contact_ratio: pair.contact_ratio,
         path_of_contact: pair.path_length,
         base_pitch: pair.base_pitch,
-        backlash_um: 1e3 * pair.backlash,
+        // a pair at its zero-backlash distance leaves rounding of the order of 1e-14 mm
+        backlash_um: if pair.backlash.abs() < 1e-12 {
+            0.0
+        } else {
+            1e3 * pair.backlash
+        },
         speed_ratio: pair.speed_ratio,
         path_limits: [a, b, d, e],
         pinion: wheel(Member::Pinion, a),
@@ -110,22 +116,19 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
     let pairs = position
         .pairs
         .iter()
-        .map(|pair| {
-            let own = pair.offset..pair.offset + pair.xi.len();
-            let pressure = &contact.pressure[own.clone()];
-            let moment: f64 = pressure
-                .iter()
-                .zip(&forward.levers(q)[own])
-                .map(|(p, l)| p * l)
-                .sum();
+        .enumerate()
+        .map(|(index, pair)| {
+            let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
             PairState {
                 pair: pair.tooth,
                 path: pair.path,
-                load_share: moment / torque,
+                load_share: forward.moment(q, index, contact) / torque,
                 line_load: line_load(pair, contact),
                 peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
                 half_width: half_width(&pair.xi, pressure),
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
+                at_corner: pair.frame.touch != Touch::Flanks
+                    || ends_loaded(pair, pressure, forward.cycle().spec.window),
             }
         })
         .collect();
@@ -134,6 +137,14 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
         angle_urad: 1e6 * contact.approach,
         pairs,
     }
+}
+
+/// Whether there is pressure where a flank ends: at the first or last node, if that is the end of a flank (tip or form circle)
+/// and not of the strip ±`window` (mm) in which contact is looked for.
+fn ends_loaded(pair: &PairContact, pressure: &[f64], window: f64) -> bool {
+    let (low, high) = pair.frame.extent(window);
+    let loaded = |node: Option<&f64>| node.is_some_and(|p| *p > 0.0);
+    (low > -window && loaded(pressure.first())) || (high < window && loaded(pressure.last()))
 }
 
 /// Half the width of the strip with pressure: from the zero beyond its first node to that beyond its last, each taken

@@ -94,8 +94,10 @@ fn family(ids: &[&'static str], title: &'static str, work: Work) -> Entry {
     let first = ids.first().copied().unwrap_or_default();
     let (source, reason) = origin(first);
     let mut ids: Vec<String> = ids.iter().map(|id| (*id).to_owned()).collect();
-    if DISCIPLINED.contains(&first) {
-        ids.push(format!("B8.{first}"));
+    for (common, families) in COMMON {
+        if families.contains(&first) {
+            ids.push(format!("{common}.{first}"));
+        }
     }
     Entry {
         ids,
@@ -138,8 +140,11 @@ const ELASTIC: [Elastic; 9] = [
     ),
 ];
 
-/// Families that also report iterations and penetration of their contacts (B8).
-const DISCIPLINED: [&str; 5] = ["B1", "B2", "B3", "B5", "B6"];
+/// Cases that other families report beside their own: iterations and penetration of contacts, balance of the worn area.
+const COMMON: [(&str, &[&str]); 2] = [
+    ("B8", &["B1", "B2", "B3", "B5", "B6"]),
+    ("F1", &["F2", "F3", "F4", "F6"]),
+];
 
 /// Source of the targets of a benchmark, and the reason of its tolerances where they are not the source's own.
 fn origin(id: &str) -> (&'static str, &'static str) {
