@@ -4,6 +4,7 @@
 //! is the verdict. Small cases are also tests; the large ones run in the validation only.
 
 pub mod contact_and_wear;
+pub mod convergence;
 pub mod elasticity;
 pub mod flat_punch;
 pub mod gear_condensation;
@@ -19,8 +20,11 @@ pub mod half_bodies;
 pub mod hertz_cylinders;
 pub mod invariance;
 pub mod nafems_cylinder;
+pub mod paper_rows;
 pub mod partial_slip;
 pub mod patch;
+pub mod registry;
+pub mod runner;
 pub mod sliding;
 pub mod two_bodies;
 pub mod wear_block;
