@@ -225,21 +225,20 @@ fn wear(
         });
         outcome_of_keeping.map_err(RunError::Keep)?;
         let reached = progress.as_ref().map_or(0.0, |p| p.stand.n);
-        match outcome {
-            Ok(true) => {}
-            Ok(false) => return Err(RunError::Stopped { cycles: reached }),
-            Err(source) if reached > 0.0 => {
-                return Err(RunError::Midway {
-                    cycles: reached,
-                    end,
-                    source,
-                });
-            }
-            Err(source) => return Err(source.into()),
+        let failed = |source: ForwardError| match reached {
+            cycles if cycles > 0.0 => RunError::Midway {
+                cycles,
+                end,
+                source,
+            },
+            _ => source.into(),
+        };
+        if !outcome.map_err(failed)? {
+            return Err(RunError::Stopped { cycles: reached });
         }
         let Some(reached) = &progress else { continue };
         stages.end("contact and wear");
-        kept.push(keep(plan, forward, reached, stages)?);
+        kept.push(keep(plan, forward, reached, stages).map_err(failed)?);
         stored.push(Stored {
             preparation: forward.preparation(),
             progress: reached.clone(),
