@@ -6,9 +6,14 @@
 pub mod contact_and_wear;
 pub mod elasticity;
 pub mod flat_punch;
+pub mod gear_condensation;
+pub mod gear_contact;
 pub mod gear_geometry;
 pub mod gear_pairs;
+pub mod gear_root;
+pub mod gear_sharing;
 pub mod gear_stiffness;
+pub mod gear_wear;
 pub mod gears;
 pub mod half_bodies;
 pub mod hertz_cylinders;
