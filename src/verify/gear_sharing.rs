@@ -165,7 +165,7 @@ pub fn behaviour(bench: &Bench, positions: usize) -> Result<Vec<Measured>, CaseE
 }
 
 /// Perfect involutes transmit without error as the load vanishes; what is left is the contact grid's own error, second order
-/// in its spacing, so it takes a fine bench.
+/// in its spacing, so it takes a fine grid.
 ///
 /// # Errors
 /// [`CaseError`] if a contact cannot be solved.

@@ -141,19 +141,14 @@ pub fn sharing(benches: &[Bench], positions: usize) -> Result<Vec<Measured>, Cas
     Ok(out)
 }
 
-/// E3 at a millionth of the load, on a grid fine enough for it; at quick effort left to the validation.
+/// E3 at a millionth of the load, on a contact grid fine enough for its thousandth of a half width.
 ///
 /// # Errors
 /// [`CaseError`] if a member cannot be built or a contact not be solved.
 pub fn light_load(effort: Effort) -> Result<Vec<Measured>, CaseError> {
-    if effort == Effort::Quick {
-        return Ok(Vec::new());
-    }
-    let fine = Numerics {
-        elements_per_half_width: 20.0,
-        ..Numerics::default()
-    };
-    gear_sharing::light_load(&Bench::new(GearCase::reference()?, fine)?, 50)
+    let mut bench = Bench::new(GearCase::reference()?, numerics(effort))?;
+    bench.grid = 0.1;
+    gear_sharing::light_load(&bench, 50)
 }
 
 /// E4 of all pairs.
