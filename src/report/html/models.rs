@@ -1,20 +1,19 @@
 //! The page of `models`: the contact models side by side, and which assumption makes each difference.
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::report::format::{count, percent, significant};
+use crate::report::format::{count, significant};
 use crate::report::models::{
     conclusions, decimals, fixed, of_mounting, published_gear_speed, signed,
 };
-use crate::report::plots::{Plot, Style};
-use crate::simulate::models::{
-    Comparison, ContactCurve, Flank, Kind, Means, Mounted, Quantity, RegionDifference,
-};
+use crate::report::plots;
+use crate::simulate::models::{Comparison, Kind, Means, Mounted, Quantity, RegionDifference};
 
 /// The page of a comparison; `title` is the study's own.
 pub fn models(title: &str, comparison: &Comparison) -> Page {
     let c = &comparison.conditions;
     let mut sections: Vec<Section> = comparison.mounted.iter().map(mounting).collect();
     sections.extend(one_at_a_time(comparison));
+    sections.push(rungs(comparison));
     sections.push(assumptions(comparison));
     Page {
         title: if title.is_empty() {
@@ -30,7 +29,7 @@ pub fn models(title: &str, comparison: &Comparison) -> Page {
             count(c.speed),
             count(c.cycles)
         ),
-        conclusion: conclusions(comparison).join(" "),
+        conclusion: unbroken(&conclusions(comparison).join(" ")),
         sections,
     }
 }
@@ -39,7 +38,7 @@ fn mounting(mounted: &Mounted) -> Section {
     let heading = format!("Misalignment {} mm", mounted.misalignment);
     let mut section = Section::new(&heading);
     for said in of_mounting(mounted) {
-        section = section.paragraph(said);
+        section = section.paragraph(unbroken(&said));
     }
     for quantity in [
         Quantity::DepthPinion,
@@ -48,20 +47,47 @@ fn mounting(mounted: &Mounted) -> Section {
     ] {
         section.tables.extend(ladder(mounted, quantity));
     }
-    section.table(differences(mounted)).plots(plots(mounted))
+    for quantity in Quantity::ALL {
+        section.tables.extend(differences(mounted, quantity));
+    }
+    section.plots(plots::of_models(mounted)).note(
+        "First tables: the models' means, and between them what each replaced assumption changes. Then the differences: of \
+         the means, and after the stroke the largest at one place, both over the mean of the model named second.",
+    )
+}
+
+/// Keeps numbers and their units on one line.
+fn unbroken(text: &str) -> String {
+    [" µm", " mm", " %", " MPa"]
+        .iter()
+        .fold(text.to_owned(), |text, unit| {
+            text.replace(unit, &unit.replace(' ', "\u{a0}"))
+        })
+}
+
+/// The parts of the path of contact as heads of columns: from letter to letter.
+fn heads(mounted: &Mounted) -> Vec<String> {
+    let [a, b, d, e] = mounted.geometry.path_limits;
+    let letter = |y: f64| {
+        let all = [(a, "A"), (e, "E"), (0.0, "C"), (b, "B"), (d, "D")];
+        let nearest = all
+            .iter()
+            .min_by(|p, q| (p.0 - y).abs().total_cmp(&(q.0 - y).abs()));
+        nearest.map_or("", |(_, letter)| letter)
+    };
+    let spans = mounted.spans.iter();
+    spans
+        .map(|s| format!("{}–{}", letter(s.from), letter(s.to)))
+        .collect()
 }
 
 /// The models with their means by region, and between them what each replaced assumption changes.
 fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
-    let caption = format!(
-        "Mean {} along the path of contact, {}: the models, and between them the change as one assumption after the other \
-         is replaced",
-        quantity.label(),
-        quantity.unit()
-    );
-    let mut head = vec!["model or cause", "assumption replaced"];
-    head.extend(mounted.spans.iter().map(|s| s.region.name()));
-    head.push("whole path");
+    let caption = format!("Mean {}, {}", quantity.label(), quantity.unit());
+    let heads = heads(mounted);
+    let mut head = vec!["model or cause"];
+    head.extend(heads.iter().map(String::as_str));
+    head.push("A–E");
     let mut table = Table::new(&caption, head);
     let digits = decimals(quantity);
     let numbers = |means: &Means, said: fn(f64, usize) -> String| {
@@ -70,8 +96,8 @@ fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
             .collect::<Vec<_>>()
     };
     let model = |kind: Kind, means: &Means| {
-        let first = [Cell::Code(kind.name().to_owned()), Cell::text("")];
-        first.into_iter().chain(numbers(means, fixed))
+        let first = Cell::Code(kind.name().to_owned());
+        std::iter::once(first).chain(numbers(means, fixed))
     };
     for ladder in &mounted.ladders {
         let Some(column) = ladder.start.iter().position(|m| m.quantity == quantity) else {
@@ -86,88 +112,108 @@ fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
             if nothing {
                 continue;
             }
-            let first = [
-                Cell::text(rung.cause.label()),
-                Cell::text(format!("{} → {}", rung.replaced, rung.by)),
-            ];
-            table = table.row(first.into_iter().chain(numbers(change, signed)));
+            let first = Cell::text(rung.cause.label());
+            table = table.row(std::iter::once(first).chain(numbers(change, signed)));
         }
         table = table.row(model(ladder.to, &ladder.end[column]));
     }
     (!table.rows.is_empty()).then_some(table)
 }
 
-/// Relative differences by region: of the means, and at the worst place.
-fn differences(mounted: &Mounted) -> Table {
-    let mut head = vec!["quantity", "compared"];
-    head.extend(mounted.spans.iter().map(|s| s.region.name()));
-    let mut table = Table::new(
-        "Difference of the means over the reference's mean; in brackets the mean of the absolute differences and the largest \
-         difference at one place, both over the reference's mean",
-        head,
-    );
-    let relative = |value: Option<f64>| value.map_or("–".to_owned(), |v| signed(100.0 * v, 1));
-    let absolute = |value: Option<f64>| value.map_or("–".to_owned(), |v| fixed(100.0 * v, 1));
-    let cell = |r: &RegionDifference| {
-        Cell::number(format!(
-            "{} % ({}; {})",
-            relative(r.mean),
-            absolute(r.mean_absolute),
-            relative(r.max)
-        ))
+/// Relative differences of one quantity by region: of the means, and at the worst place.
+fn differences(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
+    let heads = heads(mounted);
+    let mut head = vec!["model, reference"];
+    head.extend(heads.iter().map(String::as_str));
+    let mut table = Table::new(&format!("Differences in {}, %", quantity.label()), head);
+    let relative = |value: Option<f64>| {
+        value.map_or("–".to_owned(), |v| {
+            signed(100.0 * v, usize::from(v.abs() < 1.0))
+        })
     };
-    for quantity in Quantity::ALL {
-        for difference in mounted
-            .differences
-            .iter()
-            .filter(|d| d.quantity == quantity)
-        {
-            let first = [
-                Cell::text(quantity.label()),
-                Cell::text(format!(
-                    "{} against {}",
-                    difference.model.name(),
-                    difference.reference.name()
-                )),
-            ];
-            table = table.row(first.into_iter().chain(difference.regions.iter().map(cell)));
-        }
+    let cell =
+        |r: &RegionDifference| Cell::number(format!("{} / {}", relative(r.mean), relative(r.max)));
+    let all = mounted
+        .differences
+        .iter()
+        .filter(|d| d.quantity == quantity);
+    for difference in all {
+        let first = Cell::text(format!(
+            "{}, {}",
+            difference.model.name(),
+            difference.reference.name()
+        ));
+        table = table.row(std::iter::once(first).chain(difference.regions.iter().map(cell)));
     }
-    table
+    (!table.rows.is_empty()).then_some(table)
 }
 
-/// Each correction of the published model by itself.
+/// Each correction of the published model by itself, one column per misalignment.
 fn one_at_a_time(comparison: &Comparison) -> Option<Section> {
+    let columns: Vec<(&Mounted, f64)> = comparison
+        .mounted
+        .iter()
+        .filter(|m| !m.alone.is_empty())
+        .filter_map(|m| Some((m, m.means(Quantity::DepthPinion, Kind::Paper)?.whole)))
+        .collect();
+    let (first, _) = columns.first()?;
+    let heads: Vec<String> = columns
+        .iter()
+        .map(|(m, _)| format!("{}\u{a0}mm", m.misalignment))
+        .collect();
+    let mut head = vec!["cause", "correction"];
+    head.extend(heads.iter().map(String::as_str));
     let mut table = Table::new(
-        "Change of the pinion's mean worn depth when this alone is corrected in the published model",
-        [
-            "misalignment",
-            "cause",
-            "correction",
-            "whole path, µm",
-            "of the model's depth",
-        ],
+        "Change of the pinion's mean worn depth when this alone is corrected, µm and % of the model's depth, by misalignment",
+        head,
     );
-    for mounted in &comparison.mounted {
-        for alone in &mounted.alone {
-            let Some(all) = mounted.means(Quantity::DepthPinion, Kind::Paper) else {
-                continue;
-            };
-            table = table.row([
-                Cell::text(format!("{} mm", mounted.misalignment)),
-                Cell::text(alone.cause.label()),
-                Cell::text(alone.correction),
-                Cell::number(signed(alone.change.whole, 3)),
-                Cell::number(percent(alone.change.whole / all.whole, 2)),
-            ]);
-        }
+    for (row, alone) in first.alone.iter().enumerate() {
+        let numbers = columns.iter().map(|(mounted, all)| {
+            let change = mounted.alone[row].change.whole;
+            let percent = signed(100.0 * change / all, 1);
+            Cell::number(format!("{} ({percent}\u{a0}%)", signed(change, 3)))
+        });
+        let words = [
+            Cell::text(alone.cause.label()),
+            Cell::text(alone.correction),
+        ];
+        table = table.row(words.into_iter().chain(numbers));
     }
-    let section = Section::new("The published model, corrected one step at a time");
     let gear_speed = format!(
         "Gear speed in the published model: {}.",
         published_gear_speed(comparison)
     );
-    (!table.rows.is_empty()).then(|| section.paragraph(gear_speed).table(table))
+    Some(
+        Section::new("The published model, corrected one step at a time")
+            .paragraph(gear_speed)
+            .table(table),
+    )
+}
+
+/// What every rung takes out and puts in.
+fn rungs(comparison: &Comparison) -> Section {
+    let most = comparison
+        .mounted
+        .iter()
+        .max_by_key(|m| m.ladders.iter().map(|l| l.rungs.len()).sum::<usize>());
+    let mut table = Table::new("", ["between", "cause", "assumption", "replaced by"]);
+    for ladder in most.iter().flat_map(|m| &m.ladders) {
+        for rung in &ladder.rungs {
+            table = table.row([
+                Cell::text(format!("{} and {}", ladder.from.name(), ladder.to.name())),
+                Cell::text(rung.cause.label()),
+                Cell::text(rung.replaced),
+                Cell::text(rung.by),
+            ]);
+        }
+    }
+    Section::new("What each cause replaces")
+        .paragraph(
+            "Between two models one assumption after the other is replaced, from top to bottom; each line of the tables above \
+             is the change that one replacement makes. The changes add up to the difference of the two models; where two \
+             assumptions act on each other their order matters.",
+        )
+        .table(table)
 }
 
 fn assumptions(comparison: &Comparison) -> Section {
@@ -179,9 +225,9 @@ fn assumptions(comparison: &Comparison) -> Section {
         ]);
     }
     let mut section = Section::new("What each model assumes").table(table).note(
-        "All models are run without the study's effects. Regions: lower_double from A to B, single_lower from B to the pitch \
-         point C, single_upper from C to D, upper_double from D to E of the path of contact. The rungs between two models add \
-         up to their difference; where two assumptions act on each other their order matters.",
+        "All models are run without the study's effects. A to E is the path of contact with the pitch point C: lower_double \
+         is A to B, single_lower B to C, single_upper C to D, upper_double D to E; means are taken along it. Under a sharp \
+         tip corner the pressure grows without limit as the mesh is refined; load share and wear do not.",
     );
     for out in &comparison.left_out {
         section = section.note(format!(
@@ -190,108 +236,4 @@ fn assumptions(comparison: &Comparison) -> Section {
         ));
     }
     section
-}
-
-/// Pressure, load share and wear, one curve per model.
-fn plots(mounted: &Mounted) -> Vec<Plot> {
-    const PATH: &str = "distance along the path of contact from the pitch point, mm";
-    let [a, b, d, e] = mounted.geometry.path_limits;
-    let letters = [(a, "A"), (b, "B"), (0.0, "C"), (d, "D"), (e, "E")]
-        .map(|(at, letter)| (at, letter.to_owned()));
-    let empty = |name: &str, title: &str, y_label: &str| {
-        let name = format!("{name}_misalignment_{}", mounted.misalignment);
-        let title = format!("{title}, misalignment {} mm", mounted.misalignment);
-        Plot::new(&name, &title, PATH, y_label)
-            .with_marks(letters.clone())
-            .starting_at_zero()
-    };
-    let contact = |plot: Plot, column: fn(&ContactCurve) -> &Vec<f64>| {
-        mounted.models.iter().fold(plot, |plot, model| {
-            let points = model.contact.path.iter().zip(column(&model.contact));
-            let points = points.map(|(x, y)| (*x, *y)).collect();
-            plot.curve(model.kind.name(), style(model.kind), points)
-        })
-    };
-    let wear = |plot: Plot, kinds: &[Kind], gear: bool| {
-        let shown = mounted.models.iter().filter(|m| kinds.contains(&m.kind));
-        shown.fold(plot, |plot, model| {
-            let flank = if gear {
-                model.gear.as_ref()
-            } else {
-                Some(&model.pinion)
-            };
-            let points = |flank: &Flank| {
-                flank
-                    .path
-                    .iter()
-                    .copied()
-                    .zip(flank.depth_um.iter().copied())
-                    .collect()
-            };
-            plot.curve(
-                model.kind.name(),
-                style(model.kind),
-                flank.map(points).unwrap_or_default(),
-            )
-        })
-    };
-    let depth = "worn depth, µm";
-    let mut plots = vec![
-        contact(
-            empty(
-                "pressure",
-                "Largest contact pressure of one pair, unworn",
-                "peak pressure, MPa",
-            ),
-            |c| &c.peak_pressure,
-        ),
-        contact(
-            empty(
-                "load_share",
-                "Share of the torque that one pair carries, unworn",
-                "load share, -",
-            ),
-            |c| &c.load_share,
-        ),
-        wear(
-            empty(
-                "wear_pinion",
-                "Worn depth of the pinion, finite elements and Hertz",
-                depth,
-            ),
-            &[Kind::Hertz, Kind::Fem],
-            false,
-        ),
-        wear(
-            empty(
-                "wear_gear",
-                "Worn depth of the gear, finite elements and Hertz",
-                depth,
-            ),
-            &[Kind::Hertz, Kind::Fem],
-            true,
-        ),
-    ];
-    if mounted.model(Kind::Paper).is_some() {
-        plots.push(wear(
-            empty(
-                "wear_pinion_paper",
-                "Worn depth of the pinion, all models",
-                depth,
-            ),
-            &[Kind::Paper, Kind::Hertz, Kind::Fem],
-            false,
-        ));
-    }
-    plots.retain(|plot| !plot.is_empty());
-    plots
-}
-
-/// The same colour for a model in all plots.
-fn style(kind: Kind) -> Style {
-    Style::Kind(match kind {
-        Kind::Fem => 0,
-        Kind::Hertz => 1,
-        Kind::Paper => 2,
-    })
 }
