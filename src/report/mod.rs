@@ -19,4 +19,4 @@ pub mod vtk;
 
 pub use atomic::{Staging, write_file};
 pub use error::OutputError;
-pub use run::{Written, write_models, write_page, write_run, write_validation};
+pub use run::{Written, write_models, write_page, write_run, write_run_with, write_validation};

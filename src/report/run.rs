@@ -21,7 +21,19 @@ pub struct Written {
 
 /// Writes the result of `run`.
 pub fn write_run(run: &Run, folder: &Path) -> Result<Written, OutputError> {
+    write_run_with(run, &[], folder)
+}
+
+/// Writes the result of `run` with further files (name, content), such as what it was made from.
+pub fn write_run_with(
+    run: &Run,
+    further: &[(&str, &[u8])],
+    folder: &Path,
+) -> Result<Written, OutputError> {
     let mut staging = Staging::begin(folder)?;
+    for (name, content) in further {
+        staging.write(name, content)?;
+    }
     staging.write(
         "summary.json",
         &documents::text("summary.json", &documents::summary(run)?)?,

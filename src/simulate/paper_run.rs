@@ -90,6 +90,7 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
                             peak_pressure: now.pressure,
                             half_width: now.half_width,
                             off_line_of_action: false,
+                            at_corner: false,
                         }],
                     }
                 })
