@@ -317,6 +317,13 @@ impl ContactModel for FemContact<'_> {
                 theta: position.theta,
                 source,
             })?;
+        // a rigid turn closes a corner by r_b times it; the tooth's own wear would only open it
+        if solution.approach * self.cycle.pair.pinion.base_radius > position.left_out {
+            return Err(ContactError::OutOfReach {
+                theta: position.theta,
+                separation: position.left_out,
+            });
+        }
         for pair in &position.pairs {
             let window = self.cycle.spec.window;
             for (k, at_end) in [

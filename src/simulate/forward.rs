@@ -194,6 +194,8 @@ pub struct Forward<'a> {
     compliance: Option<CycleCompliance>,
     condensed_at: Option<Vec<f64>>,
     worn: Option<Box<Members>>,
+    /// Members with more fine teeth than those given, once wear has brought these into reach.
+    extended: Option<Box<Members>>,
     factorisations: usize,
 }
 
@@ -241,6 +243,7 @@ impl<'a> Forward<'a> {
             compliance,
             condensed_at: None,
             worn: None,
+            extended: None,
             factorisations,
         })
     }
@@ -256,13 +259,13 @@ impl<'a> Forward<'a> {
     }
 
     /// The elastic members, by finite elements only.
-    pub fn members(&self) -> Option<&'a Members> {
-        self.members
+    pub fn members(&self) -> Option<&Members> {
+        self.extended.as_deref().or(self.members)
     }
 
     /// The members as last condensed: unworn, or worn by then.
     pub fn condensed(&self) -> Option<&Members> {
-        self.worn.as_deref().or(self.members)
+        self.worn.as_deref().or(self.members())
     }
 
     /// Torque per face width, N·mm/mm.
@@ -365,6 +368,19 @@ impl<'a> Forward<'a> {
                         progress.forget_sets();
                     }
                 }
+                Err(StepError::System {
+                    source: ContactError::OutOfReach { .. },
+                    ..
+                }) if preparation.reach < MOST_REACH * self.cycle.pair.pinion.rack.module => {
+                    // wear lets teeth turn far enough for corners that were not looked at
+                    self.prepare(&Preparation {
+                        reach: 1.5 * preparation.reach,
+                        ..preparation
+                    })?;
+                    if let Some(progress) = progress {
+                        progress.forget_sets();
+                    }
+                }
                 Err(error) => return Err(error.into()),
             }
         }
@@ -396,6 +412,7 @@ impl<'a> Forward<'a> {
     pub fn preparation(&self) -> Preparation {
         Preparation {
             window: self.cycle.spec.window,
+            reach: self.cycle.spec.reach,
             condensed_at: self.condensed_at.clone(),
         }
     }
@@ -408,19 +425,20 @@ impl<'a> Forward<'a> {
         if *preparation == self.preparation() {
             return Ok(());
         }
-        if preparation.window != self.cycle.spec.window {
-            let spec = CycleSpec {
-                window: preparation.window,
-                ..self.cycle.spec
-            };
+        let spec = CycleSpec {
+            window: preparation.window,
+            reach: preparation.reach,
+            ..self.cycle.spec
+        };
+        if spec != self.cycle.spec {
             self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
         }
-        let Some(fresh) = self.members else {
+        let more_teeth = self.extend_members()?;
+        let Some(fresh) = self.members() else {
             return Ok(());
         };
-        if preparation.condensed_at != self.condensed_at {
-            self.condensed_at.clone_from(&preparation.condensed_at);
-            self.worn = match &self.condensed_at {
+        if more_teeth || preparation.condensed_at != self.condensed_at {
+            let worn = match &preparation.condensed_at {
                 Some(u) => {
                     let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
                     let meshes = fresh.worn_meshes(
@@ -428,19 +446,50 @@ impl<'a> Forward<'a> {
                         &self.cycle.stations,
                         [pinion, gear],
                     )?;
-                    self.factorisations += 2;
                     Some(Box::new(fresh.condensed_on(meshes)?))
                 }
                 None => None,
             };
+            self.factorisations += 2 * usize::from(worn.is_some());
+            self.condensed_at.clone_from(&preparation.condensed_at);
+            self.worn = worn;
         }
-        let members = self.worn.as_deref().unwrap_or(fresh);
-        self.compliance = Some(CycleCompliance::new(
-            &self.cycle,
-            members.flanks(),
-            self.numerics.friction,
-        )?);
+        if let Some(members) = self.condensed() {
+            self.compliance = Some(CycleCompliance::new(
+                &self.cycle,
+                members.flanks(),
+                self.numerics.friction,
+            )?);
+        }
         Ok(())
+    }
+
+    /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
+    fn extend_members(&mut self) -> Result<bool, ForwardError> {
+        let Some(members) = self.members() else {
+            return Ok(false);
+        };
+        let mut teeth = Cycle::teeth(&self.cycle.pair, self.cycle.spec);
+        let fine = members.teeth();
+        if members.of_user() || teeth.iter().all(|t| fine.contains(t)) {
+            // a tooth that a user's own mesh lacks is refused by the coupling
+            return Ok(false);
+        }
+        teeth.extend(fine);
+        teeth.sort_unstable();
+        teeth.dedup();
+        let (spacing, order) = (members.spacing(), self.numerics.order);
+        let built = Members::build(
+            &self.set.gears,
+            self.set.materials,
+            &teeth,
+            spacing,
+            order,
+            [None, None],
+        )?;
+        self.factorisations += 2;
+        self.extended = Some(Box::new(built));
+        Ok(true)
     }
 
     /// Stiffness factorisations so far.
@@ -478,13 +527,19 @@ impl<'a> Forward<'a> {
 pub struct Preparation {
     /// Half width of the strip contact is looked for in, mm.
     pub window: f64,
+    /// Tooth pairs farther apart than this are left out, mm.
+    pub reach: f64,
     /// Worn depths at which the members were last condensed, mm at all stations; none: unworn.
     pub condensed_at: Option<Vec<f64>>,
 }
 
+/// Corners farther apart than this are never looked at, in modules: wear of a tenth of a module ends the model's validity.
+const MOST_REACH: f64 = 0.1;
+
 /// Wear since the last condensation after which the members are condensed again, mm.
 ///
-/// Measured by the validation case `recondensation`: condensing again after this wear changes pressures by less than 0.5 %.
+/// Condensing again after 16 µm changes load shares by 2e-4, peak pressures by less than 0.4 % away from the tips and the
+/// depth after the same cycles by 0.014 % (the validation's case on condensing again).
 pub const CONDENSE_AFTER: f64 = 0.02;
 
 impl Preparation {

@@ -104,10 +104,20 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         cycles: state.cycles,
         pinion: profile(Member::Pinion),
         gear: profile(Member::Gear),
-        cycle: (0..cycle.positions.len())
-            .map(|q| position(forward, q, &state.contacts[q]))
-            .collect(),
+        cycle: by_rotation(forward, state),
     }
+}
+
+/// The mesh cycle by ascending rotation.
+fn by_rotation(forward: &Forward, state: &WearState) -> Vec<PositionState> {
+    let mut cycle: Vec<PositionState> = state
+        .contacts
+        .iter()
+        .enumerate()
+        .map(|(q, contact)| position(forward, q, contact))
+        .collect();
+    cycle.sort_by(|a, b| a.position.total_cmp(&b.position));
+    cycle
 }
 
 fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
@@ -120,7 +130,7 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
         .map(|(index, pair)| {
             let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
             PairState {
-                pair: pair.tooth,
+                pair: position.pair_number(pair),
                 path: pair.path,
                 load_share: forward.moment(q, index, contact) / torque,
                 line_load: line_load(pair, contact),
@@ -133,7 +143,7 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
         })
         .collect();
     PositionState {
-        position: position.theta,
+        position: position.phase(),
         angle_urad: 1e6 * contact.approach,
         pairs,
     }
@@ -239,7 +249,7 @@ pub fn frame(
     };
     Ok(Some(FieldFrame {
         cycles: state.cycles,
-        position: cycle.positions[q].theta,
+        position: cycle.positions[q].phase(),
         line_load: cycle.positions[q]
             .pairs
             .iter()

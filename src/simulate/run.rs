@@ -225,21 +225,20 @@ fn wear(
         });
         outcome_of_keeping.map_err(RunError::Keep)?;
         let reached = progress.as_ref().map_or(0.0, |p| p.stand.n);
-        match outcome {
-            Ok(true) => {}
-            Ok(false) => return Err(RunError::Stopped { cycles: reached }),
-            Err(source) if reached > 0.0 => {
-                return Err(RunError::Midway {
-                    cycles: reached,
-                    end,
-                    source,
-                });
-            }
-            Err(source) => return Err(source.into()),
+        let failed = |source: ForwardError| match reached {
+            cycles if cycles > 0.0 => RunError::Midway {
+                cycles,
+                end,
+                source,
+            },
+            _ => source.into(),
+        };
+        if !outcome.map_err(failed)? {
+            return Err(RunError::Stopped { cycles: reached });
         }
         let Some(reached) = &progress else { continue };
         stages.end("contact and wear");
-        kept.push(keep(plan, forward, reached, stages)?);
+        kept.push(keep(plan, forward, reached, stages).map_err(failed)?);
         stored.push(Stored {
             preparation: forward.preparation(),
             progress: reached.clone(),
@@ -269,7 +268,6 @@ fn keep(
     let worn = forward.state(progress)?;
     let state = gather::state(plan, forward, &worn);
     stages.end("contact and wear");
-    let positions = worn.contacts.len();
     let drawn = match (plan.drawn_positions, forward.members()) {
         (0, _) | (_, None) => 0,
         (all, Some(_)) if worn.cycles == plan.conditions.cycles => all,
@@ -277,7 +275,13 @@ fn keep(
     };
     let frames = (0..drawn)
         .into_par_iter()
-        .map(|i| gather::frame(forward, &worn, i * positions / drawn))
+        .map(|i| {
+            gather::frame(
+                forward,
+                &worn,
+                forward.cycle().nearest(i as f64 / drawn as f64),
+            )
+        })
         .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()?;
     stages.end("fields");
     Ok(Kept {

@@ -3,10 +3,11 @@
 //! REF and S30 are plain pairs of module 2, FZG-C is the test gear of the FZG rig with its own rack (no tip shortening).
 
 use crate::contact::cycle::{Cycle, PairContact, Position, Stations};
-use crate::contact::fem::{CycleCompliance, FemContact};
+use crate::contact::fem::{CycleCompliance, FemContact, member_tooth, member_turns};
 use crate::contact::model::{ContactModel, PositionContact};
 use crate::gear::{BasicRack, Gear, Pair, ToothSpec};
 use crate::material::Elastic;
+use crate::numeric::{Vec2, rotate};
 use crate::simulate::forward::GearSet;
 use crate::simulate::history::line_load;
 use crate::simulate::members::Members;
@@ -180,7 +181,7 @@ impl GearCase {
 pub struct Bench {
     /// The pair and its load.
     pub case: GearCase,
-    /// The mounted pair; may be replaced by one with other tip relief (the meshes leave it out).
+    /// The mounted pair.
     pub pair: Pair,
     /// Elastic members.
     pub members: Members,
@@ -208,14 +209,14 @@ pub enum Teeth {
 }
 
 impl Bench {
-    /// Meshes and condenses the members of `case`, fine enough for its own torque.
+    /// Meshes and condenses the members of `case`, fine enough for its own torque and with the teeth twice of it brings in.
     ///
     /// # Errors
     /// [`CaseError`] if a member cannot be built.
     pub fn new(case: GearCase, numerics: Numerics) -> Result<Self, CaseError> {
         let members = case
             .set
-            .members(&numerics, &[case.torque], &[0.0])
+            .members(&numerics, &[case.torque, 2.0 * case.torque], &[0.0])
             .map_err(CaseError::gears)?;
         Ok(Self {
             pair: case.pair()?,
@@ -230,17 +231,31 @@ impl Bench {
     /// # Errors
     /// [`CaseError`] if a contact cannot be solved.
     pub fn solve(&self, paths: &[f64], torque: f64, teeth: Teeth) -> Result<Solved, CaseError> {
+        self.solve_as(&self.pair, paths, torque, teeth)
+    }
+
+    /// As [`Bench::solve`] with a pair that differs in its tip relief (which the meshes leave out).
+    ///
+    /// # Errors
+    /// [`CaseError`] if a contact cannot be solved.
+    pub fn solve_as(
+        &self,
+        pair: &Pair,
+        paths: &[f64],
+        torque: f64,
+        teeth: Teeth,
+    ) -> Result<Solved, CaseError> {
         let per_width = torque / self.case.set.face_width;
         let spacing = self.members.spacing();
         let spec = self
             .numerics
-            .cycle(&self.pair, self.case.set.modulus(), per_width, spacing);
-        let stations = Stations::new(&self.pair, spacing);
+            .cycle(pair, self.case.set.modulus(), per_width, spacing);
+        let stations = Stations::new(pair, spacing);
         let positions = paths
             .iter()
             .map(|&path| {
-                let theta = (path / self.pair.base_pitch).rem_euclid(1.0);
-                let position = Position::new(&self.pair, &stations, spec, theta);
+                let theta = (path / pair.base_pitch).rem_euclid(1.0);
+                let position = Position::new(pair, &stations, spec, theta);
                 match teeth {
                     Teeth::All => position,
                     Teeth::One => alone(position, path),
@@ -248,7 +263,7 @@ impl Bench {
             })
             .collect();
         let cycle = Cycle {
-            pair: self.pair.clone(),
+            pair: pair.clone(),
             spec,
             stations,
             positions,
@@ -277,6 +292,7 @@ fn alone(position: Position, path: f64) -> Position {
     let own = pair.offset..pair.offset + pair.xi.len();
     Position {
         theta: position.theta,
+        left_out: f64::INFINITY,
         gap: position.gap[own.clone()].to_vec(),
         arm: position.arm[own].to_vec(),
         pairs: vec![PairContact {
@@ -330,5 +346,29 @@ impl Solved {
             .iter()
             .filter(|p| line_load(p, &self.contacts[q]) > 0.0)
             .count()
+    }
+
+    /// Nodal contact forces per face width on member `side` (0 pinion, 1 gear) at position `q`, member frame, N/mm.
+    pub fn nodal_forces(&self, q: usize, side: usize, bench: &Bench) -> Vec<(u32, Vec2)> {
+        let position = &self.cycle.positions[q];
+        let turn = member_turns(&self.cycle, position.theta)[side];
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let mut out = Vec::new();
+        for (pair, coupling) in position.pairs.iter().zip(self.compliance.couplings(q)) {
+            let tooth = member_tooth(pair, side);
+            let flanks = &bench.members.members[side].mesh.flanks;
+            let Some(chain) = flanks.iter().find(|f| f.tooth == tooth) else {
+                continue;
+            };
+            let mut amount = vec![0.0; chain.nodes.len()];
+            for k in 0..pair.xi.len() {
+                let p = self.contacts[q].pressure[pair.offset + k];
+                coupling.traces[side].scatter(k, p, &mut amount);
+            }
+            let traction = rotate(self.compliance.traction(pair), -turn) * sign;
+            let loaded = chain.nodes.iter().zip(&amount).filter(|(_, a)| **a != 0.0);
+            out.extend(loaded.map(|(&node, a)| (node, traction * *a)));
+        }
+        out
     }
 }
