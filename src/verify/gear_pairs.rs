@@ -181,7 +181,7 @@ impl GearCase {
 pub struct Bench {
     /// The pair and its load.
     pub case: GearCase,
-    /// The mounted pair; may be replaced by one with other tip relief (the meshes leave it out).
+    /// The mounted pair.
     pub pair: Pair,
     /// Elastic members.
     pub members: Members,
@@ -231,17 +231,31 @@ impl Bench {
     /// # Errors
     /// [`CaseError`] if a contact cannot be solved.
     pub fn solve(&self, paths: &[f64], torque: f64, teeth: Teeth) -> Result<Solved, CaseError> {
+        self.solve_as(&self.pair, paths, torque, teeth)
+    }
+
+    /// As [`Bench::solve`] with a pair that differs in its tip relief (which the meshes leave out).
+    ///
+    /// # Errors
+    /// [`CaseError`] if a contact cannot be solved.
+    pub fn solve_as(
+        &self,
+        pair: &Pair,
+        paths: &[f64],
+        torque: f64,
+        teeth: Teeth,
+    ) -> Result<Solved, CaseError> {
         let per_width = torque / self.case.set.face_width;
         let spacing = self.members.spacing();
         let spec = self
             .numerics
-            .cycle(&self.pair, self.case.set.modulus(), per_width, spacing);
-        let stations = Stations::new(&self.pair, spacing);
+            .cycle(pair, self.case.set.modulus(), per_width, spacing);
+        let stations = Stations::new(pair, spacing);
         let positions = paths
             .iter()
             .map(|&path| {
-                let theta = (path / self.pair.base_pitch).rem_euclid(1.0);
-                let position = Position::new(&self.pair, &stations, spec, theta);
+                let theta = (path / pair.base_pitch).rem_euclid(1.0);
+                let position = Position::new(pair, &stations, spec, theta);
                 match teeth {
                     Teeth::All => position,
                     Teeth::One => alone(position, path),
@@ -249,7 +263,7 @@ impl Bench {
             })
             .collect();
         let cycle = Cycle {
-            pair: self.pair.clone(),
+            pair: pair.clone(),
             spec,
             stations,
             positions,
@@ -283,7 +297,8 @@ fn alone(position: Position, path: f64) -> Position {
         pairs: vec![PairContact {
             offset: 0,
             ..pair.clone()
-        }],
+        left_out: f64::INFINITY,
+    }],
     }
 }
 
