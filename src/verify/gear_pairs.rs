@@ -292,13 +292,13 @@ fn alone(position: Position, path: f64) -> Position {
     let own = pair.offset..pair.offset + pair.xi.len();
     Position {
         theta: position.theta,
+        left_out: f64::INFINITY,
         gap: position.gap[own.clone()].to_vec(),
         arm: position.arm[own].to_vec(),
         pairs: vec![PairContact {
             offset: 0,
             ..pair.clone()
-        left_out: f64::INFINITY,
-    }],
+        }],
     }
 }
 
