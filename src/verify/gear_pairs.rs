@@ -254,7 +254,7 @@ impl Bench {
         let positions = paths
             .iter()
             .map(|&path| {
-                let theta = (path / pair.base_pitch).rem_euclid(1.0);
+                let theta = Cycle::home(pair, spec, path / pair.base_pitch);
                 let position = Position::new(pair, &stations, spec, theta);
                 match teeth {
                     Teeth::All => position,

@@ -41,6 +41,11 @@ pub const FAMILIES: &[Family] = &[
         run: |e| sharing(&benches(numerics(e))?, pick(e, 24, 150)),
     },
     Family {
+        ids: &["E3"],
+        title: "transmission error without load",
+        run: light_load,
+    },
+    Family {
         ids: &["E4"],
         title: "root stress",
         run: |e| root(&benches(numerics(e))?),
@@ -134,6 +139,21 @@ pub fn sharing(benches: &[Bench], positions: usize) -> Result<Vec<Measured>, Cas
         gear_sharing::behaviour(bench, positions)
     })?);
     Ok(out)
+}
+
+/// E3 at a millionth of the load, on a grid fine enough for it; at quick effort left to the validation.
+///
+/// # Errors
+/// [`CaseError`] if a member cannot be built or a contact not be solved.
+pub fn light_load(effort: Effort) -> Result<Vec<Measured>, CaseError> {
+    if effort == Effort::Quick {
+        return Ok(Vec::new());
+    }
+    let fine = Numerics {
+        elements_per_half_width: 20.0,
+        ..Numerics::default()
+    };
+    gear_sharing::light_load(&Bench::new(GearCase::reference()?, fine)?, 50)
 }
 
 /// E4 of all pairs.
