@@ -42,6 +42,8 @@ pub(super) fn run(
         ..numerics
     };
     let mut forward = Forward::new(set, Some(members), conditions, smooth)?;
+    // a history of no cycles: it finds out how far contact has to be looked for
+    forward.wear_to(&mut None, 0.0, &mut |_, _| true)?;
     let modulus = set.modulus();
     let (pressures, contacts) =
         forward.with_model(|fem| steady(fem, &forward, conditions, None))?;
@@ -172,7 +174,7 @@ fn steady(
     let contacts = system.contacts(&fresh)?.to_vec();
     let reading = Reading {
         cycle,
-        levers: &|q| forward.levers(q),
+        moment: &|q, index, contact| forward.moment(q, index, contact),
         torque: forward.torque(),
         hertz,
     };
@@ -191,6 +193,7 @@ const APART: f64 = 1.0;
 fn held_to_line(cycle: &Cycle) -> Cycle {
     let mut held = cycle.clone();
     for position in &mut held.positions {
+        position.left_out = f64::INFINITY;
         for pair in position
             .pairs
             .iter()
@@ -238,7 +241,7 @@ fn worn(
     let cycle = forward.cycle();
     let reading = Reading {
         cycle,
-        levers: &|q| forward.levers(q),
+        moment: &|q, index, contact| forward.moment(q, index, contact),
         torque: forward.torque(),
         hertz,
     };
