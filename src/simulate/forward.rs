@@ -1,5 +1,7 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
+use std::borrow::Cow;
+
 use crate::analytic::iso6336;
 use crate::contact::cycle::{Cycle, CycleSpec, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
@@ -446,11 +448,19 @@ impl<'a> Forward<'a> {
         self.factorisations
     }
 
-    /// Lever of the torque for each unknown of position `q`, mm·mm.
-    pub fn levers(&self, q: usize) -> &[f64] {
-        self.compliance
-            .as_ref()
-            .map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
+    /// Lever of the torque for each unknown of position `q`, mm·mm; by the analytic model all force acts on the line of action.
+    pub fn levers(&self, q: usize) -> Cow<'_, [f64]> {
+        match &self.compliance {
+            Some(compliance) => Cow::Borrowed(compliance.levers(q)),
+            None => {
+                let lengths = self.cycle.positions[q].pairs.iter().flat_map(|p| &p.length);
+                Cow::Owned(
+                    lengths
+                        .map(|l| self.cycle.pair.pinion.base_radius * l)
+                        .collect(),
+                )
+            }
+        }
     }
 
     /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
@@ -458,7 +468,7 @@ impl<'a> Forward<'a> {
         contact
             .pressure
             .iter()
-            .zip(self.levers(q))
+            .zip(self.levers(q).iter())
             .map(|(p, l)| p * l)
             .sum()
     }

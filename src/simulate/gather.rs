@@ -108,17 +108,14 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
 fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
     let position = &forward.cycle().positions[q];
     let torque = forward.torque();
+    let levers = forward.levers(q);
     let pairs = position
         .pairs
         .iter()
         .map(|pair| {
             let own = pair.offset..pair.offset + pair.xi.len();
             let pressure = &contact.pressure[own.clone()];
-            let moment: f64 = pressure
-                .iter()
-                .zip(&forward.levers(q)[own])
-                .map(|(p, l)| p * l)
-                .sum();
+            let moment: f64 = pressure.iter().zip(&levers[own]).map(|(p, l)| p * l).sum();
             PairState {
                 pair: pair.tooth,
                 path: pair.path,
