@@ -104,8 +104,8 @@ fn flank_nodes_stand_at_the_worn_depth_below_the_involute() {
                 let angle = unworn[1].atan2(unworn[0])
                     - (member.base_radius / unworn[0].hypot(unworn[1])).acos();
                 let outward = [-angle.sin(), angle.cos()];
-                for axis in 0..2 {
-                    let miss = drawn.moved[i][axis] + 1e-3 * drawn.depth[i] * outward[axis];
+                for (moved, outward) in drawn.moved[i].iter().zip(outward) {
+                    let miss = moved + 1e-3 * drawn.depth[i] * outward;
                     assert!(miss.abs() < 1e-8, "{name}, node {i}: off by {miss} mm");
                 }
                 flank_nodes += 1;
