@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + asymmetry/2*(1 + tanh((2*approach - 1)*abs(s)/width))",
     source: "parametric; the basis is the higher friction of approach, where debris is driven outwards. S. Wu, H.S. Cheng, J. Tribol. 115 (1993) 493-500, find most wear at the start of engagement (abstract, there from load and film). The tanh is our smoothing over the width of the contact.",
-    signature: "a step between the halves of both flanks: pinion dedendum and gear addendum up together",
+    signature: "pinion dedendum and gear addendum up together; a step between the halves of both flanks",
     confounded_with: &["friction_load", "film_thickness", "radial_misalignment"],
     separated_by: "reversing the drive: it follows the approach, geometry does not",
     needs: &[],

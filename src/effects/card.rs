@@ -2,6 +2,7 @@
 
 use super::effect::{Effect, Hook};
 use super::error::EffectError;
+use super::formula::{Formula, FormulaError};
 use super::prior::Prior;
 
 /// One effect of the catalogue.
@@ -15,7 +16,7 @@ pub struct Card {
     pub formula: &'static str,
     /// Where the formula comes from, and what of it could not be checked.
     pub source: &'static str,
-    /// How it shows in measurements.
+    /// How it shows in measurements; the part before the first semicolon stands in the overview.
     pub signature: &'static str,
     /// Effects of the catalogue that leave a like mark.
     pub confounded_with: &'static [&'static str],
@@ -162,5 +163,22 @@ impl Card {
         self.formula
             .split_once(" = ")
             .map_or(self.formula, |(_, expression)| expression)
+    }
+
+    /// The printed formula, compiled, and the places of the parameters it takes (those of other forms do not stand in it).
+    ///
+    /// # Errors
+    /// [`FormulaError`] if the card's own formula is at fault.
+    pub fn compiled(&self) -> Result<(Formula, Vec<usize>), FormulaError> {
+        let words: Vec<&str> = self
+            .expression()
+            .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+            .collect();
+        let places: Vec<usize> = (0..self.params.len())
+            .filter(|&place| words.contains(&self.params[place].name))
+            .collect();
+        let names: Vec<&str> = places.iter().map(|&at| self.params[at].name).collect();
+        let formula = Formula::of_card(self.hook, self.expression(), &names)?;
+        Ok((formula, places))
     }
 }

@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::AddedDepth,
     formula: "added_depth = rate/100*contact_hours",
     source: "uniform corrosion at a constant rate per time, plain kinematics: contact_hours = 1/(60 n) of the pinion and z2/z1 times that of the gear. The range of 0.01 to 1 um per 100 h is engineering judgement.",
-    signature: "depth at the pitch point, outside the active flank and on the unloaded flank; per cycle as 1/n; no dependence on torque; more mass than profile lost",
+    signature: "depth everywhere, also at the pitch point and on the unloaded flank; per cycle as 1/n; no dependence on torque; more mass than profile lost",
     confounded_with: &["roughness_polish", "micropitting", "oxidative"],
     separated_by: "the unloaded flank and the root as a datum; weighing; two checkpoints. A trace whose level is unknown hides it altogether",
     needs: &[],

@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + amplitude*worn_volume/reference_volume/(1 + worn_volume/saturation_volume)",
     source: "wear by loose particles: E. Rabinowicz, L.A. Dunn, P.G. Russell, Wear 4 (1961) 345-355; growth with the concentration of particles: J.J. Fitzsimmons, H.D. Clevenger, Contaminated lubricants and tapered roller bearing wear, ASLE Trans. 20 (1977) 97-107 (abstract read). Proportional to the concentration is the simplest such law; saturation stands for settling or a filter.",
-    signature: "depth over cycles bends upwards on both members alike, in an unchanged shape; falls back after an oil change",
+    signature: "depth over cycles bends upwards on both members alike; in an unchanged shape; falls back after an oil change",
     confounded_with: &["lubricant_ageing", "surface_layer", "running_in"],
     separated_by: "an oil change or a filter: a break in the slope; a particle count",
     needs: &[],

@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = (max(friction, 0.0001)/reference_friction)^exponent",
     source: "wear proportional to the work of friction: S. Fouvry and others (fretting; not re-read). Friction: the mean tooth friction formula as in ISO/TR 14179-2, taken locally; Ra from the composite Rq as for Gaussian heights.",
-    signature: "a mild change of shape: less wear where speed and radius are large; nothing at the pitch point",
+    signature: "less wear where speed and radius are large, a mild change of shape; nothing at the pitch point",
     confounded_with: &["film_thickness", "approach_recess", "flash_temperature"],
     separated_by: "measured torque loss; speeds far apart",
     needs: &["lubricant.viscosity", "lubricant.roughness"],

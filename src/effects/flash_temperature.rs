@@ -13,7 +13,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = exp(min(max(sensitivity*(bulk_temperature + flash_temperature - reference_temperature), -30), 30))",
     source: "flash temperature: H. Blok (1937) in the form of ISO/TS 6336-20, its factor 1.11 derived again in the tests; B_M of steel agrees with the standard's 435 N/(mm^0.5 m^0.5 s^0.5 K) as public codes quote it. That wear follows the contact temperature exponentially, or as 1/(1 - beta dT) by the hardness, is common use, without a single source.",
-    signature: "nothing at the pitch point, most at both ends of the path and more at the root; grows as T^(3/4) and n^(1/2); the bulk part multiplies everywhere",
+    signature: "most at both ends of the path, none at the pitch point, more at speed; grows as T^(3/4) and n^(1/2), more at the root than at the tip; the bulk part multiplies everywhere",
     confounded_with: &[
         "sliding_speed_exponent",
         "dynamic_load",

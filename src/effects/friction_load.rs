@@ -14,7 +14,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::LoadFactor,
     formula: "load_factor = base_radius/max(base_radius + (1 - 2*approach)*step(abs(s))*coefficient*rho1, base_radius/20)",
     source: "moments of normal and friction force about the pinion's centre; Coulomb friction with the direction of sliding. Statics, checked by hand in the tests.",
-    signature: "a step of 2 mu rho1/r_b1 in load at the pitch point, in the transmission error too; very weak in wear",
+    signature: "a small step of the load at the pitch point; of 2 mu rho1/r_b1, in the transmission error too; very weak in wear",
     confounded_with: &["approach_recess"],
     separated_by: "measured torque loss; reversed drive",
     needs: &[],

@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + (ratio - 1)*(1 - exp(-hours/life))",
     source: "first-order depletion of an additive, a parametric form without a single source; no figure of the literature enters.",
-    signature: "depth over cycles bends upwards in hours, not in cycles or depth; unchanged shape along the flank",
+    signature: "depth bends upwards in hours run, not in cycles or depth; unchanged shape along the flank",
     confounded_with: &["debris_abrasion", "surface_layer", "running_in"],
     separated_by: "two speeds at equal cycles; fresh oil",
     needs: &[],

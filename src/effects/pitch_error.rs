@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::ToothOffset,
     formula: "tooth_offset = deviation",
     source: "single pitch deviation f_pt of ISO 1328-1; 3 to 15 um are classes 5 to 8.",
-    signature: "the measured tooth carries less (or more) than its share in both zones of double contact; teeth differ; once per turn in the transmission error",
+    signature: "the measured tooth carries less or more in both double contact zones; teeth differ; once per turn in the transmission error",
     confounded_with: &["profile_slope", "extra_flexibility", "tip_relief"],
     separated_by: "measuring four teeth or more",
     needs: &[],

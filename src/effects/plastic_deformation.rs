@@ -13,7 +13,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::AddedDepth,
     formula: "added_depth = depth_limit/settling_contacts*exp(-contacts/settling_contacts)*min(max((p_max - yield_pressure)/width, 0), 1)",
     source: "limits of yield and shakedown: K.L. Johnson, Contact Mechanics (1985), ch. 6 and 9 (not re-read); the approach to shakedown as his graphical method (1990) describes it. The ramp over pressure and the exponential in time are our parametric form.",
-    signature: "a dip exactly where the pressure is highest, present at the first checkpoint, then constant; needs torque; profile without mass loss",
+    signature: "an early dip where pressure is highest, then constant; needs torque; profile without mass loss",
     confounded_with: &[
         "severe_transition",
         "micropitting",

@@ -16,7 +16,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = (max(p, 0.001)/reference_pressure)^(exponent - 1)",
     source: "generalised Archard law with a power of the pressure, after S.K. Rhee, Wear equation for polymers sliding against metal surfaces, Wear 16 (1970) 431-445 (W = K P^a v^b t^c); slow-speed gear wear about sigma_H^1.4 after Plewe (1980), quoted in AGMA 925-A03. Neither re-read: the power law is used, no figure of theirs.",
-    signature: "above 1: single contact zone and pinion root wear more than the tip, and wear grows with torque as T^((m+1)/2); no dependence on speed, none on time except by conformity",
+    signature: "single contact and pinion root wear more than the tip (exponent above 1); wear grows with torque as T^((m+1)/2), no dependence on speed, none on time except by conformity",
     confounded_with: &[
         "severe_transition",
         "dynamic_load",

@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::Operation,
     formula: "added_centre_distance = amount",
     source: "involute kinematics at another centre distance (ISO 21771; any gear book).",
-    signature: "the pitch point moves outwards on the pinion (the dip without wear shifts), contact starts higher, the zones of double contact shrink",
+    signature: "the pitch point's dip and the start edge shift outwards on the pinion; the zones of double contact shrink",
     confounded_with: &["bearing_compliance", "thermal_expansion", "approach_recess"],
     separated_by: "the place of the dip and of the start edge give it directly; other torques and temperatures tell it from its look-alikes",
     needs: &[],

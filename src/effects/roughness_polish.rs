@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::AddedDepth,
     formula: "added_depth = height/settling_contacts*exp(-contacts/settling_contacts)*step(p_max)",
     source: "truncation of the roughness in running-in, in the exponential form of C.A. Queener, T.C. Smith, W.L. Mitchell, Wear 8 (1965) 391-400, per contact instead of per sliding distance (title checked, equation not re-read). Heights up to the peak roughness Rp.",
-    signature: "a flat offset over the active flank that saturates, also at the pitch point; hardly depends on torque; the gear lags by the tooth ratio",
+    signature: "a flat offset over the active flank that saturates; also at the pitch point; hardly depends on torque; the gear lags by the tooth ratio",
     confounded_with: &[
         "corrosive_loss",
         "running_in",

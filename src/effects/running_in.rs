@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + amplitude*exp(-cycles/decay_cycles)",
     source: "C.A. Queener, T.C. Smith, W.L. Mitchell, Transient wear of machine parts, Wear 8 (1965) 391-400 (exponential); P.J. Blau, On the nature of running-in, Tribol. Int. 38 (2006) 1007-1012; the hyperbolic tail as in R. Kumar, B. Prakash, A. Sethuramiah (2002). Titles checked, the papers' equations not re-read.",
-    signature: "early excess on both flanks in the shape of the base wear, gone after about three decay times; straight later; nothing at the pitch point",
+    signature: "early excess on both flanks, gone after about three decay times; in the shape of the base wear, straight later, nothing at the pitch point",
     confounded_with: &[
         "surface_layer",
         "coating",

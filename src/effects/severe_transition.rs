@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + (ratio - 1)/(1 + exp((1 - p_max*max(v_slide, 0.02)^speed_exponent/limit)/width))",
     source: "J.F. Archard, W. Hirst, The wear of metals under unlubricated conditions, Proc. R. Soc. A 236 (1956) 397-410; N.C. Welsh (1965); wear maps of S.C. Lim, M.F. Ashby, Acta Metall. 35 (1987) 1-24. They give the jump and its size; the logistic step is our own smoothing of it. Papers not re-read.",
-    signature: "a band with sharp edges where the pressure is highest (with speed: at the pinion's root), switched on above a torque; may end as wear lowers the pressure",
+    signature: "a band with sharp edges where pressure is highest, above some torque; with a speed exponent at the pinion's root; may end as wear lowers the pressure",
     confounded_with: &["pressure_exponent", "plastic_deformation", "tip_relief"],
     separated_by: "torques just below and just above the jump",
     needs: &[],

@@ -11,7 +11,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::WearFactor,
     formula: "wear_factor = (max(v_slide, 0.02)/reference_speed)^exponent",
     source: "generalised Archard law with a power of the speed, after S.K. Rhee, Wear 16 (1970) 431-445 (W = K P^a v^b t^c; not re-read). The floor at 0.02 m/s is ours: at the pitch point the width of the contact still slides.",
-    signature: "below 0 the flank near the pitch point wears more relative to its ends, above 0 less; scales with the speed of the test",
+    signature: "wear near the pitch point off against the ends of the flank; below 0 more, above 0 less; scales with the speed of the test",
     confounded_with: &["film_thickness", "oxidative", "flash_temperature"],
     separated_by: "the shape along the flank within one test",
     needs: &[],

@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::Operation,
     formula: "added_centre_distance = centre_distance*expansion*(bulk_temperature - reference_temperature + heating*power)",
     source: "linear expansion: aluminium 23e-6 against steel 11.5e-6 1/K, so an aluminium housing 40 K warm opens 80 mm by 37 um. Heating in proportion to the power is the simplest balance of loss and cooling.",
-    signature: "a radial misalignment that grows (or shrinks) with power or oil temperature",
+    signature: "a radial misalignment that changes with power or oil temperature; of either sign",
     confounded_with: &["radial_misalignment", "bearing_compliance"],
     separated_by: "hot and cold at the same torque; three times the speed",
     needs: &[],
