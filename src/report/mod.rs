@@ -11,6 +11,7 @@ mod error;
 pub mod format;
 pub mod html;
 pub mod json;
+pub mod models;
 pub mod plots;
 mod run;
 pub mod text;

@@ -90,6 +90,7 @@ mod tests {
         let run = fingerprint(&[b"study", b"test"]);
         let checkpoint = Checkpoint {
             preparation: Preparation {
+                reach: 0.02,
                 window: 0.25,
                 condensed_at: Some(vec![1.0]),
             },

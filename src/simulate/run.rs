@@ -268,7 +268,6 @@ fn keep(
     let worn = forward.state(progress)?;
     let state = gather::state(plan, forward, &worn);
     stages.end("contact and wear");
-    let positions = worn.contacts.len();
     let drawn = match (plan.drawn_positions, forward.members()) {
         (0, _) | (_, None) => 0,
         (all, Some(_)) if worn.cycles == plan.conditions.cycles => all,
@@ -276,7 +275,13 @@ fn keep(
     };
     let frames = (0..drawn)
         .into_par_iter()
-        .map(|i| gather::frame(forward, &worn, i * positions / drawn))
+        .map(|i| {
+            gather::frame(
+                forward,
+                &worn,
+                forward.cycle().nearest(i as f64 / drawn as f64),
+            )
+        })
         .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()?;
     stages.end("fields");
     Ok(Kept {
