@@ -319,7 +319,7 @@ fn defaults_are_those_of_the_format() {
     );
     assert_eq!(
         (n.step_tolerance, n.friction, n.stored_states),
-        (1e-3, false, 10)
+        (2e-3, false, 5)
     );
 }
 

@@ -219,6 +219,10 @@ pub fn one_pass(
                 changing,
             ),
         ] {
+            // the analytic model's share jumps at B and D, between two positions; there only finite elements are asked
+            if place.starts_with("around") && name.contains("Hertz") {
+                continue;
+            }
             out.push(Measured::bound(
                 "F9",
                 format!(
