@@ -1,7 +1,7 @@
 //! A user's own effect by formula.
 
 use gearwear::effects::formula::{Formula, FormulaError};
-use gearwear::effects::{Effect, Hook, Local, ProfileAt, find};
+use gearwear::effects::{Hook, Local, ProfileAt, find};
 use gearwear::gear::Member;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

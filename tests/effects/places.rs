@@ -5,7 +5,7 @@ use gearwear::gear::Member;
 use proptest::prelude::*;
 
 /// A point on the pinion's dedendum of the 27/53 reference pair, in mid-life.
-pub fn ordinary() -> Local {
+pub(crate) fn ordinary() -> Local {
     Local {
         member: Member::Pinion,
         radius: 26.4,
@@ -35,7 +35,7 @@ pub fn ordinary() -> Local {
     }
 }
 
-pub fn profile() -> ProfileAt {
+pub(crate) fn profile() -> ProfileAt {
     ProfileAt {
         member: Member::Pinion,
         radius: 28.5,
@@ -45,7 +45,7 @@ pub fn profile() -> ProfileAt {
     }
 }
 
-pub fn operation() -> OperationState {
+pub(crate) fn operation() -> OperationState {
     OperationState {
         torque: 100.0,
         speed: 2000.0,
