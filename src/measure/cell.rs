@@ -5,7 +5,7 @@ use std::ops::Range;
 use csv::StringRecord;
 
 use super::table::field_spans;
-use crate::source_text::{Diagnostic, Fault};
+use crate::source_text::{Diagnostic, Fault, list, nearest};
 
 /// Longest piece of a cell that a message repeats, characters.
 const SHOWN: usize = 40;
@@ -76,23 +76,28 @@ impl<'c> Cell<'c, '_> {
     pub(super) fn number(self, allowed: &str) -> Result<f64, Box<Diagnostic>> {
         let key = self.key;
         if self.is_empty() {
-            return Err(self.fault(Fault::MissingKey, format!("{key} is missing"), allowed));
+            return Err(self
+                .fault(Fault::MissingKey, format!("{key} is missing"), allowed)
+                .into());
         }
         match self.text().parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
-            Ok(_) => Err(self.fault(
-                Fault::BadValue,
-                format!("{key} is not a finite number"),
-                allowed,
-            )),
+            Ok(_) => Err(self
+                .fault(
+                    Fault::BadValue,
+                    format!("{key} is not a finite number"),
+                    allowed,
+                )
+                .into()),
             Err(_) => {
-                let fault = self.fault(Fault::WrongType, format!("{key} is not a number"), allowed);
-                let comma = self.text().contains(',');
-                Err(if comma {
-                    hinted(fault, "decimals are written with a point")
+                let hint = if self.text().contains(',') {
+                    "decimals are written with a point"
                 } else {
-                    fault
-                })
+                    ""
+                };
+                let message = format!("{key} is not a number");
+                let fault = self.fault(Fault::WrongType, message, allowed);
+                Err(fault.with_hint(hint).into())
             }
         }
     }
@@ -109,15 +114,16 @@ impl<'c> Cell<'c, '_> {
         }
         let names: Vec<&str> = choices.iter().map(|c| name(*c)).collect();
         let message = format!("{} is not the name of a {what}", self.key);
-        let fault = self.fault(
-            Fault::BadValue,
-            message,
-            &crate::source_text::list(names.iter().copied()),
-        );
-        Err(match crate::source_text::nearest(self.text(), names) {
-            Some(near) if !self.is_empty() => hinted(fault, format!("the nearest is `{near}`")),
-            _ => fault,
-        })
+        let fault = self.fault(Fault::BadValue, message, &list(names.iter().copied()));
+        Err(fault.with_hint(self.nearest_of(names)).into())
+    }
+
+    /// The hint that names the candidate nearest to what stands here, if anything does.
+    pub(super) fn nearest_of<'a>(self, candidates: impl IntoIterator<Item = &'a str>) -> String {
+        match nearest(self.text(), candidates) {
+            Some(near) if !self.is_empty() => format!("the nearest is `{near}`"),
+            _ => String::new(),
+        }
     }
 
     /// A fault of this cell.
@@ -126,20 +132,13 @@ impl<'c> Cell<'c, '_> {
         fault: Fault,
         message: impl Into<String>,
         allowed: &str,
-    ) -> Box<Diagnostic> {
+    ) -> Diagnostic {
         let end = self.row.span.end..self.row.span.end;
         let span = self.column.map_or(end, |column| self.row.span_of(column));
-        Box::new(
-            Diagnostic::new(fault, self.key, message)
-                .with_values(shown(self.text()), allowed)
-                .with_span(span),
-        )
+        Diagnostic::new(fault, self.key, message)
+            .with_values(shown(self.text()), allowed)
+            .with_span(span)
     }
-}
-
-/// A message with one more way out.
-pub(super) fn hinted(diagnostic: Box<Diagnostic>, hint: impl Into<String>) -> Box<Diagnostic> {
-    Box::new(diagnostic.with_hint(hint))
 }
 
 /// A cell's text as messages repeat it.

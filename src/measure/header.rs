@@ -116,7 +116,11 @@ fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
         Diagnostic::new(
             Fault::UnknownKey,
             name,
-            format!("there is no column {}", shown(name)),
+            if name.is_empty() {
+                "a column has no name".to_owned()
+            } else {
+                format!("there is no column {}", shown(name))
+            },
         )
         .with_values(shown(name), names())
         .with_hint(hint)

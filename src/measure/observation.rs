@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 
 use super::Trace;
-use super::cell::{Cell, Row, hinted};
+use super::cell::{Cell, Row};
 use super::header::Columns;
 use super::known::{Known, KnownTest};
 use super::quantity::{Place, Quantity, Subject};
 use crate::gear::Member;
-use crate::source_text::{Diagnostic, Fault, list, nearest};
+use crate::source_text::{Diagnostic, Fault, list};
 
 /// One measured value.
 #[derive(Debug, Clone, PartialEq)]
@@ -140,10 +140,7 @@ impl<'k> Reader<'k> {
         };
         let message = "the study has no such test";
         let fault = cell.fault(Fault::BadValue, message, &allowed);
-        Err(match nearest(cell.text(), ids()) {
-            Some(near) if !cell.is_empty() => hinted(fault, format!("the nearest is `{near}`")),
-            _ => fault,
-        })
+        Err(fault.with_hint(cell.nearest_of(ids())).into())
     }
 
     fn radius(&self, cell: Cell<'_, '_>, member: Member) -> Result<f64> {
@@ -156,15 +153,25 @@ impl<'k> Reader<'k> {
         let message = format!("the radius is off the {member}'s flank");
         let fault = cell.fault(Fault::BadValue, message, &allowed);
         let other = member.other();
-        Err(if self.known.on_flank(member, 0.5 * radius) {
-            hinted(fault, "this looks like a diameter")
-        } else if self.known.on_flank(member, 1e3 * radius) {
-            hinted(fault, "this looks like metres")
-        } else if self.known.on_flank(other, radius) {
-            hinted(fault, format!("this radius lies on the {other}'s flank"))
-        } else {
-            fault
-        })
+        let on_flank = |member, radius| self.known.on_flank(member, radius);
+        let hints = [
+            (
+                on_flank(other, radius),
+                format!("this radius lies on the {other}'s flank"),
+            ),
+            (
+                on_flank(member, 0.5 * radius),
+                "this looks like a diameter".to_owned(),
+            ),
+            (
+                on_flank(member, 1e3 * radius),
+                "this looks like metres".to_owned(),
+            ),
+        ];
+        let hints = hints.into_iter().filter(|(likely, _)| *likely);
+        Err(hints
+            .fold(fault, |fault, (_, hint)| fault.with_hint(hint))
+            .into())
     }
 
     fn value(&self, cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
@@ -180,7 +187,7 @@ impl<'k> Reader<'k> {
             format!("this {name} is not possible in {unit}"),
             &format!("at most {} {unit}", limits.above),
         );
-        Err(hinted(fault, format!("this looks like {larger}")))
+        Err(fault.with_hint(format!("this looks like {larger}")).into())
     }
 
     fn face(&self, cell: Cell<'_, '_>) -> Result<Option<f64>> {
@@ -191,7 +198,9 @@ impl<'k> Reader<'k> {
         let allowed = format!("mm from mid-face, {} to {half}", -half);
         let face = cell.number(&allowed)?;
         if face.abs() > half {
-            return Err(cell.fault(Fault::BadValue, "face is off the face width", &allowed));
+            return Err(cell
+                .fault(Fault::BadValue, "face is off the face width", &allowed)
+                .into());
         }
         Ok(Some(face))
     }
@@ -211,11 +220,13 @@ impl<'k> Reader<'k> {
                 return Ok(Some(number));
             }
             let (first, name) = (trace.line, trace.quantity.name());
-            return Err(cell.fault(
-                Fault::Inconsistent,
-                format!("a trace of {name} (from line {first}) goes on with another quantity"),
-                "one quantity in a trace: its points share one datum",
-            ));
+            return Err(cell
+                .fault(
+                    Fault::Inconsistent,
+                    format!("a trace of {name} (from line {first}) goes on with another quantity"),
+                    "one quantity in a trace: its points share one datum",
+                )
+                .into());
         }
         self.traces.push(Trace {
             name: cell.text().to_owned(),
@@ -234,11 +245,13 @@ fn measurable(cell: Cell<'_, '_>, member: Subject, quantity: Quantity) -> Result
         return Ok(());
     }
     let name = quantity.name();
-    Err(cell.fault(
-        Fault::Inconsistent,
-        format!("{name} is no quantity of the {}", member.name()),
-        &list(subjects.iter().map(|s| s.name())),
-    ))
+    Err(cell
+        .fault(
+            Fault::Inconsistent,
+            format!("{name} is no quantity of the {}", member.name()),
+            &list(subjects.iter().map(|s| s.name())),
+        )
+        .into())
 }
 
 fn cycles(cell: Cell<'_, '_>, test: &KnownTest) -> Result<f64> {
@@ -246,11 +259,13 @@ fn cycles(cell: Cell<'_, '_>, test: &KnownTest) -> Result<f64> {
     let allowed = format!("pinion revolutions, 0 to {end}");
     let cycles = cell.number(&allowed)?;
     if cycles < 0.0 {
-        return Err(cell.fault(Fault::BadValue, "cycles are negative", &allowed));
+        return Err(cell
+            .fault(Fault::BadValue, "cycles are negative", &allowed)
+            .into());
     }
     if cycles > end * (1.0 + 1e-9) {
         let message = format!("the test {id} ends before these cycles");
-        return Err(cell.fault(Fault::BadValue, message, &allowed));
+        return Err(cell.fault(Fault::BadValue, message, &allowed).into());
     }
     Ok(cycles)
 }
@@ -259,11 +274,13 @@ fn rotation(cell: Cell<'_, '_>) -> Result<f64> {
     let allowed = "pinion rotation from the pitch point in base pitches, 0 to 1";
     let rotation = cell.number(allowed)?;
     if !(0.0..=1.0).contains(&rotation) {
-        return Err(cell.fault(
-            Fault::BadValue,
-            "the rotation is outside the base pitch",
-            allowed,
-        ));
+        return Err(cell
+            .fault(
+                Fault::BadValue,
+                "the rotation is outside the base pitch",
+                allowed,
+            )
+            .into());
     }
     Ok(rotation)
 }
@@ -273,18 +290,22 @@ fn no_position(cell: Cell<'_, '_>, quantity: Quantity) -> Result<Option<f64>> {
         return Ok(None);
     }
     let name = quantity.name();
-    Err(cell.fault(
-        Fault::Inconsistent,
-        format!("{name} is the whole member's and has no position"),
-        "nothing",
-    ))
+    Err(cell
+        .fault(
+            Fault::Inconsistent,
+            format!("{name} is the whole member's and has no position"),
+            "nothing",
+        )
+        .into())
 }
 
 fn sigma(cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
     let allowed = format!("one standard deviation, above 0, {}", quantity.unit());
     let sigma = cell.number(&allowed)?;
     if sigma <= 0.0 {
-        return Err(cell.fault(Fault::BadValue, "sigma is not above 0", &allowed));
+        return Err(cell
+            .fault(Fault::BadValue, "sigma is not above 0", &allowed)
+            .into());
     }
     Ok(sigma)
 }
