@@ -65,7 +65,7 @@ whole = [involute(s) for s in arcs(s_form, s_tip, 12)]
 root = even([fillet(b) for b in arcs(pi / 2, ALPHA, 1000)], 8)
 root[-1] = lower[0]
 curves, flanks, fine = [], [], []
-start = first = None
+first = None
 land = None
 for k in range(Z):
     a = 2 * pi * k / Z

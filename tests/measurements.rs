@@ -262,6 +262,7 @@ fn line_ends_marks_blanks_quotes_and_column_order_change_nothing() {
         plain
     );
     assert_eq!(parse(GOOD.trim_end()).unwrap(), plain);
+    assert_eq!(parse(&format!("{GOOD}# the end")).unwrap(), plain);
     let columns = "sigma,value,position,quantity,cycles,member,test,tooth,face";
     let other = parse(&format!(
         "{columns}\n0.15,3.42,26.31,wear_depth,250000,pinion,A,\"7, left\",-2.5\n"

@@ -80,7 +80,6 @@ fn benchmark_gears_have_good_triangles() {
     for (name, gear, from, spacing) in benchmark_gears() {
         let mesh = mesh_gear(&gear, &MeshSpec::new(&gear, vec![-1, 0], spacing, from)).expect(name);
         let q = Quality::of(&mesh);
-        println!("{name}: {q:?}");
         assert!(q.min_angle_deg >= 20.0, "{name}: {q:?}");
         assert!(q.angle_1pct >= 28.0, "{name}: {q:?}");
         assert!(q.min_scaled_jacobian > 0.3, "{name}: {q:?}");
@@ -249,7 +248,6 @@ fn area_is_the_gears() {
             (area(&mesh) / exact - 1.0, by_outline / exact - 1.0)
         };
         let ((usual, usual_outline), (fine, fine_outline)) = (error(0.4), error(0.1));
-        println!("{name}: {usual:.2e} {usual_outline:.2e} {fine:.2e} {fine_outline:.2e}");
         assert!(
             usual.abs() < 2e-5 && usual_outline.abs() < 2e-5,
             "{name}: {usual:e}, {usual_outline:e}"
@@ -620,7 +618,6 @@ fn unusable_vtu_is_refused_by_name() {
             .expect_err("refused")
             .to_string();
         assert!(e.starts_with("dir/user.vtu: "), "{e}");
-        println!("{e}");
         e
     };
     let mut off = mesh.clone();

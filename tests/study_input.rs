@@ -315,7 +315,7 @@ fn defaults_are_those_of_the_format() {
     let n = &study.numerics;
     assert_eq!(
         (n.order, n.elements_per_half_width, n.positions, n.fields),
-        (Order::Quadratic, 8, 150, 4)
+        (Order::Quadratic, 5, 100, 4)
     );
     assert_eq!(
         (n.step_tolerance, n.friction, n.stored_states),

@@ -89,26 +89,26 @@ pub(super) fn read_own(study: &Study, member: Member, path: &Path) -> Result<Mes
         Member::Pinion => &study.gears.pinion,
         Member::Gear => &study.gears.gear,
     };
-    let unreadable = |source| CliError::Io {
-        doing: "read",
-        path: path.to_owned(),
-        source,
-    };
-    let read = || -> Result<Result<Mesh, MeshError>, CliError> {
+    let unreadable = |error: std::io::Error| format!("cannot read {}: {error}", path.display());
+    let faulty = |error: MeshError| error.to_string();
+    let read = || -> Result<Mesh, String> {
         if path.extension().is_some_and(|e| e == "msh") {
             let text = fs::read_to_string(path).map_err(unreadable)?;
-            Ok(read_msh(path, &text, gear))
+            read_msh(path, &text, gear).map_err(faulty)
         } else {
-            Ok(read_vtu(path, &fs::read(path).map_err(unreadable)?, gear))
+            let bytes = fs::read(path).map_err(unreadable)?;
+            read_vtu(path, &bytes, gear).map_err(faulty)
         }
     };
-    read()?.map_err(|error| {
-        let key = format!("numerics.mesh_{}", member.name());
-        CliError::Study(study.refuse(
-            &key,
-            &error.to_string(),
-            "a mesh with bore and flanks named as `gearwear mesh` writes them",
-            "",
-        ))
-    })
+    read().map_err(|message| refusal(study, member, &message))
+}
+
+/// The user's own mesh of a member cannot be used.
+pub(super) fn refusal(study: &Study, member: Member, message: &str) -> CliError {
+    CliError::Study(study.refuse(
+        &format!("numerics.mesh_{}", member.name()),
+        message,
+        "a mesh with bore and flanks named as `gearwear mesh` writes them",
+        "",
+    ))
 }

@@ -1,13 +1,13 @@
 //! `gearwear models`: the finite-element, Hertz and published models side by side.
 
-use std::path::Path;
-
 use clap::Args;
 
 use super::args::StudyAndOutput;
 use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
+use crate::report::{self, atomic};
+use crate::simulate::models::{Comparison, Task, compare};
 use crate::study::Study;
 
 /// Arguments of `models`.
@@ -20,7 +20,7 @@ pub struct ModelsArgs {
     paths: StudyAndOutput,
 }
 
-/// Checks the input, prepares the folder, and leaves the work to [`compare_models`].
+/// Checks the input and the folder, runs all three models, writes.
 pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
     let target = args
@@ -28,14 +28,38 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "models"));
-    compare_models(&study, &target, &context.progress("models"))
+    atomic::check(&target)?;
+    let comparison = compare_models(&study, &context.progress("models"))?;
+    let written = report::write_models(&study.title, &comparison, &target)?;
+    Ok(Outcome {
+        json: report::models::document(&study.title, &comparison),
+        text: report::models::summary(&study.title, &comparison, &written.folder),
+        success: true,
+    })
 }
 
-/// Runs all three models and writes their tables and plots into `folder`; the outcome's JSON is `models.json`.
-fn compare_models(
-    _study: &Study,
-    _folder: &Path,
-    _progress: &Progress,
-) -> Result<Outcome, CliError> {
-    Err(CliError::NotBuilt { command: "models" })
+/// Radial misalignments at which the paper states results, mm.
+const PUBLISHED: [f64; 3] = [0.0, 0.5, 1.0];
+
+/// The models at the paper's misalignments and the study's own.
+fn compare_models(study: &Study, progress: &Progress) -> Result<Comparison, CliError> {
+    let mut misalignments = PUBLISHED.to_vec();
+    misalignments.push(study.operation.misalignment_mm);
+    misalignments.sort_by(f64::total_cmp);
+    misalignments.dedup();
+    let mut own = [None, None];
+    for (slot, (member, path)) in own.iter_mut().zip(study.own_meshes()) {
+        if let Some(path) = path {
+            *slot = Some(super::mesh::read_own(study, member, path)?);
+        }
+    }
+    let task = Task {
+        set: &study.gear_set(),
+        conditions: study.operation.simulated(&study.wear),
+        numerics: study.resolution(),
+        misalignments: &misalignments,
+        own,
+    };
+    let watch = |done: f64, doing: &'static str| progress.show(done, doing.to_owned());
+    Ok(compare(task, &watch)?)
 }

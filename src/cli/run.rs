@@ -9,12 +9,14 @@ use super::args::StudyAndOutput;
 use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
+use crate::contact::model::ContactError;
 use crate::report::{self, atomic};
 use crate::simulate::checkpoint::{Checkpoint, CheckpointError, Fingerprint, fingerprint};
+use crate::simulate::forward::ForwardError;
 use crate::simulate::members::Members;
 use crate::simulate::paper_run;
 use crate::simulate::result::Run;
-use crate::simulate::run::{Event, Observer, Plan, run};
+use crate::simulate::run::{Event, Observer, Plan, RunError, run};
 use crate::study::{ContactKind, Operation, Study};
 
 /// Arguments of `run`.
@@ -43,11 +45,11 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "run"));
     atomic::check(&target)?;
-    if args.resume && atomic::is_result(&target) {
+    let keeper = Keeper::new(&study, args, &target)?;
+    let start = if args.resume { keeper.read()? } else { None };
+    if args.resume && start.is_none() && keeper.made(&target) {
         return already_finished(&target);
     }
-    let keeper = Keeper::new(&study, args, &target);
-    let start = if args.resume { keeper.read()? } else { None };
     let result = simulate(
         &study,
         conditions,
@@ -56,7 +58,7 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
         &keeper,
         &context.progress("wear"),
     )?;
-    let written = report::write_run(&result, &target)?;
+    let written = report::write_run_with(&result, &keeper.inputs(&study), &target)?;
     keeper.discard();
     let json = report::json::summary(&result)?;
     Ok(Outcome {
@@ -93,7 +95,18 @@ fn simulate(
     }
     let own = own_members(study, &plan)?;
     let mut watcher = Watcher { keeper, progress };
-    Ok(run(&plan, own.as_ref(), start, &mut watcher)?)
+    run(&plan, own.as_ref(), start, &mut watcher).map_err(|error| lacks_flank(study, error))
+}
+
+/// A user's own mesh that lacks the fine flank of a tooth which can touch is unusable input.
+fn lacks_flank(study: &Study, error: RunError) -> CliError {
+    if let RunError::Forward(ForwardError::Contact(ContactError::NoFlank { side, .. })) = &error
+        && let (member, Some(path)) = study.own_meshes()[*side]
+    {
+        let message = format!("{}: {error}", path.display());
+        return super::mesh::refusal(study, member, &message);
+    }
+    error.into()
 }
 
 /// The members on the user's own meshes, if the study names any.
@@ -118,19 +131,51 @@ pub(super) fn own_members(study: &Study, plan: &Plan) -> Result<Option<Members>,
     )?))
 }
 
-/// Keeps the checkpoint of one run.
+/// File of a result folder that tells which input it was made from.
+const FINGERPRINT: &str = "input.sha256";
+
+/// Keeps the checkpoint of one run, and knows its input.
 struct Keeper {
     path: PathBuf,
     identity: Fingerprint,
+    hex: String,
 }
 
 impl Keeper {
-    fn new(study: &Study, args: &RunArgs, target: &Path) -> Self {
-        let identity = fingerprint(&[study.text(), args.test.as_deref().unwrap_or("")]);
-        Self {
+    /// All that the results depend on counts: the study's text, the test, the user's own meshes.
+    fn new(study: &Study, args: &RunArgs, target: &Path) -> Result<Self, CliError> {
+        let test = args.test.as_deref().unwrap_or("");
+        let mut parts = vec![study.text().as_bytes().to_vec(), test.as_bytes().to_vec()];
+        for (member, path) in study.own_meshes() {
+            let mesh = path.map_or(Ok(Vec::new()), |path| {
+                fs::read(path).map_err(|error| {
+                    let message = format!("cannot read {}: {error}", path.display());
+                    super::mesh::refusal(study, member, &message)
+                })
+            })?;
+            parts.push(mesh);
+        }
+        let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
+        let identity = fingerprint(&parts);
+        Ok(Self {
             path: folder::checkpoint_path(target),
             identity,
-        }
+            hex: identity.iter().map(|b| format!("{b:02x}")).collect(),
+        })
+    }
+
+    /// Files that say what a result was made from.
+    fn inputs<'a>(&'a self, study: &'a Study) -> [(&'static str, &'a [u8]); 2] {
+        [
+            ("study.toml", study.text().as_bytes()),
+            (FINGERPRINT, self.hex.as_bytes()),
+        ]
+    }
+
+    /// Whether the finished result in `folder` was made from the same input.
+    fn made(&self, folder: &Path) -> bool {
+        atomic::is_result(folder)
+            && fs::read_to_string(folder.join(FINGERPRINT)).is_ok_and(|found| found == self.hex)
     }
 
     fn read(&self) -> Result<Option<Checkpoint>, CliError> {
@@ -157,8 +202,8 @@ impl Keeper {
     }
 
     fn discard(&self) {
-        // the result is in place; a checkpoint that cannot be removed does no harm, --resume looks for the result first
-        let _ = fs::remove_file(&self.path);
+        // the result is in place; a checkpoint that cannot be removed does no harm, --resume would end in the same result
+        let _ = atomic::remove_file(&self.path);
     }
 }
 

@@ -85,7 +85,7 @@ pub struct PairContact {
 /// One mesh position.
 #[derive(Debug, Clone)]
 pub struct Position {
-    /// Pinion rotation from the pitch point, in base pitches, 0 to 1.
+    /// Pinion rotation from the pitch point, in base pitches; somewhat below 0 to somewhat below 1.
     pub theta: f64,
     /// Tooth pairs that can touch, by ascending path.
     pub pairs: Vec<PairContact>,
@@ -93,6 +93,8 @@ pub struct Position {
     pub gap: Vec<f64>,
     /// Weighted lever arm about the pinion's centre: closing of the gap per rotation (mm·mm/rad).
     pub arm: Vec<f64>,
+    /// Smallest distance of a tooth pair that was left out as out of reach, mm.
+    pub left_out: f64,
 }
 
 /// The mesh cycle of one gear pair at one centre distance.
@@ -111,32 +113,29 @@ pub struct Cycle {
 impl Cycle {
     /// The pinion's teeth that can touch somewhere in the mesh cycle (the gear's have the opposite numbers).
     pub fn teeth(pair: &Pair, spec: CycleSpec) -> Vec<i32> {
-        let mut teeth = Vec::new();
-        for q in 0..spec.positions {
-            let theta = (q as f64 + 0.5) / spec.positions as f64;
-            for contact in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch) {
-                if Frame::new(pair, contact.path).is_some_and(|f| f.separation <= spec.reach) {
-                    teeth.push(contact.pinion_tooth);
-                }
-            }
-        }
+        let half = 0.5 / spec.positions as f64;
+        let mut teeth: Vec<i32> = rotations(pair, spec)
+            .into_iter()
+            .flat_map(|theta| [theta - half, theta + half])
+            .flat_map(|theta| teeth_at(pair, spec, theta))
+            .collect();
         teeth.sort_unstable();
         teeth.dedup();
         teeth
     }
 
+    /// The rotation `theta` (base pitches, any) taken where a cycle of this resolution takes it: only there the teeth of
+    /// [`Cycle::teeth`] suffice.
+    pub fn home(pair: &Pair, spec: CycleSpec, theta: f64) -> f64 {
+        let start = rotations(pair, spec)[0] - 0.5 / spec.positions as f64;
+        start + (theta - start).rem_euclid(1.0)
+    }
+
     /// Builds all positions, in parallel.
     pub fn new(pair: &Pair, stations: &Stations, spec: CycleSpec) -> Self {
-        let positions = (0..spec.positions)
+        let positions = rotations(pair, spec)
             .into_par_iter()
-            .map(|q| {
-                Position::new(
-                    pair,
-                    stations,
-                    spec,
-                    (q as f64 + 0.5) / spec.positions as f64,
-                )
-            })
+            .map(|theta| Position::new(pair, stations, spec, theta))
             .collect();
         Self {
             pair: pair.clone(),
@@ -145,6 +144,56 @@ impl Cycle {
             positions,
         }
     }
+
+    /// Index of the position nearest to the rotation `phase` (base pitches, modulo 1).
+    pub fn nearest(&self, phase: f64) -> usize {
+        let distance = |q: usize| {
+            let d = (self.positions[q].theta - phase).rem_euclid(1.0);
+            d.min(1.0 - d)
+        };
+        (0..self.positions.len())
+            .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+            .unwrap_or(0)
+    }
+}
+
+/// Rotations of all positions, evenly spaced over one base pitch around the pitch point.
+///
+/// Which base pitch decides how many teeth must be meshed finely: it is placed so that they are fewest.
+fn rotations(pair: &Pair, spec: CycleSpec) -> Vec<f64> {
+    let n = spec.positions;
+    let rotation = |q: usize| (q as f64 + 0.5) / n as f64;
+    // the teeth between a position's neighbours, so that any rotation finds its teeth
+    let edges: Vec<Vec<i32>> = (0..=n)
+        .map(|q| teeth_at(pair, spec, q as f64 / n as f64))
+        .collect();
+    let teeth: Vec<Vec<i32>> = edges.windows(2).map(|e| e.concat()).collect();
+    // teeth numbers grow by one where a rotation is taken one base pitch earlier
+    let span = |shifted: usize| {
+        let all = || {
+            (0..n).flat_map(|q| {
+                teeth[q]
+                    .iter()
+                    .map(move |t| t + i32::from(q + shifted >= n))
+            })
+        };
+        all().max().unwrap_or(0) - all().min().unwrap_or(0)
+    };
+    let shifted = (0..=n / 2).min_by_key(|&m| (span(m), m)).unwrap_or(0);
+    (n - shifted..n)
+        .map(|q| rotation(q) - 1.0)
+        .chain((0..n - shifted).map(rotation))
+        .collect()
+}
+
+fn teeth_at(pair: &Pair, spec: CycleSpec, theta: f64) -> Vec<i32> {
+    contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch)
+        .into_iter()
+        .filter(|contact| {
+            Frame::new(pair, contact.path).is_some_and(|f| f.separation <= spec.reach)
+        })
+        .map(|contact| contact.pinion_tooth)
+        .collect()
 }
 
 impl Position {
@@ -155,6 +204,7 @@ impl Position {
             pairs: Vec::new(),
             gap: Vec::new(),
             arm: Vec::new(),
+            left_out: f64::INFINITY,
         };
         for ToothContact {
             pinion_tooth: tooth,
@@ -162,9 +212,13 @@ impl Position {
             ..
         } in contacts_at(pair, theta, CORNER_MARGIN * pair.base_pitch)
         {
-            let Some(frame) = Frame::new(pair, path).filter(|f| f.separation <= spec.reach) else {
+            let Some(frame) = Frame::new(pair, path) else {
                 continue;
             };
+            if frame.separation > spec.reach {
+                out.left_out = out.left_out.min(frame.separation);
+                continue;
+            }
             let (low, high) = frame.extent(spec.window);
             let Some(xi) = grid(low, high, spec) else {
                 continue;
@@ -244,6 +298,16 @@ impl Position {
             }
         }
         gap
+    }
+
+    /// The rotation between 0 and 1, base pitches.
+    pub fn phase(&self) -> f64 {
+        self.theta.rem_euclid(1.0)
+    }
+
+    /// Number of a tooth pair counted from the rotation [`Position::phase`].
+    pub fn pair_number(&self, pair: &PairContact) -> i32 {
+        pair.tooth + self.theta.floor() as i32
     }
 
     /// The tooth pair that owns unknown `k`.

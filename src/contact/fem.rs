@@ -121,9 +121,9 @@ impl PositionCompliance {
         let mut couplings = Vec::new();
         for pair in &position.pairs {
             let mut traces = Vec::new();
-            for side in 0..2 {
+            for (side, member) in members.iter().enumerate() {
                 let tooth = member_tooth(pair, side);
-                let flank = members[side]
+                let flank = member
                     .flank(tooth)
                     .ok_or(ContactError::NoFlank { side, tooth })?;
                 traces.push(Trace {
@@ -317,6 +317,13 @@ impl ContactModel for FemContact<'_> {
                 theta: position.theta,
                 source,
             })?;
+        // a rigid turn closes a corner by r_b times it; the tooth's own wear would only open it
+        if solution.approach * self.cycle.pair.pinion.base_radius > position.left_out {
+            return Err(ContactError::OutOfReach {
+                theta: position.theta,
+                separation: position.left_out,
+            });
+        }
         for pair in &position.pairs {
             let window = self.cycle.spec.window;
             for (k, at_end) in [

@@ -68,6 +68,16 @@ pub enum ContactError {
         /// Half width of the strip, mm.
         window: f64,
     },
+    /// A tooth pair that was not looked at would touch.
+    #[error(
+        "at mesh position {theta:.4} a tooth pair {separation:.4} mm apart comes into contact, beyond the teeth prepared for this load; such wear is outside the model"
+    )]
+    OutOfReach {
+        /// Pinion rotation, base pitches.
+        theta: f64,
+        /// Its distance before loading, mm.
+        separation: f64,
+    },
     /// A tooth that can touch is not finely meshed.
     #[error("tooth {tooth} of the {} can touch but has no fine flank in the mesh", ["pinion", "gear"][*side])]
     NoFlank {

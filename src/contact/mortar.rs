@@ -48,26 +48,6 @@ impl Trace<'_> {
         }
         low * self.order
     }
-
-    /// Nodes and shape function values at `s`.
-    pub fn shapes(&self, s: f64) -> (usize, [f64; 3]) {
-        let first = self.edge(s);
-        let (a, b) = (self.arc[first], self.arc[first + self.order]);
-        let t = (s - a) / (b - a);
-        if self.order == 1 {
-            (first, [1.0 - t, t, 0.0])
-        } else {
-            // the mid-side node sits at the middle of the arc, so t is the isoparametric coordinate
-            (
-                first,
-                [
-                    (1.0 - t) * (1.0 - 2.0 * t),
-                    4.0 * t * (1.0 - t),
-                    t * (2.0 * t - 1.0),
-                ],
-            )
-        }
-    }
 }
 
 /// Integrals of the multiplier hats of one contact.
@@ -136,6 +116,7 @@ fn edge_shapes(trace: &Trace, first: usize, s: f64) -> ([f64; 3], usize) {
     if trace.order == 1 {
         ([1.0 - t, t, 0.0], 2)
     } else {
+        // the mid-side node sits at the middle of the arc, so t is the isoparametric coordinate
         (
             [
                 (1.0 - t) * (1.0 - 2.0 * t),

@@ -100,14 +100,12 @@ const PRIMAL_DUAL_LIMIT: usize = 20;
 pub fn solve(problem: &Problem, start: &[usize]) -> Result<Solution, UnilateralError> {
     let n = problem.gap.len();
     let finite = problem.gap.iter().chain(problem.arm).all(|x| x.is_finite());
-    match problem.drive {
-        Drive::Load(load) if !(load > 0.0 && load.is_finite()) || !finite => {
-            return Err(UnilateralError::BadLoad { load });
-        }
-        Drive::Approach(phi) if !phi.is_finite() || !finite => {
-            return Err(UnilateralError::BadLoad { load: phi });
-        }
-        _ => {}
+    let (drive, sound) = match problem.drive {
+        Drive::Load(load) => (load, load.is_finite() && load > 0.0),
+        Drive::Approach(approach) => (approach, approach.is_finite()),
+    };
+    if !(sound && finite) {
+        return Err(UnilateralError::BadLoad { load: drive });
     }
     let mut active: Vec<usize> = start.iter().copied().filter(|&k| k < n).collect();
     if active.is_empty() {

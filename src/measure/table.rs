@@ -49,7 +49,8 @@ impl<'a> Table<'a> {
         self.line += text[self.counted..start].matches('\n').count();
         self.counted = start;
         match more {
-            Ok(true) => {
+            // a comment without a line end is handed out as an empty record
+            Ok(true) if start < text.len() => {
                 let end = self.reader.position().byte() as usize;
                 Ok(Some(Row {
                     text,
@@ -58,7 +59,7 @@ impl<'a> Table<'a> {
                     line: self.line,
                 }))
             }
-            Ok(false) => Ok(None),
+            Ok(_) => Ok(None),
             Err(error) => Err(Box::new(
                 Diagnostic::new(Fault::Syntax, "", format!("not valid CSV: {error}"))
                     .with_values("this row", "comma separated values")
@@ -111,7 +112,7 @@ mod tests {
 
     #[test]
     fn fields_are_found_where_they_stand() {
-        let text = "x\n a , \"b,\"\"c\",,d\r\n";
+        let text = "x\n a ,\"b,\"\"c\" ,,d\r\n";
         let spans = field_spans(text, 2..text.trim_end().len());
         let found: Vec<&str> = spans.into_iter().map(|s| &text[s]).collect();
         assert_eq!(found, ["a", "\"b,\"\"c\"", "", "d"]);

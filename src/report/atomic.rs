@@ -128,15 +128,35 @@ pub fn write_file(target: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let target = resolved(target)?;
     let parent = parent_of(&target);
     fs::create_dir_all(&parent).map_err(io_error("create", &parent))?;
-    let partial = sibling(&target, &format!("partial-{}", std::process::id()));
-    let outcome = flushed(&partial, bytes)
+    remove_dead_files(&target);
+    let partial = sibling(&target, &format!("{PARTIAL}{}", std::process::id()));
+    let outcome = File::create(&partial)
+        .and_then(|mut file| {
+            // held while the file is in the making; a file system without locks works too
+            let _ = file.try_lock();
+            file.write_all(bytes)?;
+            file.sync_all()?;
+            Ok(file)
+        })
         .map_err(io_error("write", &partial))
-        .and_then(|()| fs::rename(&partial, &target).map_err(io_error("write", &target)));
+        .and_then(|_held| fs::rename(&partial, &target).map_err(io_error("write", &target)));
     if outcome.is_err() {
         let _ = fs::remove_file(&partial);
     }
     outcome?;
     sync_folder(&parent).map_err(io_error("flush", &parent))
+}
+
+/// Removes a file that [`write_file`] wrote, and what killed programs left of their attempts at it.
+pub fn remove_file(target: &Path) -> Result<(), OutputError> {
+    let target = resolved(target)?;
+    remove_dead_files(&target);
+    match fs::remove_file(&target) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            Err(io_error("remove", &target)(error))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Whether `folder` is a finished result of this program.
@@ -260,27 +280,8 @@ fn flushed(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// Removes partial folders whose program is gone, and the old halves of exchanges that were cut short.
 fn remove_dead(target: &Path) {
-    let prefix = sibling(target, PARTIAL)
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned();
-    let Ok(entries) = fs::read_dir(parent_of(target)) else {
-        return;
-    };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        if !name
-            .strip_prefix(&prefix)
-            .is_some_and(|rest| rest.bytes().next().is_some_and(|c| c.is_ascii_digit()))
-        {
-            continue;
-        }
-        let folder = if name.ends_with(".lock") {
+    for path in partials(target) {
+        let folder = if path.extension().is_some_and(|e| e == "lock") {
             path.with_extension("")
         } else {
             path
@@ -294,6 +295,38 @@ fn remove_dead(target: &Path) {
         let _ = fs::remove_dir_all(&folder);
         let _ = fs::remove_file(&lock);
     }
+}
+
+/// Removes files in the making whose program is gone.
+fn remove_dead_files(target: &Path) {
+    for path in partials(target) {
+        let dead = File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
+        if dead && path.is_file() {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+/// What stands beside `target` under the names that its own attempts use.
+fn partials(target: &Path) -> Vec<PathBuf> {
+    let prefix = sibling(target, PARTIAL)
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned();
+    let own = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.strip_prefix(&prefix)
+            .is_some_and(|rest| rest.bytes().next().is_some_and(|c| c.is_ascii_digit()))
+    };
+    let Ok(entries) = fs::read_dir(parent_of(target)) else {
+        return Vec::new();
+    };
+    entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(own)
+        .collect()
 }
 
 /// Undoes a crash between the two renames: the previous result gets its name back.
@@ -373,6 +406,23 @@ mod tests {
         fs::rename(&target, sibling(&target, "previous")).unwrap();
         drop(Staging::begin(&target).unwrap());
         assert_eq!(fs::read(target.join("summary.json")).unwrap(), b"{}");
+    }
+
+    #[test]
+    fn dead_partial_files_are_swept_and_live_ones_kept() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join(".run.checkpoint");
+        let [dead, live] = ["partial-1", "partial-2"].map(|suffix| sibling(&target, suffix));
+        fs::write(&dead, b"half").unwrap();
+        let held = File::create(&live).unwrap();
+        held.try_lock().unwrap();
+        write_file(&target, b"whole").unwrap();
+        assert!(!dead.exists() && live.exists());
+        assert_eq!(fs::read(&target).unwrap(), b"whole");
+        drop(held);
+        remove_file(&target).unwrap();
+        remove_file(&target).unwrap();
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
     }
 
     #[test]

@@ -31,13 +31,13 @@ pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
 
 /// `contact.csv`: every pair of every mesh position of every stored state.
 ///
-/// Columns `cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action`: position is the
-/// pinion rotation from the pitch point in base pitches; mm; -; N/mm; MPa; mm; 1 where the pair touches outside the nominal
-/// line of action.
+/// Columns `cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner`: position is
+/// the pinion rotation from the pitch point in base pitches; mm; -; N/mm; MPa; mm; 1 where the pair touches outside the nominal
+/// line of action; 1 where the end of a flank (a tip corner) is loaded, so that the mesh decides the peak pressure.
 pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
     let mut table = Table::new(
         "contact.csv",
-        "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action",
+        "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner",
     );
     for state in &run.states {
         for position in &state.cycle {
@@ -50,7 +50,9 @@ pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
                 table.number("line_load", pair.line_load)?;
                 table.number("peak_pressure", pair.peak_pressure)?;
                 table.number("half_width", pair.half_width)?;
-                table.text(if pair.off_line_of_action { "1" } else { "0" });
+                for flag in [pair.off_line_of_action, pair.at_corner] {
+                    table.text(if flag { "1" } else { "0" });
+                }
                 table.end_row();
             }
         }

@@ -8,8 +8,9 @@ use crate::simulate::result::{Member, MeshSummary, Run, State};
 
 /// `summary.json`. Lengths mm, angles degrees, pressures MPa, stiffness N/(mm·µm); the unit stands in the key where another is meant.
 ///
-/// `contact` describes the first stored state, `contact_end` the last. A figure that does not exist for a run (a mesh for a
-/// model without one, a single pair where two always touch) is null.
+/// `contact` describes the first stored state, `contact_end` the last; `peak_pressure` is the largest on the flanks and
+/// `corner_pressure` the largest where a tip corner or the end of a flank touches (it grows with the mesh's fineness). A
+/// figure that does not exist for a run (a mesh for a model without one, a single pair where two always touch) is null.
 pub fn summary(run: &Run) -> Result<Value, OutputError> {
     let g = &run.geometry;
     let c = &run.conditions;
@@ -71,11 +72,13 @@ fn member_wear(run: &Run, member: Member) -> Value {
 }
 
 fn contact_of(state: &State) -> Value {
-    let peak = state.peak_pressure();
+    let (peak, corner) = (state.peak_pressure(), state.corner_pressure());
     json!({
         "cycles": state.cycles,
         "peak_pressure": peak.map(|p| p.0),
         "peak_pressure_path": peak.map(|p| p.1),
+        "corner_pressure": corner.map(|p| p.0),
+        "corner_pressure_path": corner.map(|p| p.1),
         "te_peak_to_peak_urad": state.te_peak_to_peak_urad(),
     })
 }
@@ -139,6 +142,11 @@ fn check_numbers(run: &Run) -> Result<(), OutputError> {
             state
                 .peak_pressure()
                 .map(|p| (format!("contact.peak_pressure at {at} cycles"), p.0)),
+        );
+        figures.extend(
+            state
+                .corner_pressure()
+                .map(|p| (format!("contact.corner_pressure at {at} cycles"), p.0)),
         );
         figures.extend(
             state

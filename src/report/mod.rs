@@ -11,6 +11,7 @@ mod error;
 pub mod format;
 pub mod html;
 pub mod json;
+pub mod models;
 pub mod plots;
 mod run;
 pub mod text;
@@ -18,4 +19,4 @@ pub mod vtk;
 
 pub use atomic::{Staging, write_file};
 pub use error::OutputError;
-pub use run::{Written, write_models, write_page, write_run, write_validation};
+pub use run::{Written, write_models, write_page, write_run, write_run_with, write_validation};

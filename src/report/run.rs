@@ -5,8 +5,9 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::error::OutputError;
-use super::html::{self, Case, Models, Page};
-use super::{Staging, csv, json as documents, plots, vtk};
+use super::html::{self, Case, Page};
+use super::{Staging, csv, json as documents, models, plots, vtk};
+use crate::simulate::models::Comparison;
 use crate::simulate::result::Run;
 
 /// A finished result folder.
@@ -20,7 +21,19 @@ pub struct Written {
 
 /// Writes the result of `run`.
 pub fn write_run(run: &Run, folder: &Path) -> Result<Written, OutputError> {
+    write_run_with(run, &[], folder)
+}
+
+/// Writes the result of `run` with further files (name, content), such as what it was made from.
+pub fn write_run_with(
+    run: &Run,
+    further: &[(&str, &[u8])],
+    folder: &Path,
+) -> Result<Written, OutputError> {
     let mut staging = Staging::begin(folder)?;
+    for (name, content) in further {
+        staging.write(name, content)?;
+    }
     staging.write(
         "summary.json",
         &documents::text("summary.json", &documents::summary(run)?)?,
@@ -37,9 +50,19 @@ pub fn write_run(run: &Run, folder: &Path) -> Result<Written, OutputError> {
     finish(staging)
 }
 
-/// Writes `models.json` and its page.
-pub fn write_models(models: &Models, folder: &Path) -> Result<Written, OutputError> {
-    write_page(&html::models(models), "models.json", models, folder)
+/// Writes `models.json`, its page and its plots; `title` is the study's own.
+pub fn write_models(
+    title: &str,
+    comparison: &Comparison,
+    folder: &Path,
+) -> Result<Written, OutputError> {
+    let document = models::document(title, comparison);
+    write_page(
+        &html::models(title, comparison),
+        "models.json",
+        &document,
+        folder,
+    )
 }
 
 /// Writes `validation.json`, its page, and the same as Markdown (`RESULTS.md`).

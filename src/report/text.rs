@@ -2,7 +2,7 @@
 use std::path::Path;
 
 use super::format::{count, duration, percent, plain, significant, whole};
-use crate::simulate::result::{Member, Run};
+use crate::simulate::result::{Member, Run, State};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
 pub fn summary(run: &Run, folder: &Path) -> String {
@@ -28,24 +28,25 @@ pub fn summary(run: &Run, folder: &Path) -> String {
     }
     let change = |name: &str, unit: &str, first: Option<f64>, last: Option<f64>| {
         let (first, last) = (first?, last?);
-        let figures = if run.states.len() > 1 {
-            format!(
-                "{} {unit} new, {} {unit} worn",
-                significant(first, 4),
-                significant(last, 4)
-            )
-        } else {
-            format!("{} {unit}", significant(first, 4))
-        };
-        Some(format!("  {name:<20}{figures}"))
+        Some(format!(
+            "  {name:<20}{}",
+            new_and_worn(run, first, last, unit)
+        ))
     };
-    let pressure = |state: &crate::simulate::result::State| state.peak_pressure().map(|p| p.0);
+    let pressure = |state: &State| state.peak_pressure().map(|p| p.0);
     lines.extend(change(
         "peak pressure",
         "MPa",
         pressure(first),
         pressure(last),
     ));
+    lines.extend(corner_pressure(run).map(|(new, worn)| {
+        format!(
+            "  {:<20}{} (grows with the mesh's fineness)",
+            "  at a tip corner",
+            new_and_worn(run, new, worn, "MPa")
+        )
+    }));
     let te = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad());
     lines.extend(change("transmission error", "µrad p-p", te.0, te.1));
     lines.push(format!(
@@ -81,7 +82,10 @@ pub fn summary(run: &Run, folder: &Path) -> String {
     if !failed.is_empty() {
         lines.push("Next: read Checks in report.html before using the figures".to_owned());
     } else if last.cycles > 0.0 {
-        lines.push("Next: gearwear compare STUDY sets the model against measurements".to_owned());
+        lines.push(
+            "Next: gearwear models STUDY sets the finite-element, Hertz and published models side by side"
+                .to_owned(),
+        );
     }
     lines.push(String::new());
     lines.join("\n")
@@ -140,17 +144,23 @@ pub fn conclusion(run: &Run) -> String {
     if let (Some(new), Some(worn)) = (first.peak_pressure(), last.peak_pressure()) {
         if run.states.len() > 1 {
             said.push(format!(
-                "The largest contact pressure went from {} to {} MPa.",
+                "The largest contact pressure on the flanks went from {} to {} MPa.",
                 significant(new.0, 4),
                 significant(worn.0, 4)
             ));
         } else {
             let place = region(run, new.1);
             said.push(format!(
-                "The largest contact pressure is {} MPa ({place}).",
+                "The largest contact pressure on the flanks is {} MPa ({place}).",
                 significant(new.0, 4)
             ));
         }
+    }
+    if let Some((new, worn)) = corner_pressure(run) {
+        said.push(format!(
+            "Where a tip corner touches it is {}: a sharp corner's pressure has no bound and grows as the mesh is refined.",
+            new_and_worn(run, new, worn, "MPa")
+        ));
     }
     if let (Some(new), Some(worn)) = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad()) {
         if run.states.len() > 1 {
@@ -178,6 +188,23 @@ pub fn conclusion(run: &Run) -> String {
         ));
     }
     said.join(" ")
+}
+
+/// Largest pressures at a tip corner in the first and in the last state, 0 where none touches; none if none does in either.
+fn corner_pressure(run: &Run) -> Option<(f64, f64)> {
+    let [new, worn] =
+        [run.first(), run.last()].map(|state| state.corner_pressure().map_or(0.0, |p| p.0));
+    (new > 0.0 || worn > 0.0).then_some((new, worn))
+}
+
+/// A figure of the first and of the last state, or the one figure of a run without wear.
+fn new_and_worn(run: &Run, new: f64, worn: f64, unit: &str) -> String {
+    let [new, worn] = [new, worn].map(|figure| significant(figure, 4));
+    if run.states.len() > 1 {
+        format!("{new} {unit} new, {worn} {unit} worn")
+    } else {
+        format!("{new} {unit}")
+    }
 }
 
 /// Where on the path of contact a point lies, in words.

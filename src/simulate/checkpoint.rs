@@ -13,7 +13,16 @@ pub struct Checkpoint {
     /// The integration.
     pub progress: Option<Progress>,
     /// States stored so far.
-    pub stored: Vec<Progress>,
+    pub stored: Vec<Stored>,
+}
+
+/// A stored state: its contact is solved again from it, prepared as it was then.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Stored {
+    /// How the contact was prepared.
+    pub preparation: Preparation,
+    /// The integration.
+    pub progress: Progress,
 }
 
 /// Why a checkpoint cannot be used.
@@ -31,10 +40,10 @@ pub enum CheckpointError {
 pub type Fingerprint = [u8; 32];
 
 /// Changes with the layout of [`Checkpoint`].
-const FORMAT: &[u8; 8] = b"gwcheck1";
+const FORMAT: &[u8; 8] = b"gwcheck2";
 
-/// Fingerprint of the given texts and of this program's version.
-pub fn fingerprint(parts: &[&str]) -> Fingerprint {
+/// Fingerprint of the given contents and of this program's version.
+pub fn fingerprint(parts: &[&[u8]]) -> Fingerprint {
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     for part in parts {
@@ -78,9 +87,10 @@ mod tests {
 
     #[test]
     fn survives_a_round_trip_and_nothing_else() {
-        let run = fingerprint(&["study", "test"]);
+        let run = fingerprint(&[b"study", b"test"]);
         let checkpoint = Checkpoint {
             preparation: Preparation {
+                reach: 0.02,
                 window: 0.25,
                 condensed_at: Some(vec![1.0]),
             },
@@ -90,7 +100,7 @@ mod tests {
         let bytes = checkpoint.to_bytes(&run);
         assert_eq!(Checkpoint::from_bytes(&bytes, &run).unwrap(), checkpoint);
         assert_eq!(
-            Checkpoint::from_bytes(&bytes, &fingerprint(&["study", "other"])),
+            Checkpoint::from_bytes(&bytes, &fingerprint(&[b"study", b"other"])),
             Err(CheckpointError::OtherRun)
         );
         for cut in 0..bytes.len() {

@@ -8,7 +8,9 @@ use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
-use crate::simulate::history::{Progress, StepReport, WearLaw, WearState, state_of, wear_until};
+use crate::simulate::history::{
+    Progress, StepReport, WearLaw, WearState, line_load, state_of, wear_until,
+};
 use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
 use crate::wear::integrator::StepError;
@@ -151,7 +153,6 @@ impl GearSet {
         misalignments: &[f64],
     ) -> Result<Fineness, ForwardError> {
         let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
-        let greatest = torques.iter().fold(0.0, |m: f64, t| m.max(*t)) / self.face_width;
         let pairs = misalignments
             .iter()
             .map(|m| self.mount(*m))
@@ -160,15 +161,16 @@ impl GearSet {
             .iter()
             .map(|p| numerics.flank_spacing(p, self.modulus(), least))
             .fold(f64::INFINITY, f64::min);
-        let mut teeth: Vec<i32> = pairs
+        let mut teeth = Vec::new();
+        for (pair, torque) in pairs
             .iter()
-            .flat_map(|pair| {
-                Cycle::teeth(
-                    pair,
-                    numerics.cycle(pair, self.modulus(), greatest, spacing),
-                )
-            })
-            .collect();
+            .flat_map(|pair| torques.iter().map(move |t| (pair, t / self.face_width)))
+        {
+            teeth.extend(Cycle::teeth(
+                pair,
+                numerics.cycle(pair, self.modulus(), torque, spacing),
+            ));
+        }
         teeth.sort_unstable();
         teeth.dedup();
         Ok(Fineness { teeth, spacing })
@@ -192,6 +194,8 @@ pub struct Forward<'a> {
     compliance: Option<CycleCompliance>,
     condensed_at: Option<Vec<f64>>,
     worn: Option<Box<Members>>,
+    /// Members with more fine teeth than those given, once wear has brought these into reach.
+    extended: Option<Box<Members>>,
     factorisations: usize,
 }
 
@@ -239,6 +243,7 @@ impl<'a> Forward<'a> {
             compliance,
             condensed_at: None,
             worn: None,
+            extended: None,
             factorisations,
         })
     }
@@ -254,13 +259,13 @@ impl<'a> Forward<'a> {
     }
 
     /// The elastic members, by finite elements only.
-    pub fn members(&self) -> Option<&'a Members> {
-        self.members
+    pub fn members(&self) -> Option<&Members> {
+        self.extended.as_deref().or(self.members)
     }
 
     /// The members as last condensed: unworn, or worn by then.
     pub fn condensed(&self) -> Option<&Members> {
-        self.worn.as_deref().or(self.members)
+        self.worn.as_deref().or(self.members())
     }
 
     /// Torque per face width, N·mm/mm.
@@ -333,25 +338,22 @@ impl<'a> Forward<'a> {
             tolerance: self.numerics.step_tolerance,
         };
         loop {
+            // here and not after the step that calls for it: a run resumed from that step does the same
+            self.condense_if_stale(progress.as_ref())?;
             let preparation = self.preparation();
+            let elastic = self.members.is_some();
             let mut go_on = true;
             let mut stale = false;
             let outcome = self.with_model(|model| {
                 wear_until(model, law, progress, stop, &mut |progress| {
                     go_on = observe(&preparation, progress);
-                    stale = preparation.is_stale(&progress.stand.u);
+                    stale = elastic && preparation.is_stale(&progress.stand.u);
                     go_on && !stale
                 })
             });
             match outcome {
                 Ok(_) if !go_on => return Ok(false),
-                Ok(_) if stale => {
-                    let worn = progress.as_ref().map(|p| p.stand.u.clone());
-                    self.prepare(&Preparation {
-                        condensed_at: worn,
-                        ..preparation
-                    })?;
-                }
+                Ok(_) if stale => {}
                 Ok(_) => return Ok(true),
                 Err(StepError::System {
                     source: ContactError::WindowTooNarrow { .. },
@@ -366,8 +368,35 @@ impl<'a> Forward<'a> {
                         progress.forget_sets();
                     }
                 }
+                Err(StepError::System {
+                    source: ContactError::OutOfReach { .. },
+                    ..
+                }) if preparation.reach < MOST_REACH * self.cycle.pair.pinion.rack.module => {
+                    // wear lets teeth turn far enough for corners that were not looked at
+                    self.prepare(&Preparation {
+                        reach: 1.5 * preparation.reach,
+                        ..preparation
+                    })?;
+                    if let Some(progress) = progress {
+                        progress.forget_sets();
+                    }
+                }
                 Err(error) => return Err(error.into()),
             }
+        }
+    }
+
+    /// Condenses the members anew if they have worn too far since they were last.
+    fn condense_if_stale(&mut self, progress: Option<&Progress>) -> Result<(), ForwardError> {
+        let preparation = self.preparation();
+        match progress {
+            Some(progress) if self.members.is_some() && preparation.is_stale(&progress.stand.u) => {
+                self.prepare(&Preparation {
+                    condensed_at: Some(progress.stand.u.clone()),
+                    ..preparation
+                })
+            }
+            _ => Ok(()),
         }
     }
 
@@ -383,6 +412,7 @@ impl<'a> Forward<'a> {
     pub fn preparation(&self) -> Preparation {
         Preparation {
             window: self.cycle.spec.window,
+            reach: self.cycle.spec.reach,
             condensed_at: self.condensed_at.clone(),
         }
     }
@@ -392,19 +422,23 @@ impl<'a> Forward<'a> {
     /// # Errors
     /// [`ForwardError`] if a worn member cannot be factored.
     pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
-        if preparation.window != self.cycle.spec.window {
-            let spec = CycleSpec {
-                window: preparation.window,
-                ..self.cycle.spec
-            };
+        if *preparation == self.preparation() {
+            return Ok(());
+        }
+        let spec = CycleSpec {
+            window: preparation.window,
+            reach: preparation.reach,
+            ..self.cycle.spec
+        };
+        if spec != self.cycle.spec {
             self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
         }
-        let Some(fresh) = self.members else {
+        let more_teeth = self.extend_members()?;
+        let Some(fresh) = self.members() else {
             return Ok(());
         };
-        if preparation.condensed_at != self.condensed_at {
-            self.condensed_at.clone_from(&preparation.condensed_at);
-            self.worn = match &self.condensed_at {
+        if more_teeth || preparation.condensed_at != self.condensed_at {
+            let worn = match &preparation.condensed_at {
                 Some(u) => {
                     let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
                     let meshes = fresh.worn_meshes(
@@ -412,19 +446,50 @@ impl<'a> Forward<'a> {
                         &self.cycle.stations,
                         [pinion, gear],
                     )?;
-                    self.factorisations += 2;
                     Some(Box::new(fresh.condensed_on(meshes)?))
                 }
                 None => None,
             };
+            self.factorisations += 2 * usize::from(worn.is_some());
+            self.condensed_at.clone_from(&preparation.condensed_at);
+            self.worn = worn;
         }
-        let members = self.worn.as_deref().unwrap_or(fresh);
-        self.compliance = Some(CycleCompliance::new(
-            &self.cycle,
-            members.flanks(),
-            self.numerics.friction,
-        )?);
+        if let Some(members) = self.condensed() {
+            self.compliance = Some(CycleCompliance::new(
+                &self.cycle,
+                members.flanks(),
+                self.numerics.friction,
+            )?);
+        }
         Ok(())
+    }
+
+    /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
+    fn extend_members(&mut self) -> Result<bool, ForwardError> {
+        let Some(members) = self.members() else {
+            return Ok(false);
+        };
+        let mut teeth = Cycle::teeth(&self.cycle.pair, self.cycle.spec);
+        let fine = members.teeth();
+        if members.of_user() || teeth.iter().all(|t| fine.contains(t)) {
+            // a tooth that a user's own mesh lacks is refused by the coupling
+            return Ok(false);
+        }
+        teeth.extend(fine);
+        teeth.sort_unstable();
+        teeth.dedup();
+        let (spacing, order) = (members.spacing(), self.numerics.order);
+        let built = Members::build(
+            &self.set.gears,
+            self.set.materials,
+            &teeth,
+            spacing,
+            order,
+            [None, None],
+        )?;
+        self.factorisations += 2;
+        self.extended = Some(Box::new(built));
+        Ok(true)
     }
 
     /// Stiffness factorisations so far.
@@ -432,20 +497,27 @@ impl<'a> Forward<'a> {
         self.factorisations
     }
 
-    /// Lever of the torque for each unknown of position `q`, mm·mm.
-    pub fn levers(&self, q: usize) -> &[f64] {
-        self.compliance
-            .as_ref()
-            .map_or(&self.cycle.positions[q].arm, |c| c.levers(q))
+    /// Torque per face width that tooth pair number `index` of position `q` puts on the pinion, N·mm/mm.
+    pub fn moment(&self, q: usize, index: usize, contact: &PositionContact) -> f64 {
+        let pair = &self.cycle.positions[q].pairs[index];
+        match &self.compliance {
+            Some(compliance) => {
+                let own = pair.offset..pair.offset + pair.xi.len();
+                contact.pressure[own.clone()]
+                    .iter()
+                    .zip(&compliance.levers(q)[own])
+                    .map(|(p, l)| p * l)
+                    .sum()
+            }
+            // the analytic model puts each pair's load on the line of action
+            None => line_load(pair, contact) * self.cycle.pair.pinion.base_radius,
+        }
     }
 
     /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
     pub fn torque_of(&self, q: usize, contact: &PositionContact) -> f64 {
-        contact
-            .pressure
-            .iter()
-            .zip(self.levers(q))
-            .map(|(p, l)| p * l)
+        (0..self.cycle.positions[q].pairs.len())
+            .map(|index| self.moment(q, index, contact))
             .sum()
     }
 }
@@ -455,14 +527,20 @@ impl<'a> Forward<'a> {
 pub struct Preparation {
     /// Half width of the strip contact is looked for in, mm.
     pub window: f64,
+    /// Tooth pairs farther apart than this are left out, mm.
+    pub reach: f64,
     /// Worn depths at which the members were last condensed, mm at all stations; none: unworn.
     pub condensed_at: Option<Vec<f64>>,
 }
 
+/// Corners farther apart than this are never looked at, in modules: wear of a tenth of a module ends the model's validity.
+const MOST_REACH: f64 = 0.1;
+
 /// Wear since the last condensation after which the members are condensed again, mm.
 ///
-/// Measured by the validation case `recondensation`: condensing again after this wear changes pressures by less than 0.5 %.
-pub const CONDENSE_AFTER: f64 = 0.03;
+/// Condensing again after 16 µm changes load shares by 2e-4, peak pressures by less than 0.4 % away from the tips and the
+/// depth after the same cycles by 0.014 % (the validation's case on condensing again).
+pub const CONDENSE_AFTER: f64 = 0.02;
 
 impl Preparation {
     fn is_stale(&self, u: &[f64]) -> bool {

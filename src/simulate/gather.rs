@@ -1,5 +1,6 @@
 //! Turns the solver's states into the plain data of a [`Run`](crate::simulate::result::Run).
 
+use crate::contact::cycle::PairContact;
 use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Gear, Member, Pair};
@@ -64,7 +65,12 @@ pub fn geometry(pair: &Pair) -> Geometry {
         contact_ratio: pair.contact_ratio,
         path_of_contact: pair.path_length,
         base_pitch: pair.base_pitch,
-        backlash_um: 1e3 * pair.backlash,
+        // a pair at its zero-backlash distance leaves rounding of the order of 1e-14 mm
+        backlash_um: if pair.backlash.abs() < 1e-12 {
+            0.0
+        } else {
+            1e3 * pair.backlash
+        },
         speed_ratio: pair.speed_ratio,
         path_limits: [a, b, d, e],
         pinion: wheel(Member::Pinion, a),
@@ -98,10 +104,20 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         cycles: state.cycles,
         pinion: profile(Member::Pinion),
         gear: profile(Member::Gear),
-        cycle: (0..cycle.positions.len())
-            .map(|q| position(forward, q, &state.contacts[q]))
-            .collect(),
+        cycle: by_rotation(forward, state),
     }
+}
+
+/// The mesh cycle by ascending rotation.
+fn by_rotation(forward: &Forward, state: &WearState) -> Vec<PositionState> {
+    let mut cycle: Vec<PositionState> = state
+        .contacts
+        .iter()
+        .enumerate()
+        .map(|(q, contact)| position(forward, q, contact))
+        .collect();
+    cycle.sort_by(|a, b| a.position.total_cmp(&b.position));
+    cycle
 }
 
 fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
@@ -110,30 +126,35 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
     let pairs = position
         .pairs
         .iter()
-        .map(|pair| {
-            let own = pair.offset..pair.offset + pair.xi.len();
-            let pressure = &contact.pressure[own.clone()];
-            let moment: f64 = pressure
-                .iter()
-                .zip(&forward.levers(q)[own])
-                .map(|(p, l)| p * l)
-                .sum();
+        .enumerate()
+        .map(|(index, pair)| {
+            let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
             PairState {
-                pair: pair.tooth,
+                pair: position.pair_number(pair),
                 path: pair.path,
-                load_share: moment / torque,
+                load_share: forward.moment(q, index, contact) / torque,
                 line_load: line_load(pair, contact),
                 peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
                 half_width: half_width(&pair.xi, pressure),
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
+                at_corner: pair.frame.touch != Touch::Flanks
+                    || ends_loaded(pair, pressure, forward.cycle().spec.window),
             }
         })
         .collect();
     PositionState {
-        position: position.theta,
+        position: position.phase(),
         angle_urad: 1e6 * contact.approach,
         pairs,
     }
+}
+
+/// Whether there is pressure where a flank ends: at the first or last node, if that is the end of a flank (tip or form circle)
+/// and not of the strip ±`window` (mm) in which contact is looked for.
+fn ends_loaded(pair: &PairContact, pressure: &[f64], window: f64) -> bool {
+    let (low, high) = pair.frame.extent(window);
+    let loaded = |node: Option<&f64>| node.is_some_and(|p| *p > 0.0);
+    (low > -window && loaded(pressure.first())) || (high < window && loaded(pressure.last()))
 }
 
 /// Half the width of the strip with pressure: from the zero beyond its first node to that beyond its last, each taken
@@ -228,7 +249,7 @@ pub fn frame(
     };
     Ok(Some(FieldFrame {
         cycles: state.cycles,
-        position: cycle.positions[q].theta,
+        position: cycle.positions[q].phase(),
         line_load: cycle.positions[q]
             .pairs
             .iter()

@@ -157,19 +157,17 @@ pub fn wear_until<M: ContactModel + ?Sized>(
     let solves_before = progress.solves;
     system.start_from(&progress.warm);
     while progress.stand.n < end {
-        let from = progress.stand.n;
-        advance(&mut system, &mut progress.stand, end, control)?;
+        // the step counts only once the contact at its end is known too
+        let mut stand = progress.stand.clone();
+        advance(&mut system, &mut stand, end, control)?;
         let contacts = system
-            .contacts(&progress.stand.u)
-            .map_err(|source| StepError::System {
-                n: progress.stand.n,
-                source,
-            })?;
+            .contacts(&stand.u)
+            .map_err(|source| StepError::System { n: stand.n, source })?;
         let rate = law_rate(cycle, contacts, law.coefficient);
-        let (pinion, gear) = progress.stand.u.split_at(cycle.stations.arc[0].len());
+        let (pinion, gear) = stand.u.split_at(cycle.stations.arc[0].len());
         for side in 0..2 {
             progress.balance.law[side] +=
-                0.5 * (progress.stand.n - from) * (progress.law_rate[side] + rate[side]);
+                0.5 * (stand.n - progress.stand.n) * (progress.law_rate[side] + rate[side]);
             progress.balance.geometry[side] =
                 worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
         }
@@ -177,6 +175,7 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         progress.solves = solves_before + system.solves;
         progress.warm = system.warm().to_vec();
         progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
+        progress.stand = stand;
         if !observe(progress) {
             return Ok(false);
         }

@@ -39,6 +39,7 @@ pub struct Members {
     /// Pinion, then gear.
     pub members: [Member; 2],
     spacing: f64,
+    of_user: bool,
 }
 
 impl Members {
@@ -57,6 +58,7 @@ impl Members {
         order: usize,
         own: [Option<Mesh>; 2],
     ) -> Result<Self, MemberError> {
+        let of_user = own.iter().any(Option::is_some);
         let [pinion, gear] = meshes(gears, teeth, spacing, order, own)?;
         let (pinion, gear) = join(
             || Member::from_mesh(pinion, materials[0]),
@@ -65,7 +67,23 @@ impl Members {
         Ok(Self {
             members: [pinion?, gear?],
             spacing,
+            of_user,
         })
+    }
+
+    /// The pinion's finely meshed teeth.
+    pub fn teeth(&self) -> Vec<i32> {
+        self.members[0]
+            .flanks
+            .flanks
+            .iter()
+            .map(|f| f.tooth)
+            .collect()
+    }
+
+    /// Whether a mesh is the user's own.
+    pub fn of_user(&self) -> bool {
+        self.of_user
     }
 
     /// Length of a flank edge, mm.
@@ -116,6 +134,7 @@ impl Members {
         Ok(Self {
             members: [pinion?, gear?],
             spacing: self.spacing,
+            of_user: self.of_user,
         })
     }
 

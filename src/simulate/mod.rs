@@ -6,6 +6,7 @@ pub mod forward;
 pub mod gather;
 pub mod history;
 pub mod members;
+pub mod models;
 pub mod numerics;
 pub mod paper_run;
 pub mod result;

@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::paper::{self, Inputs};
+use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::gather;
 use crate::simulate::result::{Cost, PairState, PositionState, Profile, Run, State};
 use crate::simulate::run::{Plan, RunError, pair_of};
@@ -10,30 +11,33 @@ use crate::simulate::run::{Plan, RunError, pair_of};
 /// Speeds the paper prints: its gear turns at half the pinion's speed, which its wear numbers need.
 const PRINTED: ([u32; 2], [f64; 2]) = ([27, 53], [2000.0, 1000.0]);
 
-/// The published model's inputs for `plan`; the printed gear speed for the paper's own pair, the true one for others.
-pub fn inputs(plan: &Plan) -> Inputs {
-    let [pinion, gear] = &plan.set.gears;
+/// The published model's inputs for a gear set and its conditions; the printed gear speed for the paper's own pair, the true
+/// one for others.
+///
+/// The model knows no profile shift, relief or rounding beyond the tip radii, and one wear coefficient, the pinion's.
+pub fn inputs(set: &GearSet, conditions: &Conditions) -> Inputs {
+    let [pinion, gear] = &set.gears;
     let teeth = [pinion.spec.teeth, gear.spec.teeth];
-    let speed = plan.conditions.speed;
+    let speed = conditions.speed;
     let printed = teeth == PRINTED.0 && speed == PRINTED.1[0];
     Inputs {
         teeth,
         module: pinion.rack.module,
         pressure_angle: pinion.rack.pressure_angle,
         tip_radius: [pinion.tip_radius, gear.tip_radius],
-        face_width: plan.set.face_width,
-        torque: plan.conditions.torque,
+        face_width: set.face_width,
+        torque: conditions.torque,
         speed: if printed {
             PRINTED.1
         } else {
             [speed, speed * f64::from(teeth[0]) / f64::from(teeth[1])]
         },
-        k: plan.conditions.coefficient[0],
-        youngs_modulus: plan.set.materials.map(|m| m.youngs_modulus),
-        poisson_ratio: plan.set.materials.map(|m| m.poisson_ratio),
-        centre_distance: plan.set.centre_distance,
-        misalignment: plan.conditions.misalignment,
-        cycles: plan.conditions.cycles.round() as u64,
+        k: conditions.coefficient[0],
+        youngs_modulus: set.materials.map(|m| m.youngs_modulus),
+        poisson_ratio: set.materials.map(|m| m.poisson_ratio),
+        centre_distance: set.centre_distance,
+        misalignment: conditions.misalignment,
+        cycles: conditions.cycles.round() as u64,
         ..Inputs::default()
     }
 }
@@ -45,7 +49,7 @@ pub fn inputs(plan: &Plan) -> Inputs {
 pub fn run(plan: &Plan) -> Result<Run, RunError> {
     let begun = Instant::now();
     let pair = pair_of(plan)?;
-    let inputs = inputs(plan);
+    let inputs = inputs(plan.set, &plan.conditions);
     let stops: Vec<u64> = (0..=plan.stored_states)
         .map(|i| inputs.cycles * i as u64 / plan.stored_states as u64)
         .collect();
@@ -86,6 +90,7 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
                             peak_pressure: now.pressure,
                             half_width: now.half_width,
                             off_line_of_action: false,
+                            at_corner: false,
                         }],
                     }
                 })

@@ -210,9 +210,24 @@ impl State {
         }
     }
 
-    /// The largest contact pressure of the mesh cycle, MPa, and the path coordinate of the pair that bears it, mm.
+    /// The largest contact pressure on the flanks over the mesh cycle, MPa, and the path coordinate of the pair that bears it,
+    /// mm; pairs that touch with a tip corner are left to [`State::corner_pressure`].
     pub fn peak_pressure(&self) -> Option<(f64, f64)> {
+        self.largest_pressure(false)
+    }
+
+    /// The largest pressure over the mesh cycle where a tip corner or the end of a flank touches, MPa, and the path coordinate
+    /// of that pair, mm; none if none does.
+    ///
+    /// The pressure under a sharp corner of an elastic body has no bound: this figure grows as the mesh is refined and says
+    /// that a corner digs in, not how hard.
+    pub fn corner_pressure(&self) -> Option<(f64, f64)> {
+        self.largest_pressure(true)
+    }
+
+    fn largest_pressure(&self, at_corner: bool) -> Option<(f64, f64)> {
         self.pairs()
+            .filter(|pair| pair.line_load > 0.0 && pair.at_corner == at_corner)
             .map(|pair| (pair.peak_pressure, pair.path))
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
@@ -298,6 +313,9 @@ pub struct PairState {
     pub half_width: f64,
     /// True where the pair touches outside the nominal line of action (tip corner of a loaded tooth).
     pub off_line_of_action: bool,
+    /// True where the pressure does not fade out on both flanks: it reaches the tip corner (or the form circle) of a flank, or
+    /// the pair touches outside the line of action.
+    pub at_corner: bool,
 }
 
 /// Both members at one wear state and mesh position, for drawing.

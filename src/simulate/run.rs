@@ -2,16 +2,15 @@
 
 use std::time::Instant;
 
-use crate::contact::model::PositionContact;
 use crate::gear::{Member, Pair};
 use crate::mesh::Quality;
-use crate::simulate::checkpoint::Checkpoint;
+use crate::simulate::checkpoint::{Checkpoint, Stored};
 use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, GearSet};
 use crate::simulate::gather;
 use crate::simulate::history::{Progress, StepReport, WearState};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
-use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, Run};
+use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, Run, State};
 
 /// What a run is to do.
 #[derive(Debug, Clone)]
@@ -97,6 +96,9 @@ const BALANCE_LIMIT: f64 = 5e-3;
 /// Largest penetration over the approach that passes.
 const PENETRATION_LIMIT: f64 = 1e-3;
 
+/// Largest relative difference of the torque that the contact forces carry from the load that passes: rounding.
+const TORQUE_LIMIT: f64 = 1e-9;
+
 /// Runs `plan`, from `start` if that is given. `members` are built if the plan needs and none are given.
 ///
 /// # Errors
@@ -126,53 +128,43 @@ pub fn run(
     stages.end("mesh and compliance");
     observer.event(Event::Stage("mesh cycle"));
     let mut forward = Forward::new(plan.set, members, plan.conditions, plan.numerics)?;
-    if let Some(start) = &start {
-        forward.prepare(&start.preparation)?;
-    }
     stages.end("mesh cycle");
-    let states = wear(plan, &mut forward, start, observer)?;
-    stages.end("contact and wear");
-    observer.event(Event::Stage("fields"));
-    let fields = fields(plan, &forward, &states.states)?;
-    stages.end("fields");
+    let worn = wear(plan, &mut forward, start, &mut stages, observer)?;
     let pair = forward.cycle().pair.clone();
-    let worst = states
-        .states
-        .iter()
-        .flat_map(|s| &s.contacts)
-        .map(|c| c.penetration)
-        .fold(0.0, f64::max);
-    let balance_error = states.progress.balance.error();
+    let largest = |figure: fn(&Kept) -> f64| worn.kept.iter().map(figure).fold(0.0, f64::max);
+    let checks = vec![
+        check(
+            "worn area, law against geometry",
+            worn.progress.balance.error(),
+            BALANCE_LIMIT,
+        ),
+        check(
+            "penetration over approach",
+            largest(|k| k.penetration),
+            PENETRATION_LIMIT,
+        ),
+        check(
+            "torque from contact forces against the load",
+            largest(|k| k.torque_error),
+            TORQUE_LIMIT,
+        ),
+    ];
+    let (states, frames): (Vec<State>, Vec<Vec<FieldFrame>>) =
+        worn.kept.into_iter().map(|k| (k.state, k.frames)).unzip();
     Ok(Run {
         title: plan.title.to_owned(),
         conditions: gather::conditions(plan),
         geometry: gather::geometry(&pair),
         mesh: members.map(|m| [Member::Pinion, Member::Gear].map(|which| mesh_summary(m, which))),
-        states: states
-            .states
-            .iter()
-            .map(|s| gather::state(plan, &forward, s))
-            .collect(),
-        fields,
-        balance_error,
-        checks: vec![
-            check(
-                "worn area, law against geometry",
-                balance_error,
-                BALANCE_LIMIT,
-            ),
-            check("penetration over approach", worst, PENETRATION_LIMIT),
-            check(
-                "torque from contact forces against the load",
-                torque_error(&forward, &states.states),
-                1e-9,
-            ),
-        ],
+        states,
+        fields: frames.into_iter().flatten().collect(),
+        balance_error: worn.progress.balance.error(),
+        checks,
         cost: Cost {
             seconds: begun.elapsed().as_secs_f64(),
             factorisations: forward.factorisations(),
-            contact_solves: states.progress.solves,
-            wear_steps: states.progress.stand.accepted,
+            contact_solves: worn.progress.solves,
+            wear_steps: worn.progress.stand.accepted,
             peak_memory_mb: peak_memory_mb(),
             threads: rayon::current_num_threads(),
             stages: stages.list,
@@ -181,8 +173,17 @@ pub fn run(
 }
 
 struct Worn {
-    states: Vec<WearState>,
+    kept: Vec<Kept>,
     progress: Progress,
+}
+
+/// What is kept of a stored state. It is gathered while the contact is prepared as the wear found it: a later preparation
+/// looks for contact in a wider strip, so its unknowns are others.
+struct Kept {
+    state: State,
+    frames: Vec<FieldFrame>,
+    penetration: f64,
+    torque_error: f64,
 }
 
 /// The wear history with its stored states; every step goes to the observer.
@@ -190,49 +191,58 @@ fn wear(
     plan: &Plan,
     forward: &mut Forward,
     start: Option<Checkpoint>,
+    stages: &mut Stages,
     observer: &mut dyn Observer,
 ) -> Result<Worn, RunError> {
     let end = plan.conditions.cycles;
     let stops: Vec<f64> = (0..=plan.stored_states)
         .map(|i| end * i as f64 / plan.stored_states as f64)
         .collect();
-    let (mut progress, mut stored) = start.map_or((None, Vec::new()), |s| (s.progress, s.stored));
-    let mut states = Vec::new();
-    for earlier in &stored {
-        states.push(forward.state(earlier)?);
+    let (mut progress, mut stored) = (None, Vec::new());
+    let mut kept = Vec::new();
+    if let Some(start) = start {
+        for earlier in &start.stored {
+            forward.prepare(&earlier.preparation)?;
+            kept.push(keep(plan, forward, &earlier.progress, stages)?);
+        }
+        forward.prepare(&start.preparation)?;
+        (progress, stored) = (start.progress, start.stored);
     }
     for &stop in &stops[stored.len()..] {
-        let mut kept = Ok(());
+        let mut outcome_of_keeping = Ok(());
         let outcome = forward.wear_to(&mut progress, stop, &mut |preparation, progress| {
             let fraction = progress.stand.n / end;
-            kept = observer.keep(&Checkpoint {
+            outcome_of_keeping = observer.keep(&Checkpoint {
                 preparation: preparation.clone(),
                 progress: Some(progress.clone()),
                 stored: stored.clone(),
             });
-            kept.is_ok()
+            outcome_of_keeping.is_ok()
                 && observer.event(Event::Step {
                     fraction,
                     report: progress.report(),
                 })
         });
-        kept.map_err(RunError::Keep)?;
+        outcome_of_keeping.map_err(RunError::Keep)?;
         let reached = progress.as_ref().map_or(0.0, |p| p.stand.n);
-        match outcome {
-            Ok(true) => {}
-            Ok(false) => return Err(RunError::Stopped { cycles: reached }),
-            Err(source) if reached > 0.0 => {
-                return Err(RunError::Midway {
-                    cycles: reached,
-                    end,
-                    source,
-                });
-            }
-            Err(source) => return Err(source.into()),
+        let failed = |source: ForwardError| match reached {
+            cycles if cycles > 0.0 => RunError::Midway {
+                cycles,
+                end,
+                source,
+            },
+            _ => source.into(),
+        };
+        if !outcome.map_err(failed)? {
+            return Err(RunError::Stopped { cycles: reached });
         }
         let Some(reached) = &progress else { continue };
-        stored.push(reached.clone());
-        states.push(forward.state(reached)?);
+        stages.end("contact and wear");
+        kept.push(keep(plan, forward, reached, stages).map_err(failed)?);
+        stored.push(Stored {
+            preparation: forward.preparation(),
+            progress: reached.clone(),
+        });
         observer
             .keep(&Checkpoint {
                 preparation: forward.preparation(),
@@ -243,39 +253,56 @@ fn wear(
     }
     let progress = progress
         .unwrap_or_else(|| unreachable!("the first stop at zero cycles always leaves a progress"));
-    Ok(Worn { states, progress })
+    Ok(Worn { kept, progress })
 }
 
-/// Fields of every stored state at the position nearest to the pitch point, and of the last at evenly spread positions.
-fn fields(
+/// Gathers the state where `progress` stands, with its fields: at the position nearest to the pitch point, and of the last
+/// state at evenly spread positions.
+fn keep(
     plan: &Plan,
     forward: &Forward,
-    states: &[WearState],
-) -> Result<Vec<FieldFrame>, ForwardError> {
+    progress: &Progress,
+    stages: &mut Stages,
+) -> Result<Kept, ForwardError> {
     use rayon::prelude::*;
-    if plan.drawn_positions == 0 || forward.members().is_none() {
-        return Ok(Vec::new());
-    }
-    let positions = forward.cycle().positions.len();
-    let last = states.len() - 1;
-    let mut wanted: Vec<(usize, usize)> = (0..states.len()).map(|s| (s, 0)).collect();
-    wanted.extend((1..plan.drawn_positions).map(|i| (last, i * positions / plan.drawn_positions)));
-    wanted
+    let worn = forward.state(progress)?;
+    let state = gather::state(plan, forward, &worn);
+    stages.end("contact and wear");
+    let drawn = match (plan.drawn_positions, forward.members()) {
+        (0, _) | (_, None) => 0,
+        (all, Some(_)) if worn.cycles == plan.conditions.cycles => all,
+        _ => 1,
+    };
+    let frames = (0..drawn)
         .into_par_iter()
-        .map(|(s, q)| gather::frame(forward, &states[s], q))
-        .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()
-        .map(|frames| frames.into_iter().flatten().collect())
+        .map(|i| {
+            gather::frame(
+                forward,
+                &worn,
+                forward.cycle().nearest(i as f64 / drawn as f64),
+            )
+        })
+        .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()?;
+    stages.end("fields");
+    Ok(Kept {
+        state,
+        frames: frames.into_iter().flatten().collect(),
+        penetration: worn
+            .contacts
+            .iter()
+            .map(|c| c.penetration)
+            .fold(0.0, f64::max),
+        torque_error: torque_error(forward, &worn),
+    })
 }
 
-/// Largest relative difference between the torque of the contact forces and the load, over all states and positions.
-fn torque_error(forward: &Forward, states: &[WearState]) -> f64 {
-    let lever_error = |q: usize, contact: &PositionContact| {
-        (forward.torque_of(q, contact) / forward.torque() - 1.0).abs()
-    };
-    states
+/// Largest relative difference between the torque of the contact forces and the load, over all positions.
+fn torque_error(forward: &Forward, state: &WearState) -> f64 {
+    state
+        .contacts
         .iter()
-        .flat_map(|s| s.contacts.iter().enumerate())
-        .map(|(q, c)| lever_error(q, c))
+        .enumerate()
+        .map(|(q, contact)| (forward.torque_of(q, contact) / forward.torque() - 1.0).abs())
         .fold(0.0, f64::max)
 }
 
@@ -317,10 +344,14 @@ impl Default for Stages {
 }
 
 impl Stages {
+    /// The time since the last end belongs to the stage `name`.
     fn end(&mut self, name: &str) {
-        self.list
-            .push((name.to_owned(), self.last.elapsed().as_secs_f64()));
+        let seconds = self.last.elapsed().as_secs_f64();
         self.last = Instant::now();
+        match self.list.iter_mut().find(|(known, _)| known == name) {
+            Some((_, sum)) => *sum += seconds,
+            None => self.list.push((name.to_owned(), seconds)),
+        }
     }
 }
 

@@ -5,14 +5,27 @@
 
 pub mod challenge;
 pub mod contact_and_wear;
+pub mod convergence;
 pub mod elasticity;
 pub mod flat_punch;
+pub mod gear_condensation;
+pub mod gear_contact;
+pub mod gear_geometry;
+pub mod gear_pairs;
+pub mod gear_root;
+pub mod gear_sharing;
+pub mod gear_stiffness;
+pub mod gear_wear;
+pub mod gears;
 pub mod half_bodies;
 pub mod hertz_cylinders;
 pub mod invariance;
 pub mod nafems_cylinder;
+pub mod paper_rows;
 pub mod partial_slip;
 pub mod patch;
+pub mod registry;
+pub mod runner;
 pub mod sliding;
 pub mod two_bodies;
 pub mod wear_block;
@@ -167,10 +180,25 @@ pub enum CaseError {
     /// The elastic solver refused a mesh, a support or a load.
     #[error(transparent)]
     Elasticity(#[from] FemError),
+    /// A gear pair could not be built or its contact not solved.
+    #[error("gears: {reason}")]
+    Gears {
+        /// What the gear, mesh or contact code said.
+        reason: String,
+    },
     /// The displacements of a rigid body were asked for.
     #[error("body {side} is rigid")]
     Rigid {
         /// 0 or 1.
         side: usize,
     },
+}
+
+impl CaseError {
+    /// A case that failed in the gear, mesh or contact code.
+    pub(crate) fn gears(error: impl std::fmt::Display) -> Self {
+        Self::Gears {
+            reason: error.to_string(),
+        }
+    }
 }

@@ -10,7 +10,9 @@ use faer::Mat;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use crate::contact::cycle::{PairContact, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::numeric::sparse::SparseRows;
 use crate::wear::integrator::WearSystem;
 
 /// The two flanks' depths as one vector: pinion stations, then gear stations, mm.
@@ -123,48 +125,76 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
         let mut jacobian = Mat::zeros(u.len(), u.len());
         for ((position, contact), block) in cycle.positions.iter().zip(contacts).zip(blocks) {
             let Some(block) = block else { return Ok(None) };
-            // ∂rate/∂u = − Dᵀ S G with D the deposit and G the opening, both sparse
-            let rows: Vec<Vec<(usize, f64)>> = contact
-                .active
-                .iter()
-                .map(|&k| {
-                    let pair = &position.pairs[position.owner(k)];
-                    (0..2)
-                        .flat_map(|side| {
-                            let (columns, values) = pair.wear[side].row(k - pair.offset);
-                            columns
-                                .iter()
-                                .zip(values)
-                                .map(move |(&c, v)| (shift[side] + c as usize, factors[side] * v))
-                        })
-                        .collect()
-                })
-                .collect();
-            let mut column = vec![0.0; u.len()];
-            let mut touched: Vec<usize> = rows.iter().flatten().map(|e| e.0).collect();
-            touched.sort_unstable();
-            touched.dedup();
-            for (j, &l) in contact.active.iter().enumerate() {
+            let local = Local {
+                position,
+                active: &contact.active,
+                shift,
+                factors,
+            };
+            local.add(&block, &mut jacobian);
+        }
+        Ok(Some(jacobian))
+    }
+}
+
+/// One position's part of the Jacobian, −Dᵀ S G: D deposits, S is the sensitivity of the pressures, G opens the gaps.
+struct Local<'a> {
+    position: &'a Position,
+    active: &'a [usize],
+    /// First unknown of each flank.
+    shift: [usize; 2],
+    factors: [f64; 2],
+}
+
+impl Local<'_> {
+    /// Entries (station, value) of an operator's row for unknown `k`, both flanks.
+    fn row<'b>(
+        &'b self,
+        k: usize,
+        operator: impl Fn(&'b PairContact) -> &'b [SparseRows; 2] + 'b,
+    ) -> impl Iterator<Item = (usize, f64, usize)> + 'b {
+        let pair = &self.position.pairs[self.position.owner(k)];
+        operator(pair)
+            .iter()
+            .enumerate()
+            .flat_map(move |(side, rows)| {
+                let (columns, values) = rows.row(k - pair.offset);
+                columns
+                    .iter()
+                    .zip(values)
+                    .map(move |(&c, &v)| (self.shift[side] + c as usize, v, side))
+            })
+    }
+
+    fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut Mat<f64>) {
+        let deposits: Vec<Vec<(usize, f64)>> = self
+            .active
+            .iter()
+            .map(|&k| {
+                self.row(k, |pair| &pair.wear)
+                    .map(|(at, v, side)| (at, self.factors[side] * v))
+                    .collect()
+            })
+            .collect();
+        let mut touched: Vec<usize> = deposits.iter().flatten().map(|e| e.0).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        let mut column = vec![0.0; jacobian.nrows()];
+        for (j, &l) in self.active.iter().enumerate() {
+            for &i in &touched {
+                column[i] = 0.0;
+            }
+            for (i, deposit) in deposits.iter().enumerate() {
+                for &(at, value) in deposit {
+                    column[at] -= value * sensitivity[(i, j)];
+                }
+            }
+            for (station, opening, _) in self.row(l, |pair| &pair.opening) {
+                let target = jacobian.col_as_slice_mut(station);
                 for &i in &touched {
-                    column[i] = 0.0;
-                }
-                for (i, row) in rows.iter().enumerate() {
-                    for &(at, value) in row {
-                        column[at] -= value * block[(i, j)];
-                    }
-                }
-                let pair = &position.pairs[position.owner(l)];
-                for side in 0..2 {
-                    let (columns, values) = pair.opening[side].row(l - pair.offset);
-                    for (&c, &v) in columns.iter().zip(values) {
-                        let target = jacobian.col_as_slice_mut(shift[side] + c as usize);
-                        for &i in &touched {
-                            target[i] += v * column[i];
-                        }
-                    }
+                    target[i] += opening * column[i];
                 }
             }
         }
-        Ok(Some(jacobian))
     }
 }

@@ -167,8 +167,7 @@ pub fn advance<S: WearSystem>(
         }
         stand.rejected += 1;
         step = tau * factor.min(0.7);
-        // also catches an error that is not a number
-        if !(step > control.least_step) || !error.is_finite() {
+        if step <= control.least_step || !error.is_finite() {
             return Err(StepError::TooSmall { n, step, error });
         }
     }

@@ -2,9 +2,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use gearwear::report::html::{self, Case, Difference, ModelColumn, Models, Verdict};
+use gearwear::report::html::{self, Case, Verdict};
 use gearwear::report::plots::{Plot, Style};
-use gearwear::report::{text, write_models, write_validation};
+use gearwear::report::{text, write_validation};
 use serde_json::Value;
 
 use super::{read, synthetic, written};
@@ -144,35 +144,6 @@ fn plots_draw_the_numbers() {
         vec![(1.0, 5.0), (f64::NAN, 1.0)],
     );
     assert!(flat.svg().is_ok() && Plot::new("none", "", "", "").svg().is_ok());
-}
-
-#[test]
-fn models_stand_side_by_side() {
-    let dir = tempfile::tempdir().unwrap();
-    let run = synthetic::run();
-    let column = |name: &str| ModelColumn {
-        name: name.to_owned(),
-        ..ModelColumn::of_run(&run, "assumes | little")
-    };
-    let models = Models {
-        title: "Three models".to_owned(),
-        conditions: text::asked_for(&run),
-        conclusion: "They differ at the ends of contact.".to_owned(),
-        path_limits: run.geometry.path_limits,
-        models: vec![column("fem"), column("hertz"), column("paper")],
-        differences: vec![Difference {
-            quantity: "peak pressure, MPa".to_owned(),
-            values: vec![Some(858.1), Some(875.8), None],
-            cause: "load sharing".to_owned(),
-        }],
-    };
-    let done = write_models(&models, &dir.path().join("models")).unwrap();
-    let json: Value =
-        serde_json::from_slice(&fs::read(done.folder.join("models.json")).unwrap()).unwrap();
-    assert_eq!(json["models"][2]["name"], "paper");
-    assert_eq!(json["differences"][0]["values"][2], Value::Null);
-    let page = fs::read_to_string(done.folder.join("report.html")).unwrap();
-    assert!(page.contains("875.8") && page.matches("<figure>").count() == 4);
 }
 
 #[test]

@@ -182,6 +182,7 @@ fn position(position: f64, worn: f64) -> PositionState {
                 peak_pressure: 846.8 * share.sqrt() * (1.0 - 0.02 * path - 0.1 * worn),
                 half_width: 0.0897 * share.sqrt(),
                 off_line_of_action: path < LIMITS[0] + 0.3,
+                at_corner: path < LIMITS[0] + 0.3,
             }
         })
         .collect();

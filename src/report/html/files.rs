@@ -25,12 +25,13 @@ pub(super) fn table(files: &[String]) -> Table {
 
 fn meaning(name: &str) -> Option<&'static str> {
     Some(match name {
+        "study.toml" => "the study as it was run",
         "summary.json" => "the figures of this page for programs",
         "wear.csv" => {
             "worn depth along both flanks at every stored state: cycles, member, radius mm, path mm, depth µm"
         }
         "contact.csv" => {
-            "each tooth pair at each mesh position: load share, line load N/mm, peak pressure MPa, half width mm"
+            "each tooth pair at each mesh position: load share, line load N/mm, peak pressure MPa, half width mm, whether it touches with a corner"
         }
         "transmission_error.csv" => {
             "lag of the gear at each mesh position: cycles, position in base pitches, angle µrad"

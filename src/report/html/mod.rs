@@ -8,7 +8,7 @@ mod run;
 mod table;
 mod validation;
 
-pub use models::{Difference, ModelColumn, Models, models};
+pub use models::models;
 pub use page::{Page, Section};
 pub use run::run;
 pub use table::{Cell, Table};

@@ -1,171 +1,239 @@
-//! The page and the document of `models`: the contact models side by side, and what makes them differ.
-use serde::Serialize;
-
+//! The page of `models`: the contact models side by side, and which assumption makes each difference.
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::report::format::significant;
-use crate::report::plots::{Plot, Style};
-use crate::simulate::result::{PairState, Profile, Run};
+use crate::report::format::{count, significant};
+use crate::report::models::{
+    conclusions, decimals, fixed, of_mounting, published_gear_speed, signed,
+};
+use crate::report::plots;
+use crate::simulate::models::{Comparison, Kind, Means, Mounted, Quantity, RegionDifference};
 
-/// Several models of the same pair under the same conditions.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Models {
-    /// Free text of the study.
-    pub title: String,
-    /// What was run, in one line.
-    pub conditions: String,
-    /// What the comparison shows, in a sentence or two.
-    pub conclusion: String,
-    /// A, B, D, E on the path of contact, mm from the pitch point.
-    pub path_limits: [f64; 4],
-    /// The models, in the order they are to be shown.
-    pub models: Vec<ModelColumn>,
-    /// What differs, by how much, and why.
-    pub differences: Vec<Difference>,
-}
-
-/// One model's curves along the path of contact, mm from the pitch point.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ModelColumn {
-    /// `fem`, `hertz` or `paper`.
-    pub name: String,
-    /// What it assumes.
-    pub assumptions: String,
-    /// Largest contact pressure of one pair, MPa, unworn.
-    pub pressure: Vec<(f64, f64)>,
-    /// Load share of one pair, unworn.
-    pub load_share: Vec<(f64, f64)>,
-    /// Worn depth of the pinion at the end, µm.
-    pub pinion_depth: Vec<(f64, f64)>,
-    /// Worn depth of the gear at the end, µm.
-    pub gear_depth: Vec<(f64, f64)>,
-}
-
-/// One quantity in all models.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Difference {
-    /// What is compared, unit included.
-    pub quantity: String,
-    /// Its value in each model, in the order of `Models::models`; none where a model has no such value.
-    pub values: Vec<Option<f64>>,
-    /// Which assumption makes the values differ.
-    pub cause: String,
-}
-
-impl ModelColumn {
-    /// The curves of a run: contact of its first state, wear of its last.
-    pub fn of_run(run: &Run, assumptions: &str) -> Self {
-        let along_path = |value: fn(&PairState) -> f64| {
-            let loaded = run.first().pairs().filter(|pair| pair.line_load > 0.0);
-            let mut points: Vec<(f64, f64)> = loaded.map(|pair| (pair.path, value(pair))).collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            points
-        };
-        let depth = |flank: &Profile| {
-            flank
-                .path
-                .iter()
-                .copied()
-                .zip(flank.depth.iter().copied())
-                .collect()
-        };
-        ModelColumn {
-            name: run.conditions.model.clone(),
-            assumptions: assumptions.to_owned(),
-            pressure: along_path(|pair| pair.peak_pressure),
-            load_share: along_path(|pair| pair.load_share),
-            pinion_depth: depth(&run.last().pinion),
-            gear_depth: depth(&run.last().gear),
-        }
-    }
-}
-
-/// The page.
-pub fn models(all: &Models) -> Page {
-    let mut assumptions = Table::new("", ["model", "assumes"]);
-    for model in &all.models {
-        assumptions = assumptions.row([
-            Cell::Code(model.name.clone()),
-            Cell::text(model.assumptions.clone()),
-        ]);
-    }
-    let mut head = vec!["quantity"];
-    head.extend(all.models.iter().map(|model| model.name.as_str()));
-    head.push("cause of the difference");
-    let mut differences = Table::new("", head);
-    for difference in &all.differences {
-        let mut row = vec![Cell::text(difference.quantity.clone())];
-        row.extend(
-            difference
-                .values
-                .iter()
-                .map(|value| Cell::number(value.map_or("–".to_owned(), |v| significant(v, 4)))),
-        );
-        row.push(Cell::text(difference.cause.clone()));
-        differences = differences.row(row);
-    }
+/// The page of a comparison; `title` is the study's own.
+pub fn models(title: &str, comparison: &Comparison) -> Page {
+    let c = &comparison.conditions;
+    let mut sections: Vec<Section> = comparison.mounted.iter().map(mounting).collect();
+    sections.extend(one_at_a_time(comparison));
+    sections.push(rungs(comparison));
+    sections.push(assumptions(comparison));
     Page {
-        title: if all.title.is_empty() {
+        title: if title.is_empty() {
             "Contact models side by side".to_owned()
         } else {
-            all.title.clone()
+            title.to_owned()
         },
-        kicker: all.conditions.clone(),
-        conclusion: all.conclusion.clone(),
-        sections: vec![
-            Section::new("What differs and why").table(differences),
-            Section::new("Curves").plots(plots(all)),
-            Section::new("What each model assumes").table(assumptions),
-        ],
+        kicker: format!(
+            "Contact models side by side: {} and {} teeth, {} N·m at {} rpm, wear after {} pinion revolutions",
+            comparison.teeth[0],
+            comparison.teeth[1],
+            significant(c.torque / 1000.0, 4),
+            count(c.speed),
+            count(c.cycles)
+        ),
+        conclusion: unbroken(&conclusions(comparison).join(" ")),
+        sections,
     }
 }
 
-/// Pressure, load share and wear of both members, one curve per model.
-fn plots(all: &Models) -> Vec<Plot> {
-    const PATH: &str = "distance along the path of contact from the pitch point, mm";
-    type Column = fn(&ModelColumn) -> &Vec<(f64, f64)>;
-    let kinds: [(&str, &str, &str, Column); 4] = [
-        (
-            "models_pressure",
-            "Largest contact pressure of one pair, unworn",
-            "peak pressure, MPa",
-            |m| &m.pressure,
-        ),
-        (
-            "models_load_share",
-            "Share of the load that one pair carries, unworn",
-            "load share, -",
-            |m| &m.load_share,
-        ),
-        (
-            "models_wear_pinion",
-            "Worn depth of the pinion",
-            "worn depth, µm",
-            |m| &m.pinion_depth,
-        ),
-        (
-            "models_wear_gear",
-            "Worn depth of the gear",
-            "worn depth, µm",
-            |m| &m.gear_depth,
-        ),
-    ];
-    let [a, b, d, e] = all.path_limits;
-    let letters = [(a, "A"), (b, "B"), (0.0, "C"), (d, "D"), (e, "E")]
-        .map(|(at, letter)| (at, letter.to_owned()));
-    kinds
-        .into_iter()
-        .map(|(name, title, y_label, column)| {
-            let empty = Plot::new(name, title, PATH, y_label)
-                .with_marks(letters.clone())
-                .starting_at_zero();
-            all.models
-                .iter()
-                .enumerate()
-                .fold(empty, |plot, (kind, model)| {
-                    plot.curve(&model.name, Style::Kind(kind), column(model).clone())
-                })
+fn mounting(mounted: &Mounted) -> Section {
+    let heading = format!("Misalignment {} mm", mounted.misalignment);
+    let mut section = Section::new(&heading);
+    for said in of_mounting(mounted) {
+        section = section.paragraph(unbroken(&said));
+    }
+    for quantity in [
+        Quantity::DepthPinion,
+        Quantity::DepthGear,
+        Quantity::PeakPressure,
+    ] {
+        section.tables.extend(ladder(mounted, quantity));
+    }
+    for quantity in Quantity::ALL {
+        section.tables.extend(differences(mounted, quantity));
+    }
+    section.plots(plots::of_models(mounted)).note(
+        "First tables: the models' means, and between them what each replaced assumption changes. Then the differences: of \
+         the means, and after the stroke the largest at one place, both over the mean of the model named second.",
+    )
+}
+
+/// Keeps numbers and their units on one line.
+fn unbroken(text: &str) -> String {
+    [" µm", " mm", " %", " MPa"]
+        .iter()
+        .fold(text.to_owned(), |text, unit| {
+            text.replace(unit, &unit.replace(' ', "\u{a0}"))
         })
-        .filter(|plot| !plot.is_empty())
+}
+
+/// The parts of the path of contact as heads of columns: from letter to letter.
+fn heads(mounted: &Mounted) -> Vec<String> {
+    let [a, b, d, e] = mounted.geometry.path_limits;
+    let letter = |y: f64| {
+        let all = [(a, "A"), (e, "E"), (0.0, "C"), (b, "B"), (d, "D")];
+        let nearest = all
+            .iter()
+            .min_by(|p, q| (p.0 - y).abs().total_cmp(&(q.0 - y).abs()));
+        nearest.map_or("", |(_, letter)| letter)
+    };
+    let spans = mounted.spans.iter();
+    spans
+        .map(|s| format!("{}–{}", letter(s.from), letter(s.to)))
         .collect()
+}
+
+/// The models with their means by region, and between them what each replaced assumption changes.
+fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
+    let caption = format!("Mean {}, {}", quantity.label(), quantity.unit());
+    let heads = heads(mounted);
+    let mut head = vec!["model or cause"];
+    head.extend(heads.iter().map(String::as_str));
+    head.push("A–E");
+    let mut table = Table::new(&caption, head);
+    let digits = decimals(quantity);
+    let numbers = |means: &Means, said: fn(f64, usize) -> String| {
+        let all = means.regions.iter().chain(std::iter::once(&means.whole));
+        all.map(|v| Cell::number(said(*v, digits)))
+            .collect::<Vec<_>>()
+    };
+    let model = |kind: Kind, means: &Means| {
+        let first = Cell::Code(kind.name().to_owned());
+        std::iter::once(first).chain(numbers(means, fixed))
+    };
+    for ladder in &mounted.ladders {
+        let Some(column) = ladder.start.iter().position(|m| m.quantity == quantity) else {
+            continue;
+        };
+        if table.rows.is_empty() {
+            table = table.row(model(ladder.from, &ladder.start[column]));
+        }
+        for rung in &ladder.rungs {
+            let change = &rung.changes[column];
+            let nothing = change.regions.iter().all(|v| *v == 0.0);
+            if nothing {
+                continue;
+            }
+            let first = Cell::text(rung.cause.label());
+            table = table.row(std::iter::once(first).chain(numbers(change, signed)));
+        }
+        table = table.row(model(ladder.to, &ladder.end[column]));
+    }
+    (!table.rows.is_empty()).then_some(table)
+}
+
+/// Relative differences of one quantity by region: of the means, and at the worst place.
+fn differences(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
+    let heads = heads(mounted);
+    let mut head = vec!["model, reference"];
+    head.extend(heads.iter().map(String::as_str));
+    let mut table = Table::new(&format!("Differences in {}, %", quantity.label()), head);
+    let relative = |value: Option<f64>| {
+        value.map_or("–".to_owned(), |v| {
+            signed(100.0 * v, usize::from(v.abs() < 1.0))
+        })
+    };
+    let cell =
+        |r: &RegionDifference| Cell::number(format!("{} / {}", relative(r.mean), relative(r.max)));
+    let all = mounted
+        .differences
+        .iter()
+        .filter(|d| d.quantity == quantity);
+    for difference in all {
+        let first = Cell::text(format!(
+            "{}, {}",
+            difference.model.name(),
+            difference.reference.name()
+        ));
+        table = table.row(std::iter::once(first).chain(difference.regions.iter().map(cell)));
+    }
+    (!table.rows.is_empty()).then_some(table)
+}
+
+/// Each correction of the published model by itself, one column per misalignment.
+fn one_at_a_time(comparison: &Comparison) -> Option<Section> {
+    let columns: Vec<(&Mounted, f64)> = comparison
+        .mounted
+        .iter()
+        .filter(|m| !m.alone.is_empty())
+        .filter_map(|m| Some((m, m.means(Quantity::DepthPinion, Kind::Paper)?.whole)))
+        .collect();
+    let (first, _) = columns.first()?;
+    let heads: Vec<String> = columns
+        .iter()
+        .map(|(m, _)| format!("{}\u{a0}mm", m.misalignment))
+        .collect();
+    let mut head = vec!["cause", "correction"];
+    head.extend(heads.iter().map(String::as_str));
+    let mut table = Table::new(
+        "Change of the pinion's mean worn depth when this alone is corrected, µm and % of the model's depth, by misalignment",
+        head,
+    );
+    for (row, alone) in first.alone.iter().enumerate() {
+        let numbers = columns.iter().map(|(mounted, all)| {
+            let change = mounted.alone[row].change.whole;
+            let percent = signed(100.0 * change / all, 1);
+            Cell::number(format!("{} ({percent}\u{a0}%)", signed(change, 3)))
+        });
+        let words = [
+            Cell::text(alone.cause.label()),
+            Cell::text(alone.correction),
+        ];
+        table = table.row(words.into_iter().chain(numbers));
+    }
+    let gear_speed = format!(
+        "Gear speed in the published model: {}.",
+        published_gear_speed(comparison)
+    );
+    Some(
+        Section::new("The published model, corrected one step at a time")
+            .paragraph(gear_speed)
+            .table(table),
+    )
+}
+
+/// What every rung takes out and puts in.
+fn rungs(comparison: &Comparison) -> Section {
+    let most = comparison
+        .mounted
+        .iter()
+        .max_by_key(|m| m.ladders.iter().map(|l| l.rungs.len()).sum::<usize>());
+    let mut table = Table::new("", ["between", "cause", "assumption", "replaced by"]);
+    for ladder in most.iter().flat_map(|m| &m.ladders) {
+        for rung in &ladder.rungs {
+            table = table.row([
+                Cell::text(format!("{} and {}", ladder.from.name(), ladder.to.name())),
+                Cell::text(rung.cause.label()),
+                Cell::text(rung.replaced),
+                Cell::text(rung.by),
+            ]);
+        }
+    }
+    Section::new("What each cause replaces")
+        .paragraph(
+            "Between two models one assumption after the other is replaced, from top to bottom; each line of the tables above \
+             is the change that one replacement makes. The changes add up to the difference of the two models; where two \
+             assumptions act on each other their order matters.",
+        )
+        .table(table)
+}
+
+fn assumptions(comparison: &Comparison) -> Section {
+    let mut table = Table::new("", ["model", "assumes"]);
+    for kind in [Kind::Paper, Kind::Hertz, Kind::Fem] {
+        table = table.row([
+            Cell::Code(kind.name().to_owned()),
+            Cell::text(kind.assumptions()),
+        ]);
+    }
+    let mut section = Section::new("What each model assumes").table(table).note(
+        "All models are run without the study's effects. A to E is the path of contact with the pitch point C: lower_double \
+         is A to B, single_lower B to C, single_upper C to D, upper_double D to E; means are taken along it. Under a sharp \
+         tip corner the pressure grows without limit as the mesh is refined; load share and wear do not.",
+    );
+    for out in &comparison.left_out {
+        section = section.note(format!(
+            "A misalignment of {} mm is left out: {}.",
+            out.misalignment, out.reason
+        ));
+    }
+    section
 }

@@ -4,8 +4,10 @@
 //! which needs no fonts. Colours are told apart by colour-blind readers (Okabe and Ito 2008 for members and models, a dark to
 //! light ramp for states in time), and never carry the meaning alone: each curve also has its own marker and a legend entry.
 mod draw;
+mod models;
 mod run;
 
+pub use models::of_models;
 pub use run::of_run;
 
 /// A line plot.

@@ -103,14 +103,14 @@ fn peak_pressure(run: &Run) -> Plot {
     along_path(plot, run, |pair| pair.peak_pressure)
 }
 
-/// First and last state; the pairs that touch outside the line of action (a tip corner) as crosses of the same colour.
+/// First and last state; the pairs that touch with a tip corner as crosses of the same colour.
 fn along_path(plot: Plot, run: &Run, value: impl Fn(&PairState) -> f64) -> Plot {
     let mut plot = plot.with_marks(letters(run)).starting_at_zero();
     for (kind, state) in ends(run).into_iter().enumerate() {
-        let gather = |off: bool| {
+        let gather = |at_corner: bool| {
             let mut points: Vec<(f64, f64)> = state
                 .pairs()
-                .filter(|pair| pair.line_load > 0.0 && pair.off_line_of_action == off)
+                .filter(|pair| pair.line_load > 0.0 && pair.at_corner == at_corner)
                 .map(|pair| (pair.path, value(pair)))
                 .collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,0 +1,196 @@
+//! What a comparison shows, in sentences.
+use super::super::format::{percent, significant};
+use super::signed;
+use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity};
+
+/// What holds over all misalignments.
+pub fn conclusions(comparison: &Comparison) -> Vec<String> {
+    let all = &comparison.mounted;
+    let mut said = Vec::new();
+    let single = all
+        .iter()
+        .filter_map(|m| m.single)
+        .map(|s| s.largest_difference.abs());
+    if let Some(largest) = single.max_by(f64::total_cmp) {
+        said.push(format!(
+            "Where one pair alone carries the load, peak pressures by finite elements and by Hertz agree within {}.",
+            percent(largest, 2)
+        ));
+    }
+    let published: Vec<&Mounted> = all
+        .iter()
+        .filter(|m| m.model(Kind::Paper).is_some())
+        .collect();
+    let times = published
+        .iter()
+        .filter_map(|m| ratio(m, Quantity::DepthPinion, Kind::Paper));
+    if let Some(range) = range(times, |v| significant(v, 3)) {
+        let ways = published
+            .iter()
+            .map(|m| m.causes(Quantity::DepthPinion, Kind::Paper, Kind::Fem));
+        said.push(format!(
+            "The published model wears the pinion {range} times as deep as finite elements do, {}.",
+            blame(ways)
+        ));
+    }
+    for (quantity, member) in [
+        (Quantity::DepthPinion, "pinion"),
+        (Quantity::DepthGear, "gear"),
+    ] {
+        let off = all
+            .iter()
+            .filter_map(|m| ratio(m, quantity, Kind::Hertz))
+            .map(|r| r - 1.0);
+        if let Some(range) = range(off, |v| format!("{} %", signed(100.0 * v, 1))) {
+            let ways = all
+                .iter()
+                .map(|m| m.causes(quantity, Kind::Hertz, Kind::Fem));
+            said.push(format!(
+                "The Hertz model's mean depth on the {member} differs from that of finite elements by {range}, {}.",
+                blame(ways)
+            ));
+        }
+    }
+    for out in &comparison.left_out {
+        said.push(format!(
+            "A misalignment of {} mm is left out: {}.",
+            out.misalignment, out.reason
+        ));
+    }
+    if let Some(reason) = all.iter().find_map(|m| m.absent.as_ref()) {
+        said.push(format!(
+            "The published model is left out where its rules do not reach: {reason}."
+        ));
+    }
+    said
+}
+
+/// What holds at one misalignment.
+pub fn of_mounting(mounted: &Mounted) -> Vec<String> {
+    let mut said = Vec::new();
+    if let Some(single) = mounted.single {
+        let [_, b, d, _] = mounted.geometry.path_limits;
+        said.push(format!(
+            "One pair alone carries the load from {} to {} mm along the path of contact (nominally {} to {} mm); there the \
+             finite elements' peak pressure is within {} of Hertz's, {} on average.",
+            significant(single.from, 3),
+            significant(single.to, 3),
+            significant(b, 3),
+            significant(d, 3),
+            percent(single.largest_difference.abs(), 2),
+            percent(single.mean_difference, 2)
+        ));
+    }
+    said.extend(of_way(
+        mounted,
+        Quantity::DepthPinion,
+        Kind::Paper,
+        "the pinion",
+    ));
+    said.extend(of_way(
+        mounted,
+        Quantity::DepthPinion,
+        Kind::Hertz,
+        "the pinion",
+    ));
+    said.extend(of_way(
+        mounted,
+        Quantity::DepthGear,
+        Kind::Hertz,
+        "the gear",
+    ));
+    said.extend(
+        mounted
+            .absent
+            .as_ref()
+            .map(|reason| format!("The published model cannot be run here: {reason}.")),
+    );
+    said
+}
+
+/// How much deeper `from` wears than finite elements, and what makes it so.
+fn of_way(mounted: &Mounted, quantity: Quantity, from: Kind, member: &str) -> Option<String> {
+    let (start, end) = (
+        mounted.means(quantity, from)?,
+        mounted.means(quantity, Kind::Fem)?,
+    );
+    let mut causes = mounted.causes(quantity, from, Kind::Fem);
+    if causes.is_empty() || mounted.model(from).is_none() {
+        return None;
+    }
+    let turned = from == Kind::Paper;
+    causes.sort_by(|a, b| b.1.whole.abs().total_cmp(&a.1.whole.abs()));
+    let total = end.whole - start.whole;
+    let told: Vec<String> = causes
+        .iter()
+        .take(4)
+        .filter(|(_, change)| change.whole.abs() >= 0.005 * start.whole.abs().min(end.whole.abs()))
+        .map(|(cause, change)| {
+            if turned {
+                format!(
+                    "{} {} %",
+                    cause.label(),
+                    signed(100.0 * change.whole / total, 1)
+                )
+            } else {
+                format!("{} {} µm", cause.label(), signed(change.whole, 3))
+            }
+        })
+        .collect();
+    let what = format!(
+        "The {} model's mean depth on {member} is {} µm, that of finite elements {} µm",
+        if turned { "published" } else { "Hertz" },
+        significant(start.whole, 3),
+        significant(end.whole, 3)
+    );
+    Some(match (told.is_empty(), turned) {
+        (true, _) => format!("{what}."),
+        (false, true) => format!("{what}. Parts of the difference: {}.", told.join(", ")),
+        (false, false) => format!("{what}; on the way there: {}.", told.join(", ")),
+    })
+}
+
+fn ratio(mounted: &Mounted, quantity: Quantity, kind: Kind) -> Option<f64> {
+    let (ours, theirs) = (
+        mounted.means(quantity, kind)?.whole,
+        mounted.means(quantity, Kind::Fem)?.whole,
+    );
+    (theirs != 0.0).then_some(ours / theirs)
+}
+
+/// Smallest to largest, or the one value.
+fn range(values: impl Iterator<Item = f64>, said: impl Fn(f64) -> String) -> Option<String> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (l.min(v), h.max(v))
+    });
+    let (low, high) = (low.is_finite().then(|| said(low))?, said(high));
+    Some(if low == high {
+        low
+    } else {
+        format!("{low} to {high}")
+    })
+}
+
+/// The cause that changes the mean most at most misalignments.
+fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>) -> String {
+    let mut sums: Vec<(Cause, f64)> = Vec::new();
+    for (cause, change) in ways.flatten() {
+        match sums.iter_mut().find(|(c, _)| *c == cause) {
+            Some((_, sum)) => *sum += change.whole.abs(),
+            None => sums.push((cause, change.whole.abs())),
+        }
+    }
+    sums.sort_by(|a, b| b.1.total_cmp(&a.1));
+    match sums.as_slice() {
+        [] => String::new(),
+        [(first, _)] => format!("because of {}", first.label()),
+        [(first, most), (second, next), ..] if *next > 0.25 * most => {
+            format!(
+                "above all because of {} and {}",
+                first.label(),
+                second.label()
+            )
+        }
+        [(first, _), ..] => format!("above all because of {}", first.label()),
+    }
+}

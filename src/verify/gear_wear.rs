@@ -1,0 +1,350 @@
+//! Case F9: wear of gear flanks per pass against the closed form, by the analytic module and through the whole pipeline.
+//!
+//! ```text
+//! h1 = k F'(y) |1 − v2/v1|,   h2 = k F'(y) |1 − v1/v2|     per pass; the gear's teeth pass z1/z2 times per pinion cycle
+//! ```
+//! F'(y) is the solved line load, so only the bookkeeping of pressure, sliding and time is judged.
+
+use std::f64::consts::PI;
+
+use crate::analytic::archard_pass::{depth_per_pass, linear_load_share, pitch_point_depth};
+use crate::analytic::hertz_line::{half_width, pressure};
+use crate::contact::model::ContactModel;
+use crate::gear::{Member, Pair};
+use crate::numeric::interpolate;
+use crate::simulate::forward::{Conditions, Forward};
+use crate::simulate::history::{line_load, worn_area};
+use crate::simulate::members::Members;
+use crate::simulate::numerics::Numerics;
+use crate::verify::gear_pairs::GearCase;
+use crate::verify::{CaseError, Measured, gear_condensation};
+use crate::wear::archard::ArchardSystem;
+use crate::wear::integrator::WearSystem;
+
+/// Wear per k and pass at A, B (2/3), B (1), D (1), E by the linear share, N/mm.
+type Table = [[f64; 5]; 2];
+
+/// The analytic module against specific sliding times load (1e-6) and against the tabulated first-cycle values.
+///
+/// # Errors
+/// [`CaseError`] if a pair cannot be built.
+pub fn formula() -> Result<Vec<Measured>, CaseError> {
+    let tables: [(GearCase, f64, Table); 2] = [
+        (
+            GearCase::reference()?,
+            100e3,
+            [
+                [77.774, 16.140, 24.210, 12.616, 20.584],
+                [26.333, 13.420, 20.130, 14.106, 42.619],
+            ],
+        ),
+        (
+            GearCase::fzg_c()?,
+            372.6e3,
+            [
+                [984.71, 295.83, 443.75, 269.19, 179.68],
+                [207.09, 189.15, 283.72, 409.21, 570.71],
+            ],
+        ),
+    ];
+    let mut out = Vec::new();
+    for (case, torque, table) in tables {
+        let pair = case.pair()?;
+        let load = case.load(torque);
+        let limits = [pair.rho_a, pair.rho_b, pair.rho_d, pair.rho_e];
+        let share = |rho: f64| linear_load_share(rho, limits);
+        let places = [
+            ("A", pair.rho_a, share(pair.rho_a)),
+            ("B (2/3)", pair.rho_b, share(pair.rho_b - 1e-9)),
+            ("B (1)", pair.rho_b, share(pair.rho_b)),
+            ("D (1)", pair.rho_d, share(pair.rho_d)),
+            ("E", pair.rho_e, share(pair.rho_e)),
+        ];
+        let mut worst = 0.0_f64;
+        for (column, (at, rho, share)) in places.into_iter().enumerate() {
+            let path = rho - pair.rho_c;
+            let speeds = [rho, pair.rho_gear(path) / pair.speed_ratio];
+            for (side, member) in Member::BOTH.into_iter().enumerate() {
+                let depth = depth_per_pass(1.0, share * load, speeds[side], speeds[1 - side]);
+                let sliding = share * load * pair.sliding_ratio(member, path).abs();
+                worst = worst.max((depth / sliding - 1.0).abs());
+                let quantity = format!("{} {member} h/k at {at}, N/mm", case.name);
+                let target = table[side][column];
+                out.push(Measured::relative("F9", quantity, depth, target, 1e-4));
+            }
+        }
+        out.push(Measured::bound(
+            "F9",
+            format!(
+                "{} depth per pass over k F' |specific sliding|, minus 1",
+                case.name
+            ),
+            worst,
+            1e-6,
+        ));
+    }
+    Ok(out)
+}
+
+/// One wear rate of fresh flanks, and the loads that made it.
+struct FreshRate {
+    /// Depth per pinion cycle and k at the stations of both flanks, N/mm.
+    rate: [Vec<f64>; 2],
+    /// Path coordinates, ascending, and line loads there.
+    path: Vec<f64>,
+    load: Vec<f64>,
+    /// ∮ F' |v| dt per pinion cycle and flank of the pinion, N (trapezoidal, from the loads alone).
+    sliding_work: f64,
+}
+
+impl FreshRate {
+    fn new(model: &dyn ContactModel) -> Result<Self, CaseError> {
+        let cycle = model.cycle();
+        let mut system = ArchardSystem::new(model, [1.0; 2]);
+        let fresh = vec![0.0; cycle.stations.count()];
+        let rate = system.rate(0.0, &fresh).map_err(CaseError::gears)?;
+        let contacts = system.contacts(&fresh).map_err(CaseError::gears)?;
+        let mut loads: Vec<[f64; 3]> = cycle
+            .positions
+            .iter()
+            .zip(contacts)
+            .flat_map(|(position, contact)| {
+                position
+                    .pairs
+                    .iter()
+                    .map(|p| [p.path, line_load(p, contact), p.slip.abs()])
+            })
+            .collect();
+        loads.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let sliding_work = loads
+            .windows(2)
+            .map(|w| 0.5 * (w[1][0] - w[0][0]) * (w[0][1] * w[0][2] + w[1][1] * w[1][2]))
+            .sum();
+        let (pinion, gear) = rate.split_at(cycle.stations.arc[0].len());
+        Ok(Self {
+            rate: [pinion.to_vec(), gear.to_vec()],
+            path: loads.iter().map(|l| l[0]).collect(),
+            load: loads.iter().map(|l| l[1]).collect(),
+            sliding_work,
+        })
+    }
+
+    /// Depth per k that the point at arc `s` of `member` takes while contacts of the solved loads with Hertz's profile
+    /// pass it, N/mm.
+    ///
+    /// ```text
+    /// h/k = ∫ F'(y) |v(y)| w(s − s(y)) dy,   w(x) = 2/(π b) √(1 − x²/b²)
+    /// ```
+    fn passage(&self, pair: &Pair, member: Member, s: f64, modulus: f64) -> f64 {
+        let gear = pair.member(member);
+        let [a, .., e] = pair.path_points();
+        let steps = 8000;
+        let dy = (e - a) / f64::from(steps);
+        let slide = (1.0 + 1.0 / pair.speed_ratio) / pair.pinion.base_radius;
+        (0..steps)
+            .map(|i| {
+                let y = a + (f64::from(i) + 0.5) * dy;
+                let load = interpolate(&self.path, &self.load, y);
+                let b = half_width(load, pair.relative_radius(y), modulus);
+                let x = gear.arc(pair.rho(member, y)) - s;
+                if x.abs() >= b {
+                    return 0.0;
+                }
+                load * slide * y.abs() * pressure(x, 2.0 / (PI * b), b) * dy
+            })
+            .sum()
+    }
+}
+
+/// F9 through the deposit of one pass on fresh flanks, by finite elements if there are `members`, else with Hertz pressures.
+///
+/// # Errors
+/// [`CaseError`] if a contact cannot be solved.
+pub fn one_pass(
+    case: &GearCase,
+    members: Option<&Members>,
+    numerics: Numerics,
+) -> Result<Vec<Measured>, CaseError> {
+    let forward = Forward::new(&case.set, members, conditions(case, 1.0), numerics)
+        .map_err(CaseError::gears)?;
+    let fresh = forward.with_model(FreshRate::new)?;
+    let cycle = forward.cycle();
+    let pair = &cycle.pair;
+    let [a, b, _, d, e] = pair.path_points();
+    let load = case.load(case.torque);
+    let width = |path: f64| 2.0 * half_width(load, pair.relative_radius(path), case.set.modulus());
+    let name = format!(
+        "{} {}",
+        case.name,
+        if members.is_some() {
+            "FE"
+        } else {
+            "Hertz model"
+        }
+    );
+    let mut out = Vec::new();
+    for (side, member) in Member::BOTH.into_iter().enumerate() {
+        let gear = pair.member(member);
+        let passes = if side == 0 {
+            1.0
+        } else {
+            1.0 / pair.speed_ratio
+        };
+        let (mut steady, mut changing) = ((0.0_f64, 0.0), (0.0_f64, 0.0));
+        for (&s, &rate) in cycle.stations.arc[side].iter().zip(&fresh.rate[side]) {
+            let path = pair.path_at_rho(member, gear.rho_at_arc(s));
+            // Hertz widths lie along the flank, where the contact is slower than along its path
+            let away = |y: f64| {
+                (gear.arc(pair.rho(member, y)) - s).abs() > 2.0 * width(y).max(width(path))
+            };
+            if path < a || path > e || ![a, 0.0, e].into_iter().all(away) {
+                continue;
+            }
+            let (worst, target) = if [b, d].into_iter().all(away) {
+                let load = interpolate(&fresh.path, &fresh.load, path);
+                (&mut steady, load * pair.sliding_ratio(member, path).abs())
+            } else {
+                let passage = fresh.passage(pair, member, s, case.set.modulus());
+                (&mut changing, passage)
+            };
+            let error = (rate / (passes * target) - 1.0).abs();
+            if error > worst.0 {
+                *worst = (error, path);
+            }
+        }
+        for (place, (error, path)) in [
+            ("two Hertz widths from A, B, C, D, E", steady),
+            (
+                "around B and D, load averaged over the width's passage",
+                changing,
+            ),
+        ] {
+            out.push(Measured::bound(
+                "F9",
+                format!(
+                    "{name} {member} wear per pass, {place}: largest deviation (at {path:+.2} mm)"
+                ),
+                error,
+                0.03,
+            ));
+        }
+        let area = worn_area(&cycle.stations.arc[side], &fresh.rate[side]);
+        out.push(Measured::relative(
+            "F9",
+            format!("{name} {member} worn area of a pass over k and load times sliding"),
+            area,
+            passes * fresh.sliding_work,
+            0.005,
+        ));
+    }
+    let bump = interpolate(
+        &cycle.stations.arc[0],
+        &fresh.rate[0],
+        pair.pinion.arc(pair.rho_c),
+    );
+    let ratio = 1.0 / pair.speed_ratio;
+    let (base, rho) = (pair.pinion.base_radius, pair.rho_c);
+    let target = pitch_point_depth(1.0, load, ratio, base, rho, 0.5 * width(0.0));
+    out.push(Measured::relative(
+        "F9",
+        format!("{name} pinion h/k at C, N/mm"),
+        bump,
+        target,
+        0.1,
+    ));
+    Ok(out)
+}
+
+fn conditions(case: &GearCase, k: f64) -> Conditions {
+    Conditions {
+        torque: case.torque,
+        speed: 2000.0,
+        misalignment: 0.0,
+        cycles: 1e6,
+        coefficient: [k; 2],
+    }
+}
+
+/// Largest depth at which the members are condensed again to see whether it matters, mm.
+const CONDENSED_AGAIN_AT: f64 = 0.015;
+
+/// F1, F9 (feedback) and the effect of condensing again, along one wear run of REF: k 4.7e-10 mm²/N, 1e6 pinion cycles.
+///
+/// # Errors
+/// [`CaseError`] if the run stops early.
+pub fn history(
+    case: &GearCase,
+    members: &Members,
+    numerics: Numerics,
+) -> Result<Vec<Measured>, CaseError> {
+    let k = 4.7e-10;
+    let mut forward = Forward::new(&case.set, Some(members), conditions(case, k), numerics)
+        .map_err(CaseError::gears)?;
+    let mut progress = None;
+    forward
+        .wear_to(&mut progress, 1e6, &mut |_, p| {
+            p.max_depth.iter().all(|d| *d < CONDENSED_AGAIN_AT)
+        })
+        .map_err(CaseError::gears)?;
+    let mut out = match &progress {
+        Some(progress) => {
+            let mut out = gear_condensation::effect(&mut forward, progress)?;
+            out.push(gear_condensation::condensed_often(&mut forward, progress)?);
+            out
+        }
+        None => Vec::new(),
+    };
+    let fresh = vec![0.0; forward.cycle().stations.count()];
+    let rate = |forward: &Forward, u: &[f64]| {
+        forward.with_model(|m| {
+            ArchardSystem::new(m, [k; 2])
+                .rate(0.0, u)
+                .map_err(CaseError::gears)
+        })
+    };
+    let first = rate(&forward, &fresh)?;
+    let mut balance = 0.0_f64;
+    forward
+        .wear_to(&mut progress, 1e6, &mut |_, p| {
+            balance = balance.max(p.balance.error());
+            true
+        })
+        .map_err(CaseError::gears)?;
+    let Some(progress) = progress else {
+        return Ok(out);
+    };
+    let last = rate(&forward, &progress.stand.u)?;
+    out.push(Measured::bound(
+        "F1",
+        "REF worst balance of worn area along the run",
+        balance,
+        0.005,
+    ));
+    let pair = &forward.cycle().pair;
+    let arc = &forward.cycle().stations.arc;
+    let split = arc[0].len();
+    let places = [
+        ("pinion at A", 0, pair.pinion.arc(pair.rho_a)),
+        ("gear at A", 1, pair.gear.arc(pair.gear.rho_end)),
+        ("pinion at E", 0, pair.pinion.arc(pair.pinion.rho_end)),
+        ("gear at E", 1, pair.gear.arc(pair.line_length - pair.rho_e)),
+    ];
+    for (what, side, s) in places {
+        let own = |v: &[f64]| {
+            let part = if side == 0 { &v[..split] } else { &v[split..] };
+            interpolate(&arc[side], part, s)
+        };
+        out.push(Measured {
+            id: "F9",
+            quantity: format!(
+                "wear rate of the {what} after 1e6 cycles over the first (must fall; largest depth {:.1} µm)",
+                1e3 * progress.max_depth.iter().fold(0.0, |m: f64, d| m.max(*d))
+            ),
+            value: own(&last) / own(&first),
+            target: 1.0,
+            error: f64::from(u8::from(own(&last) >= own(&first))),
+            tolerance: 0.0,
+        });
+    }
+    Ok(out)
+}
