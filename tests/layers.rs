@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// The modules of each floor, the lowest first. Modules of one floor do not know each other.
 const FLOORS: &[&[&str]] = &[
-    &["numeric"],
+    &["numeric", "source_text"],
     &["gear", "material", "analytic", "paper"],
     &["mesh", "tribology"],
     &["fem", "effects"],

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use toml::de::DeValue;
 
-use super::diagnostic::{Diagnostic, Fault, list, nearest};
 use super::quantity as q;
 use super::reader::Table;
+use crate::source_text::{Diagnostic, Fault, list, nearest};
 
 /// Keys of an entry that are not parameters.
 const FORMULA_KEYS: &[&str] = &[

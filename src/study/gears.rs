@@ -1,9 +1,9 @@
 //! `[gears]`: basic rack, two members, centre distance; and the checks that need all of them.
 
-use super::diagnostic::{Diagnostic, Fault};
 use super::quantity::{self as q, span_of_numbers};
 use super::reader::Table;
 use crate::gear::{BasicRack, Gear, GearError, MIN_TEETH, Member, Pair, PairError, ToothSpec};
+use crate::source_text::{Diagnostic, Fault};
 
 pub(super) const KEYS: &[&str] = &[
     "module",

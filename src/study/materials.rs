@@ -1,10 +1,10 @@
 //! `[material]`, `[lubricant]`, `[thermal]`: what the bodies and the oil are made of.
 
-use super::diagnostic::{Diagnostic, Fault};
 use super::quantity as q;
 use super::reader::Table;
 use crate::gear::Member;
 use crate::material::Elastic;
+use crate::source_text::{Diagnostic, Fault};
 
 pub(super) const MATERIAL_KEYS: &[&str] = &["youngs_modulus", "poisson_ratio", "density"];
 const MATERIAL_TABLE_KEYS: &[&str] = &[

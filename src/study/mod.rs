@@ -7,7 +7,6 @@
 //!
 //! Inside a `Study` lengths are mm, torques N mm, angles rad; a field whose name ends in a unit keeps that of the file.
 
-mod diagnostic;
 mod effect;
 mod file;
 mod gears;
@@ -25,7 +24,9 @@ use std::path::{Path, PathBuf};
 
 use toml::de::DeTable;
 
-pub use diagnostic::{Diagnostic, Fault, Source, StudyError, nearest};
+use crate::source_text;
+
+pub use crate::source_text::{Diagnostic, Fault, Source, TextError as StudyError, nearest};
 pub use effect::{EffectSpec, Formula, Hook, ParamValue};
 pub use gears::Gears;
 pub use materials::{Lubricant, Material, Materials, Thermal};
@@ -114,7 +115,10 @@ impl Study {
     /// # Errors
     /// A [`StudyError`] for the first fault: unreadable, not UTF-8, syntax, keys, values, impossible gears.
     pub fn load(path: &Path) -> std::result::Result<Study, StudyError> {
-        let study = Study::read(file::read(path)?, path.parent().unwrap_or(Path::new("")))?;
+        let study = Study::read(
+            source_text::read(path, &file::WANTED)?,
+            path.parent().unwrap_or(Path::new("")),
+        )?;
         let meshes = [
             ("numerics.mesh_pinion", &study.numerics.mesh_pinion),
             ("numerics.mesh_gear", &study.numerics.mesh_gear),

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::diagnostic::{Diagnostic, Fault};
 use super::materials::Lubricant;
 use super::quantity as q;
 use super::reader::Table;
+use crate::source_text::{Diagnostic, Fault};
 
 pub(super) const KEYS: &[&str] = &[
     "order",

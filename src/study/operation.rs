@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
-use super::diagnostic::{Diagnostic, Fault};
 use super::gears::{Gears, check_pair};
 use super::materials::{Lubricant, Materials, Thermal};
 use super::quantity::{self as q, Short};
 use super::reader::Table;
 use crate::gear::Pair;
 use crate::material::contact_modulus;
+use crate::source_text::{Diagnostic, Fault};
 
 pub(super) const OPERATION_KEYS: &[&str] = &["torque", "speed", "misalignment"];
 pub(super) const TEST_KEYS: &[&str] = &[

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{Diagnostic, Fault, Source, list, nearest};
+use crate::source_text::{Diagnostic, Fault, Source, list, nearest};
 
 pub(super) type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use toml::de::DeValue;
 
-use super::diagnostic::{Diagnostic, Fault, nearest};
 use super::effect::EffectSpec;
 use super::quantity as q;
 use super::reader::Table;
+use crate::source_text::{Diagnostic, Fault, nearest};
 
 pub(super) const WEAR_KEYS: &[&str] = &["coefficient", "cycles"];
 pub(super) const MODEL_KEYS: &[&str] = &["contact"];

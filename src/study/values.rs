@@ -5,9 +5,9 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::diagnostic::{Diagnostic, Fault, nearest};
 use super::quantity::Quantity;
 use super::reader::{Result, Table, shown};
+use crate::source_text::{Diagnostic, Fault, nearest};
 
 /// A text and where it stands.
 type Placed<'a> = (&'a str, Range<usize>);

@@ -1,52 +1,11 @@
 //! One message about a text file, in the form of a compiler's: what, where (file, line, column), the line itself with a
-//! caret, what was found, what is allowed, and a way out. Knows nothing of studies and gears.
+//! caret, what was found, what is allowed, and a way out.
 
-use std::fmt;
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
-/// A text file as it was read, with the name under which the user knows it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Source {
-    /// File name or path as given by the user; stands in every message.
-    pub name: String,
-    /// The text, without a byte order mark.
-    pub text: String,
-}
-
-impl Source {
-    /// Line and column (in characters) of a byte offset, both counted from 1.
-    pub fn position(&self, offset: usize) -> (usize, usize) {
-        let before = &self.text[..self.boundary(offset)];
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        (
-            before.matches('\n').count() + 1,
-            before[line_start..].chars().count() + 1,
-        )
-    }
-
-    /// The span moved onto character boundaries inside the text; an empty one is widened to a visible character.
-    pub(super) fn visible(&self, span: Range<usize>) -> Range<usize> {
-        let start = self.boundary(span.start);
-        let end = self.boundary(span.end.max(start));
-        if end > start {
-            return start..end;
-        }
-        match self.text[start..].chars().next() {
-            Some(next) if next != '\n' && next != '\r' => start..start + next.len_utf8(),
-            _ => start..start,
-        }
-    }
-
-    fn boundary(&self, offset: usize) -> usize {
-        let mut at = offset.min(self.text.len());
-        while !self.text.is_char_boundary(at) {
-            at -= 1;
-        }
-        at
-    }
-}
+use super::Source;
 
 /// What kind of fault a [`Diagnostic`] reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,9 +17,9 @@ pub enum Fault {
     NotUtf8,
     /// The text does not follow the file format (duplicate keys included).
     Syntax,
-    /// A key that does not exist.
+    /// A key or column that does not exist.
     UnknownKey,
-    /// A required key or table is missing.
+    /// A required key, table or column is missing.
     MissingKey,
     /// A value of the wrong type, for example text instead of a number.
     WrongType,
@@ -77,7 +36,7 @@ pub enum Fault {
 pub struct Diagnostic {
     /// Kind of fault.
     pub fault: Fault,
-    /// The key it concerns, with its tables: `gears.pinion.teeth`; empty when no key is concerned.
+    /// The key it concerns, with its tables (`gears.pinion.teeth`), or the column; empty when none is concerned.
     pub key: String,
     /// The fault in one line, with the key and the values.
     pub message: String,
@@ -93,7 +52,7 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// A message about a key; the other fields are empty and filled by the `with_` functions.
-    pub(super) fn new(fault: Fault, key: impl Into<String>, message: impl Into<String>) -> Self {
+    pub fn new(fault: Fault, key: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             fault,
             key: key.into(),
@@ -106,24 +65,20 @@ impl Diagnostic {
     }
 
     /// Where the fault stands.
-    pub(super) fn with_span(mut self, span: Range<usize>) -> Self {
+    pub fn with_span(mut self, span: Range<usize>) -> Self {
         self.span = Some(span);
         self
     }
 
     /// What was found and what is allowed.
-    pub(super) fn with_values(
-        mut self,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Self {
+    pub fn with_values(mut self, found: impl Into<String>, allowed: impl Into<String>) -> Self {
         self.found = found.into();
         self.allowed = allowed.into();
         self
     }
 
     /// One more way out or reason; an empty text adds none.
-    pub(super) fn with_hint(mut self, hint: impl Into<String>) -> Self {
+    pub fn with_hint(mut self, hint: impl Into<String>) -> Self {
         let hint = hint.into();
         if !hint.is_empty() {
             self.hints.push(hint);
@@ -180,69 +135,13 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 }
 
 /// Words as a list for a sentence: `a, b, c`.
-pub(super) fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
+pub fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().collect::<Vec<_>>().join(", ")
 }
-
-/// A diagnostic together with the text it speaks of: an error that prints itself.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct StudyError(Box<(Diagnostic, Source)>);
-
-impl StudyError {
-    /// Joins a message and its text.
-    pub(super) fn new(diagnostic: Diagnostic, source: Source) -> Self {
-        Self(Box::new((diagnostic, source)))
-    }
-
-    /// The fault itself.
-    pub fn diagnostic(&self) -> &Diagnostic {
-        &self.0.0
-    }
-
-    /// Name of the file as the user gave it.
-    pub fn file(&self) -> &str {
-        &self.0.1.name
-    }
-
-    /// Line and column of the fault, counted from 1; `None` if it concerns the file as a whole.
-    pub fn position(&self) -> Option<(usize, usize)> {
-        let (diagnostic, source) = &*self.0;
-        diagnostic
-            .span
-            .as_ref()
-            .map(|span| source.position(span.start))
-    }
-
-    /// The whole message, in colour if `coloured`.
-    pub fn render(&self, coloured: bool) -> String {
-        self.0.0.render(&self.0.1, coloured)
-    }
-}
-
-impl fmt::Display for StudyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.render(false))
-    }
-}
-
-impl std::error::Error for StudyError {}
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn positions_count_characters_and_lines() {
-        let source = Source {
-            name: "s".into(),
-            text: "aé\r\nb = 1\n".into(),
-        };
-        assert_eq!(source.position(0), (1, 1));
-        assert_eq!(source.position(3), (1, 3));
-        assert_eq!(source.position(9), (2, 5));
-        assert_eq!(source.position(999), (3, 1));
-        assert_eq!(source.position(2), (1, 2), "inside é: moved to its start");
-    }
 
     #[test]
     fn nearest_word_wins() {

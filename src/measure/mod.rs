@@ -1,0 +1,121 @@
+//! Floor 7: the measurement file. `measurements.csv` becomes a [`Dataset`] whose every row has been checked, or one
+//! [`TextError`] that shows the place, what was found, what is allowed and a way out. No row is dropped silently.
+//!
+//! ```text
+//! text -> csv records with places (table) -> columns (header) -> cells -> Observation -> units of the whole (units)
+//! ```
+//!
+//! Knows the study by [`Known`] only: ids and lengths of the tests, the flanks' radii, the face width.
+
+mod cell;
+mod header;
+mod known;
+mod observation;
+mod quantity;
+mod table;
+mod units;
+
+use std::path::Path;
+
+use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted};
+
+pub use header::COLUMNS;
+pub use known::{Known, KnownTest};
+pub use observation::Observation;
+pub use quantity::{Place, Quantity, Subject};
+
+use header::Columns;
+use observation::Reader;
+use table::Table;
+
+/// Every measurement of a file, in its order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dataset {
+    /// The file's name as the user gave it.
+    pub name: String,
+    /// Ids of the study's tests; [`Observation::test`] counts in them.
+    pub tests: Vec<String>,
+    /// The rows.
+    pub observations: Vec<Observation>,
+    /// The traces by first appearance; [`Observation::trace`] counts in them.
+    pub traces: Vec<Trace>,
+}
+
+/// Points that share one unknown constant datum offset.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Trace {
+    /// Its name in the file.
+    pub name: String,
+    /// What all its points measure.
+    pub quantity: Quantity,
+    /// Line of its first point.
+    pub line: usize,
+}
+
+/// The measurement file, to whoever cannot read it.
+const WANTED: Wanted = Wanted {
+    what: "measurement file",
+    ending: "csv",
+    format: "CSV",
+    hint: "[measurements] file in the study names it, relative to the study file",
+};
+
+impl Dataset {
+    /// Reads and checks a measurement file.
+    ///
+    /// # Errors
+    /// A [`TextError`] for the first fault: unreadable, not UTF-8, columns, rows, values, units.
+    pub fn load(path: &Path, known: &Known) -> Result<Self, TextError> {
+        Self::read(source_text::read(path, &WANTED)?, known)
+    }
+
+    /// Checks a measurement file's text; `name` stands in messages.
+    ///
+    /// # Errors
+    /// As [`Dataset::load`].
+    pub fn parse(text: &str, name: &str, known: &Known) -> Result<Self, TextError> {
+        let source = Source {
+            name: name.to_owned(),
+            text: text.strip_prefix('\u{feff}').unwrap_or(text).to_owned(),
+        };
+        Self::read(source, known)
+    }
+
+    /// File and line of an observation, for messages: `measurements.csv:7`.
+    pub fn place(&self, observation: &Observation) -> String {
+        format!("{}:{}", self.name, observation.line)
+    }
+
+    fn read(source: Source, known: &Known) -> Result<Self, TextError> {
+        match Self::rows(&source, known) {
+            Ok(dataset) => Ok(dataset),
+            Err(diagnostic) => Err(TextError::new(*diagnostic, source)),
+        }
+    }
+
+    fn rows(source: &Source, known: &Known) -> Result<Self, Box<Diagnostic>> {
+        let mut table = Table::new(source);
+        let columns = Columns::read(&mut table)?;
+        let mut reader = Reader::new(&columns, known);
+        let mut observations = Vec::new();
+        while let Some(row) = table.next()? {
+            let observation = reader.observation(&row)?;
+            observations.push(observation);
+        }
+        if observations.is_empty() {
+            let end = source.text.trim_end().len();
+            return Err(Box::new(
+                Diagnostic::new(Fault::MissingKey, "", "the file holds no measurement")
+                    .with_values("no row after the header", "one row per measured value")
+                    .with_span(end..end),
+            ));
+        }
+        units::check(source, &columns, &observations)?;
+        Ok(Self {
+            name: source.name.clone(),
+            tests: known.tests.iter().map(|test| test.id.clone()).collect(),
+            observations,
+            traces: reader.into_traces(),
+        })
+    }
+}

@@ -1,0 +1,12 @@
+//! Floor 0: text files that a user wrote, and the message when one of them is not right. Knows nothing of studies,
+//! measurements and gears.
+
+mod diagnostic;
+mod error;
+mod file;
+mod source;
+
+pub use diagnostic::{Diagnostic, Fault, list, nearest};
+pub use error::TextError;
+pub use file::{Wanted, read};
+pub use source::Source;
