@@ -164,8 +164,8 @@ pub(super) fn single_contact(
 /// How contacts of a cycle become a curve.
 pub(super) struct Reading<'a> {
     pub(super) cycle: &'a Cycle,
-    /// Lever of the torque of each unknown of a position.
-    pub(super) levers: &'a dyn Fn(usize) -> &'a [f64],
+    /// Torque per face width of a tooth pair, given by position and number, N·mm/mm.
+    pub(super) moment: &'a dyn Fn(usize, usize, &PositionContact) -> f64,
     /// Torque per face width, N·mm/mm.
     pub(super) torque: f64,
     /// Contact modulus if contacts on the line of action are Hertz's: their peak then follows from the load.
@@ -178,7 +178,7 @@ impl Reading<'_> {
         let geometry = &self.cycle.pair;
         let mut points = Vec::new();
         for (q, (position, contact)) in self.cycle.positions.iter().zip(contacts).enumerate() {
-            for pair in &position.pairs {
+            for (index, pair) in position.pairs.iter().enumerate() {
                 let load = line_load(pair, contact);
                 let on_line = pair.frame.touch == Touch::Flanks;
                 if !on_line && load <= 0.0 {
@@ -186,11 +186,7 @@ impl Reading<'_> {
                 }
                 let own = pair.offset..pair.offset + pair.xi.len();
                 let pressure = &contact.pressure[own.clone()];
-                let moment: f64 = pressure
-                    .iter()
-                    .zip(&(self.levers)(q)[own])
-                    .map(|(p, l)| p * l)
-                    .sum();
+                let moment = (self.moment)(q, index, contact);
                 let peak = match self.hertz.filter(|_| on_line) {
                     Some(_) if load <= 0.0 => 0.0,
                     Some(modulus) => hertz_line::peak_pressure(
