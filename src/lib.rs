@@ -11,6 +11,7 @@
 pub mod analytic;
 pub mod cli;
 pub mod contact;
+pub mod effects;
 pub mod fem;
 pub mod gear;
 pub mod material;

@@ -60,11 +60,7 @@ fn every_benchmark_is_run_or_skipped_with_a_reason() {
             !known.iter().any(|k| k == **id || k.starts_with(&figures))
         })
         .collect();
-    let awaited = ["D1", "D2", "D3", "D4", "D5", "D6", "E3", "E4", "F9"];
-    assert!(
-        missing.iter().copied().eq(&awaited),
-        "neither run nor skipped: {missing:?}"
-    );
+    assert!(missing.is_empty(), "neither run nor skipped: {missing:?}");
     assert!(registry::skipped().iter().all(|s| !s.reason.is_empty()));
     for entry in registry::entries() {
         assert!(GROUPS.contains(&entry.group), "{}", entry.title);

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
+use crate::effects::EffectError;
 use crate::report::OutputError;
 use crate::simulate::checkpoint::CheckpointError;
 use crate::simulate::forward::ForwardError;
@@ -16,6 +17,9 @@ pub enum CliError {
     /// The study cannot be used.
     #[error(transparent)]
     Study(#[from] StudyError),
+    /// The catalogue has no such effect.
+    #[error(transparent)]
+    Effect(#[from] EffectError),
     /// The result folder cannot be used, or a file not written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -81,7 +85,10 @@ impl CliError {
     /// 2 for unusable input (nothing was written), 1 for any other failure.
     pub(super) fn exit_code(&self) -> u8 {
         match self {
-            CliError::Study(_) | CliError::Exists { .. } | CliError::NotAFolder { .. } => 2,
+            CliError::Study(_)
+            | CliError::Effect(_)
+            | CliError::Exists { .. }
+            | CliError::NotAFolder { .. } => 2,
             CliError::Output(
                 OutputError::Foreign { .. }
                 | OutputError::NotAFolder { .. }

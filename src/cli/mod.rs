@@ -9,6 +9,7 @@
 //! `execute`.
 
 pub mod args;
+mod effects;
 mod error;
 mod folder;
 mod init;

@@ -9,12 +9,14 @@ use super::args::StudyAndOutput;
 use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
+use crate::contact::model::ContactError;
 use crate::report::{self, atomic};
 use crate::simulate::checkpoint::{Checkpoint, CheckpointError, Fingerprint, fingerprint};
+use crate::simulate::forward::ForwardError;
 use crate::simulate::members::Members;
 use crate::simulate::paper_run;
 use crate::simulate::result::Run;
-use crate::simulate::run::{Event, Observer, Plan, run};
+use crate::simulate::run::{Event, Observer, Plan, RunError, run};
 use crate::study::{ContactKind, Operation, Study};
 
 /// Arguments of `run`.
@@ -93,7 +95,18 @@ fn simulate(
     }
     let own = own_members(study, &plan)?;
     let mut watcher = Watcher { keeper, progress };
-    Ok(run(&plan, own.as_ref(), start, &mut watcher)?)
+    run(&plan, own.as_ref(), start, &mut watcher).map_err(|error| lacks_flank(study, error))
+}
+
+/// A user's own mesh that lacks the fine flank of a tooth which can touch is unusable input.
+fn lacks_flank(study: &Study, error: RunError) -> CliError {
+    if let RunError::Forward(ForwardError::Contact(ContactError::NoFlank { side, .. })) = &error
+        && let (member, Some(path)) = study.own_meshes()[*side]
+    {
+        let message = format!("{}: {error}", path.display());
+        return super::mesh::refusal(study, member, &message);
+    }
+    error.into()
 }
 
 /// The members on the user's own meshes, if the study names any.

@@ -130,12 +130,19 @@ fn case(row: &Row) -> Case {
         tolerance: row.tolerance.unwrap_or(f64::NAN),
         measure: if row.relative { "relative" } else { "" }.to_owned(),
         verdict: verdict(row),
-        // the reason of a tolerance is the same for a whole family and would drown the rest
-        note: match row.verdict {
-            Verdict::Pass if row.group != "Published paper" => String::new(),
-            _ => row.reason.clone(),
-        },
+        note: remark(row).unwrap_or_default(),
     }
+}
+
+/// What a reader should know beside the figures. The reason of a tolerance is none of it: it is the same for a whole
+/// family and excuses no miss.
+fn remark(row: &Row) -> Option<String> {
+    let about_the_case = match row.verdict {
+        Verdict::Pass => row.group == "Published paper",
+        Verdict::Fail => row.value.is_none() || row.group == "Published paper",
+        Verdict::Skipped | Verdict::ContradictsTheory => true,
+    };
+    (about_the_case && !row.reason.is_empty()).then(|| row.reason.clone())
 }
 
 /// The table for the terminal: a heading per group, one line per case, the totals.
@@ -189,8 +196,8 @@ fn text(rows: &[Row]) -> String {
             out += &format!("{group}\n{}", line(&head, "quantity"));
         }
         out += &line(cells, &row.quantity);
-        if row.verdict != Verdict::Pass {
-            out += &format!("      {}\n", row.reason);
+        if let Some(remark) = remark(row).filter(|_| row.verdict != Verdict::Pass) {
+            out += &format!("      {remark}\n");
         }
     }
     out + &totals(rows)

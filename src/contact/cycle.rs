@@ -113,13 +113,22 @@ pub struct Cycle {
 impl Cycle {
     /// The pinion's teeth that can touch somewhere in the mesh cycle (the gear's have the opposite numbers).
     pub fn teeth(pair: &Pair, spec: CycleSpec) -> Vec<i32> {
+        let half = 0.5 / spec.positions as f64;
         let mut teeth: Vec<i32> = rotations(pair, spec)
-            .iter()
-            .flat_map(|theta| teeth_at(pair, spec, *theta))
+            .into_iter()
+            .flat_map(|theta| [theta - half, theta + half])
+            .flat_map(|theta| teeth_at(pair, spec, theta))
             .collect();
         teeth.sort_unstable();
         teeth.dedup();
         teeth
+    }
+
+    /// The rotation `theta` (base pitches, any) taken where a cycle of this resolution takes it: only there the teeth of
+    /// [`Cycle::teeth`] suffice.
+    pub fn home(pair: &Pair, spec: CycleSpec, theta: f64) -> f64 {
+        let start = rotations(pair, spec)[0] - 0.5 / spec.positions as f64;
+        start + (theta - start).rem_euclid(1.0)
     }
 
     /// Builds all positions, in parallel.
@@ -154,7 +163,11 @@ impl Cycle {
 fn rotations(pair: &Pair, spec: CycleSpec) -> Vec<f64> {
     let n = spec.positions;
     let rotation = |q: usize| (q as f64 + 0.5) / n as f64;
-    let teeth: Vec<Vec<i32>> = (0..n).map(|q| teeth_at(pair, spec, rotation(q))).collect();
+    // the teeth between a position's neighbours, so that any rotation finds its teeth
+    let edges: Vec<Vec<i32>> = (0..=n)
+        .map(|q| teeth_at(pair, spec, q as f64 / n as f64))
+        .collect();
+    let teeth: Vec<Vec<i32>> = edges.windows(2).map(|e| e.concat()).collect();
     // teeth numbers grow by one where a rotation is taken one base pitch earlier
     let span = |shifted: usize| {
         let all = || {

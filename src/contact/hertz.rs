@@ -97,11 +97,16 @@ impl ContactModel for HertzContact<'_> {
                 self.cycle.pair.relative_radius(pair.path),
                 self.modulus,
             );
-            let shape: Vec<f64> = pair
+            let mut shape: Vec<f64> = pair
                 .xi
                 .iter()
                 .map(|x| (1.0 - (x / half_width).powi(2)).max(0.0).sqrt())
                 .collect();
+            if shape.iter().all(|s| *s == 0.0) {
+                // narrower than the grid: the nearest node carries it
+                let nearest = |x: &f64| pair.xi.iter().all(|other| x.abs() <= other.abs());
+                shape[pair.xi.iter().position(nearest).unwrap_or(0)] = 1.0;
+            }
             let area: f64 = shape.iter().zip(&pair.length).map(|(s, l)| s * l).sum();
             for (k, s) in shape.iter().enumerate().filter(|(_, s)| **s > 0.0) {
                 pressure[pair.offset + k] = s * load / area;

@@ -153,7 +153,6 @@ impl GearSet {
         misalignments: &[f64],
     ) -> Result<Fineness, ForwardError> {
         let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
-        let greatest = torques.iter().fold(0.0, |m: f64, t| m.max(*t)) / self.face_width;
         let pairs = misalignments
             .iter()
             .map(|m| self.mount(*m))
@@ -162,15 +161,16 @@ impl GearSet {
             .iter()
             .map(|p| numerics.flank_spacing(p, self.modulus(), least))
             .fold(f64::INFINITY, f64::min);
-        let mut teeth: Vec<i32> = pairs
+        let mut teeth = Vec::new();
+        for (pair, torque) in pairs
             .iter()
-            .flat_map(|pair| {
-                Cycle::teeth(
-                    pair,
-                    numerics.cycle(pair, self.modulus(), greatest, spacing),
-                )
-            })
-            .collect();
+            .flat_map(|pair| torques.iter().map(move |t| (pair, t / self.face_width)))
+        {
+            teeth.extend(Cycle::teeth(
+                pair,
+                numerics.cycle(pair, self.modulus(), torque, spacing),
+            ));
+        }
         teeth.sort_unstable();
         teeth.dedup();
         Ok(Fineness { teeth, spacing })

@@ -22,8 +22,7 @@ pub const IDS: [&str; 3] = [
 ];
 
 /// Why the tolerance is what it is.
-pub const REASON: &str =
-    "0.2 % of the largest depth: below the noise of a profile measurement of such a flank";
+pub const REASON: &str = "0.2 % of the largest depth, the bound set for the default resolution";
 
 /// Why the histories have no result.
 #[derive(Debug, thiserror::Error)]

@@ -187,6 +187,8 @@ pub struct Bench {
     pub members: Members,
     /// Resolution.
     pub numerics: Numerics,
+    /// Spacing of the contact grid over that of the flank edges.
+    pub grid: f64,
 }
 
 /// Contact at chosen mesh positions.
@@ -223,6 +225,7 @@ impl Bench {
             case,
             members,
             numerics,
+            grid: 1.0,
         })
     }
 
@@ -246,7 +249,7 @@ impl Bench {
         teeth: Teeth,
     ) -> Result<Solved, CaseError> {
         let per_width = torque / self.case.set.face_width;
-        let spacing = self.members.spacing();
+        let spacing = self.grid * self.members.spacing();
         let spec = self
             .numerics
             .cycle(pair, self.case.set.modulus(), per_width, spacing);
@@ -254,7 +257,7 @@ impl Bench {
         let positions = paths
             .iter()
             .map(|&path| {
-                let theta = (path / pair.base_pitch).rem_euclid(1.0);
+                let theta = Cycle::home(pair, spec, path / pair.base_pitch);
                 let position = Position::new(pair, &stations, spec, theta);
                 match teeth {
                     Teeth::All => position,

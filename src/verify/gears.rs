@@ -41,6 +41,11 @@ pub const FAMILIES: &[Family] = &[
         run: |e| sharing(&benches(numerics(e))?, pick(e, 24, 150)),
     },
     Family {
+        ids: &["E3"],
+        title: "transmission error without load",
+        run: light_load,
+    },
+    Family {
         ids: &["E4"],
         title: "root stress",
         run: |e| root(&benches(numerics(e))?),
@@ -134,6 +139,16 @@ pub fn sharing(benches: &[Bench], positions: usize) -> Result<Vec<Measured>, Cas
         gear_sharing::behaviour(bench, positions)
     })?);
     Ok(out)
+}
+
+/// E3 at a millionth of the load, on a contact grid fine enough for its thousandth of a half width.
+///
+/// # Errors
+/// [`CaseError`] if a member cannot be built or a contact not be solved.
+pub fn light_load(effort: Effort) -> Result<Vec<Measured>, CaseError> {
+    let mut bench = Bench::new(GearCase::reference()?, numerics(effort))?;
+    bench.grid = 0.1;
+    gear_sharing::light_load(&bench, 50)
 }
 
 /// E4 of all pairs.

@@ -87,7 +87,7 @@ fn text(printed: &Printed) -> String {
         Fate::ContradictsTheory => " (contradicts theory)",
         Fate::Input | Fate::Reproduced => "",
     };
-    let ours = printed.ours.map_or("none".to_owned(), |v| short(v));
+    let ours = printed.ours.map_or("none".to_owned(), short);
     format!(
         "{}, {}: paper {}{fate}, ours {ours}, theory {} {unit}",
         printed.quantity,

@@ -139,6 +139,11 @@ fn judged(entry: &Entry, measured: Measured) -> Row {
         .map_or(measured.id.to_owned(), |common| {
             format!("{common}.{}", measured.id)
         });
+    let common = id.split('.').next().map(registry::origin);
+    let (source, reason) = match common.unwrap_or_default() {
+        ("", _) => (entry.source, entry.reason),
+        own => own,
+    };
     Row {
         id,
         group: entry.group,
@@ -147,12 +152,12 @@ fn judged(entry: &Entry, measured: Measured) -> Row {
             && (measured.value / measured.target - 1.0).abs() == measured.error,
         quantity: measured.quantity,
         target: Some(measured.target),
-        source: entry.source.to_owned(),
+        source: source.to_owned(),
         value: Some(measured.value),
         error: Some(measured.error),
         tolerance: Some(measured.tolerance),
         verdict,
-        reason: entry.reason.to_owned(),
+        reason: reason.to_owned(),
         seconds: 0.0,
     }
 }

@@ -1,0 +1,184 @@
+//! A card tells all there is to know about one effect of the catalogue: to a person, to the study reader and to a fit.
+
+use super::effect::{Effect, Hook};
+use super::error::EffectError;
+use super::formula::{Formula, FormulaError};
+use super::prior::Prior;
+
+/// One effect of the catalogue.
+#[derive(Debug)]
+pub struct Card {
+    /// Name in study files and results.
+    pub name: &'static str,
+    /// Through which hook it acts.
+    pub hook: Hook,
+    /// `hook = expression`, in the parameters below and the named variables of a user's formula.
+    pub formula: &'static str,
+    /// Where the formula comes from, and what of it could not be checked.
+    pub source: &'static str,
+    /// How it shows in measurements; the part before the first semicolon stands in the overview.
+    pub signature: &'static str,
+    /// Effects of the catalogue that leave a like mark.
+    pub confounded_with: &'static [&'static str],
+    /// What tells it from those.
+    pub separated_by: &'static str,
+    /// Keys of the study's optional tables without which it cannot act.
+    pub needs: &'static [&'static str],
+    /// Parameters, in the order in which [`Card::build`] takes their values.
+    pub params: &'static [Param],
+    /// Accepted forms besides the default one: settings of parameters that a fit leaves alone.
+    pub forms: &'static [Form],
+    /// The effect with its parameters' values.
+    pub build: fn(&[f64]) -> Box<dyn Effect>,
+}
+
+/// One parameter of an effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Param {
+    /// Name in study files and results.
+    pub name: &'static str,
+    /// Unit, `-` if it has none.
+    pub unit: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Value where the study states none.
+    pub default: f64,
+    /// Smallest and largest value allowed.
+    pub range: (f64, f64),
+    /// What is thought of it before any measurement.
+    pub prior: Prior,
+    /// The value at which the effect does nothing; it may lie outside the range. With every such parameter at its neutral
+    /// value all hooks are neutral to the last bit.
+    pub neutral: Option<f64>,
+    /// Whether a fit adjusts it unless told otherwise.
+    pub fitted: bool,
+}
+
+/// Another accepted form of an effect's law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Form {
+    /// Name.
+    pub name: &'static str,
+    /// The parameters that differ from their defaults.
+    pub settings: &'static [(&'static str, f64)],
+}
+
+impl Param {
+    /// A fitted parameter without a neutral value.
+    pub(super) const fn new(
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        default: f64,
+        range: (f64, f64),
+        prior: Prior,
+    ) -> Self {
+        Self {
+            name,
+            unit,
+            meaning,
+            default,
+            range,
+            prior,
+            neutral: None,
+            fitted: true,
+        }
+    }
+
+    /// Neutral at `value`.
+    pub(super) const fn neutral(mut self, value: f64) -> Self {
+        self.neutral = Some(value);
+        self
+    }
+
+    /// Left alone by fits: a reference, or a choice of form.
+    pub(super) const fn fixed(mut self) -> Self {
+        self.fitted = false;
+        self
+    }
+
+    /// Whether a study may state `value`.
+    pub fn accepts(&self, value: f64) -> bool {
+        (self.range.0..=self.range.1).contains(&value) || self.neutral == Some(value)
+    }
+}
+
+impl Card {
+    /// The default values.
+    pub fn defaults(&self) -> Vec<f64> {
+        self.params.iter().map(|param| param.default).collect()
+    }
+
+    /// The defaults with every parameter that has a neutral value set to it.
+    pub fn neutral(&self) -> Vec<f64> {
+        self.params
+            .iter()
+            .map(|param| param.neutral.unwrap_or(param.default))
+            .collect()
+    }
+
+    /// The defaults with `stated` ones replaced.
+    ///
+    /// # Errors
+    /// [`EffectError`] if a name is unknown or a value not allowed.
+    pub fn values(&self, stated: &[(&str, f64)]) -> Result<Vec<f64>, EffectError> {
+        let mut values = self.defaults();
+        for &(name, value) in stated {
+            let place = self.place(name)?;
+            let param = &self.params[place];
+            if !param.accepts(value) {
+                return Err(EffectError::OutOfRange {
+                    effect: self.name.to_owned(),
+                    parameter: param.name,
+                    unit: param.unit,
+                    value,
+                    least: param.range.0,
+                    most: param.range.1,
+                });
+            }
+            values[place] = value;
+        }
+        Ok(values)
+    }
+
+    /// The place of a parameter among [`Card::params`].
+    ///
+    /// # Errors
+    /// [`EffectError::UnknownParameter`] with the nearest name.
+    pub fn place(&self, name: &str) -> Result<usize, EffectError> {
+        self.params
+            .iter()
+            .position(|param| param.name == name)
+            .ok_or_else(|| EffectError::UnknownParameter {
+                effect: self.name.to_owned(),
+                parameter: name.to_owned(),
+                nearest: super::error::nearest(name, self.params.iter().map(|param| param.name))
+                    .unwrap_or_default()
+                    .to_owned(),
+            })
+    }
+
+    /// The expression of the formula, right of the equals sign.
+    pub fn expression(&self) -> &'static str {
+        self.formula
+            .split_once(" = ")
+            .map_or(self.formula, |(_, expression)| expression)
+    }
+
+    /// The printed formula, compiled, and the places of the parameters it takes (those of other forms do not stand in it).
+    ///
+    /// # Errors
+    /// [`FormulaError`] if the card's own formula is at fault.
+    pub fn compiled(&self) -> Result<(Formula, Vec<usize>), FormulaError> {
+        let words: Vec<&str> = self
+            .expression()
+            .split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+            .collect();
+        let places: Vec<usize> = (0..self.params.len())
+            .filter(|&place| words.contains(&self.params[place].name))
+            .collect();
+        let names: Vec<&str> = places.iter().map(|&at| self.params[at].name).collect();
+        let formula = Formula::of_card(self.hook, self.expression(), &names)?;
+        Ok((formula, places))
+    }
+}

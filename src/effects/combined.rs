@@ -1,0 +1,92 @@
+//! Several effects at once: factors multiply, depths and lengths add, in the order in which they were put in.
+
+use super::effect::{Effect, Hook, OperationChange, OperationState};
+use super::local::{Local, ProfileAt};
+
+/// The effects of one model.
+#[derive(Default)]
+pub struct Combined {
+    entries: Vec<(Hook, Box<dyn Effect>)>,
+}
+
+impl Combined {
+    /// Adds an effect that acts through `hook`.
+    pub fn push(&mut self, hook: Hook, effect: Box<dyn Effect>) {
+        self.entries.push((hook, effect));
+    }
+
+    /// Whether any effect acts through `hook`; if not, the hook need not be asked.
+    pub fn acts(&self, hook: Hook) -> bool {
+        self.of(hook).next().is_some()
+    }
+
+    /// Number of effects.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Depth added, µm per contact, by effects that remove material and by those that only displace it.
+    pub fn added_depths(&self, at: &Local) -> [f64; 2] {
+        let mut depths = [0.0; 2];
+        for effect in self.of(Hook::AddedDepth) {
+            depths[usize::from(effect.keeps_mass())] += effect.added_depth(at);
+        }
+        depths
+    }
+
+    fn of(&self, hook: Hook) -> impl Iterator<Item = &dyn Effect> {
+        self.entries
+            .iter()
+            .filter(move |(acts, _)| *acts == hook)
+            .map(|(_, effect)| effect.as_ref())
+    }
+}
+
+impl Effect for Combined {
+    fn wear_factor(&self, at: &Local) -> f64 {
+        self.of(Hook::WearFactor)
+            .fold(1.0, |f, effect| f * effect.wear_factor(at))
+    }
+
+    fn added_depth(&self, at: &Local) -> f64 {
+        let [removed, displaced] = self.added_depths(at);
+        removed + displaced
+    }
+
+    fn load_factor(&self, at: &Local) -> f64 {
+        self.of(Hook::LoadFactor)
+            .fold(1.0, |f, effect| f * effect.load_factor(at))
+    }
+
+    fn profile(&self, at: &ProfileAt) -> f64 {
+        self.of(Hook::Profile)
+            .fold(0.0, |sum, effect| sum + effect.profile(at))
+    }
+
+    fn tooth_offset(&self, tooth: i32) -> f64 {
+        self.of(Hook::ToothOffset)
+            .fold(0.0, |sum, effect| sum + effect.tooth_offset(tooth))
+    }
+
+    /// Every effect sees the state as it is without the others.
+    fn operation(&self, state: &OperationState) -> OperationChange {
+        self.of(Hook::Operation)
+            .fold(OperationChange::default(), |sum, effect| OperationChange {
+                centre_distance: sum.centre_distance + effect.operation(state).centre_distance,
+            })
+    }
+
+    fn compliance(&self) -> f64 {
+        self.of(Hook::Compliance)
+            .fold(0.0, |sum, effect| sum + effect.compliance())
+    }
+
+    fn fault(&self) -> Option<String> {
+        self.entries.iter().find_map(|(_, effect)| effect.fault())
+    }
+}

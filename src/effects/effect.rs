@@ -1,0 +1,159 @@
+//! The trait of a physical effect: hooks through which it changes a run, each neutral unless an effect says otherwise.
+
+use super::local::{Local, ProfileAt};
+
+/// Where an effect acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Hook {
+    /// [`Effect::wear_factor`]
+    WearFactor,
+    /// [`Effect::added_depth`]
+    AddedDepth,
+    /// [`Effect::load_factor`]
+    LoadFactor,
+    /// [`Effect::profile`]
+    Profile,
+    /// [`Effect::tooth_offset`]
+    ToothOffset,
+    /// [`Effect::operation`]
+    Operation,
+    /// [`Effect::compliance`]
+    Compliance,
+}
+
+impl Hook {
+    /// All hooks.
+    pub const ALL: [Hook; 7] = [
+        Hook::WearFactor,
+        Hook::AddedDepth,
+        Hook::LoadFactor,
+        Hook::Profile,
+        Hook::ToothOffset,
+        Hook::Operation,
+        Hook::Compliance,
+    ];
+
+    /// The left-hand side of a card's formula; for the first four also the key of a formula effect in the study.
+    pub fn name(self) -> &'static str {
+        match self {
+            Hook::WearFactor => "wear_factor",
+            Hook::AddedDepth => "added_depth",
+            Hook::LoadFactor => "load_factor",
+            Hook::Profile => "profile",
+            Hook::ToothOffset => "tooth_offset",
+            Hook::Operation => "added_centre_distance",
+            Hook::Compliance => "compliance",
+        }
+    }
+
+    /// What the hook's value is, with its unit.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Hook::WearFactor => "factor on the wear coefficient",
+            Hook::AddedDepth => "um of depth per contact of that member",
+            Hook::LoadFactor => "factor on the load of a tooth pair",
+            Hook::Profile => "um of material removed before the start",
+            Hook::ToothOffset => "um that the measured tooth stands back from its neighbours",
+            Hook::Operation => "mm added to the centre distance",
+            Hook::Compliance => "mm um/N added to the flexibility of each tooth pair",
+        }
+    }
+
+    /// What the hook gives where nothing acts.
+    pub fn neutral(self) -> f64 {
+        match self {
+            Hook::WearFactor | Hook::LoadFactor => 1.0,
+            _ => 0.0,
+        }
+    }
+}
+
+/// A physical effect with its parameters bound: a pure function of what its hooks are given.
+pub trait Effect: Send + Sync {
+    /// Factor on the wear coefficient at one flank point and instant; finite, not negative.
+    fn wear_factor(&self, _at: &Local) -> f64 {
+        1.0
+    }
+
+    /// Depth lost besides sliding wear, µm per contact of that member; finite, not negative.
+    ///
+    /// Asked once per contact for every flank point, with the values at the instant when the contact's centre passes it;
+    /// where nothing touches, `pressure` and `peak_pressure` are 0.
+    fn added_depth(&self, _at: &Local) -> f64 {
+        0.0
+    }
+
+    /// Factor f on the load of a tooth pair, above 0: its lever in the pinion's torque balance is `r_b1/f`.
+    ///
+    /// ```text
+    /// Σ F_i r_b1/f_i = T1        a factor common to all pairs of a mesh position multiplies every load
+    /// ```
+    /// Asked before the contact is solved: pressures, half width and line load of `at` are 0.
+    fn load_factor(&self, _at: &Local) -> f64 {
+        1.0
+    }
+
+    /// Material removed from a flank before the start, µm along the normal; negative where the flank stands proud.
+    fn profile(&self, _at: &ProfileAt) -> f64 {
+        0.0
+    }
+
+    /// How far pinion tooth `tooth` (0 is the measured one, 1 the next into mesh) stands back, µm along the path of contact.
+    ///
+    /// Teeth then differ, and a mesh position with two pairs is two contact problems: the measured tooth leads or follows.
+    fn tooth_offset(&self, _tooth: i32) -> f64 {
+        0.0
+    }
+
+    /// What load, speed and temperature do to the mounting.
+    fn operation(&self, _state: &OperationState) -> OperationChange {
+        OperationChange::default()
+    }
+
+    /// Flexibility added to each tooth pair, mm µm/N (deflection in µm per line load in N/mm).
+    fn compliance(&self) -> f64 {
+        0.0
+    }
+
+    /// Whether `added_depth` only displaces material, so that the member loses depth and no mass.
+    fn keeps_mass(&self) -> bool {
+        false
+    }
+
+    /// Why values since the effect was built are not to be trusted, if so. Built-in effects have no such reason; a user's
+    /// formula that gave no finite number has, and the run must then end with it.
+    fn fault(&self) -> Option<String> {
+        None
+    }
+}
+
+/// Conditions of a whole run or test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OperationState {
+    /// Pinion torque, N·m.
+    pub torque: f64,
+    /// Pinion speed, rpm.
+    pub speed: f64,
+    /// Normal force of all pairs together, N.
+    pub normal_force: f64,
+    /// Operating pressure angle, rad.
+    pub working_pressure_angle: f64,
+    /// Centre distance before the change, mm.
+    pub centre_distance: f64,
+    /// Bulk temperature, °C; 20 where the study states none.
+    pub bulk_temperature: f64,
+}
+
+impl OperationState {
+    /// Power of the pinion, kW.
+    pub fn power(&self) -> f64 {
+        self.torque * self.speed * std::f64::consts::TAU / 60.0 * 1e-3
+    }
+}
+
+/// What an effect changes about the mounting.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OperationChange {
+    /// Added to the centre distance, mm.
+    pub centre_distance: f64,
+}

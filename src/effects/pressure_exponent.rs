@@ -1,0 +1,72 @@
+//! Wear that is not proportional to pressure.
+//!
+//! ```text
+//! dh = k p_ref (p/p_ref)^m v dt,   so k is multiplied by (p/p_ref)^(m − 1)      p MPa, here and now
+//! ```
+//! Below [`LEAST_PRESSURE`] the factor stays what it is there: with m < 1 it would grow without bound as p goes to zero, while
+//! the wear p^m goes to zero.
+
+use super::{Card, Effect, Hook, Local, Param, Prior};
+
+/// Pressure below which the factor no longer changes, MPa.
+const LEAST_PRESSURE: f64 = 1e-3;
+
+pub(super) const CARD: Card = Card {
+    name: "pressure_exponent",
+    hook: Hook::WearFactor,
+    formula: "wear_factor = (max(p, 0.001)/reference_pressure)^(exponent - 1)",
+    source: "generalised Archard law with a power of the pressure, after S.K. Rhee, Wear equation for polymers sliding against metal surfaces, Wear 16 (1970) 431-445 (W = K P^a v^b t^c); slow-speed gear wear about sigma_H^1.4 after Plewe (1980), quoted in AGMA 925-A03. Neither re-read: the power law is used, no figure of theirs.",
+    signature: "single contact and pinion root wear more than the tip (exponent above 1); wear grows with torque as T^((m+1)/2), no dependence on speed, none on time except by conformity",
+    confounded_with: &[
+        "severe_transition",
+        "dynamic_load",
+        "lead_misalignment",
+        "micropitting",
+    ],
+    separated_by: "three torques on one flank shape, with replicates",
+    needs: &[],
+    params: &[
+        Param::new(
+            "exponent",
+            "-",
+            "power m of the pressure; 1 is Archard's law",
+            1.5,
+            (0.2, 5.0),
+            Prior::Uniform {
+                low: 0.5,
+                high: 3.0,
+            },
+        )
+        .neutral(1.0),
+        Param::new(
+            "reference_pressure",
+            "MPa",
+            "pressure at which the factor is 1",
+            1000.0,
+            (1.0, 1e4),
+            Prior::LogNormal {
+                median: 1000.0,
+                spread: 1.5,
+            },
+        )
+        .fixed(),
+    ],
+    forms: &[],
+    build: |p| {
+        Box::new(PressureExponent {
+            exponent: p[0],
+            reference_pressure: p[1],
+        })
+    },
+};
+
+struct PressureExponent {
+    exponent: f64,
+    reference_pressure: f64,
+}
+
+impl Effect for PressureExponent {
+    fn wear_factor(&self, at: &Local) -> f64 {
+        (at.pressure.max(LEAST_PRESSURE) / self.reference_pressure).powf(self.exponent - 1.0)
+    }
+}

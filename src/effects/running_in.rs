@@ -1,0 +1,97 @@
+//! Running-in: fresh flanks wear faster until their asperities are gone.
+//!
+//! ```text
+//! k(n) = k (1 + A exp(−n/N))              A (-) excess at n = 0, N pinion cycles
+//! k(n) = k (1 + A (1 + n/(q N))^−q)       the same start, a longer tail; q → ∞ is the exponential
+//! ```
+
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
+
+pub(super) const CARD: Card = Card {
+    name: "running_in",
+    hook: Hook::WearFactor,
+    formula: "wear_factor = 1 + amplitude*exp(-cycles/decay_cycles)",
+    source: "C.A. Queener, T.C. Smith, W.L. Mitchell, Transient wear of machine parts, Wear 8 (1965) 391-400 (exponential); P.J. Blau, On the nature of running-in, Tribol. Int. 38 (2006) 1007-1012; the hyperbolic tail as in R. Kumar, B. Prakash, A. Sethuramiah (2002). Titles checked, the papers' equations not re-read.",
+    signature: "early excess on both flanks, gone after about three decay times; in the shape of the base wear, straight later, nothing at the pitch point",
+    confounded_with: &[
+        "surface_layer",
+        "coating",
+        "roughness_polish",
+        "lubricant_ageing",
+        "debris_abrasion",
+    ],
+    separated_by: "checkpoints before half a decay time and after three; two torques (counted in cycles or in depth); the depth at the pitch point",
+    needs: &[],
+    params: &[
+        Param::new(
+            "amplitude",
+            "-",
+            "excess of the initial wear coefficient over the steady one",
+            3.0,
+            (0.0, 50.0),
+            Prior::LogNormal {
+                median: 3.0,
+                spread: 2.5,
+            },
+        )
+        .neutral(0.0),
+        Param::new(
+            "decay_cycles",
+            "pinion cycles",
+            "cycles in which the excess falls to 1/e",
+            1e5,
+            (1e2, 1e9),
+            Prior::LogNormal {
+                median: 1e5,
+                spread: 4.0,
+            },
+        ),
+        Param::new(
+            "shape",
+            "-",
+            "exponent of a hyperbolic decay with the same initial slope; inf is the exponential",
+            f64::INFINITY,
+            (0.2, f64::INFINITY),
+            Prior::LogNormal {
+                median: 1.5,
+                spread: 1.5,
+            },
+        )
+        .fixed(),
+    ],
+    forms: &[
+        Form {
+            name: "hyperbolic",
+            settings: &[("shape", 1.0)],
+        },
+        Form {
+            name: "steep hyperbolic",
+            settings: &[("shape", 2.0)],
+        },
+    ],
+    build: |p| {
+        Box::new(RunningIn {
+            amplitude: p[0],
+            decay_cycles: p[1],
+            shape: p[2],
+        })
+    },
+};
+
+struct RunningIn {
+    amplitude: f64,
+    decay_cycles: f64,
+    shape: f64,
+}
+
+impl Effect for RunningIn {
+    fn wear_factor(&self, at: &Local) -> f64 {
+        let x = at.cycles / self.decay_cycles;
+        let left = if self.shape.is_infinite() {
+            (-x).exp()
+        } else {
+            (1.0 + x / self.shape).powf(-self.shape)
+        };
+        1.0 + self.amplitude * left
+    }
+}

@@ -1,0 +1,556 @@
+//! Each effect against its formula worked out by hand, at [`ordinary`] unless said.
+
+use std::f64::consts::PI;
+
+use gearwear::effects::Local;
+use gearwear::gear::Member;
+
+use super::places::{operation, ordinary, profile};
+use super::{close, effect, same};
+
+#[test]
+fn running_in() {
+    let at = ordinary();
+    same(
+        effect("running_in", &[]).wear_factor(&at),
+        1.246_254_995_871_696_4,
+    );
+    same(
+        effect("running_in", &[("shape", 2.0)]).wear_factor(&at),
+        1.592_592_592_592_592_6,
+    );
+    // worn depth over k D: N + A N_r (1 − exp(−N/N_r)), by the midpoint rule
+    let (end, steps) = (4e5, 40_000);
+    let law = effect("running_in", &[]);
+    let sum: f64 = (0..steps)
+        .map(|i| {
+            let cycles = (f64::from(i) + 0.5) * end / f64::from(steps);
+            law.wear_factor(&Local { cycles, ..at }) * end / f64::from(steps)
+        })
+        .sum();
+    close(sum / (end + 3e5 * (1.0 - (-4f64).exp())), 1.0, 1e-8);
+    // the gear counts pinion cycles too
+    assert_eq!(
+        law.wear_factor(&Local {
+            member: Member::Gear,
+            contacts: 1.0,
+            ..at
+        }),
+        law.wear_factor(&at)
+    );
+}
+
+#[test]
+fn pressure_exponent() {
+    let at = ordinary();
+    let law = effect("pressure_exponent", &[("exponent", 2.46)]);
+    same(law.wear_factor(&at), 0.521_222_028_407_028_9);
+    // Over a Hertz passage of half width a and peak p0: ∫ p f dx = B_m 2a p0^m p_ref^(1−m),
+    // B_m = (√π/2) Γ(m/2 + 1)/Γ(m/2 + 3/2): π/4 for m = 1, 2/3 for m = 2, 3π/16 for m = 3.
+    let (half_width, peak, n) = (0.087, 876.0, 200_000);
+    for (exponent, integral) in [(1.0, PI / 4.0), (2.0, 2.0 / 3.0), (3.0, 3.0 * PI / 16.0)] {
+        let law = effect("pressure_exponent", &[("exponent", exponent)]);
+        let sum: f64 = (0..n)
+            .map(|i| {
+                let x = (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+                let pressure = peak * (1.0 - x * x).sqrt();
+                let factor = law.wear_factor(&Local { pressure, ..at });
+                pressure * factor * 2.0 * half_width / f64::from(n)
+            })
+            .sum();
+        let expected =
+            integral * 2.0 * half_width * f64::powf(peak, exponent) * 1000f64.powf(1.0 - exponent);
+        close(sum / expected, 1.0, 1e-7);
+    }
+}
+
+#[test]
+fn severe_transition() {
+    let at = ordinary();
+    same(
+        effect("severe_transition", &[]).wear_factor(&at),
+        8.440_406_146_636_061,
+    );
+    let at = Local {
+        rolling: [1.0, 1.7],
+        ..at
+    };
+    let by_power = effect(
+        "severe_transition",
+        &[("speed_exponent", 1.0), ("limit", 500.0)],
+    );
+    same(by_power.wear_factor(&at), 9.922_802_631_276_593);
+    // far below and far above
+    let law = effect("severe_transition", &[]);
+    close(
+        law.wear_factor(&Local {
+            peak_pressure: 400.0,
+            ..at
+        }),
+        1.0,
+        1e-4,
+    );
+    close(
+        law.wear_factor(&Local {
+            peak_pressure: 1600.0,
+            ..at
+        }),
+        10.0,
+        1e-9,
+    );
+}
+
+#[test]
+fn film_thickness() {
+    let at = Local {
+        film_ratio: 0.6,
+        ..ordinary()
+    };
+    let law = effect("film_thickness", &[("lambda0", 0.9), ("exponent", 3.0)]);
+    same(law.wear_factor(&at), 27.0 / 35.0);
+    same(
+        law.wear_factor(&Local {
+            film_ratio: 0.9,
+            ..at
+        }),
+        0.5,
+    );
+    assert_eq!(
+        law.wear_factor(&Local {
+            film_ratio: 0.0,
+            ..at
+        }),
+        1.0
+    );
+}
+
+#[test]
+fn flash_temperature() {
+    let at = ordinary();
+    same(
+        effect("flash_temperature", &[]).wear_factor(&at),
+        1.296_930_086_665_771_8,
+    );
+    // 1/(1 − β (T_c − T_ref))
+    same(
+        effect("flash_temperature", &[("shape", 1.0)]).wear_factor(&at),
+        1.351_351_351_351_351_3,
+    );
+}
+
+#[test]
+fn sliding_speed_exponent() {
+    let at = Local {
+        rolling: [1.0, 1.25],
+        ..ordinary()
+    };
+    let law = effect("sliding_speed_exponent", &[]);
+    same(law.wear_factor(&at), 1.515_716_566_510_398);
+    // one sign of sliding as the other; floor at 0.02 m/s
+    same(
+        law.wear_factor(&Local {
+            rolling: [1.25, 1.0],
+            ..at
+        }),
+        1.515_716_566_510_398,
+    );
+    same(
+        law.wear_factor(&Local {
+            rolling: [1.0, 1.0],
+            ..at
+        }),
+        50f64.powf(0.3),
+    );
+}
+
+#[test]
+fn oxidative() {
+    let at = Local {
+        rolling: [1.0, 1.25],
+        ..ordinary()
+    };
+    same(
+        effect("oxidative", &[]).wear_factor(&at),
+        98.998_304_318_311_78,
+    );
+    // per contact, sliding times factor: the speed cancels
+    let faster = Local {
+        rolling: [2.0, 2.5],
+        ..at
+    };
+    let law = effect("oxidative", &[]);
+    same(law.wear_factor(&faster) * 0.5, law.wear_factor(&at) * 0.25);
+}
+
+#[test]
+fn surface_layer_and_coating() {
+    let at = ordinary();
+    same(
+        effect("surface_layer", &[("ratio", 3.0)]).wear_factor(&at),
+        1.786_938_680_574_733_2,
+    );
+    let coating = effect("coating", &[]);
+    for (depth, factor) in [(0.0, 1.0), (1.7, 1.0), (2.0, 5.5), (2.1, 7.75), (2.5, 10.0)] {
+        close(coating.wear_factor(&Local { depth, ..at }), factor, 1e-12);
+    }
+}
+
+#[test]
+fn micropitting() {
+    // 3 µm in 1e6 contacts at 1000 MPa
+    let at = Local {
+        peak_pressure: 1200.0,
+        ..ordinary()
+    };
+    let plain = effect("micropitting", &[]);
+    same(plain.added_depth(&at), 6.2208e-6);
+    // whatever the sliding, whichever the member
+    assert_eq!(
+        plain.added_depth(&Local {
+            rolling: [1.0, 1.0],
+            member: Member::Gear,
+            ..at
+        }),
+        plain.added_depth(&at)
+    );
+    // capped at 2 GPa
+    same(
+        plain.added_depth(&Local {
+            peak_pressure: 3500.0,
+            ..at
+        }),
+        4.8e-5,
+    );
+    assert_eq!(
+        plain.added_depth(&Local {
+            peak_pressure: 0.0,
+            ..at
+        }),
+        0.0
+    );
+    let full = effect(
+        "micropitting",
+        &[("lambda_c", 0.6), ("asymmetry", 0.4), ("onset", 1e5)],
+    );
+    // the pinion's dedendum slides against its rolling (u1 < u2); the gear's addendum meets it
+    same(full.added_depth(&at), 4.354_56e-6);
+    same(
+        full.added_depth(&Local {
+            member: Member::Gear,
+            ..at
+        }),
+        3.1104e-6,
+    );
+    same(
+        full.added_depth(&Local {
+            member: Member::Gear,
+            rolling: [2.1, 1.6],
+            ..at
+        }),
+        4.354_56e-6,
+    );
+    assert_eq!(
+        full.added_depth(&Local {
+            film_ratio: 0.6,
+            ..at
+        }),
+        0.0
+    );
+    assert_eq!(
+        full.added_depth(&Local {
+            contacts: 99_999.0,
+            ..at
+        }),
+        0.0
+    );
+    assert!(
+        full.added_depth(&Local {
+            contacts: 1e5,
+            ..at
+        }) > 0.0
+    );
+}
+
+#[test]
+fn debris_and_ageing() {
+    let at = ordinary();
+    same(
+        effect("debris_abrasion", &[("amplitude", 0.8)]).wear_factor(&at),
+        1.4,
+    );
+    let settling = effect(
+        "debris_abrasion",
+        &[("amplitude", 0.8), ("saturation_volume", 200.0)],
+    );
+    same(settling.wear_factor(&at), 1.32);
+    same(
+        effect("lubricant_ageing", &[]).wear_factor(&at),
+        1.259_181_779_318_282_2,
+    );
+}
+
+#[test]
+fn corrosive_loss() {
+    // 0.1 µm in 100 h; at 2000 rpm a pinion tooth meets 12 million contacts in 100 h
+    let at = ordinary();
+    let law = effect("corrosive_loss", &[]);
+    same(law.added_depth(&at) * 12e6, 0.1);
+    let gear = Local {
+        member: Member::Gear,
+        contact_hours: at.contact_hours * 53.0 / 27.0,
+        peak_pressure: 0.0,
+        ..at
+    };
+    same(law.added_depth(&gear), 1.635_802_469_135_802_7e-8);
+}
+
+#[test]
+fn approach_recess() {
+    let law = effect("approach_recess", &[]);
+    let at = Local {
+        path: -0.045,
+        ..ordinary()
+    };
+    same(law.wear_factor(&at), 1.365_529_289_315_002_4);
+    let recess = Local {
+        path: 0.045,
+        approach: false,
+        ..at
+    };
+    same(law.wear_factor(&recess), 1.134_470_710_684_997_6);
+    same(law.wear_factor(&Local { path: 0.0, ..at }), 1.25);
+    close(law.wear_factor(&ordinary()), 1.5, 1e-12);
+    // reversed drive: what was recess is approach
+    same(
+        law.wear_factor(&Local {
+            approach: true,
+            ..recess
+        }),
+        1.365_529_289_315_002_4,
+    );
+}
+
+#[test]
+fn member_hardness() {
+    let law = effect("member_hardness", &[]);
+    let at = ordinary();
+    let gear = Local {
+        member: Member::Gear,
+        ..at
+    };
+    same(law.wear_factor(&at), 1.221_402_758_160_169_9);
+    same(law.wear_factor(&gear), 0.818_730_753_077_981_9);
+    same(law.wear_factor(&at) * law.wear_factor(&gear), 1.0);
+}
+
+#[test]
+fn energy_wear() {
+    same(effect("energy_wear", &[]).wear_factor(&ordinary()), 0.75);
+}
+
+#[test]
+fn roughness_polish_and_plastic_deformation() {
+    let polish = effect("roughness_polish", &[]);
+    let at = Local {
+        contacts: 5000.0,
+        ..ordinary()
+    };
+    same(polish.added_depth(&at), 6.065_306_597_126_335e-5);
+    assert_eq!(
+        polish.added_depth(&Local {
+            peak_pressure: 0.0,
+            ..at
+        }),
+        0.0
+    );
+    assert!(!polish.keeps_mass());
+    let dent = effect("plastic_deformation", &[]);
+    let at = Local {
+        contacts: 1000.0,
+        ..at
+    };
+    same(dent.added_depth(&at), 7.581_633_246_407_918e-5);
+    assert_eq!(
+        dent.added_depth(&Local {
+            peak_pressure: 800.0,
+            ..at
+        }),
+        0.0
+    );
+    assert!(dent.keeps_mass());
+    // contact by contact they sum to their limit: h_r (1 − exp(−n/N)); the sum of left values errs by 1/(2N)
+    for (law, settling, limit) in [(polish, 1e4, 1.0), (dent, 2e3, 0.25)] {
+        let n = 20_000;
+        let sum: f64 = (0..n)
+            .map(|i| {
+                law.added_depth(&Local {
+                    contacts: f64::from(i) + 0.5,
+                    ..at
+                })
+            })
+            .sum();
+        close(sum, limit * (1.0 - (-f64::from(n) / settling).exp()), 1e-8);
+    }
+}
+
+/// The reference pair: +1.6 % at A rising to +3.8 % before the pitch point, −3.5 % after it to −5.2 % at E, for µ 0.1.
+#[test]
+fn friction_load() {
+    let law = effect("friction_load", &[("coefficient", 0.1)]);
+    let at = |rho: f64, path: f64| Local {
+        path,
+        approach: path < 0.0,
+        curvature: [rho, 27.4 - rho],
+        base_radius: 25.371_700,
+        ..ordinary()
+    };
+    same(
+        law.load_factor(&at(4.0251, -5.2094)),
+        1.016_120_266_616_578_3,
+    );
+    same(law.load_factor(&at(9.2345, -1e-9)), 1.037_771_619_645_578);
+    same(law.load_factor(&at(9.2345, 1e-9)), 0.964_881_356_447_862_1);
+    same(
+        law.load_factor(&at(14.0455, 4.811)),
+        0.947_544_932_542_831_8,
+    );
+    assert_eq!(law.load_factor(&at(9.2345, 0.0)), 1.0);
+    // reversed drive swaps the halves
+    let reversed = Local {
+        approach: true,
+        ..at(14.0455, 4.811)
+    };
+    assert!(law.load_factor(&reversed) > 1.0);
+    // a lever never vanishes: far outside any gear
+    let far = Local {
+        base_radius: 1.0,
+        ..at(400.0, -1.0)
+    };
+    same(law.load_factor(&far), 20.0);
+}
+
+#[test]
+fn dynamic_load() {
+    let law = effect("dynamic_load", &[("phase", 0.4)]);
+    let at = Local {
+        path: 1.5,
+        ..ordinary()
+    };
+    same(law.load_factor(&at), 0.936_968_525_535_122_3);
+    // both pairs of a mesh position carry the same factor: they stand one base pitch apart
+    same(
+        law.load_factor(&Local {
+            path: 1.5 - 5.904,
+            ..at
+        }),
+        law.load_factor(&at),
+    );
+    // at resonance the ripple grows by 1/(2ζ)
+    let at = Local {
+        speed: 15_000.0,
+        path: 0.0,
+        ..at
+    };
+    same(
+        effect("dynamic_load", &[("amplitude", 0.05)]).load_factor(&at),
+        1.0 + 0.05 / 0.14,
+    );
+}
+
+/// 6 µm at 119 N/mm and 20 N/(mm µm) give K_Hβ = 1.5.
+#[test]
+fn lead_misalignment() {
+    let at = Local {
+        normal_load: 119.0,
+        ..ordinary()
+    };
+    same(
+        effect("lead_misalignment", &[]).load_factor(&at),
+        1.504_201_680_672_269,
+    );
+    let wide = |position| {
+        effect(
+            "lead_misalignment",
+            &[("slope", 30.0), ("face_position", position)],
+        )
+    };
+    // √(2 F c/w) where only part of the face carries; a slice in the middle carries less than the mean
+    same(wide(1.0).load_factor(&at), 3.175_536_744_149_779);
+    same(wide(0.0).load_factor(&at), 0.654_528_340_788_434_4);
+    // the mean over the face is 1: loads of all slices sum to the whole
+    let n = 20_000;
+    for slope in [6.0, 30.0] {
+        let sum: f64 = (0..n)
+            .map(|i| {
+                let face_position = (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+                let law = effect(
+                    "lead_misalignment",
+                    &[("slope", slope), ("face_position", face_position)],
+                );
+                law.load_factor(&at) / f64::from(n)
+            })
+            .sum();
+        // slices off the contact carry the floor of 0.05 instead of nothing
+        let bare = if slope == 6.0 {
+            0.0
+        } else {
+            1.0 - (119.0f64 / 300.0).sqrt() + 0.05 * 119.0 / 1200.0
+        };
+        close(sum, 1.0 + 0.05 * bare, 1e-6);
+    }
+}
+
+#[test]
+fn mounting() {
+    let state = operation();
+    let change =
+        |name: &str, stated: &[(&str, f64)]| effect(name, stated).operation(&state).centre_distance;
+    assert_eq!(change("radial_misalignment", &[("amount", -0.25)]), -0.25);
+    same(
+        change("bearing_compliance", &[("clearance", 20.0)]),
+        0.033_472_838_419_327_626,
+    );
+    // 80 mm, aluminium on steel, 40 K: 37 µm
+    same(change("thermal_expansion", &[("heating", 0.0)]), 0.0368);
+    same(state.power(), 20.943_951_023_931_95);
+    same(change("thermal_expansion", &[]), 0.056_068_434_942_017_395);
+    assert!(change("thermal_expansion", &[("expansion", -1e-5)]) < 0.0);
+    assert_eq!(effect("extra_flexibility", &[]).compliance(), 0.02);
+}
+
+#[test]
+fn flanks_as_made() {
+    let at = profile();
+    let relief = effect("tip_relief", &[]);
+    same(relief.profile(&at), 6.0);
+    for member in Member::BOTH {
+        let tip = gearwear::effects::ProfileAt {
+            member,
+            from_tip: 0.0,
+            ..at
+        };
+        same(relief.profile(&tip), 8.0);
+        assert_eq!(
+            relief.profile(&gearwear::effects::ProfileAt {
+                from_tip: 2.0,
+                ..tip
+            }),
+            0.0
+        );
+    }
+    same(effect("tip_relief", &[("exponent", 2.0)]).profile(&at), 4.5);
+    same(
+        effect("profile_slope", &[("crowning", 4.0)]).profile(&at),
+        2.94,
+    );
+    let wave = gearwear::effects::ProfileAt { along: 0.3, ..at };
+    same(
+        effect("profile_form", &[("phase", 0.4)]).profile(&wave),
+        -1.032_519_276_846_017_2,
+    );
+    let pitch = effect("pitch_error", &[("deviation", -7.0)]);
+    assert_eq!(
+        [-1, 0, 1].map(|tooth| pitch.tooth_offset(tooth)),
+        [0.0, -7.0, 0.0]
+    );
+}

@@ -1,0 +1,246 @@
+//! What cannot be solved is an error that says where, never a result. The library's steps are driven with a contact model made
+//! to fail; the program with wear that no mesh can follow.
+//!
+//! Tolerance: none.
+use std::sync::Mutex;
+
+use gearwear::contact::cycle::Cycle;
+use gearwear::contact::model::{ContactError, ContactModel, PositionContact};
+use gearwear::simulate::forward::Forward;
+use gearwear::simulate::history::{WearLaw, wear_until};
+use gearwear::simulate::run::Plan;
+use gearwear::study::Study;
+use gearwear::wear::integrator::StepError;
+use nalgebra::DMatrix;
+
+use super::home::{Home, study_with};
+
+#[test]
+fn wear_that_no_mesh_can_follow_ends_with_the_cycles_reached() {
+    let home = Home::with(&[("coefficient", "1e-4")]);
+    let answer = home.gearwear("run study.toml -o run");
+    assert_eq!((answer.code, answer.out.as_str()), (Some(1), ""));
+    for part in ["error: ", "of 50000 cycles", "--resume"] {
+        assert!(answer.err.contains(part), "{part}: {}", answer.err);
+    }
+    assert_eq!(home.tree(), [".run.checkpoint", "study.toml"]);
+    // what was kept leads to the same end
+    let again = home.gearwear("run study.toml -o run --resume");
+    assert_eq!((again.code, again.err), (Some(1), answer.err));
+    assert_eq!(home.tree(), [".run.checkpoint", "study.toml"]);
+}
+
+#[test]
+fn a_tolerance_that_cannot_be_held_is_an_error() {
+    // a model whose pressures jump with every look at them, and less error allowed than the jump leaves in the least step
+    let strict = WearLaw {
+        tolerance: 1e-15,
+        ..LAW
+    };
+    let set = study().gear_set();
+    let (conditions, numerics) = (
+        study().operation.simulated(&study().wear),
+        study().resolution(),
+    );
+    let forward = Forward::new(&set, None, conditions, numerics).unwrap();
+    let error = forward.with_model(|model| {
+        let jumpy = Doctored {
+            model,
+            calls: Mutex::new(0),
+            fault: |calls, contact| {
+                let factor = if calls % 2 == 0 { 1.0 } else { 4.0 };
+                contact.pressure.iter_mut().for_each(|p| *p *= factor);
+                Ok(())
+            },
+        };
+        let mut progress = None;
+        wear_until(&jumpy, strict, &mut progress, 1e5, &mut |_| true).unwrap_err()
+    });
+    let StepError::TooSmall { n, step, error } = error else {
+        panic!("{error}")
+    };
+    assert!(
+        n < 1e5 && step < 1.0 && (error > 1.0 || error.is_nan()),
+        "{n}, {step}, {error}"
+    );
+}
+
+#[test]
+fn contact_that_fails_at_one_position_stops_the_wear_there() {
+    let set = study().gear_set();
+    let (conditions, numerics) = (
+        study().operation.simulated(&study().wear),
+        study().resolution(),
+    );
+    let forward = Forward::new(&set, None, conditions, numerics).unwrap();
+    let positions = forward.cycle().positions.len();
+    forward.with_model(|model| {
+        // sound for three looks at all positions, then one of them fails
+        let doctored = Doctored {
+            model,
+            calls: Mutex::new(0),
+            fault: |calls, _| {
+                if calls > 3 * 30 {
+                    Err(ContactError::WindowTooNarrow {
+                        theta: 0.25,
+                        window: 0.0,
+                    })
+                } else {
+                    Ok(())
+                }
+            },
+        };
+        assert_eq!(positions, 30);
+        let mut progress = None;
+        let mut steps = Vec::new();
+        let error = wear_until(&doctored, LAW, &mut progress, 1e5, &mut |progress| {
+            steps.push(progress.clone());
+            true
+        })
+        .unwrap_err();
+        let StepError::System { n, source } = error else {
+            panic!("{error}")
+        };
+        assert!(
+            source.to_string().contains("mesh position 0.25"),
+            "{source}"
+        );
+        assert!(matches!(source, ContactError::WindowTooNarrow { theta, .. } if theta == 0.25));
+        assert!(n < 1e5);
+        let kept = progress.expect("the start is kept");
+        assert_eq!(kept.stand.n, steps.last().map_or(0.0, |p| p.stand.n));
+        if let Some(last) = steps.last() {
+            assert_eq!(&kept, last, "the last accepted step, whole");
+        }
+    });
+}
+
+/// Not a number from a contact model must not pass as a wear rate.
+#[test]
+fn pressures_that_are_no_numbers_are_an_error() {
+    let set = study().gear_set();
+    let (conditions, numerics) = (
+        study().operation.simulated(&study().wear),
+        study().resolution(),
+    );
+    let forward = Forward::new(&set, None, conditions, numerics).unwrap();
+    forward.with_model(|model| {
+        let doctored = Doctored {
+            model,
+            calls: Mutex::new(0),
+            fault: |calls, contact| {
+                if calls > 2 * 30
+                    && let Some(&k) = contact.active.first()
+                {
+                    contact.pressure[k] = f64::INFINITY;
+                }
+                Ok(())
+            },
+        };
+        let mut progress = None;
+        let outcome = wear_until(&doctored, LAW, &mut progress, 1e5, &mut |_| true);
+        assert!(
+            matches!(outcome, Err(StepError::TooSmall { .. })),
+            "{outcome:?}"
+        );
+        let kept = progress.expect("the start is kept");
+        assert!(kept.stand.u.iter().all(|h| h.is_finite()));
+    });
+}
+
+/// An observer that cannot keep a checkpoint ends the run, with its own words.
+#[test]
+fn a_checkpoint_that_cannot_be_kept_ends_the_run() {
+    use gearwear::simulate::checkpoint::Checkpoint;
+    use gearwear::simulate::run::{Event, Observer, RunError, run};
+    struct Full;
+    impl Observer for Full {
+        fn event(&mut self, _: Event) -> bool {
+            true
+        }
+        fn keep(&mut self, checkpoint: &Checkpoint) -> Result<(), String> {
+            match checkpoint.stored.len() {
+                0 | 1 => Ok(()),
+                _ => Err("no space left on device".to_owned()),
+            }
+        }
+    }
+    struct Impatient(usize);
+    impl Observer for Impatient {
+        fn event(&mut self, event: Event) -> bool {
+            if matches!(event, Event::Step { .. }) {
+                self.0 += 1;
+            }
+            self.0 < 4
+        }
+        fn keep(&mut self, _: &Checkpoint) -> Result<(), String> {
+            Ok(())
+        }
+    }
+    let study = study();
+    let set = study.gear_set();
+    let plan = Plan {
+        title: "",
+        test: None,
+        set: &set,
+        conditions: study.operation.simulated(&study.wear),
+        numerics: study.resolution(),
+        kind: gearwear::simulate::forward::ContactKind::Hertz,
+        stored_states: 2,
+        drawn_positions: 0,
+    };
+    let error = run(&plan, None, None, &mut Full).unwrap_err();
+    assert!(
+        matches!(&error, RunError::Keep(said) if said == "no space left on device"),
+        "{error}"
+    );
+    let error = run(&plan, None, None, &mut Impatient(0)).unwrap_err();
+    assert!(
+        matches!(error, RunError::Stopped { cycles } if cycles > 0.0 && cycles < 50_000.0),
+        "{error}"
+    );
+}
+
+const LAW: WearLaw = WearLaw {
+    coefficient: [6e-10; 2],
+    tolerance: 2e-3,
+};
+
+fn study() -> Study {
+    Study::parse(&study_with(&[("contact", "\"hertz\"")]), "study.toml").unwrap()
+}
+
+/// A sound contact model behind one that fails.
+struct Doctored<'a> {
+    model: &'a dyn ContactModel,
+    calls: Mutex<usize>,
+    /// Given the number of contact problems solved so far and the last one's solution.
+    fault: fn(usize, &mut PositionContact) -> Result<(), ContactError>,
+}
+
+impl ContactModel for Doctored<'_> {
+    fn cycle(&self) -> &Cycle {
+        self.model.cycle()
+    }
+
+    fn solve(
+        &self,
+        q: usize,
+        depth: [&[f64]; 2],
+        start: &[usize],
+    ) -> Result<PositionContact, ContactError> {
+        let mut contact = self.model.solve(q, depth, start)?;
+        let mut calls = self.calls.lock().unwrap();
+        *calls += 1;
+        (self.fault)(*calls, &mut contact)?;
+        Ok(contact)
+    }
+
+    fn sensitivity(
+        &self,
+        q: usize,
+        contact: &PositionContact,
+    ) -> Result<Option<DMatrix<f64>>, ContactError> {
+        self.model.sensitivity(q, contact)
+    }
+}

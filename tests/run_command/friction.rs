@@ -1,0 +1,48 @@
+//! Coulomb friction. Tolerance: 1e-9 for the balance of torques (solved to about 1e-15).
+use super::home::{FEM, Home, number};
+
+#[test]
+fn friction_changes_the_loads_and_keeps_the_torque() {
+    let home = Home::with(&[("friction", "true"), ("order", "1")]);
+    home.succeed("run study.toml -o run");
+    let (with, without) = (home.result("run"), FEM.result("run"));
+    let summary = with.summary();
+    let torque = summary["checks"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|check| check["name"].as_str().unwrap().contains("torque"))
+        .expect("the run checks its torque");
+    assert!(torque["value"].as_f64().unwrap() < 1e-9 && torque["passed"] == true);
+    for check in summary["checks"].as_array().unwrap() {
+        assert_eq!(check["passed"], true, "{check}");
+    }
+    // before the pitch point the gear's teeth are pushed outwards along the flank, after it inwards: the friction force's
+    // moment about the pinion's centre is μ F' ρ₁, so a single pair carries T/(r_b ± μ ρ₁)
+    let contact = |folder: &super::home::Folder| folder.table("contact.csv").only("cycles", "0");
+    let (with_friction, plain) = (contact(&with), contact(&without));
+    let mut seen = [0; 2];
+    for (table, mu) in [(&with_friction, 0.06), (&plain, 0.0)] {
+        let single = table.single();
+        for (path, load) in single
+            .numbers("path")
+            .into_iter()
+            .zip(single.numbers("line_load"))
+        {
+            let base = 27.0 * 20f64.to_radians().cos();
+            let rho = 27.0 * 20f64.to_radians().sin() + path;
+            // approach: the pinion's friction helps the gear's motion less than the normal force does, and the reverse after
+            let sign = if path < 0.0 { -1.0 } else { 1.0 };
+            let expected = 100e3 / 33.0 / (base + sign * mu * rho);
+            assert!(
+                (load / expected - 1.0).abs() < 2e-3,
+                "μ = {mu}, path {path}: {load} N/mm, {expected}"
+            );
+            seen[usize::from(mu > 0.0)] += 1;
+        }
+    }
+    assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+    let te =
+        |folder: &super::home::Folder| number(&folder.summary(), "/contact/te_peak_to_peak_urad");
+    assert!((te(&with) / te(&without) - 1.0).abs() > 1e-3);
+}

@@ -1,0 +1,168 @@
+//! The drawn meshes are worn: read from the `.vtu` files, whose points are doubles and whose other arrays are single precision.
+//!
+//! Tolerances: 1e-8 mm for a node's place, the single precision of a displacement of 2.4 µm (2e-10 mm) with room for the
+//! normal's point; 0.5 % for the area. A corner worn by h sinks below the tip circle by h sin α, about half of h, and the first
+//! edge of the tip land sinks with it: ½ · 1.2 µm · 0.02 mm a flank, 0.4 % of the worn area on the gear, less on the pinion.
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk};
+
+use super::home::{Home, number};
+
+/// Quadratic triangles, so that mid-side nodes are there to be moved too; finer than the other runs for the tip land's sake.
+static FINER: LazyLock<Home> = LazyLock::new(|| {
+    let home = Home::with(&[
+        ("order", "2"),
+        ("elements_per_half_width", "4"),
+        ("stored_states", "1"),
+    ]);
+    home.succeed("run study.toml -o run --quiet");
+    home
+});
+
+fn grid(name: &str) -> UnstructuredGridPiece {
+    let bytes = std::fs::read(FINER.result("run").0.join("fields").join(name)).unwrap();
+    let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&bytes[..]).unwrap().data else {
+        panic!("not an unstructured grid")
+    };
+    match pieces.into_iter().next() {
+        Some(Piece::Inline(piece)) => *piece,
+        _ => panic!("no inline piece"),
+    }
+}
+
+fn array(grid: &UnstructuredGridPiece, name: &str) -> Vec<f64> {
+    let found = grid
+        .data
+        .point
+        .iter()
+        .find_map(|attribute| match attribute {
+            Attribute::DataArray(array) if array.name == name => {
+                array.data.clone().cast_into::<f64>()
+            }
+            _ => None,
+        });
+    found.unwrap_or_else(|| panic!("no point array {name}"))
+}
+
+struct Member {
+    centre: [f64; 2],
+    base_radius: f64,
+    nodes: Vec<usize>,
+}
+
+struct Drawn {
+    /// Worn position in the fixed frame.
+    points: Vec<[f64; 2]>,
+    /// Worn minus unworn position.
+    moved: Vec<[f64; 2]>,
+    /// µm.
+    depth: Vec<f64>,
+    triangles: Vec<[usize; 6]>,
+    members: [Member; 2],
+}
+
+fn drawn(name: &str) -> Drawn {
+    let grid = grid(name);
+    let plane = |flat: Vec<f64>| flat.chunks(3).map(|c| [c[0], c[1]]).collect::<Vec<_>>();
+    let VertexNumbers::XML { connectivity, .. } = &grid.cells.cell_verts else {
+        panic!("legacy cells")
+    };
+    let member = array(&grid, "member");
+    let of = |number: f64, centre: f64, teeth: f64| Member {
+        centre: [centre, 0.0],
+        base_radius: teeth * 20f64.to_radians().cos(),
+        nodes: (0..member.len()).filter(|&i| member[i] == number).collect(),
+    };
+    Drawn {
+        points: plane(grid.points.clone().cast_into::<f64>().unwrap()),
+        moved: plane(array(&grid, "wear_vector")),
+        depth: array(&grid, "wear_depth"),
+        triangles: connectivity
+            .chunks(6)
+            .map(|c| std::array::from_fn(|i| c[i] as usize))
+            .collect(),
+        members: [of(0.0, 0.0, 27.0), of(1.0, 80.0, 53.0)],
+    }
+}
+
+#[test]
+fn flank_nodes_stand_at_the_worn_depth_below_the_involute() {
+    for (name, worn) in [
+        ("wear_000_position_000.vtu", false),
+        ("wear_001_position_000.vtu", true),
+    ] {
+        let drawn = drawn(name);
+        for member in &drawn.members {
+            let mut flank_nodes = 0;
+            for &i in member.nodes.iter().filter(|&&i| drawn.depth[i] > 0.0) {
+                let unworn =
+                    [0, 1].map(|a| drawn.points[i][a] - drawn.moved[i][a] - member.centre[a]);
+                // the normal of the loaded flank is the tangent of the base circle through the point: the tangent point
+                // lies the point's pressure angle back
+                let angle = unworn[1].atan2(unworn[0])
+                    - (member.base_radius / unworn[0].hypot(unworn[1])).acos();
+                let outward = [-angle.sin(), angle.cos()];
+                for (moved, outward) in drawn.moved[i].iter().zip(outward) {
+                    let miss = moved + 1e-3 * drawn.depth[i] * outward;
+                    assert!(miss.abs() < 1e-8, "{name}, node {i}: off by {miss} mm");
+                }
+                flank_nodes += 1;
+            }
+            assert_eq!(flank_nodes > 100, worn, "{name}: {flank_nodes} nodes");
+        }
+        if !worn {
+            assert!(drawn.moved.iter().flatten().all(|m| *m == 0.0));
+        }
+    }
+}
+
+/// Area of the triangles of a member: Green's theorem over their edges, each a parabola through three nodes (chord and
+/// Archimedes' segment of 2/3 chord × sagitta).
+fn area(drawn: &Drawn, points: &[[f64; 2]], member: &Member) -> f64 {
+    let first = member.nodes[0];
+    let last = member.nodes[member.nodes.len() - 1];
+    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    let from = |a: [f64; 2], b: [f64; 2]| [b[0] - a[0], b[1] - a[1]];
+    drawn
+        .triangles
+        .iter()
+        .filter(|t| (first..=last).contains(&t[0]))
+        .flat_map(|t| [[t[0], t[3], t[1]], [t[1], t[4], t[2]], [t[2], t[5], t[0]]])
+        .map(|edge| {
+            let [a, mid, b] = edge.map(|i| points[i]);
+            0.5 * cross(a, b) + 2.0 / 3.0 * cross(from(a, mid), from(a, b))
+        })
+        .sum()
+}
+
+#[test]
+fn the_area_that_the_meshes_lose_is_the_worn_area() {
+    let drawn = drawn("wear_001_position_000.vtu");
+    let unworn: Vec<[f64; 2]> = (0..drawn.points.len())
+        .map(|i| [0, 1].map(|a| drawn.points[i][a] - drawn.moved[i][a]))
+        .collect();
+    let summary = FINER.result("run").summary();
+    for (member, (name, teeth)) in drawn.members.iter().zip([("pinion", 27.0), ("gear", 53.0)]) {
+        // the flanks that are meshed finely are the worn ones: count them by the tooth their nodes belong to
+        let mut flanks = BTreeMap::new();
+        for &i in member.nodes.iter().filter(|&&i| drawn.depth[i] > 0.0) {
+            let [x, y] = [0, 1].map(|a| unworn[i][a] - member.centre[a]);
+            let angle = y.atan2(x) - (member.base_radius / x.hypot(y)).acos();
+            // along one flank the tangent point turns by less than its pitch angle
+            let roll = ((x.hypot(y) / member.base_radius).powi(2) - 1.0).sqrt();
+            let tooth = ((angle + roll) / (std::f64::consts::TAU / teeth) * 100.0).round() as i64;
+            *flanks
+                .entry(tooth.rem_euclid(100 * teeth as i64))
+                .or_insert(0) += 1;
+        }
+        let count = flanks.len() as f64;
+        let lost = area(&drawn, &unworn, member) - area(&drawn, &drawn.points, member);
+        let expected = count * number(&summary, &format!("/wear/{name}/worn_area_mm2"));
+        assert!(
+            (lost / expected - 1.0).abs() < 5e-3,
+            "{name}: {lost} mm² of {count} flanks, worn area {expected}"
+        );
+    }
+}
