@@ -10,7 +10,7 @@ pub fn of_models(mounted: &Mounted) -> Vec<Plot> {
             mounted,
             (
                 "pressure",
-                "Peak pressure on the line of action, unworn",
+                "Peak pressure away from the tip corners, unworn",
                 "peak pressure, MPa",
             ),
             false,
@@ -81,7 +81,10 @@ fn empty(mounted: &Mounted, name: &str, title: &str, y_label: &str) -> Plot {
     .starting_at_zero()
 }
 
-/// A column of the unworn contact; with `corners` also where tip corners touch off the line of action.
+/// Part of the path of contact at either end in which tip corners raise the pressure.
+const NEAR_CORNER: f64 = 0.03;
+
+/// A column of the unworn contact; with `corners` also where tip corners touch, on and off the line of action.
 fn contact(
     mounted: &Mounted,
     (name, title, y_label): (&str, &str, &str),
@@ -91,7 +94,10 @@ fn contact(
     let plot = empty(mounted, name, title, y_label);
     mounted.models.iter().fold(plot, |plot, model| {
         let curve = &model.contact;
-        let shown = (0..curve.path.len()).filter(|&i| corners || !curve.off_line_of_action[i]);
+        let [a, .., e] = mounted.geometry.path_limits;
+        let margin = NEAR_CORNER * (e - a);
+        let inner = a + margin..=e - margin;
+        let shown = (0..curve.path.len()).filter(|&i| corners || inner.contains(&curve.path[i]));
         let points = shown.map(|i| (curve.path[i], column(curve)[i])).collect();
         plot.curve(model.kind.name(), style(model.kind), points)
     })

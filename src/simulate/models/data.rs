@@ -51,7 +51,7 @@ pub struct Mounted {
     pub differences: Vec<Difference>,
     /// From the published model to the Hertz model, from there to the finite elements.
     pub ladders: Vec<Ladder>,
-    /// Each correction of the published model by itself.
+    /// Each correction of the published model by itself; empty beyond 200 000 cycles, where it would cost too much.
     pub alone: Vec<Alone>,
 }
 

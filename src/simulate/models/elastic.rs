@@ -2,7 +2,7 @@
 
 use super::Stages;
 use super::curves::{Reading, State, flanks, spans};
-use super::data::{Cause, Kind, ModelResult};
+use super::data::{Cause, ContactCurve, Kind, ModelResult};
 use super::ladder::Step;
 use super::prescribed::Prescribed;
 use crate::contact::cycle::Cycle;
@@ -10,6 +10,7 @@ use crate::contact::fem::FemContact;
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactModel, PositionContact};
 use crate::simulate::forward::{Conditions, Forward, ForwardError, GearSet};
+use crate::simulate::history::WearState;
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
 use crate::wear::archard::ArchardSystem;
@@ -172,15 +173,9 @@ fn steady(
         .map(|r| r * conditions.cycles)
         .collect();
     let contacts = system.contacts(&fresh)?.to_vec();
-    let reading = Reading {
-        cycle,
-        moment: &|q, index, contact| forward.moment(q, index, contact),
-        torque: forward.torque(),
-        hertz,
-    };
     let (pinion, gear) = depth.split_at(cycle.stations.arc[0].len());
     let state = State {
-        contact: reading.curve(&contacts),
+        contact: curve(forward, cycle, &contacts, hertz),
         depth: flanks(cycle, [pinion, gear]).map(Some),
     };
     Ok((state, contacts))
@@ -231,26 +226,39 @@ fn worn(
     conditions: Conditions,
     hertz: Option<f64>,
 ) -> Result<ModelResult, ForwardError> {
-    let (first, _) = forward.with_model(|model| steady(model, forward, conditions, hertz))?;
     let mut progress = None;
-    forward.wear_to(&mut progress, conditions.cycles, &mut |_, _| true)?;
-    let Some(progress) = progress else {
-        unreachable!("a history that ended has a progress")
+    let mut wear_to = |forward: &mut Forward, cycles: f64| -> Result<WearState, ForwardError> {
+        forward.wear_to(&mut progress, cycles, &mut |_, _| true)?;
+        match &progress {
+            Some(progress) => forward.state(progress),
+            None => unreachable!("a history that did not fail has a progress"),
+        }
     };
-    let end = forward.state(&progress)?;
-    let cycle = forward.cycle();
+    let first = wear_to(forward, 0.0)?;
+    let contact = curve(forward, forward.cycle(), &first.contacts, hertz);
+    let end = wear_to(forward, conditions.cycles)?;
+    let [pinion, gear] = flanks(forward.cycle(), [&end.depth[0], &end.depth[1]]);
+    Ok(ModelResult {
+        kind,
+        contact,
+        contact_end: curve(forward, forward.cycle(), &end.contacts, hertz),
+        pinion,
+        gear: Some(gear),
+    })
+}
+
+/// Contacts of `cycle`, a variant of the forward model's own, as a curve.
+fn curve(
+    forward: &Forward,
+    cycle: &Cycle,
+    contacts: &[PositionContact],
+    hertz: Option<f64>,
+) -> ContactCurve {
     let reading = Reading {
         cycle,
         moment: &|q, index, contact| forward.moment(q, index, contact),
         torque: forward.torque(),
         hertz,
     };
-    let [pinion, gear] = flanks(cycle, [&end.depth[0], &end.depth[1]]);
-    Ok(ModelResult {
-        kind,
-        contact: first.contact,
-        contact_end: reading.curve(&end.contacts),
-        pinion,
-        gear: Some(gear),
-    })
+    reading.curve(contacts)
 }

@@ -14,6 +14,9 @@ const FINE: usize = 2001;
 /// The published model takes one explicit step per cycle; more than this would take minutes.
 const MOST_CYCLES: f64 = 1e7;
 
+/// Corrections by themselves are four more runs, each with a step per cycle: they are left out beyond this.
+const MOST_CYCLES_SINGLY: f64 = 2e5;
+
 /// Why the published model has no result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum Absent {
@@ -71,7 +74,8 @@ pub(super) fn run(
     let outcome = paper::run(&inputs)?;
     let model = model(&inputs, &outcome, pair);
     let mut singly = Vec::new();
-    for (correction, corrections) in Corrections::each() {
+    let each = Corrections::each().into_iter();
+    for (correction, corrections) in each.filter(|_| conditions.cycles <= MOST_CYCLES_SINGLY) {
         let cause = cause(corrections);
         if cause == Cause::GearSpeed && !printed_speed {
             continue;
