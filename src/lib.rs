@@ -14,6 +14,7 @@ pub mod contact;
 pub mod effects;
 pub mod fem;
 pub mod gear;
+pub mod learn;
 pub mod material;
 pub mod measure;
 pub mod mesh;
