@@ -1,10 +1,12 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
 use crate::analytic::iso6336;
+use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, CycleSpec, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::effects::{Effect, Hook};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
@@ -13,6 +15,8 @@ use crate::simulate::history::{
 };
 use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
+use crate::wear::acting::Acting;
+use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
 
 /// The gears as they are, before they are mounted.
@@ -68,7 +72,19 @@ pub enum ForwardError {
     Contact(#[from] ContactError),
     /// A wear step failed.
     #[error("{0}")]
-    Step(#[from] StepError<ContactError>),
+    Step(#[from] StepError<WearError>),
+    /// A physical effect gave no usable number before wear began.
+    #[error("{0}")]
+    Effect(String),
+}
+
+impl From<WearError> for ForwardError {
+    fn from(error: WearError) -> Self {
+        match error {
+            WearError::Contact(error) => Self::Contact(error),
+            WearError::Effect(reason) => Self::Effect(reason),
+        }
+    }
 }
 
 impl GearSet {
@@ -197,6 +213,17 @@ pub struct Forward<'a> {
     /// Members with more fine teeth than those given, once wear has brought these into reach.
     extended: Option<Box<Members>>,
     factorisations: usize,
+    acting: Option<&'a Acting>,
+    altered: Option<Altered>,
+}
+
+/// The contact as effects change it.
+struct Altered {
+    alteration: Alteration,
+    /// Weighted gaps of the profile, by position.
+    opened: Option<Vec<Vec<f64>>>,
+    /// The projected compliance with load factors and flexibility.
+    compliance: Option<CycleCompliance>,
 }
 
 impl<'a> Forward<'a> {
@@ -210,7 +237,25 @@ impl<'a> Forward<'a> {
         conditions: Conditions,
         numerics: Numerics,
     ) -> Result<Self, ForwardError> {
-        let pair = set.mount(conditions.misalignment)?;
+        Self::with_effects(set, members, conditions, numerics, None)
+    }
+
+    /// As [`Forward::new`], with physical effects.
+    ///
+    /// # Errors
+    /// As [`Forward::new`]; [`ForwardError::Effect`] if an effect gives no number.
+    pub fn with_effects(
+        set: &'a GearSet,
+        members: Option<&'a Members>,
+        mut conditions: Conditions,
+        numerics: Numerics,
+        acting: Option<&'a Acting>,
+    ) -> Result<Self, ForwardError> {
+        let mut pair = set.mount(conditions.misalignment)?;
+        if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
+            conditions.misalignment += acting.added_centre_distance(&pair);
+            pair = set.mount(conditions.misalignment)?;
+        }
         let torque = conditions.torque / set.face_width;
         let spacing = match members {
             Some(members) => members.spacing(),
@@ -218,34 +263,53 @@ impl<'a> Forward<'a> {
         };
         let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
         let stations = Stations::new(&pair, spacing);
-        let cycle = Cycle::new(&pair, &stations, spec);
-        let compliance = match members {
-            Some(members) => Some(CycleCompliance::new(
-                &cycle,
-                members.flanks(),
-                numerics.friction,
-            )?),
-            None => None,
-        };
         let kind = if members.is_some() {
             ContactKind::Fem
         } else {
             ContactKind::Hertz
         };
-        let factorisations = if members.is_some() { 2 } else { 0 };
-        Ok(Self {
+        let mut out = Self {
             set,
             conditions,
             numerics,
             kind,
             members,
-            cycle,
-            compliance,
+            cycle: Cycle::new(&pair, &stations, spec),
+            compliance: None,
             condensed_at: None,
             worn: None,
             extended: None,
-            factorisations,
-        })
+            factorisations: if members.is_some() { 2 } else { 0 },
+            acting,
+            altered: None,
+        };
+        if acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
+            out.extend_members()?;
+        }
+        out.project()?;
+        Ok(out)
+    }
+
+    /// Projects the compliance of the members onto the cycle, and what effects change about it.
+    fn project(&mut self) -> Result<(), ForwardError> {
+        if let Some(members) = self.condensed() {
+            let flanks = members.flanks();
+            let friction = self.numerics.friction;
+            self.compliance = Some(CycleCompliance::new(&self.cycle, flanks, friction)?);
+        }
+        let Some(acting) = self.acting else {
+            return Ok(());
+        };
+        let alteration = acting.alteration(&self.cycle);
+        if let Some(fault) = acting.effects.fault() {
+            return Err(ForwardError::Effect(fault));
+        }
+        self.altered = (!alteration.is_none()).then(|| Altered {
+            opened: alteration.gaps(&self.cycle),
+            compliance: (self.compliance.as_ref()).map(|c| c.altered(&self.cycle, &alteration)),
+            alteration,
+        });
+        Ok(())
     }
 
     /// The mesh cycle.
@@ -255,7 +319,18 @@ impl<'a> Forward<'a> {
 
     /// Projected compliance, by finite elements only.
     pub fn compliance(&self) -> Option<&CycleCompliance> {
-        self.compliance.as_ref()
+        let altered = self.altered.as_ref();
+        (altered.and_then(|a| a.compliance.as_ref())).or(self.compliance.as_ref())
+    }
+
+    /// Effects that act, if any.
+    pub fn acting(&self) -> Option<&'a Acting> {
+        self.acting
+    }
+
+    /// The conditions, with what effects do to the misalignment.
+    pub fn conditions(&self) -> Conditions {
+        self.conditions
     }
 
     /// The elastic members, by finite elements only.
@@ -275,9 +350,13 @@ impl<'a> Forward<'a> {
 
     /// Calls `work` with the contact model.
     pub fn with_model<R>(&self, work: impl FnOnce(&dyn ContactModel) -> R) -> R {
-        match (&self.compliance, self.kind) {
+        match (self.compliance(), self.kind) {
             (Some(compliance), ContactKind::Fem) => {
-                work(&FemContact::new(&self.cycle, compliance, self.torque()))
+                let model = FemContact::new(&self.cycle, compliance, self.torque());
+                match &self.altered {
+                    Some(a) => work(&model.with(&a.alteration, a.opened.as_deref())),
+                    None => work(&model),
+                }
             }
             _ => {
                 let [pinion, gear] = &self.set.gears;
@@ -287,12 +366,12 @@ impl<'a> Forward<'a> {
                     ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
                 };
                 let stiffness = teeth.theoretical();
-                work(&HertzContact::new(
-                    &self.cycle,
-                    self.torque(),
-                    self.set.modulus(),
-                    stiffness,
-                ))
+                let modulus = self.set.modulus();
+                let model = HertzContact::new(&self.cycle, self.torque(), modulus, stiffness);
+                match &self.altered {
+                    Some(a) => work(&model.with(&a.alteration)),
+                    None => work(&model),
+                }
             }
         }
     }
@@ -335,6 +414,7 @@ impl<'a> Forward<'a> {
     ) -> Result<bool, ForwardError> {
         let law = WearLaw {
             coefficient: self.conditions.coefficient,
+            acting: self.acting,
             tolerance: self.numerics.step_tolerance,
         };
         loop {
@@ -356,7 +436,7 @@ impl<'a> Forward<'a> {
                 Ok(_) if stale => {}
                 Ok(_) => return Ok(true),
                 Err(StepError::System {
-                    source: ContactError::WindowTooNarrow { .. },
+                    source: WearError::Contact(ContactError::WindowTooNarrow { .. }),
                     ..
                 }) => {
                     // wear flattens contacts: look for them in a wider strip
@@ -369,7 +449,7 @@ impl<'a> Forward<'a> {
                     }
                 }
                 Err(StepError::System {
-                    source: ContactError::OutOfReach { .. },
+                    source: WearError::Contact(ContactError::OutOfReach { .. }),
                     ..
                 }) if preparation.reach < MOST_REACH * self.cycle.pair.pinion.rack.module => {
                     // wear lets teeth turn far enough for corners that were not looked at
@@ -435,7 +515,7 @@ impl<'a> Forward<'a> {
         }
         let more_teeth = self.extend_members()?;
         let Some(fresh) = self.members() else {
-            return Ok(());
+            return self.project();
         };
         if more_teeth || preparation.condensed_at != self.condensed_at {
             let worn = match &preparation.condensed_at {
@@ -454,14 +534,7 @@ impl<'a> Forward<'a> {
             self.condensed_at.clone_from(&preparation.condensed_at);
             self.worn = worn;
         }
-        if let Some(members) = self.condensed() {
-            self.compliance = Some(CycleCompliance::new(
-                &self.cycle,
-                members.flanks(),
-                self.numerics.friction,
-            )?);
-        }
-        Ok(())
+        self.project()
     }
 
     /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
@@ -500,7 +573,7 @@ impl<'a> Forward<'a> {
     /// Torque per face width that tooth pair number `index` of position `q` puts on the pinion, N·mm/mm.
     pub fn moment(&self, q: usize, index: usize, contact: &PositionContact) -> f64 {
         let pair = &self.cycle.positions[q].pairs[index];
-        match &self.compliance {
+        match self.compliance() {
             Some(compliance) => {
                 let own = pair.offset..pair.offset + pair.xi.len();
                 contact.pressure[own.clone()]
