@@ -86,6 +86,11 @@ impl Progress {
         }
     }
 
+    /// Area that effects displaced without loss of mass, per tooth of pinion and gear, mm².
+    pub fn displaced(&self) -> [f64; 2] {
+        self.displaced
+    }
+
     /// Forgets the contact sets: their numbering has changed.
     pub fn forget_sets(&mut self) {
         self.warm.clear();
