@@ -74,7 +74,10 @@ fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
         let mut diagnostic = table
             .refuse(key, "", list(names()))
             .with_hint(format!("the nearest is `{near}`"))
-            .with_hint(format!("`gearwear effects {}` tells what they are", card.name));
+            .with_hint(format!(
+                "`gearwear effects {}` tells what they are",
+                card.name
+            ));
         diagnostic.fault = Fault::UnknownKey;
         diagnostic.message = format!("{} has no parameter `{key}`", card.name);
         diagnostic.found = format!("`{key}`");
@@ -140,7 +143,11 @@ pub(super) fn stated(
     let (least, most) = (lower.unwrap_or(f64::MIN), upper.unwrap_or(f64::INFINITY));
     if least >= most {
         let allowed = format!("above {least}");
-        return Err(Box::new(inner.refuse("upper", "is not above lower", allowed)));
+        return Err(Box::new(inner.refuse(
+            "upper",
+            "is not above lower",
+            allowed,
+        )));
     }
     if value < least || value > most {
         let allowed = match (lower, upper) {
@@ -249,7 +256,11 @@ mod tests {
             let (formula, _) = card.compiled().unwrap();
             for key in formula.needs() {
                 let stated = card.needs.contains(&key);
-                assert!(stated || card.name == "micropitting", "{}: {key}", card.name);
+                assert!(
+                    stated || card.name == "micropitting",
+                    "{}: {key}",
+                    card.name
+                );
             }
         }
     }

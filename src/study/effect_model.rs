@@ -164,7 +164,10 @@ impl EffectSpec {
             Law::Card(card) => {
                 let mut needs = card.needs.to_vec();
                 // the film matters below a finite limit only
-                let limit = self.parameters.iter().find(|p| p.name.ends_with(".lambda_c"));
+                let limit = self
+                    .parameters
+                    .iter()
+                    .find(|p| p.name.ends_with(".lambda_c"));
                 if limit.is_some_and(|limit| limit.value.is_finite())
                     && let Some(film) = effects::variables::find("film_ratio")
                 {

@@ -34,9 +34,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
     check_keys(table)?;
     let name = name(table)?;
     let (hook, key) = hook(table)?;
-    let expression = table
-        .name(key, "an expression in named variables")?
-        .unwrap_or_default();
+    let expression = table.text(key)?.unwrap_or_default();
     let inner = table.free_table("parameters")?;
     let mut parameters = Vec::new();
     for short in inner.iter().flat_map(Table::present) {
@@ -134,7 +132,8 @@ fn fault(
         diagnostic.message = format!("{}: {message}", diagnostic.key);
         diagnostic
     };
-    let functions = "`gearwear effects` shows formulas; variables and functions stand in the README";
+    let functions =
+        "`gearwear effects` shows formulas; variables and functions stand in the README";
     match error {
         FormulaError::Expression(inside) => {
             let mut diagnostic = base(&inside.message);

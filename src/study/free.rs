@@ -62,7 +62,9 @@ impl FreeParameter {
         let prior = match param.prior {
             Prior::Uniform { low, high } => Prior::Uniform {
                 low: lower.unwrap_or(low.min(parameter.value)).max(param.range.0),
-                high: upper.unwrap_or(high.max(parameter.value)).min(param.range.1),
+                high: upper
+                    .unwrap_or(high.max(parameter.value))
+                    .min(param.range.1),
             },
             other => other,
         };
@@ -182,7 +184,10 @@ mod tests {
             let free = EffectSpec::of_card(card, &[]).unwrap().fitted();
             assert!(!free.is_empty(), "{}", card.name);
             for p in free {
-                assert!(p.lower < p.upper && p.lower.is_finite() && p.upper.is_finite(), "{p:?}");
+                assert!(
+                    p.lower < p.upper && p.lower.is_finite() && p.upper.is_finite(),
+                    "{p:?}"
+                );
                 assert!((p.lower..=p.upper).contains(&p.value), "{p:?}");
                 assert!(!p.log_scale || p.lower > 0.0, "{p:?}");
                 assert!(p.prior.log_density(p.value).is_finite(), "{p:?}");
@@ -195,7 +200,10 @@ mod tests {
         for card in CATALOGUE {
             for p in EffectSpec::of_card(card, &[]).unwrap().parameters {
                 let p = p.free();
-                assert!(p.lower.is_finite() && p.upper.is_finite() && p.lower < p.upper, "{p:?}");
+                assert!(
+                    p.lower.is_finite() && p.upper.is_finite() && p.lower < p.upper,
+                    "{p:?}"
+                );
             }
         }
     }
@@ -203,17 +211,41 @@ mod tests {
     #[test]
     fn formula_parameters_have_weak_documented_priors() {
         let two = formula(1.0, [Some(0.0), Some(10.0)]);
-        assert_eq!(two.prior, Prior::Uniform { low: 0.0, high: 10.0 });
+        assert_eq!(
+            two.prior,
+            Prior::Uniform {
+                low: 0.0,
+                high: 10.0
+            }
+        );
         assert_eq!((two.lower, two.upper, two.log_scale), (0.0, 10.0, false));
         let wide = formula(1.0, [Some(1e-2), Some(1e2)]);
-        assert_eq!(wide.prior, Prior::LogNormal { median: 1.0, spread: 10.0 });
+        assert_eq!(
+            wide.prior,
+            Prior::LogNormal {
+                median: 1.0,
+                spread: 10.0
+            }
+        );
         let bare = formula(0.2, [None, None]);
-        assert_eq!(bare.prior, Prior::LogNormal { median: 0.2, spread: 5.0 });
+        assert_eq!(
+            bare.prior,
+            Prior::LogNormal {
+                median: 0.2,
+                spread: 5.0
+            }
+        );
         assert!(bare.log_scale && bare.upper == 0.2 * 15625.0, "{bare:?}");
         let zero = formula(0.0, [None, None]);
         assert_eq!((zero.lower, zero.upper, zero.log_scale), (-6.0, 6.0, false));
         let negative = formula(-3.0, [None, Some(0.0)]);
-        assert_eq!(negative.prior, Prior::Normal { mean: -3.0, sd: 6.0 });
+        assert_eq!(
+            negative.prior,
+            Prior::Normal {
+                mean: -3.0,
+                sd: 6.0
+            }
+        );
         assert_eq!((negative.lower, negative.upper), (-39.0, 0.0));
     }
 }

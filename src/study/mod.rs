@@ -7,6 +7,7 @@
 //!
 //! Inside a `Study` lengths are mm, torques N mm, angles rad; a field whose name ends in a unit keeps that of the file.
 
+mod data;
 mod effect;
 mod effect_model;
 mod file;
@@ -307,4 +308,5 @@ impl Study {
 
 /// A study that states every optional material and oil key, for unit tests.
 #[cfg(test)]
-pub(crate) const MATERIAL_AND_HEAT: &str = include_str!("../../validation/challenges/none_L2/study.toml");
+pub(crate) const MATERIAL_AND_HEAT: &str =
+    include_str!("../../validation/challenges/none_L2/study.toml");

@@ -100,7 +100,9 @@ pub(super) fn read_fit(
     let mut free: Vec<FreeParameter> = Vec::new();
     for (name, span) in names {
         let refusal = |says: &str| {
-            let known = effects.parameters().map(|parameter| parameter.name.as_str());
+            let known = effects
+                .parameters()
+                .map(|parameter| parameter.name.as_str());
             let allowed: Vec<&str> = std::iter::once(WEAR_COEFFICIENT).chain(known).collect();
             let quoted = |name: &str| format!("\"{name}\"");
             let words: Vec<String> = allowed.iter().map(|name| quoted(name)).collect();
