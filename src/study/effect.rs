@@ -250,17 +250,19 @@ mod tests {
         }
     }
 
+    /// Two cards do without: micropitting needs the film below a finite `lambda_c` only, and thermal expansion takes the
+    /// reference temperature where the study states none.
     #[test]
     fn cards_need_what_their_formulas_need() {
         for card in CATALOGUE {
             let (formula, _) = card.compiled().unwrap();
             for key in formula.needs() {
-                let stated = card.needs.contains(&key);
-                assert!(
-                    stated || card.name == "micropitting",
-                    "{}: {key}",
-                    card.name
-                );
+                let without = match card.name {
+                    "micropitting" => key.starts_with("lubricant."),
+                    "thermal_expansion" => key == "thermal.bulk_temperature",
+                    _ => false,
+                };
+                assert!(card.needs.contains(&key) || without, "{}: {key}", card.name);
             }
         }
     }
