@@ -150,6 +150,24 @@ impl<'a> Table<'a> {
         self.entries.get(key).is_some()
     }
 
+    /// Whether the key's value is a table, inline or not.
+    pub(super) fn holds_table(&self, key: &str) -> bool {
+        matches!(
+            self.entries.get(key).map(|value| value.get_ref()),
+            Some(DeValue::Table(_))
+        )
+    }
+
+    /// Where the key itself stands.
+    pub(super) fn key_span(&self, key: &str) -> Option<Range<usize>> {
+        self.entries.get_key_value(key).map(|(key, _)| key.span())
+    }
+
+    /// The text at a span as it stands in the file.
+    pub(super) fn raw(&self, span: &Range<usize>) -> &'a str {
+        &self.source.text[span.clone()]
+    }
+
     /// The table's keys in the order of the file.
     pub(super) fn present(&self) -> Vec<&'a str> {
         let mut keys: Vec<_> = self
