@@ -99,15 +99,16 @@ impl<'a> HertzContact<'a> {
             return carried(springs);
         };
         let mut joint = (vec![0.0; springs.len()], 0.0);
-        for measured in 0..springs.len() {
+        for (own, measured) in joint.0.iter_mut().zip(springs) {
             let set_back: Vec<Spring> = (springs.iter())
                 .map(|s| Spring {
-                    gap: s.gap + alteration.offset(springs[measured].index, s.index),
+                    gap: s.gap + alteration.offset(measured.index, s.index),
                     ..*s
                 })
                 .collect();
             let (loads, delta) = carried(&set_back);
-            joint.0[measured] = loads[measured];
+            let at = springs.iter().position(|s| s.index == measured.index);
+            *own = at.map_or(0.0, |at| loads[at]);
             joint.1 += delta / springs.len() as f64;
         }
         joint
