@@ -1,21 +1,44 @@
 //! Floor 8: what measurements say about a model: fits of what is free, comparison, the missing effect.
 //!
 //! ```text
-//! Dataset, Predictor, Parameter .. -> fit::Problem -> search (quadratic, scatter, noise) -> Fit -> Comparison -> LadderStep
+//! Dataset, Predictor, Parameter .. -> Problem -> search (quadratic, scatter, noise) -> Fit -> Comparison -> LadderStep
+//!                                                                                       |-> Curve (pictures)
+//!                                                                                       `-> add: the next Problem's start
 //! ```
+//!
+//! The probability model, on natural scales (logarithms of positive parameters):
+//!
+//! ```text
+//! y = f(k_t, θ) + datum of the trace + noise (+ a correlated model error)       k_t = k exp(ε_t),  ε_t ~ N(0, σ_k)
+//! ```
+//! Datums are marginalised in closed form, k_t and θ by a parabola about the most probable state, σ_k by quadrature.
 
+mod add;
+mod comparison;
+mod curves;
 mod evaluate;
 mod fit;
 mod gaussian;
+mod ladder;
 mod noise;
 mod parameters;
 mod predictor;
 mod quadratic;
+mod region;
 mod scatter;
 mod search;
+mod tally;
+mod uncertainty;
+mod worst;
 
+pub use add::{Addition, add};
+pub use comparison::{Comparison, Outlier, ParameterRecord, TestRecord};
+pub use curves::{Curve, CurvePoint, curves};
 pub use fit::{Coefficient, Fit, FitError, Jacobian, Problem, RowFit, TestFit};
+pub use ladder::{Improvement, LadderStep, Version, ladder};
 pub use noise::{Datum, ModelError, NoiseModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};
 pub use predictor::{PredictError, Predictor};
 pub use search::Effort;
+pub use tally::{Cell, Group, Share};
+pub use uncertainty::Validation;
