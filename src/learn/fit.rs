@@ -141,23 +141,23 @@ impl Problem<'_> {
     /// # Errors
     /// [`FitError`].
     pub fn fit(&self, effort: &Effort) -> Result<Fit, FitError> {
-        self.fit_from(&[], effort)
+        let start: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
+        self.fit_from(&[start], effort)
     }
 
-    /// The best fit from the parameters' starts and from `others`: each the values of all effect parameters.
+    /// The best fit from several starts: each the values of all effect parameters.
     ///
     /// # Errors
     /// [`FitError`] if no start leads to a fit.
-    pub fn fit_from(&self, others: &[Vec<f64>], effort: &Effort) -> Result<Fit, FitError> {
+    pub fn fit_from(&self, starts: &[Vec<f64>], effort: &Effort) -> Result<Fit, FitError> {
         let fit = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
         if fit.tests.is_empty() {
             return Err(FitError::NoObservations);
         }
         let mut evaluator = self.evaluator();
-        let first: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
         let mut best: Option<Found> = None;
         let mut failure = None;
-        for start in std::iter::once(&first).chain(others) {
+        for start in starts {
             let state = self.state(start, fit.tests.len());
             match fit.run(&mut evaluator, state, effort) {
                 // A later start must be better by more than the tolerance, so that equals keep their order.

@@ -12,14 +12,14 @@ use crate::study::{EffectModel, EffectSpec, FreeParameter, Role, Study, WEAR_COE
 
 /// One version of a model: its effects, and what of it a fit may adjust.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Version {
+pub struct ModelVersion {
     /// The effects.
     pub effects: EffectModel,
     /// Free parameters, the wear coefficient among them or not.
     pub free: Vec<FreeParameter>,
 }
 
-impl Version {
+impl ModelVersion {
     /// The study's own.
     pub fn of(study: &Study) -> Self {
         Self {
@@ -104,7 +104,7 @@ impl<'a> Measured<'a> {
     pub fn fit(
         &self,
         bench: &Bench,
-        version: &Version,
+        version: &ModelVersion,
         noise: NoiseModel,
         others: &[Vec<f64>],
         effort: &Effort,
