@@ -39,7 +39,7 @@ pub fn rounded(value: f64) -> f64 {
 }
 
 /// The shortest decimal number that reads back as exactly this one.
-pub fn number(value: f64) -> String {
+fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
