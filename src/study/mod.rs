@@ -8,6 +8,7 @@
 //! Inside a `Study` lengths are mm, torques N mm, angles rad; a field whose name ends in a unit keeps that of the file.
 
 mod data;
+mod edit;
 mod effect;
 mod effect_model;
 mod file;
@@ -19,6 +20,7 @@ mod numerics;
 mod operation;
 mod quantity;
 mod reader;
+mod relative;
 mod settings;
 mod setup;
 mod values;
@@ -31,6 +33,7 @@ use toml::de::DeTable;
 use crate::source_text;
 
 pub use crate::source_text::{Diagnostic, Fault, Source, TextError as StudyError, nearest};
+pub use edit::{Edit, rounded};
 pub use effect_model::{EffectModel, EffectSpec, Law, Parameter};
 pub use free::{FreeParameter, WEAR_COEFFICIENT};
 pub use gears::Gears;

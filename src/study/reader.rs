@@ -145,6 +145,11 @@ impl<'a> Table<'a> {
         Some((value.get_ref(), span))
     }
 
+    /// Remembers where a part of a key's value stands.
+    pub(super) fn place(&self, part: &str, span: Range<usize>) {
+        self.spans.borrow_mut().insert(self.path_of(part), span);
+    }
+
     /// Whether the table states the key.
     pub(super) fn has(&self, key: &str) -> bool {
         self.entries.get(key).is_some()

@@ -210,6 +210,10 @@ impl<'a> Table<'a> {
                 .wrong_type(key, other, item.span(), "a text in quotes")
                 .into()),
         };
-        items.iter().map(read).collect::<Result<Vec<_>>>().map(Some)
+        let texts = items.iter().map(read).collect::<Result<Vec<_>>>()?;
+        for (n, (_, span)) in texts.iter().enumerate() {
+            self.place(&format!("{key}[{n}]"), span.clone());
+        }
+        Ok(Some(texts))
     }
 }
