@@ -128,6 +128,10 @@ impl<'a> Measured<'a> {
                 })
             }),
         );
+        let first: Vec<f64> = parameters.iter().map(|p| p.start).collect();
+        let starts: Vec<Vec<f64>> = std::iter::once(first)
+            .chain(others.iter().cloned())
+            .collect();
         let problem = Problem {
             data: &self.data,
             roles: &self.roles,
@@ -136,7 +140,7 @@ impl<'a> Measured<'a> {
             parameters,
             noise,
         };
-        problem.fit_from(others, effort)
+        problem.fit_from(&starts, effort)
     }
 }
 
