@@ -230,6 +230,8 @@ mod whole {
 
     fn whole(bencher: Bencher, fineness: usize, kind: ContactKind) {
         let plan = Plan {
+            acting: None,
+            effects: &[],
             title: "",
             test: None,
             set: &SET,

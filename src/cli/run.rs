@@ -77,7 +77,11 @@ fn simulate(
     progress: &Progress,
 ) -> Result<Run, CliError> {
     let set = study.gear_set();
+    let acting = study.acting(conditions);
+    let effects: Vec<String> = study.effects().iter().map(ToString::to_string).collect();
     let plan = Plan {
+        acting: acting.as_ref(),
+        effects: &effects,
         title: &study.title,
         test,
         set: &set,

@@ -24,7 +24,7 @@ pub fn conditions(plan: &Plan) -> Conditions {
             ContactKind::Hertz => "hertz",
         }
         .to_owned(),
-        effects: Vec::new(),
+        effects: plan.effects.to_vec(),
         torque: plan.conditions.torque,
         speed_rpm: plan.conditions.speed,
         misalignment: plan.conditions.misalignment,

@@ -11,9 +11,10 @@ use crate::simulate::history::{Progress, StepReport, WearState};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
 use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, Run, State};
+use crate::wear::acting::Acting;
 
 /// What a run is to do.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Plan<'a> {
     /// Free text of the study.
     pub title: &'a str,
@@ -27,6 +28,10 @@ pub struct Plan<'a> {
     pub numerics: Numerics,
     /// Contact model.
     pub kind: ContactKind,
+    /// Physical effects, if any.
+    pub acting: Option<&'a Acting>,
+    /// Their names with parameter values, for the results.
+    pub effects: &'a [String],
     /// Worn states to store, evenly over the cycles.
     pub stored_states: usize,
     /// Mesh positions to draw at the last state.
@@ -127,7 +132,13 @@ pub fn run(
     };
     stages.end("mesh and compliance");
     observer.event(Event::Stage("mesh cycle"));
-    let mut forward = Forward::new(plan.set, members, plan.conditions, plan.numerics)?;
+    let mut forward = Forward::with_effects(
+        plan.set,
+        members,
+        plan.conditions,
+        plan.numerics,
+        plan.acting,
+    )?;
     stages.end("mesh cycle");
     let worn = wear(plan, &mut forward, start, &mut stages, observer)?;
     let pair = forward.cycle().pair.clone();

@@ -1,5 +1,6 @@
 //! The effects of a study, ready to be built with any values of their parameters.
 
+use std::fmt;
 use std::ops::Range;
 
 use super::free::FreeParameter;
@@ -118,6 +119,17 @@ impl EffectModel {
     /// All parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &Parameter> {
         self.specs.iter().flat_map(|spec| &spec.parameters)
+    }
+}
+
+/// `running_in(amplitude = 3, decay_cycles = 200000)`, with the parameters that the study states.
+impl fmt::Display for EffectSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let stated = self.parameters.iter().filter(|p| p.stated);
+        let values: Vec<String> = stated
+            .map(|p| format!("{} = {}", p.short(), p.value))
+            .collect();
+        write!(f, "{}({})", self.name, values.join(", "))
     }
 }
 

@@ -7,6 +7,7 @@ use crate::material::contact_modulus;
 use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::numerics::Numerics;
 use crate::tribology::flash_temperature::contact_coefficient;
+use crate::wear::acting::Acting;
 
 impl Study {
     /// The gears with their materials.
@@ -69,6 +70,19 @@ impl Study {
     /// (`lubricant.viscosity`).
     pub fn states(&self, key: &str) -> bool {
         effect::is_stated(key, self.lubricant, self.thermal)
+    }
+
+    /// The study's effects with their stated values under some conditions; `None` if it has none.
+    pub fn acting(&self, conditions: &Operation) -> Option<Acting> {
+        let effects = self.effect_model().stated();
+        (!effects.is_empty()).then(|| Acting {
+            effects,
+            surroundings: self.surroundings(conditions),
+            torque: 1e-3 * conditions.torque_nmm,
+            speed: conditions.speed_rpm,
+            reversed: conditions.reversed,
+            face_width: self.gears.face_width,
+        })
     }
 
     /// Names of the members whose mesh is the user's own.

@@ -181,6 +181,8 @@ fn a_checkpoint_that_cannot_be_kept_ends_the_run() {
     let study = study();
     let set = study.gear_set();
     let plan = Plan {
+        acting: None,
+        effects: &[],
         title: "",
         test: None,
         set: &set,

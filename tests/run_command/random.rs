@@ -103,6 +103,8 @@ fn simulated(text: &str) -> Result<Run, String> {
     let study = Study::parse(text, "study.toml").map_err(|e| e.to_string())?;
     let set = study.gear_set();
     let plan = Plan {
+        acting: None,
+        effects: &[],
         title: "",
         test: None,
         set: &set,
