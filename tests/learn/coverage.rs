@@ -11,7 +11,6 @@ fn intervals_cover_the_truth() {
     let empty = wear_data(&[("A", 1e6), ("B", 6e5), ("C", 8e5)], 11, true);
     let mut inside = [0; 3];
     let mut off = [0.0; 3];
-    let mut evaluations = 0;
     for seed in 0..200 {
         let mut random = Random(1000 + seed);
         let data = measured(
@@ -38,17 +37,12 @@ fn intervals_cover_the_truth() {
         .fit(&Effort::default())
         .unwrap();
         assert!(fit.converged, "seed {seed}");
-        evaluations += fit.evaluations;
         for (i, estimate) in fit.parameters.iter().enumerate() {
             let [low, high] = estimate.interval;
             inside[i] += i32::from((low..=high).contains(&truth[i]));
             off[i] += (estimate.value - truth[i]) / estimate.sigma / 200.0;
         }
     }
-    println!(
-        "inside {inside:?} of 200, mean error {off:.2?} sigma, {} evaluations",
-        f64::from(evaluations as u32) / 200.0
-    );
     for (i, inside) in inside.into_iter().enumerate() {
         assert!(
             (180..=196).contains(&inside),
@@ -104,7 +98,6 @@ fn the_scatter_of_k_is_found() {
             );
         }
     }
-    println!("mean scatter {mean:.3}, k covered {covered} of {draws}, scatter in its 68 % {held}");
     assert!((0.17..=0.23).contains(&mean), "mean scatter {mean}");
     assert!((88..=99).contains(&covered), "{covered} of {draws}");
     assert!((54..=82).contains(&held), "{held} of {draws}");

@@ -194,7 +194,6 @@ fn the_worst_place_is_told_in_words() {
         .fit(&Effort::default())
         .unwrap();
     let comparison = Comparison::new(&study, &data, &fit);
-    println!("{}", comparison.worst);
     for words in [
         "early in life (0 to ",
         "too low",
@@ -271,14 +270,26 @@ fn held_out_tests_take_no_part_in_the_fit() {
         known.tests[2].coefficient.to_bits(),
         known.coefficient.to_bits()
     );
-    assert!(chi2(&known, &second, &ROLES, Role::Holdout) > 5.0);
+    // The noise has grown by 1.3, too.
+    assert!(chi2(&b, &second, &ROLES, Role::Holdout) < 1.2 * 1.3 * 1.3);
+    assert!(chi2(&known, &second, &ROLES, Role::Holdout) > 3.0);
 }
 
-/// Running-in is hidden. Added, it brings both errors to the floor; a wrong effect betters the fit at most.
+/// Running-in is hidden, at little noise so that its form can be told from an excess that grows as the square root of cycles. Added, it brings both errors to the floor; a wrong effect betters the fit at most.
 #[test]
 fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
     let study = Study::parse(STUDY, "study.toml").unwrap();
-    let data = data(6, running_in, &[2.5, 1.5e5]);
+    let empty = wear_data(&[("A", 1e6), ("B", 8e5), ("H", 6e5)], 15, true);
+    let ks = [1.2e-10, 1.3e-10, 1.1e-10];
+    let data = measured(
+        &empty,
+        running_in,
+        &ks,
+        &[2.5, 2.5e5],
+        0.005,
+        0.3,
+        &mut Random(6),
+    );
     let base = Formula {
         data: data.clone(),
         formula: steady,
@@ -287,12 +298,10 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
         data: data.clone(),
         formula: running_in,
     };
-    let hyperbolic = Formula {
+    let other = Formula {
         data: data.clone(),
         formula: |o: &Observation, k: f64, p: &[f64]| {
-            4.0 * (k / 1e-10)
-                * ((o.cycles + p[0] * p[1] * (o.cycles / p[1]).ln_1p()) / 1e6)
-                * shape(o)
+            4.0 * (k / 1e-10) * ((o.cycles + p[0] * (p[1] * o.cycles).sqrt()) / 1e6) * shape(o)
         },
     };
     let wrong = Formula {
@@ -311,7 +320,7 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
     let fit = problem(&data, &base, Vec::new()).fit(&effort).unwrap();
     let forms = vec![
         problem(&data, &right, running_in_parameters()),
-        problem(&data, &hyperbolic, running_in_parameters()),
+        problem(&data, &other, running_in_parameters()),
     ];
     let added = add(&fit, forms, &effort).unwrap();
     assert_eq!(added.form, 0);
@@ -321,7 +330,7 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
         "{:?}",
         added.log_evidence
     );
-    for (estimate, truth) in added.fit.parameters[1..].iter().zip([2.5, 1.5e5]) {
+    for (estimate, truth) in added.fit.parameters[1..].iter().zip([2.5, 2.5e5]) {
         assert!(
             (estimate.value - truth).abs() < 3.0 * estimate.sigma,
             "{estimate:?}"
@@ -330,7 +339,6 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
     let mistaken = add(&fit, vec![problem(&data, &wrong, vec![exponent])], &effort).unwrap();
     let [before, mistaken, after] =
         [&fit, &mistaken.fit, &added.fit].map(|fit| Comparison::new(&study, &data, fit));
-    println!("{}", before.worst);
     assert!(before.chi2_per_point > 3.0, "{}", before.chi2_per_point);
     let none: [String; 0] = [];
     let names = [["wrong".to_owned()], ["running_in".to_owned()]];
@@ -351,16 +359,9 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
             comparison: &after,
         },
     ]);
-    for step in &steps {
-        println!(
-            "{:?} {:?} {:?}",
-            step.effects, step.fit_chi2_per_point, step.holdout_chi2_per_point
-        );
-    }
-    assert!(
-        steps[2].fit_chi2_per_point.unwrap() < 1.1
-            && steps[2].holdout_chi2_per_point.unwrap() < 1.15
-    );
+    // 300 and 150 points: standard deviations of 0.08 and 0.115 about 0.93; four of them.
+    assert!(steps[2].fit_chi2_per_point.unwrap() < 1.25);
+    assert!(steps[2].holdout_chi2_per_point.unwrap() < 1.4);
     let [useless, useful] = [&steps[1], &steps[2]].map(|step| step.improvement.unwrap());
     assert!(useless.holdout_factor.unwrap() < 1.05, "{useless:?}");
     assert!(useful.holdout_factor.unwrap() > 3.0 && useful.log_evidence.unwrap() > 100.0);
