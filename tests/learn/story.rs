@@ -170,8 +170,44 @@ fn the_json_has_the_agreed_keys() {
     assert_eq!(back.places.len(), comparison.places.len());
 }
 
-/// Regions by the paths of contact of this pair. By hand: cos α' = cos 20° at 80 mm, E = √(29² − r_b1²) − r_b1 tan 20° with
-/// r_b1 = 27 cos 20° gives A = −4.951, B = −0.945... mm; here only the order along the flanks is asked for.
+/// Regions by hand, for test A: r_b1 = 27 cos 20° = 25.3717, r_b2 = 49.8037, p_b = 2π cos 20° = 5.9043 mm.
+///
+/// ```text
+/// E = √(29² − r_b1²) − 27 sin 20° = 4.811,  B = E − p_b = −1.093: radius √(r_b1² + (9.2345 − 1.093)²) = 26.646
+/// A = 53 sin 20° − √(55² − r_b2²) = −5.209,  D = A + p_b = 0.695: radius 27.245
+/// ```
+/// Of the radii 26 + 3 i/14 mm on the pinion 4 lie below B, 1 up to the pitch point (27), 1 up to D, 9 above.
+#[test]
+fn points_are_counted_in_their_regions() {
+    let study = Study::parse(STUDY, "study.toml").unwrap();
+    let data = data(8, steady, &[]);
+    let predictor = Formula {
+        data: data.clone(),
+        formula: steady,
+    };
+    let fit = problem(&data, &predictor, Vec::new())
+        .fit(&Effort::default())
+        .unwrap();
+    let comparison = Comparison::new(&study, &data, &fit);
+    for (region, points) in [
+        ("lower_double", 4),
+        ("single_lower", 1),
+        ("single_upper", 1),
+        ("upper_double", 9),
+    ] {
+        let cells: Vec<_> = comparison
+            .places
+            .iter()
+            .filter(|c| {
+                (c.test.as_str(), c.member.as_str(), c.region.as_str()) == ("A", "pinion", region)
+            })
+            .collect();
+        assert_eq!(cells.len(), 5);
+        assert!(cells.iter().all(|cell| cell.points == points), "{region}");
+        assert!(cells.iter().any(|cell| cell.cycles == [2e5, 4e5]));
+    }
+}
+
 #[test]
 fn the_worst_place_is_told_in_words() {
     let study = Study::parse(STUDY, "study.toml").unwrap();
@@ -340,6 +376,25 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
     let [before, mistaken, after] =
         [&fit, &mistaken.fit, &added.fit].map(|fit| Comparison::new(&study, &data, fit));
     assert!(before.chi2_per_point > 3.0, "{}", before.chi2_per_point);
+    // Datums hide the level of the early excess, not its size.
+    assert!(
+        before
+            .worst
+            .contains("In size the measured wear of that member is 1."),
+        "{}",
+        before.worst
+    );
+    let early = before
+        .ratios
+        .iter()
+        .find(|r| r.test == "A" && r.cycles == 2e5)
+        .unwrap();
+    let k = fit.tests[0].coefficient / 1.2e-10;
+    let truth = (2e5 + 2.5 * 2.5e5 * (1.0 - (-0.8f64).exp())) / 2e5 / k;
+    assert!(
+        (early.measured_over_computed - truth).abs() < 4.0 * early.sigma,
+        "{early:?} {truth}"
+    );
     let none: [String; 0] = [];
     let names = [["wrong".to_owned()], ["running_in".to_owned()]];
     let steps = ladder(&[
