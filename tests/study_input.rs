@@ -5,7 +5,7 @@
 //! Source: the format's description in the README's study section; the limits of the reference pair (27/53 teeth, module 2,
 //! centre distance 80 mm) from the closed forms of involute geometry. Tolerance: none for texts; 1e-12 relative for units.
 
-use gearwear::study::{ContactKind, Fault, FreeParameter, Order, Role, Scatter, Study};
+use gearwear::study::{ContactKind, Fault, Order, Role, Scatter, Study};
 use proptest::prelude::*;
 
 /// Every key of the format once, each on its own line.
@@ -194,10 +194,6 @@ refusals! {
         => BadValue "noise.coefficient_scatter" at 22:23, "\"estimated\"", "\"estimate\" or a number", "";
     scatter_negative: format!("{SHORT}[noise]\ncoefficient_scatter = -0.1\n")
         => BadValue "noise.coefficient_scatter" at 22:23, "-0.1", "0 to 10", "";
-    effect: format!("{SHORT}[[effect]]\nkind = \"running_in\"\namplitude = 3.0\n")
-        => NotAvailable "effect.kind" at 22:8, "\"running_in\"", "no [[effect]]", "effects are not available in this version";
-    effect_parameter_outside_its_bounds: format!("{SHORT}[[effect]]\nkind = \"x\"\na = {{ value = 3.0, upper = 2.0 }}\n")
-        => BadValue "effect.a.value" at 23:15, "3.0", "2", "outside its own bounds";
     effect_without_a_kind: format!("{SHORT}[[effect]]\namplitude = 3.0\n")
         => MissingKey "effect.kind" at 21:1, "no key `kind`", "a text", "is missing";
     formula_with_two_expressions: format!("{SHORT}[[effect]]\nkind = \"formula\"\nname = \"n\"\nprofile = \"1\"\nwear_factor = \"2\"\n")
@@ -279,7 +275,8 @@ fn values_arrive_in_the_units_of_the_program() {
     assert_eq!(study.operation.viscosity_pa_s, Some(0.015));
     assert_eq!(study.wear.coefficient, 6e-10);
     assert_eq!(study.contact, ContactKind::Fem);
-    assert_eq!(study.free, [FreeParameter::WearCoefficient]);
+    let free: Vec<&str> = study.free().iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(free, ["wear.coefficient"]);
     assert_eq!(study.noise.coefficient_scatter, Scatter::Estimate);
     assert_eq!(
         study.measurements.as_deref(),
@@ -307,7 +304,8 @@ fn defaults_are_those_of_the_format() {
         (None, None, None)
     );
     assert_eq!(study.contact, ContactKind::Fem);
-    assert_eq!(study.free, [FreeParameter::WearCoefficient]);
+    let free: Vec<&str> = study.free().iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(free, ["wear.coefficient"]);
     assert_eq!(
         (study.noise.coefficient_scatter, study.noise.datum_um),
         (Scatter::Estimate, 0.5)

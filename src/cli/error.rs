@@ -46,6 +46,9 @@ pub enum CliError {
         /// The file.
         path: PathBuf,
     },
+    /// Arguments that cannot be used, and why.
+    #[error("{0}")]
+    Unusable(String),
     /// Reading or writing failed.
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io {
@@ -87,6 +90,7 @@ impl CliError {
         match self {
             CliError::Study(_)
             | CliError::Effect(_)
+            | CliError::Unusable(_)
             | CliError::Exists { .. }
             | CliError::NotAFolder { .. } => 2,
             CliError::Output(

@@ -1,5 +1,6 @@
 //! `gearwear init`: a commented study file and example measurements to start from.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::PathBuf;
 
@@ -11,7 +12,7 @@ use super::{CliError, Outcome};
 /// Arguments of `init`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear init\n  gearwear init my-gears\n  gearwear init --example plastic-steel pom\n  gearwear init --json my-gears"
+    after_help = "Examples:\n  gearwear init\n  gearwear init my-gears\n  gearwear init --example plastic-steel pom\n  gearwear init --example hidden-effect walk\n  gearwear init --json my-gears"
 )]
 pub struct InitArgs {
     /// Folder to write into; made if it is not there [default: the current one]
@@ -33,24 +34,48 @@ enum Example {
     FzgC,
     /// Steel pinion, POM gear, 20/40 teeth, module 1, dry
     PlasticSteel,
+    /// A measured pair with an effect that the model lacks: try compare, diagnose and add on it
+    HiddenEffect,
 }
 
+/// What an independent program measured on a pair like the reference one, something hidden in it.
+const HIDDEN: &str = include_str!("../../validation/challenges/running_in_L1/measurements.csv");
+/// The same at other conditions, without noise.
+const HIDDEN_SEALED: &str = include_str!("../../validation/challenges/running_in_L1/sealed.csv");
+
 impl Example {
-    /// The study and the measurements.
-    fn files(self) -> (&'static str, &'static str) {
+    fn study(self) -> &'static str {
         match self {
-            Example::Paper => (
-                include_str!("examples/paper.toml"),
-                include_str!("examples/paper.csv"),
-            ),
-            Example::FzgC => (
-                include_str!("examples/fzg-c.toml"),
-                include_str!("examples/fzg-c.csv"),
-            ),
-            Example::PlasticSteel => (
-                include_str!("examples/plastic-steel.toml"),
-                include_str!("examples/plastic-steel.csv"),
-            ),
+            Example::Paper => include_str!("examples/paper.toml"),
+            Example::FzgC => include_str!("examples/fzg-c.toml"),
+            Example::PlasticSteel => include_str!("examples/plastic-steel.toml"),
+            Example::HiddenEffect => include_str!("examples/hidden-effect.toml"),
+        }
+    }
+
+    fn measurements(self) -> Cow<'static, str> {
+        match self {
+            Example::Paper => include_str!("examples/paper.csv").into(),
+            Example::FzgC => include_str!("examples/fzg-c.csv").into(),
+            Example::PlasticSteel => include_str!("examples/plastic-steel.csv").into(),
+            Example::HiddenEffect => {
+                let sealed = HIDDEN_SEALED.split_inclusive('\n');
+                let rows = sealed.skip_while(|line| !line.starts_with("S,"));
+                let note = "# the held-out test S: values without noise, sigma as if they had the others'\n";
+                [HIDDEN, note]
+                    .into_iter()
+                    .chain(rows)
+                    .collect::<String>()
+                    .into()
+            }
+        }
+    }
+
+    /// The command to go on with.
+    fn next(self) -> &'static str {
+        match self {
+            Example::HiddenEffect => "compare",
+            _ => "run",
         }
     }
 }
@@ -63,10 +88,9 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
             path: folder.clone(),
         });
     }
-    let (study, measurements) = args.example.files();
     let files = [
-        (folder.join("study.toml"), study),
-        (folder.join("measurements.csv"), measurements),
+        (folder.join("study.toml"), args.example.study().into()),
+        (folder.join("measurements.csv"), args.example.measurements()),
     ];
     if let Some((path, _)) = files
         .iter()
@@ -80,7 +104,7 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
         source,
     })?;
     for (path, text) in &files {
-        fs::write(path, text).map_err(|source| CliError::Io {
+        fs::write(path, text.as_bytes()).map_err(|source| CliError::Io {
             doing: "write",
             path: path.clone(),
             source,
@@ -91,8 +115,9 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
         .map(|(path, _)| path.display().to_string())
         .collect();
     let text = format!(
-        "wrote {}\nnext: gearwear run {}\n",
+        "wrote {}\nnext: gearwear {} {}\n",
         written.join(" and "),
+        args.example.next(),
         written[0]
     );
     Ok(Outcome {
@@ -107,21 +132,31 @@ mod tests {
     use super::*;
     use crate::study::{KEYS, Study};
 
+    use crate::effects::CATALOGUE;
+    use crate::measure::Dataset;
+    use crate::study::Role;
+
+    fn study(example: Example) -> Study {
+        Study::parse(example.study(), "study.toml").unwrap_or_else(|error| panic!("{error}"))
+    }
+
     #[test]
-    fn every_example_is_a_valid_study() {
+    fn every_example_is_a_valid_study_with_valid_measurements() {
         for example in Example::value_variants() {
-            let study = Study::parse(example.files().0, "study.toml")
-                .unwrap_or_else(|error| panic!("{error}"));
+            let study = study(*example);
             assert!(
                 study.tests.len() >= 2 && study.measurements.is_some(),
                 "{example:?}"
             );
+            let data = example.measurements();
+            Dataset::parse(&data, "measurements.csv", &study.known())
+                .unwrap_or_else(|error| panic!("{error}"));
         }
     }
 
     #[test]
     fn the_paper_example_shows_every_key() {
-        let text = Example::Paper.files().0;
+        let text = Example::Paper.study();
         for (table, keys) in KEYS {
             for key in keys.iter().filter(|key| !["pinion", "gear"].contains(key)) {
                 assert!(text.contains(key), "{table}: {key} is not in the example");
@@ -132,7 +167,7 @@ mod tests {
     #[test]
     fn example_measurements_have_the_columns_of_the_format() {
         for example in Example::value_variants() {
-            let (_, measurements) = example.files();
+            let measurements = example.measurements();
             let mut rows = measurements.lines().filter(|line| !line.starts_with('#'));
             assert_eq!(
                 rows.next(),
@@ -140,5 +175,51 @@ mod tests {
             );
             assert!(rows.all(|row| row.split(',').count() == 8), "{example:?}");
         }
+    }
+
+    /// The hidden effect is the independent data's study and sealed test, and does not name what it hides.
+    #[test]
+    fn the_hidden_effect_stays_hidden() {
+        let text = Example::HiddenEffect.study();
+        let hidden = study(Example::HiddenEffect);
+        let original = Study::parse(
+            concat!(
+                include_str!("../../validation/challenges/running_in_L1/study.toml"),
+                "\n",
+                include_str!("../../validation/challenges/running_in_L1/sealed.toml")
+            ),
+            "study.toml",
+        )
+        .unwrap();
+        assert_eq!(
+            (
+                &hidden.gears,
+                &hidden.materials,
+                &hidden.tests,
+                &hidden.wear
+            ),
+            (
+                &original.gears,
+                &original.materials,
+                &original.tests,
+                &original.wear
+            )
+        );
+        assert_eq!(
+            (hidden.lubricant, hidden.thermal),
+            (original.lubricant, original.thermal)
+        );
+        assert_eq!(
+            hidden.tests.last().map(|test| test.role),
+            Some(Role::Holdout)
+        );
+        let both = format!("{text}{}", Example::HiddenEffect.measurements());
+        for card in CATALOGUE {
+            assert!(!both.contains(card.name), "{}", card.name);
+        }
+        let data = Example::HiddenEffect.measurements();
+        let data = Dataset::parse(&data, "m.csv", &hidden.known()).unwrap();
+        let held = data.observations.iter().filter(|row| row.test == 4).count();
+        assert_eq!((data.observations.len(), held), (2280 + 570, 570));
     }
 }

@@ -8,6 +8,7 @@
 //! A command is one file with its arguments and one function, one variant of [`args::Command`] and one arm of its
 //! `execute`.
 
+mod add;
 pub mod args;
 mod effects;
 mod error;

@@ -14,13 +14,17 @@
 //! Datums are marginalised in closed form, k_t and θ by a parabola about the most probable state, σ_k by quadrature.
 
 mod add;
+mod bench;
 mod comparison;
 mod curves;
 mod evaluate;
 mod fit;
 mod gaussian;
+mod gear_model;
 mod ladder;
+mod measured;
 mod noise;
+mod observe;
 mod parameters;
 mod predictor;
 mod quadratic;
@@ -33,10 +37,13 @@ mod uncertainty;
 mod worst;
 
 pub use add::{Addition, add};
+pub use bench::{Bench, MeasuredTest, Workshop};
 pub use comparison::{Comparison, Outlier, ParameterRecord, TestRecord};
 pub use curves::{Curve, CurvePoint, curves};
 pub use fit::{Coefficient, Fit, FitError, Jacobian, Problem, RowFit, TestFit};
+pub use gear_model::{EffectsOf, GearModel};
 pub use ladder::{Improvement, LadderStep, Version, ladder};
+pub use measured::{Measured, ModelVersion};
 pub use noise::{Datum, ModelError, NoiseModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};
 pub use predictor::{PredictError, Predictor};

@@ -1,4 +1,4 @@
-//! Floor 7: the measurement file. `measurements.csv` becomes a [`Dataset`] whose every row has been checked, or one
+//! Floor 6: the measurement file. `measurements.csv` becomes a [`Dataset`] whose every row has been checked, or one
 //! [`TextError`] that shows the place, what was found, what is allowed and a way out. No row is dropped silently.
 //!
 //! ```text

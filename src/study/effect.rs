@@ -1,235 +1,269 @@
-//! `[[effect]]`: read as written, whatever its kind; [`resolve`] then asks whether such an effect exists.
+//! `[[effect]]`: entries of the catalogue and the user's own formulas, with their values and bounds.
 
-use std::ops::Range;
-
-use toml::de::DeValue;
-
-use super::quantity as q;
+use super::effect_model::{EffectModel, EffectSpec, Law, Parameter};
+use super::formula;
+use super::materials::{Lubricant, Thermal};
+use super::quantity::{self as q, Short};
 use super::reader::Table;
+use crate::effects::{CATALOGUE, Card, Param};
 use crate::source_text::{Diagnostic, Fault, list, nearest};
 
-/// Keys of an entry that are not parameters.
-const FORMULA_KEYS: &[&str] = &[
-    "kind",
-    "name",
-    "wear_factor",
-    "added_depth",
-    "load_factor",
-    "profile",
-    "parameters",
-];
 const VALUE_KEYS: &[&str] = &["value", "lower", "upper"];
 
-/// One `[[effect]]` as the study states it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EffectSpec {
-    /// Name in the catalogue, or `formula`.
-    pub kind: String,
-    /// The parameters in the order of the file.
-    pub parameters: Vec<(String, ParamValue)>,
-    /// The user's own expression, if `kind` is `formula`.
-    pub formula: Option<Formula>,
-    /// Where the entry stands, bytes of the study's text.
-    pub span: Range<usize>,
-}
+pub(super) type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
-impl EffectSpec {
-    /// The name before the point in `fit.free`: the kind, or a formula's own name.
-    pub fn name(&self) -> &str {
-        self.formula
-            .as_ref()
-            .map_or(&self.kind, |formula| &formula.name)
+/// All `[[effect]]` entries.
+pub(super) fn read(
+    root: &Table<'_>,
+    lubricant: Option<Lubricant>,
+    thermal: Option<Thermal>,
+) -> Result<EffectModel> {
+    let mut specs: Vec<EffectSpec> = Vec::new();
+    for table in root.tables("effect", None)? {
+        let spec = entry(&table)?;
+        if specs.iter().any(|above| above.name == spec.name) {
+            let key = if table.has("name") { "name" } else { "kind" };
+            return Err(Box::new(
+                table
+                    .refuse(key, "stands there twice", "each effect once")
+                    .with_hint("formulas may stand together under different names"),
+            ));
+        }
+        check_needs(&table, &spec, lubricant, thermal)?;
+        specs.push(spec);
     }
-}
-
-/// A parameter's value and the bounds the user sets for fitting it, in the parameter's unit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ParamValue {
-    /// The value, also where a fit starts.
-    pub value: f64,
-    /// Smallest value a fit may try.
-    pub lower: Option<f64>,
-    /// Largest value a fit may try.
-    pub upper: Option<f64>,
-}
-
-/// A user's own effect.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Formula {
-    /// Name of the user's choice.
-    pub name: String,
-    /// What the expression stands for.
-    pub hook: Hook,
-    /// The expression, not yet parsed.
-    pub expression: String,
-}
-
-/// What a formula gives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Hook {
-    /// Factor on the wear coefficient.
-    WearFactor,
-    /// Depth per contact of that member, µm.
-    AddedDepth,
-    /// Factor on the tooth load.
-    LoadFactor,
-    /// Material removed before the start, µm.
-    Profile,
-}
-
-const HOOKS: [(&str, Hook); 4] = [
-    ("wear_factor", Hook::WearFactor),
-    ("added_depth", Hook::AddedDepth),
-    ("load_factor", Hook::LoadFactor),
-    ("profile", Hook::Profile),
-];
-
-type Result<T> = std::result::Result<T, Box<Diagnostic>>;
-
-/// All `[[effect]]` entries, each checked by [`resolve`].
-pub(super) fn read(root: &Table<'_>) -> Result<Vec<EffectSpec>> {
-    root.tables("effect", None)?
-        .iter()
-        .map(|table| {
-            let spec = entry(table)?;
-            resolve(&spec, table)?;
-            Ok(spec)
-        })
-        .collect()
-}
-
-/// Asks the catalogue for the effect. There is none yet, so every entry is refused; a registry's lookup by `spec.kind` and
-/// its check of the parameters' names and ranges come here.
-fn resolve(spec: &EffectSpec, table: &Table<'_>) -> Result<()> {
-    let mut diagnostic = table
-        .refuse("kind", "cannot be used", "no [[effect]]")
-        .with_hint("effects are not available in this version: remove the entry");
-    diagnostic.fault = Fault::NotAvailable;
-    diagnostic.message = format!(
-        "effect.kind = \"{}\": effects are not available in this version",
-        spec.kind
-    );
-    Err(Box::new(diagnostic))
+    Ok(EffectModel::new(specs))
 }
 
 fn entry(table: &Table<'_>) -> Result<EffectSpec> {
-    let Some(kind) = table.name("kind", "the effect's name in the catalogue")? else {
+    let what = "the effect's name in the catalogue, or \"formula\"";
+    let Some(kind) = table.name("kind", what)? else {
         return Err(Box::new(
-            table.missing("kind", "a text, the effect's name in the catalogue"),
+            table
+                .missing("kind", "a text, the effect's name in the catalogue")
+                .with_hint("`gearwear effects` lists the catalogue"),
         ));
     };
-    if kind == "formula" {
-        return formula(table);
+    if kind == formula::KIND {
+        return formula::read(table);
     }
-    let parameters = parameters(table, &["kind"])?;
-    Ok(EffectSpec {
-        kind: kind.to_owned(),
-        parameters,
-        formula: None,
-        span: table.header(),
-    })
+    match CATALOGUE.iter().find(|card| card.name == kind) {
+        Some(card) => of_card(card, table),
+        None => {
+            let names = CATALOGUE.iter().map(|card| card.name);
+            let near = nearest(kind, names.chain([formula::KIND])).unwrap_or_default();
+            Err(Box::new(
+                table
+                    .refuse(
+                        "kind",
+                        "is not in the catalogue",
+                        "an effect of the catalogue, or \"formula\"",
+                    )
+                    .with_hint(format!("the nearest is \"{near}\""))
+                    .with_hint("`gearwear effects` lists the catalogue"),
+            ))
+        }
+    }
 }
 
-fn formula(table: &Table<'_>) -> Result<EffectSpec> {
-    if let Some(key) = table
-        .present()
-        .into_iter()
-        .find(|key| !FORMULA_KEYS.contains(key))
-    {
-        let near = nearest(key, FORMULA_KEYS.iter().copied()).unwrap_or_default();
+fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
+    let names = || card.params.iter().map(|param| param.name);
+    let known = |key: &&str| *key != "kind" && !names().any(|name| name == *key);
+    if let Some(key) = table.present().into_iter().find(known) {
+        let near = nearest(key, names()).unwrap_or_default();
         let mut diagnostic = table
-            .refuse(
-                key,
-                "is no key of a formula",
-                list(FORMULA_KEYS.iter().copied()),
-            )
+            .refuse(key, "", list(names()))
+            .with_hint(format!("the nearest is `{near}`"))
             .with_hint(format!(
-                "the nearest valid key is `{near}`; parameters stand in [effect.parameters]"
+                "`gearwear effects {}` tells what they are",
+                card.name
             ));
         diagnostic.fault = Fault::UnknownKey;
+        diagnostic.message = format!("{} has no parameter `{key}`", card.name);
+        diagnostic.found = format!("`{key}`");
+        diagnostic.span = table.key_span(key);
         return Err(Box::new(diagnostic));
     }
-    let what = "the name in `fit.free` and in results";
-    let name = table.name("name", what)?.ok_or_else(|| {
-        table
-            .missing("name", "a text, the formula's name")
-            .with_hint(what)
-    })?;
-    let stated: Vec<_> = HOOKS.iter().filter(|(key, _)| table.has(key)).collect();
-    let allowed = "one of wear_factor, added_depth, load_factor, profile";
-    let (key, hook) = match stated[..] {
-        [only] => *only,
-        [] => return Err(Box::new(table.missing("wear_factor", allowed))),
-        [_, second, ..] => {
-            return Err(Box::new(table.refuse(
-                second.0,
-                "is a second expression",
-                allowed,
-            )));
-        }
-    };
-    let expression = table
-        .name(key, "an expression in named variables")?
-        .unwrap_or_default()
-        .to_owned();
-    let parameters = table
-        .free_table("parameters")?
-        .map_or(Ok(Vec::new()), |inner| parameters(&inner, &[]))?;
+    let parameters = card
+        .params
+        .iter()
+        .map(|param| {
+            let name = format!("{}.{}", card.name, param.name);
+            let (value, bounds) = if table.has(param.name) {
+                stated(table, param.name, Some(param))?
+            } else {
+                (param.default, [None; 2])
+            };
+            Ok(Parameter {
+                name,
+                value,
+                bounds,
+                card: Some(param),
+                stated: table.has(param.name),
+            })
+        })
+        .collect::<Result<_>>()?;
     Ok(EffectSpec {
-        kind: "formula".to_owned(),
+        kind: card.name.to_owned(),
+        name: card.name.to_owned(),
+        law: Law::Card(card),
         parameters,
-        formula: Some(Formula {
-            name: name.to_owned(),
-            hook,
-            expression,
-        }),
         span: table.header(),
     })
 }
 
-fn parameters(table: &Table<'_>, others: &[&str]) -> Result<Vec<(String, ParamValue)>> {
-    let names = table
-        .present()
-        .into_iter()
-        .filter(|key| !others.contains(key));
-    names
-        .map(|name| Ok((name.to_owned(), parameter(table, name)?)))
-        .collect()
-}
-
-/// `name = 1.0` or `name = { value = 1.0, lower = 0.0, upper = 2.0 }`.
-fn parameter(table: &Table<'_>, name: &str) -> Result<ParamValue> {
-    let Some((DeValue::Table(_), _)) = table.get(name) else {
-        return Ok(ParamValue {
-            value: table.required_number(name, &q::ANY)?,
-            lower: None,
-            upper: None,
-        });
-    };
+/// `name = 1.0` or `name = { value = 1.0, lower = 0.0, upper = 2.0 }`: the value and the bounds.
+pub(super) fn stated(
+    table: &Table<'_>,
+    name: &str,
+    param: Option<&Param>,
+) -> Result<(f64, [Option<f64>; 2])> {
+    let any = "a number";
+    if !table.holds_table(name) {
+        let value = table.required_any(name, any)?;
+        check_value(table, name, value, param)?;
+        return Ok((value, [None; 2]));
+    }
     let inner = table.required_table(name, VALUE_KEYS)?;
-    let value = inner.required_number("value", &q::ANY)?;
+    let value = inner.required_any("value", any)?;
+    check_value(&inner, "value", value, param)?;
     let (lower, upper) = (
         inner.number("lower", &q::ANY)?,
         inner.number("upper", &q::ANY)?,
     );
-    let (least, most) = (lower.unwrap_or(f64::MIN), upper.unwrap_or(f64::MAX));
+    for (key, bound) in [("lower", lower), ("upper", upper)] {
+        let (Some(bound), Some(param)) = (bound, param) else {
+            continue;
+        };
+        if !(param.range.0..=param.range.1).contains(&bound) {
+            let says = "is outside the parameter's range";
+            return Err(Box::new(inner.refuse(key, says, range(param))));
+        }
+    }
+    let (least, most) = (lower.unwrap_or(f64::MIN), upper.unwrap_or(f64::INFINITY));
     if least >= most {
+        let allowed = format!("above {least}");
         return Err(Box::new(inner.refuse(
             "upper",
             "is not above lower",
-            format!("above {least}"),
+            allowed,
         )));
     }
     if value < least || value > most {
+        let allowed = match (lower, upper) {
+            (Some(lower), Some(upper)) => format!("{lower} to {upper}"),
+            (Some(lower), None) => format!("{lower} or more"),
+            _ => format!("up to {most}"),
+        };
         return Err(Box::new(inner.refuse(
             "value",
             "is outside its own bounds",
-            format!("{least} to {most}"),
+            allowed,
         )));
     }
-    Ok(ParamValue {
-        value,
-        lower,
-        upper,
-    })
+    Ok((value, [lower, upper]))
+}
+
+fn check_value(table: &Table<'_>, key: &str, value: f64, param: Option<&Param>) -> Result<()> {
+    let refusal = match param {
+        Some(param) if !param.accepts(value) => table
+            .refuse(key, "is out of range", range(param))
+            .with_hint(format!("{}: {}", param.name, param.meaning)),
+        None if value.is_infinite() => table.refuse(key, "is not finite", "a finite number"),
+        _ => return Ok(()),
+    };
+    Err(Box::new(refusal))
+}
+
+/// `0 to 50`, with the unit and the neutral value if it lies outside.
+fn range(param: &Param) -> String {
+    let (least, most) = param.range;
+    let mut text = format!("{} to {}", Short(least), Short(most));
+    if param.unit != "-" {
+        text = format!("{text} {}", param.unit);
+    }
+    match param.neutral {
+        Some(neutral) if !(least..=most).contains(&neutral) => {
+            format!("{text}, or {neutral} for no effect")
+        }
+        _ => text,
+    }
+}
+
+/// Refuses an effect that lacks what it follows from.
+fn check_needs(
+    table: &Table<'_>,
+    spec: &EffectSpec,
+    lubricant: Option<Lubricant>,
+    thermal: Option<Thermal>,
+) -> Result<()> {
+    let Some(key) = spec
+        .needs()
+        .into_iter()
+        .find(|key| !is_stated(key, lubricant, thermal))
+    else {
+        return Ok(());
+    };
+    let (home, short) = key.split_once('.').unwrap_or(("", key));
+    let mut diagnostic = table
+        .refuse("kind", "", format!("a study that states {key}"))
+        .with_hint(format!("write `{short} = ...` in [{home}]"));
+    diagnostic.fault = Fault::MissingKey;
+    diagnostic.key = key.to_owned();
+    diagnostic.message = format!("{} needs {key}, which the study does not state", spec.name);
+    Err(Box::new(diagnostic))
+}
+
+/// Whether the study states an optional key that effects may need.
+pub(super) fn is_stated(key: &str, lubricant: Option<Lubricant>, thermal: Option<Thermal>) -> bool {
+    let lubricant = lubricant.unwrap_or_default();
+    let thermal = thermal.unwrap_or_default();
+    let value = match key {
+        "lubricant.viscosity" => lubricant.viscosity_pa_s,
+        "lubricant.pressure_viscosity" => lubricant.pressure_viscosity_per_gpa,
+        "lubricant.roughness" => lubricant.roughness_um,
+        "lubricant.friction_coefficient" => lubricant.friction_coefficient,
+        "thermal.bulk_temperature" => thermal.bulk_temperature_c,
+        "thermal.conductivity" => thermal.conductivity_w_mk,
+        "thermal.specific_heat" => thermal.specific_heat_j_kgk,
+        _ => None,
+    };
+    value.is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{MATERIAL_AND_HEAT, Study};
+    use super::*;
+    use crate::effects::variables::VARIABLES;
+
+    #[test]
+    fn every_key_that_effects_need_is_one_of_the_study() {
+        let all = CATALOGUE
+            .iter()
+            .flat_map(|card| card.needs)
+            .chain(VARIABLES.iter().flat_map(|variable| variable.needs));
+        let study = Study::parse(MATERIAL_AND_HEAT, "s.toml").unwrap();
+        for key in all {
+            assert!(is_stated(key, study.lubricant, study.thermal), "{key}");
+            assert!(!is_stated(key, None, None), "{key}");
+        }
+    }
+
+    /// Two cards do without: micropitting needs the film below a finite `lambda_c` only, and thermal expansion takes the
+    /// reference temperature where the study states none.
+    #[test]
+    fn cards_need_what_their_formulas_need() {
+        for card in CATALOGUE {
+            let (formula, _) = card.compiled().unwrap();
+            for key in formula.needs() {
+                let without = match card.name {
+                    "micropitting" => key.starts_with("lubricant."),
+                    "thermal_expansion" => key == "thermal.bulk_temperature",
+                    _ => false,
+                };
+                assert!(card.needs.contains(&key) || without, "{}: {key}", card.name);
+            }
+        }
+    }
 }

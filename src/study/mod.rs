@@ -7,14 +7,20 @@
 //!
 //! Inside a `Study` lengths are mm, torques N mm, angles rad; a field whose name ends in a unit keeps that of the file.
 
+mod data;
+mod edit;
 mod effect;
+mod effect_model;
 mod file;
+mod formula;
+mod free;
 mod gears;
 mod materials;
 mod numerics;
 mod operation;
 mod quantity;
 mod reader;
+mod relative;
 mod settings;
 mod setup;
 mod values;
@@ -27,12 +33,14 @@ use toml::de::DeTable;
 use crate::source_text;
 
 pub use crate::source_text::{Diagnostic, Fault, Source, TextError as StudyError, nearest};
-pub use effect::{EffectSpec, Formula, Hook, ParamValue};
+pub use edit::{Edit, rounded};
+pub use effect_model::{EffectModel, EffectSpec, Law, Parameter};
+pub use free::{FreeParameter, WEAR_COEFFICIENT};
 pub use gears::Gears;
 pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
 pub use operation::{Operation, Role, Test};
-pub use settings::{ContactKind, FreeParameter, Noise, Scatter, Wear};
+pub use settings::{ContactKind, Noise, Scatter, Wear};
 
 use reader::{Spans, Table, shown};
 
@@ -91,18 +99,16 @@ pub struct Study {
     pub wear: Wear,
     /// `[model] contact`.
     pub contact: ContactKind,
-    /// `[fit] free`.
-    pub free: Vec<FreeParameter>,
     /// `[noise]`.
     pub noise: Noise,
-    /// `[[effect]]`.
-    pub effects: Vec<EffectSpec>,
     /// `[[test]]`.
     pub tests: Vec<Test>,
     /// The measurement file, if one is named.
     pub measurements: Option<PathBuf>,
     /// `[numerics]`.
     pub numerics: Numerics,
+    free: Vec<FreeParameter>,
+    effects: EffectModel,
     source: Source,
     spans: Spans,
 }
@@ -189,6 +195,21 @@ impl Study {
         Err(StudyError::new(diagnostic, self.source.clone()))
     }
 
+    /// `[[effect]]`, in the order of the file.
+    pub fn effects(&self) -> &[EffectSpec] {
+        self.effects.specs()
+    }
+
+    /// The effects, ready to be built.
+    pub fn effect_model(&self) -> &EffectModel {
+        &self.effects
+    }
+
+    /// `[fit] free`: what a fit may adjust, in the order of the file; the wear coefficient alone if the study does not say.
+    pub fn free(&self) -> &[FreeParameter] {
+        &self.free
+    }
+
     /// The text of the study file.
     pub fn text(&self) -> &str {
         &self.source.text
@@ -261,7 +282,7 @@ impl Study {
         };
         let operation = operation::read(&limits, wear.cycles, lubricant, thermal)?;
         let tests = operation::read_tests(&limits, operation)?;
-        let effects = effect::read(&root)?;
+        let effects = effect::read(&root, lubricant, thermal)?;
         let study = Study {
             title,
             materials,
@@ -270,7 +291,7 @@ impl Study {
             operation,
             wear,
             contact: settings::read_model(&root)?,
-            free: settings::read_fit(&root, &effects)?,
+            free: settings::read_fit(&root, &wear, &effects)?,
             noise: settings::read_noise(&root)?,
             effects,
             tests,
@@ -287,3 +308,8 @@ impl Study {
         Ok((study, spans.into_inner()))
     }
 }
+
+/// A study that states every optional material and oil key, for unit tests.
+#[cfg(test)]
+pub(crate) const MATERIAL_AND_HEAT: &str =
+    include_str!("../../validation/challenges/none_L2/study.toml");

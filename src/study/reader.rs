@@ -145,9 +145,32 @@ impl<'a> Table<'a> {
         Some((value.get_ref(), span))
     }
 
+    /// Remembers where a part of a key's value stands.
+    pub(super) fn place(&self, part: &str, span: Range<usize>) {
+        self.spans.borrow_mut().insert(self.path_of(part), span);
+    }
+
     /// Whether the table states the key.
     pub(super) fn has(&self, key: &str) -> bool {
         self.entries.get(key).is_some()
+    }
+
+    /// Whether the key's value is a table, inline or not.
+    pub(super) fn holds_table(&self, key: &str) -> bool {
+        matches!(
+            self.entries.get(key).map(|value| value.get_ref()),
+            Some(DeValue::Table(_))
+        )
+    }
+
+    /// Where the key itself stands.
+    pub(super) fn key_span(&self, key: &str) -> Option<Range<usize>> {
+        self.entries.get_key_value(key).map(|(key, _)| key.span())
+    }
+
+    /// The text at a span as it stands in the file.
+    pub(super) fn raw(&self, span: &Range<usize>) -> &'a str {
+        &self.source.text[span.clone()]
     }
 
     /// The table's keys in the order of the file.

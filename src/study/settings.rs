@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use toml::de::DeValue;
 
-use super::effect::EffectSpec;
+use super::effect_model::EffectModel;
+use super::free::{FreeParameter, WEAR_COEFFICIENT};
 use super::quantity as q;
 use super::reader::Table;
 use crate::source_text::{Diagnostic, Fault, nearest};
@@ -46,20 +47,6 @@ impl ContactKind {
     }
 }
 
-/// One entry of `[fit] free`.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum FreeParameter {
-    /// `wear.coefficient`.
-    WearCoefficient,
-    /// A parameter of an effect.
-    Effect {
-        /// Which of `Study::effects`.
-        effect: usize,
-        /// The parameter's name.
-        parameter: String,
-    },
-}
-
 /// `[noise]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Noise {
@@ -96,55 +83,44 @@ pub(super) fn read_model(root: &Table<'_>) -> Result<ContactKind> {
     Ok(kind.unwrap_or(ContactKind::Fem))
 }
 
-pub(super) fn read_fit(root: &Table<'_>, effects: &[EffectSpec]) -> Result<Vec<FreeParameter>> {
+/// `[fit] free`, each name looked up among the study's parameters.
+pub(super) fn read_fit(
+    root: &Table<'_>,
+    wear: &Wear,
+    effects: &EffectModel,
+) -> Result<Vec<FreeParameter>> {
+    let coefficient = FreeParameter::wear_coefficient(wear);
     let names = root.table("fit", FIT_KEYS)?;
     let Some((table, names)) = names.map_or(Ok(None), |table| {
         table.texts("free").map(|names| names.map(|n| (table, n)))
     })?
     else {
-        return Ok(vec![FreeParameter::WearCoefficient]);
+        return Ok(vec![coefficient]);
     };
-    let mut known = vec![(
-        "wear.coefficient".to_owned(),
-        FreeParameter::WearCoefficient,
-    )];
-    for (effect, spec) in effects.iter().enumerate() {
-        let parameters = spec.parameters.iter().map(|(parameter, _)| parameter);
-        known.extend(parameters.map(|parameter| {
-            let free = FreeParameter::Effect {
-                effect,
-                parameter: parameter.clone(),
-            };
-            (format!("{}.{parameter}", spec.name()), free)
-        }));
-    }
-    let mut free = Vec::new();
+    let mut free: Vec<FreeParameter> = Vec::new();
     for (name, span) in names {
         let refusal = |says: &str| {
-            let allowed: Vec<&str> = known.iter().map(|(name, _)| name.as_str()).collect();
+            let known = effects
+                .parameters()
+                .map(|parameter| parameter.name.as_str());
+            let allowed: Vec<&str> = std::iter::once(WEAR_COEFFICIENT).chain(known).collect();
             let quoted = |name: &str| format!("\"{name}\"");
-            let mut refusal = table.refuse(
-                "free",
-                "",
-                allowed
-                    .iter()
-                    .map(|name| quoted(name))
-                    .collect::<Vec<_>>()
-                    .join(", "),
-            );
+            let words: Vec<String> = allowed.iter().map(|name| quoted(name)).collect();
+            let mut refusal = table.refuse("free", "", words.join(", "));
             refusal.message = format!("fit.free: \"{name}\" {says}");
             refusal.found = quoted(name);
             refusal.span = Some(span.clone());
             let near = nearest(name, allowed).unwrap_or_default();
             Box::new(refusal.with_hint(format!("the nearest is \"{near}\"")))
         };
-        let Some((_, parameter)) = known.iter().find(|(known, _)| known == name) else {
-            return Err(refusal("is no parameter of this study"));
-        };
-        if free.contains(parameter) {
+        if free.iter().any(|parameter| parameter.name == name) {
             return Err(refusal("stands there twice"));
         }
-        free.push(parameter.clone());
+        free.push(match effects.parameter(name) {
+            Some(parameter) => parameter.free(),
+            None if name == WEAR_COEFFICIENT => coefficient.clone(),
+            None => return Err(refusal("is no parameter of this study")),
+        });
     }
     Ok(free)
 }

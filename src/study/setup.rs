@@ -1,9 +1,12 @@
 //! What the forward model needs of a study.
 
-use super::{Materials, Operation, Order, Study, Wear};
+use super::{Materials, Operation, Order, Study, Wear, effect};
+use crate::effects::Surroundings;
 use crate::gear::Member;
+use crate::material::contact_modulus;
 use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::numerics::Numerics;
+use crate::tribology::flash_temperature::contact_coefficient;
 
 impl Study {
     /// The gears with their materials.
@@ -34,7 +37,38 @@ impl Study {
             positions: stated.positions,
             step_tolerance: stated.step_tolerance,
             friction: if stated.friction { coefficient } else { 0.0 },
+            ..Numerics::default()
         }
+    }
+
+    /// Oil and heat around the contact under `conditions` (the study's operation or a test's, whose viscosity and bulk
+    /// temperature they hold).
+    ///
+    /// Members of different density have the mean of their thermal contact coefficients B_M = √(k ρ c), N/(m s^½ K).
+    pub fn surroundings(&self, conditions: &Operation) -> Surroundings {
+        let Materials { pinion, gear } = self.materials;
+        let lubricant = self.lubricant.unwrap_or_default();
+        let thermal = self.thermal.unwrap_or_default();
+        let heat = thermal.conductivity_w_mk.zip(thermal.specific_heat_j_kgk);
+        let contact_coefficient = heat.map(|(conductivity, specific_heat)| {
+            let of = |density| contact_coefficient(conductivity, density, specific_heat);
+            0.5 * (of(pinion.density_kg_m3) + of(gear.density_kg_m3))
+        });
+        Surroundings {
+            contact_modulus: contact_modulus(pinion.elastic, gear.elastic),
+            viscosity_pa_s: conditions.viscosity_pa_s,
+            pressure_viscosity_per_gpa: lubricant.pressure_viscosity_per_gpa,
+            roughness_um: lubricant.roughness_um,
+            friction_coefficient: lubricant.friction_coefficient,
+            contact_coefficient,
+            bulk_temperature_c: conditions.bulk_temperature_c,
+        }
+    }
+
+    /// Whether the study states an optional key of `[lubricant]` or `[thermal]` that effects may need
+    /// (`lubricant.viscosity`).
+    pub fn states(&self, key: &str) -> bool {
+        effect::is_stated(key, self.lubricant, self.thermal)
     }
 
     /// Names of the members whose mesh is the user's own.

@@ -57,6 +57,31 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Any number but NaN that must be there; `inf` is one.
+    pub(super) fn required_any(&self, key: &str, allowed: &str) -> Result<f64> {
+        let Some((value, span)) = self.get(key) else {
+            return Err(self.missing(key, allowed).into());
+        };
+        match value {
+            DeValue::Float(float) if float.as_str().parse().is_ok_and(f64::is_infinite) => {
+                // a power of ten too many is no infinity
+                let word = float.as_str().trim_start_matches(['+', '-']);
+                if word != "inf" {
+                    return Err(self
+                        .refuse(key, "is too large", allowed)
+                        .with_span(span)
+                        .into());
+                }
+                Ok(if float.as_str().starts_with('-') {
+                    f64::NEG_INFINITY
+                } else {
+                    f64::INFINITY
+                })
+            }
+            _ => self.required_number(key, &super::quantity::ANY),
+        }
+    }
+
     /// A number that must be there.
     pub(super) fn required_number(&self, key: &str, quantity: &Quantity) -> Result<f64> {
         match self.number(key, quantity)? {
@@ -185,6 +210,10 @@ impl<'a> Table<'a> {
                 .wrong_type(key, other, item.span(), "a text in quotes")
                 .into()),
         };
-        items.iter().map(read).collect::<Result<Vec<_>>>().map(Some)
+        let texts = items.iter().map(read).collect::<Result<Vec<_>>>()?;
+        for (n, (_, span)) in texts.iter().enumerate() {
+            self.place(&format!("{key}[{n}]"), span.clone());
+        }
+        Ok(Some(texts))
     }
 }

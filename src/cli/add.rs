@@ -1,0 +1,270 @@
+//! `gearwear add`: one more effect in a study.
+//!
+//! ```text
+//! study + effect -> draft (the effect with set or default values, free where not set) -> fit what is free -> new study file
+//! ```
+
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::{CliError, Context, Outcome};
+use crate::effects::{Card, find};
+use crate::measure::Dataset;
+use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded};
+
+/// Arguments of `add`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10"
+)]
+pub struct AddArgs {
+    /// Study file (TOML); it stays as it is
+    #[arg(value_name = "STUDY")]
+    study: PathBuf,
+    /// Name of the effect; `gearwear effects` lists them
+    #[arg(value_name = "EFFECT")]
+    effect: String,
+    /// More settings behind one --set
+    #[arg(value_name = "NAME=VALUE", value_parser = setting, requires = "set", hide = true)]
+    more: Vec<(String, f64)>,
+    /// New study file [default: STEM+EFFECT.toml beside STUDY]
+    #[arg(short, long, value_name = "NEWSTUDY")]
+    output: Option<PathBuf>,
+    /// Give a parameter of the effect, or wear.coefficient, this value instead of fitting it; may be repeated
+    #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
+    set: Vec<(String, f64)>,
+    /// Overwrite the new study file
+    #[arg(long)]
+    force: bool,
+}
+
+/// What a fit found: a value for each parameter that it was asked for, and what else it has to say.
+#[derive(Debug)]
+pub(super) struct Fitted {
+    /// Names and values.
+    pub(super) values: Vec<(String, f64)>,
+    /// Joins the command's document under `fit`.
+    pub(super) json: Value,
+    /// Joins the command's text; lines, the last one ended.
+    pub(super) text: String,
+}
+
+/// Adds the effect, fits what is free, writes the new study.
+pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliError> {
+    add(args, |study, data, free| fit(study, data, free, context))
+}
+
+/// Fits the free parameters of a study to its measurements.
+fn fit(
+    _study: &Study,
+    _data: &Dataset,
+    _free: &[FreeParameter],
+    _context: &Context,
+) -> Result<Fitted, CliError> {
+    Err(CliError::NotBuilt { command: "add" })
+}
+
+/// The command with its fit, which is asked only if a parameter has no set value: the study has the effect in it, `free` is
+/// what to adjust.
+fn add(
+    args: &AddArgs,
+    fit: impl FnOnce(&Study, &Dataset, &[FreeParameter]) -> Result<Fitted, CliError>,
+) -> Result<Outcome, CliError> {
+    let card = card(&args.effect)?;
+    let study = Study::load(&args.study)?;
+    let target = target(args)?;
+    let (draft, set) = draft(args, card, &study, &target)?;
+    let free: Vec<FreeParameter> = draft
+        .free()
+        .iter()
+        .filter(|free| !set.iter().any(|(name, _)| *name == free.name))
+        .cloned()
+        .collect();
+    let mut report = Report {
+        values: set,
+        fit: None,
+        text: String::new(),
+    };
+    let new = if free.is_empty() {
+        draft
+    } else {
+        let data = draft.dataset()?;
+        let fitted = fit(&draft, &data, &free)?;
+        let mut edit = draft.edit();
+        for (name, value) in fitted.values {
+            let value = rounded(value);
+            edit.set(&name, value);
+            report.values.push((name, value));
+        }
+        report.fit = Some(fitted.json);
+        report.text = fitted.text;
+        edit.finish(&target.display().to_string())?
+    };
+    write_whole(&target, new.text()).map_err(|source| CliError::Io {
+        doing: "write",
+        path: target.clone(),
+        source,
+    })?;
+    Ok(report.outcome(&target))
+}
+
+/// What the command tells.
+struct Report {
+    values: Vec<(String, f64)>,
+    fit: Option<Value>,
+    text: String,
+}
+
+impl Report {
+    fn outcome(self, target: &Path) -> Outcome {
+        let shown = target.display().to_string();
+        let mut text = format!("wrote {shown}\n");
+        for (name, value) in &self.values {
+            let _ = writeln!(text, "  {name} = {value:?}");
+        }
+        text.push_str(&self.text);
+        let _ = writeln!(text, "next: gearwear compare {shown}");
+        let values: Vec<Value> = self
+            .values
+            .iter()
+            .map(|(name, value)| json!({"name": name, "value": value}))
+            .collect();
+        let mut document = json!({"written": [shown], "parameters": values});
+        if let Some(fit) = self.fit {
+            document["fit"] = fit;
+        }
+        Outcome {
+            json: document,
+            text,
+            success: true,
+        }
+    }
+}
+
+/// The study with the effect in it, every fitted parameter stated and free unless set; and all that was set, by full names.
+fn draft(
+    args: &AddArgs,
+    card: &'static Card,
+    study: &Study,
+    target: &Path,
+) -> Result<(Study, Vec<(String, f64)>), CliError> {
+    let prefix = format!("{}.", card.name);
+    let (mut coefficient, mut own) = (None, Vec::new());
+    let mut set: Vec<(String, f64)> = Vec::new();
+    for (name, value) in args.set.iter().chain(&args.more) {
+        let short = name.strip_prefix(&prefix).unwrap_or(name);
+        let full = if name == WEAR_COEFFICIENT {
+            coefficient = Some(*value);
+            name.clone()
+        } else {
+            own.push((short, *value));
+            format!("{prefix}{short}")
+        };
+        if set.iter().any(|(above, _)| *above == full) {
+            return Err(CliError::Unusable(format!(
+                "--set {name} stands there twice"
+            )));
+        }
+        set.push((full, *value));
+    }
+    let spec = EffectSpec::of_card(card, &own)?;
+    let values: Vec<(String, f64)> = spec
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.stated || parameter.card.is_some_and(|card| card.fitted))
+        .map(|parameter| (parameter.short().to_owned(), parameter.value))
+        .collect();
+    let free: Vec<String> = spec
+        .fitted()
+        .into_iter()
+        .map(|free| free.name)
+        .filter(|name| !set.iter().any(|(set, _)| set == name))
+        .collect();
+    let mut edit = study.edit();
+    edit.add_effect(card.name, &values)?;
+    edit.free(&free);
+    if let Some(coefficient) = coefficient {
+        edit.set(WEAR_COEFFICIENT, coefficient);
+    }
+    edit.move_between(folder(&args.study), folder(target))?;
+    Ok((edit.finish(&target.display().to_string())?, set))
+}
+
+fn folder(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
+/// The effect's card; a user's own effect has none.
+fn card(name: &str) -> Result<&'static Card, CliError> {
+    if name == "formula" || Path::new(name).is_file() {
+        return Err(CliError::Unusable(format!(
+            "add takes an effect of the catalogue, not `{name}`; a formula of your own is written into the study by hand:\n\n  \
+             [[effect]]\n  kind = \"formula\"\n  name = \"soft_band\"\n  wear_factor = \"1 + a*exp(-((radius-r0)/w)^2)\"\n  \
+             [effect.parameters]\n  a = {{ value = 1.0, lower = 0.0, upper = 10.0 }}\n  r0 = 26.4\n  w = 0.2\n\n  \
+             and [fit] free = [\"wear.coefficient\", \"soft_band.a\"] lets compare adjust it"
+        )));
+    }
+    Ok(find(name)?)
+}
+
+/// Where the new study goes; refuses to overwrite unasked.
+fn target(args: &AddArgs) -> Result<PathBuf, CliError> {
+    let target = args.output.clone().unwrap_or_else(|| {
+        let mut name = args.study.file_stem().unwrap_or_default().to_owned();
+        name.push(format!("+{}.toml", args.effect));
+        args.study.with_file_name(name)
+    });
+    if target.is_dir() {
+        return Err(CliError::Unusable(format!(
+            "{} is a folder; add needs the name of the new study file",
+            target.display()
+        )));
+    }
+    if target.exists() && !args.force {
+        return Err(CliError::Exists { path: target });
+    }
+    Ok(target)
+}
+
+/// Writes a file whole or not at all: under another name beside it, flushed, then renamed. Its folder is made if it is not there.
+fn write_whole(target: &Path, text: &str) -> io::Result<()> {
+    let folder = folder(target);
+    if !folder.as_os_str().is_empty() {
+        fs::create_dir_all(folder)?;
+    }
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let partial = target.with_file_name(format!(".{name}.partial-{}", std::process::id()));
+    let written = File::create(&partial).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        fs::rename(&partial, target)
+    });
+    if written.is_err() {
+        // what remains of a failed attempt is nobody's
+        let _ = fs::remove_file(&partial);
+    }
+    written
+}
+
+/// `name=value` with a number.
+fn setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text
+        .split_once('=')
+        .ok_or("name=value is needed, for example amplitude=3")?;
+    let number: f64 = value
+        .trim()
+        .parse()
+        .map_err(|_| format!("`{value}` is no number"))?;
+    if number.is_nan() {
+        return Err(format!("`{value}` is no number"));
+    }
+    Ok((name.trim().to_owned(), number))
+}
+
+#[cfg(test)]
+mod tests;

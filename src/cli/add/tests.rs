@@ -1,0 +1,88 @@
+use super::*;
+
+const STUDY: &str = include_str!("../examples/paper.toml");
+const DATA: &str = include_str!("../examples/paper.csv");
+
+/// A folder with a study and its measurements.
+fn home() -> tempfile::TempDir {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("study.toml"), STUDY).unwrap();
+    fs::write(home.path().join("measurements.csv"), DATA).unwrap();
+    home
+}
+
+fn args(home: &tempfile::TempDir, set: &[(&str, f64)]) -> AddArgs {
+    AddArgs {
+        study: home.path().join("study.toml"),
+        effect: "running_in".into(),
+        more: Vec::new(),
+        output: None,
+        set: set
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect(),
+        force: false,
+    }
+}
+
+#[test]
+fn the_fit_is_asked_for_what_is_free_and_its_values_are_written() {
+    let home = home();
+    let outcome = add(&args(&home, &[("amplitude", 2.0)]), |study, data, free| {
+        assert!(study.effect_model().has("running_in") && !data.observations.is_empty());
+        let names: Vec<&str> = free.iter().map(|p| p.name.as_str()).collect();
+        assert_eq!(names, ["wear.coefficient", "running_in.decay_cycles"]);
+        Ok(Fitted {
+            values: vec![
+                ("wear.coefficient".into(), 1.234_567_89e-10),
+                ("running_in.decay_cycles".into(), 123_456.789),
+            ],
+            json: json!({"points": 3}),
+            text: "fitted\n".into(),
+        })
+    })
+    .unwrap();
+    let target = home.path().join("study+running_in.toml");
+    assert_eq!(
+        outcome.json["written"],
+        json!([target.display().to_string()])
+    );
+    assert_eq!(outcome.json["fit"]["points"], 3);
+    assert!(
+        outcome.text.contains("fitted\nnext: gearwear compare"),
+        "{}",
+        outcome.text
+    );
+    let new = Study::load(&target).unwrap();
+    assert_eq!(new.wear.coefficient, 1.23457e-10);
+    let value = |name| new.effect_model().parameter(name).unwrap().value;
+    assert_eq!(value("running_in.amplitude"), 2.0);
+    assert_eq!(value("running_in.decay_cycles"), 123_457.0);
+    let free: Vec<&str> = new.free().iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(free, ["wear.coefficient", "running_in.decay_cycles"]);
+    assert_eq!(
+        fs::read_to_string(home.path().join("study.toml")).unwrap(),
+        STUDY
+    );
+    let files = fs::read_dir(home.path()).unwrap().count();
+    assert_eq!(files, 3, "no partial file is left");
+}
+
+#[test]
+fn without_measurements_there_is_nothing_to_fit() {
+    let home = home();
+    fs::remove_file(home.path().join("measurements.csv")).unwrap();
+    let error = add(&args(&home, &[]), |_, _, _| unreachable!()).unwrap_err();
+    assert_eq!(error.exit_code(), 2);
+    assert!(!home.path().join("study+running_in.toml").exists());
+}
+
+#[test]
+fn a_failed_fit_writes_nothing() {
+    let home = home();
+    let failed = add(&args(&home, &[]), |_, _, _| {
+        Err(CliError::NotBuilt { command: "add" })
+    });
+    assert!(failed.is_err());
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
+}

@@ -1,0 +1,225 @@
+//! The effects of a study, ready to be built with any values of their parameters.
+
+use std::ops::Range;
+
+use super::free::FreeParameter;
+use crate::effects::formula::Formula;
+use crate::effects::{self, Card, Combined, EffectError, Param, Prior};
+
+/// The effects of a model in their order. Formulas are read once; [`EffectModel::build`] only binds numbers, so a fit may call
+/// it as often as it likes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EffectModel {
+    specs: Vec<EffectSpec>,
+}
+
+/// One effect of a study: a card of the catalogue or the user's formula, with all its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectSpec {
+    /// Name in the catalogue, or `formula`.
+    pub kind: String,
+    /// The name before the point in parameters' names: the kind, or a formula's own name.
+    pub name: String,
+    /// What it computes.
+    pub law: Law,
+    /// All parameters in the order in which the law takes their values.
+    pub parameters: Vec<Parameter>,
+    /// Where the entry stands, bytes of the study's text; empty for an effect that stands in no study.
+    pub span: Range<usize>,
+}
+
+/// What an effect computes.
+#[derive(Debug, Clone)]
+pub enum Law {
+    /// One of the catalogue.
+    Card(&'static Card),
+    /// The user's own.
+    Formula {
+        /// As read.
+        formula: Formula,
+        /// As written.
+        expression: String,
+    },
+}
+
+/// One parameter of an effect in a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// `kind.parameter`, or `name.parameter` of a formula.
+    pub name: String,
+    /// The study's value, else the card's default.
+    pub value: f64,
+    /// Bounds that the study states.
+    pub bounds: [Option<f64>; 2],
+    /// What the catalogue says of it; nothing for a formula's.
+    pub card: Option<&'static Param>,
+    /// Whether the study states it.
+    pub stated: bool,
+}
+
+impl EffectModel {
+    /// Of effects in the order in which they act.
+    pub fn new(specs: Vec<EffectSpec>) -> Self {
+        Self { specs }
+    }
+
+    /// The effects.
+    pub fn specs(&self) -> &[EffectSpec] {
+        &self.specs
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.specs.is_empty()
+    }
+
+    /// Whether an effect of this name is there.
+    pub fn has(&self, name: &str) -> bool {
+        self.specs.iter().any(|spec| spec.name == name)
+    }
+
+    /// The same effects and one more.
+    pub fn with(&self, spec: EffectSpec) -> Self {
+        let mut specs = self.specs.clone();
+        specs.push(spec);
+        Self { specs }
+    }
+
+    /// The effects bound to their values: what `values` gives for a parameter's name (`running_in.amplitude`), else the
+    /// study's. The values are not checked against the ranges.
+    pub fn build(&self, values: &dyn Fn(&str) -> Option<f64>) -> Combined {
+        let mut combined = Combined::default();
+        for spec in &self.specs {
+            let numbers: Vec<f64> = spec
+                .parameters
+                .iter()
+                .map(|parameter| values(&parameter.name).unwrap_or(parameter.value))
+                .collect();
+            match &spec.law {
+                Law::Card(card) => combined.push(card.hook, (card.build)(&numbers)),
+                Law::Formula { formula, .. } => {
+                    combined.push(formula.hook(), formula.build(&numbers));
+                }
+            }
+        }
+        combined
+    }
+
+    /// The effects bound to the study's values.
+    pub fn stated(&self) -> Combined {
+        self.build(&|_| None)
+    }
+
+    /// The parameter of this name (`running_in.amplitude`).
+    pub fn parameter(&self, name: &str) -> Option<&Parameter> {
+        self.parameters().find(|parameter| parameter.name == name)
+    }
+
+    /// All parameters.
+    pub fn parameters(&self) -> impl Iterator<Item = &Parameter> {
+        self.specs.iter().flat_map(|spec| &spec.parameters)
+    }
+}
+
+impl EffectSpec {
+    /// An effect of the catalogue that stands in no study, with some values stated.
+    ///
+    /// # Errors
+    /// [`EffectError`] if a name is unknown or a value not allowed.
+    pub fn of_card(card: &'static Card, stated: &[(&str, f64)]) -> Result<Self, EffectError> {
+        let values = card.values(stated)?;
+        let parameters = card
+            .params
+            .iter()
+            .zip(values)
+            .map(|(param, value)| Parameter {
+                name: format!("{}.{}", card.name, param.name),
+                value,
+                bounds: [None; 2],
+                card: Some(param),
+                stated: stated.iter().any(|(name, _)| *name == param.name),
+            });
+        Ok(Self {
+            kind: card.name.to_owned(),
+            name: card.name.to_owned(),
+            law: Law::Card(card),
+            parameters: parameters.collect(),
+            span: 0..0,
+        })
+    }
+
+    /// The parameters that a fit adjusts unless told otherwise: those the card says, all of a formula.
+    pub fn fitted(&self) -> Vec<FreeParameter> {
+        self.parameters
+            .iter()
+            .filter(|parameter| parameter.card.is_none_or(|card| card.fitted))
+            .map(Parameter::free)
+            .collect()
+    }
+
+    /// Keys of the study's optional tables without which it cannot act with these values.
+    pub fn needs(&self) -> Vec<&'static str> {
+        match &self.law {
+            Law::Formula { formula, .. } => formula.needs(),
+            Law::Card(card) => {
+                let mut needs = card.needs.to_vec();
+                // the film matters below a finite limit only
+                let limit = self
+                    .parameters
+                    .iter()
+                    .find(|p| p.name.ends_with(".lambda_c"));
+                if limit.is_some_and(|limit| limit.value.is_finite())
+                    && let Some(film) = effects::variables::find("film_ratio")
+                {
+                    needs.extend(film.needs);
+                }
+                needs
+            }
+        }
+    }
+}
+
+impl Parameter {
+    /// As a fit sees it.
+    pub fn free(&self) -> FreeParameter {
+        match self.card {
+            Some(param) => FreeParameter::of_card(self, param),
+            None => FreeParameter::of_formula(self),
+        }
+    }
+
+    /// The name after the point.
+    pub fn short(&self) -> &str {
+        self.name.rsplit('.').next().unwrap_or(&self.name)
+    }
+
+    /// Its unit, `-` if it has none or nobody knows.
+    pub fn unit(&self) -> &'static str {
+        self.card.map_or("-", |param| param.unit)
+    }
+
+    /// What is thought of it before any measurement.
+    pub fn prior(&self) -> Prior {
+        self.free().prior
+    }
+}
+
+impl PartialEq for Law {
+    /// Formulas are compared as written.
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Law::Card(a), Law::Card(b)) => a.name == b.name,
+            (
+                Law::Formula {
+                    formula: a,
+                    expression: text,
+                },
+                Law::Formula {
+                    formula: b,
+                    expression: other,
+                },
+            ) => a.hook() == b.hook() && text == other,
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! `kind = "formula"`: the user's own expression, with faults shown inside it.
+
+use std::ops::Range;
+
+use super::effect::{Result, stated};
+use super::effect_model::{EffectSpec, Law, Parameter};
+use super::reader::Table;
+use crate::effects::Hook;
+use crate::effects::formula::{Formula, FormulaError};
+use crate::source_text::{Diagnostic, Fault, list, nearest};
+
+/// The `kind` of a formula.
+pub(super) const KIND: &str = "formula";
+
+const KEYS: &[&str] = &[
+    "kind",
+    "name",
+    "wear_factor",
+    "added_depth",
+    "load_factor",
+    "profile",
+    "parameters",
+];
+
+const HOOKS: [Hook; 4] = [
+    Hook::WearFactor,
+    Hook::AddedDepth,
+    Hook::LoadFactor,
+    Hook::Profile,
+];
+
+/// An `[[effect]]` of this kind.
+pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
+    check_keys(table)?;
+    let name = name(table)?;
+    let (hook, key) = hook(table)?;
+    let expression = table.text(key)?.unwrap_or_default();
+    let inner = table.free_table("parameters")?;
+    let mut parameters = Vec::new();
+    for short in inner.iter().flat_map(Table::present) {
+        let Some(inner) = &inner else { continue };
+        let (value, bounds) = stated(inner, short, None)?;
+        parameters.push(Parameter {
+            name: format!("{name}.{short}"),
+            value,
+            bounds,
+            card: None,
+            stated: true,
+        });
+    }
+    let names: Vec<&str> = parameters.iter().map(Parameter::short).collect();
+    let formula = Formula::new(hook, expression, &names)
+        .map_err(|error| fault(table, inner.as_ref(), key, &error))?;
+    Ok(EffectSpec {
+        kind: KIND.to_owned(),
+        name: name.to_owned(),
+        law: Law::Formula {
+            formula,
+            expression: expression.to_owned(),
+        },
+        parameters,
+        span: table.header(),
+    })
+}
+
+fn check_keys(table: &Table<'_>) -> Result<()> {
+    let unknown = |key: &&str| !KEYS.contains(key);
+    let Some(key) = table.present().into_iter().find(unknown) else {
+        return Ok(());
+    };
+    let near = nearest(key, KEYS.iter().copied()).unwrap_or_default();
+    let mut diagnostic = table
+        .refuse(key, "is no key of a formula", list(KEYS.iter().copied()))
+        .with_hint(format!(
+            "the nearest valid key is `{near}`; parameters stand in [effect.parameters]"
+        ));
+    diagnostic.fault = Fault::UnknownKey;
+    Err(Box::new(diagnostic))
+}
+
+fn name<'a>(table: &Table<'a>) -> Result<&'a str> {
+    let what = "the name in `fit.free` and in results";
+    let Some(name) = table.name("name", what)? else {
+        return Err(Box::new(
+            table
+                .missing("name", "a text, the formula's name")
+                .with_hint(what),
+        ));
+    };
+    let reserved = ["wear", KIND].contains(&name);
+    if reserved || name.contains(['.', '+', ',', '"']) {
+        return Err(Box::new(
+            table
+                .refuse(
+                    "name",
+                    "cannot be a formula's name",
+                    "a text without . + , and \", other than \"wear\" and \"formula\"",
+                )
+                .with_hint(what),
+        ));
+    }
+    Ok(name)
+}
+
+/// The one hook that the entry states, with its key.
+fn hook(table: &Table<'_>) -> Result<(Hook, &'static str)> {
+    let stated: Vec<Hook> = HOOKS
+        .into_iter()
+        .filter(|hook| table.has(hook.name()))
+        .collect();
+    let allowed = format!("one of {}", list(HOOKS.map(Hook::name)));
+    match stated[..] {
+        [only] => Ok((only, only.name())),
+        [] => Err(Box::new(table.missing("wear_factor", &allowed))),
+        [_, second, ..] => Err(Box::new(table.refuse(
+            second.name(),
+            "is a second expression",
+            allowed,
+        ))),
+    }
+}
+
+/// The message about a formula, at the place inside the expression or at the parameter.
+fn fault(
+    table: &Table<'_>,
+    parameters: Option<&Table<'_>>,
+    key: &str,
+    error: &FormulaError,
+) -> Box<Diagnostic> {
+    let base = |message: &str| {
+        let mut diagnostic = table.refuse(key, "", "");
+        diagnostic.message = format!("{}: {message}", diagnostic.key);
+        diagnostic
+    };
+    let functions =
+        "`gearwear effects` shows formulas; variables and functions stand in the README";
+    match error {
+        FormulaError::Expression(inside) => {
+            let mut diagnostic = base(&inside.message);
+            diagnostic.found = String::new();
+            if let Some(span) = &diagnostic.span {
+                let raw = table.raw(span);
+                let place = inside_text(raw, inside.column, inside.length);
+                diagnostic.span = Some(span.start + place.start..span.start + place.end);
+            }
+            Box::new(diagnostic.with_hint(functions))
+        }
+        FormulaError::Name { name, .. } | FormulaError::Unused { name } => {
+            let mut diagnostic = base(&error.to_string());
+            diagnostic.found = format!("`{name}`");
+            if let Some(span) = parameters.and_then(|inner| inner.key_span(name)) {
+                diagnostic.span = Some(span);
+            }
+            diagnostic.key = format!("effect.parameters.{name}");
+            Box::new(diagnostic)
+        }
+        FormulaError::Hook { .. } | FormulaError::TooMany { .. } => {
+            Box::new(base(&error.to_string()))
+        }
+    }
+}
+
+/// Where characters `column .. column + length` of a TOML text stand in `raw`, the text as written with its quotes.
+fn inside_text(raw: &str, column: usize, length: usize) -> Range<usize> {
+    let quote = if raw.starts_with("\"\"\"") || raw.starts_with("'''") {
+        3
+    } else {
+        1
+    };
+    let literal = raw.starts_with('\'');
+    let end = raw.len().saturating_sub(quote);
+    let mut at = quote.min(end);
+    if quote == 3 {
+        // the first line break is not part of the text
+        at += ["\r\n", "\n"]
+            .into_iter()
+            .find(|ending| raw[at..end].starts_with(ending))
+            .map_or(0, str::len);
+    }
+    // places[n]: where character n begins
+    let mut places = Vec::new();
+    while at < end {
+        let rest = &raw[at..end];
+        if !literal && rest.starts_with('\\') {
+            let continued = rest[1..].trim_start_matches([' ', '\t']);
+            if continued.starts_with(['\n', '\r']) {
+                at += rest.len() - continued.trim_start().len();
+                continue;
+            }
+            places.push(at);
+            let digits = match rest.as_bytes().get(1) {
+                Some(b'x') => 2,
+                Some(b'u') => 4,
+                Some(b'U') => 8,
+                _ => 0,
+            };
+            at = (at + 2 + digits).min(end);
+        } else {
+            places.push(at);
+            at += rest.chars().next().map_or(1, char::len_utf8);
+        }
+    }
+    let place = |n: usize| places.get(n).copied().unwrap_or(end);
+    let start = place(column);
+    start..place(column + length).max(start + 1).min(raw.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_inside_a_text_follow_its_escapes() {
+        let cases = [
+            (r#""1 + ab""#, 4, 2, "ab"),
+            (r#"'1 + ab'"#, 4, 2, "ab"),
+            (r#""\t1 + \u0061b""#, 5, 2, r"\u0061b"),
+            ("\"\"\"\n1 + ab\"\"\"", 4, 2, "ab"),
+            ("\"\"\"\r\n1 \\\r\n   + ab\"\"\"", 4, 2, "ab"),
+            (r#""µ + ab""#, 4, 2, "ab"),
+            (r#""1 +""#, 3, 1, "\""),
+        ];
+        for (raw, column, length, expected) in cases {
+            assert_eq!(&raw[inside_text(raw, column, length)], expected, "{raw}");
+        }
+    }
+}

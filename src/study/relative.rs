@@ -1,0 +1,84 @@
+//! The same file named from another folder.
+
+use std::path::{Component, Path, PathBuf};
+
+/// A path relative to the folder `from`, as it is named from the folder `to`; `None` if it stays as it is: both are the same
+/// folder, or the path does not depend on one. Where no relative name exists (another drive) it becomes absolute.
+pub(super) fn moved(path: &Path, from: &Path, to: &Path) -> Option<PathBuf> {
+    if path.is_absolute() {
+        return None;
+    }
+    let (mut from, to) = (resolved(from)?, resolved(to)?);
+    if from == to {
+        return None;
+    }
+    // links are resolved, so that going up is what it says
+    let mut rest = path.components().peekable();
+    while let Some(Component::ParentDir | Component::CurDir) = rest.peek() {
+        if rest.next() == Some(Component::ParentDir) && !from.pop() {
+            return None;
+        }
+    }
+    let target = from.join(rest.collect::<PathBuf>());
+    let (a, b): (Vec<_>, Vec<_>) = (target.components().collect(), to.components().collect());
+    let common = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
+    if common == 0 {
+        return Some(target);
+    }
+    let up = std::iter::repeat_n(Component::ParentDir, b.len() - common);
+    Some(up.chain(a[common..].iter().copied()).collect())
+}
+
+/// The folder without links; the part that does not exist yet as it is written.
+fn resolved(folder: &Path) -> Option<PathBuf> {
+    let absolute = std::path::absolute(if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    })
+    .ok()?;
+    let mut missing = Vec::new();
+    for above in absolute.ancestors() {
+        if let Ok(real) = above.canonicalize() {
+            return Some(
+                missing
+                    .iter()
+                    .rev()
+                    .fold(real, |path, name| path.join(name)),
+            );
+        }
+        missing.push(above.file_name()?.to_owned());
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_keeps_its_place_when_the_study_moves() {
+        let home = tempfile::tempdir().unwrap();
+        let at = |name: &str| home.path().join(name);
+        std::fs::create_dir_all(at("a/deep")).unwrap();
+        let cases = [
+            ("m.csv", "a", "a/deep", Some("../m.csv")),
+            ("m.csv", "a", "b", Some("../a/m.csv")),
+            ("m.csv", "a", "b/new", Some("../../a/m.csv")),
+            ("../m.csv", "a", "a/deep", Some("../../m.csv")),
+            ("./deep/m.csv", "a", "a/deep", Some("m.csv")),
+            ("m.csv", "a/deep", "a", Some("deep/m.csv")),
+            ("m.csv", "a", "a", None),
+            ("m.csv", "a", "a/deep/..", None),
+            ("/m.csv", "a", "b", None),
+        ];
+        for (path, from, to, expected) in cases {
+            let found = moved(Path::new(path), &at(from), &at(to));
+            assert_eq!(
+                found.as_deref(),
+                expected.map(Path::new),
+                "{path} from {from} to {to}"
+            );
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Claim: adding an effect changes a study at the places concerned and nowhere else (comments, order, blanks, line ends stay),
+//! relative paths go on naming the same files, values read back exactly, and nothing is overwritten unasked.
+//!
+//! Source: the study format and the command table. Tolerance: none; texts are compared byte by byte.
+
+use gearwear::study::{Study, rounded};
+
+const GEARS: &str = "\
+[gears]
+module = 2.0
+pressure_angle = 20.0
+face_width = 33.0
+pinion = { teeth = 27, bore_diameter = 25.0 }
+gear.teeth = 53 # dotted
+gear.bore_diameter = 40.0
+[material]
+youngs_modulus = 2.1e5
+poisson_ratio = 0.3
+density = 7850.0
+[operation]
+torque = 100.0
+speed = 2000.0
+";
+const WEAR: &str = "[wear]\ncoefficient = 6e-10 # mm2/N\ncycles = 50000\n";
+
+fn parse(text: &str) -> Study {
+    Study::parse(text, "a/study.toml").unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The text after adding running-in with an amplitude, freeing it and setting k.
+fn added(text: &str) -> String {
+    let study = parse(text);
+    let mut edit = study.edit();
+    edit.add_effect(
+        "running_in",
+        &[
+            ("amplitude".into(), 1.81),
+            ("decay_cycles".into(), 127_300.0),
+        ],
+    )
+    .unwrap();
+    edit.set("wear.coefficient", 2.37e-10);
+    edit.free(&[
+        "running_in.amplitude".into(),
+        "running_in.decay_cycles".into(),
+    ]);
+    let changed = edit.finish("a/new.toml").unwrap_or_else(|e| panic!("{e}"));
+    let model = changed.effect_model();
+    assert_eq!(model.parameter("running_in.amplitude").unwrap().value, 1.81);
+    assert_eq!(
+        model.parameter("running_in.decay_cycles").unwrap().value,
+        127_300.0
+    );
+    assert_eq!(changed.wear.coefficient, 2.37e-10);
+    let free: Vec<&str> = changed.free().iter().map(|p| p.name.as_str()).collect();
+    assert!(
+        free.ends_with(&["running_in.amplitude", "running_in.decay_cycles"]),
+        "{free:?}"
+    );
+    assert_eq!(
+        (&changed.gears, &changed.tests),
+        (&study.gears, &study.tests)
+    );
+    changed.text().to_owned()
+}
+
+const EFFECT: &str =
+    "\n[[effect]]\nkind = \"running_in\"\namplitude = 1.81\ndecay_cycles = 127300.0\n";
+const FREE: &str = "\"wear.coefficient\", \"running_in.amplitude\", \"running_in.decay_cycles\"";
+
+fn k(text: &str) -> String {
+    text.replace("6e-10", "2.37e-10")
+}
+
+#[test]
+fn a_plain_study_gets_both_tables_at_its_end() {
+    let text = format!("# mine\n{GEARS}{WEAR}# the end, without a line break");
+    let expected = format!("{}\n\n[fit]\nfree = [{FREE}]\n{EFFECT}", k(&text));
+    assert_eq!(added(&text), expected);
+}
+
+#[test]
+fn line_ends_stay() {
+    let text = format!("# mine\n{GEARS}{WEAR}").replace('\n', "\r\n");
+    let expected = format!(
+        "{}\n[fit]\nfree = [{FREE}]\n{EFFECT}",
+        k(&text).replace("\r\n", "\n")
+    );
+    assert_eq!(added(&text), expected.replace('\n', "\r\n"));
+}
+
+#[test]
+fn a_list_over_lines_keeps_its_comments() {
+    let fit = "[fit] # free\nfree = [\n  \"wear.coefficient\", # k\n  # no more\n]\n";
+    let expected = fit.replace("\"wear.coefficient\"", FREE);
+    let text = format!("{GEARS}{fit}{WEAR}");
+    assert_eq!(
+        added(&text),
+        format!("{GEARS}{expected}{}{EFFECT}", k(WEAR))
+    );
+}
+
+#[test]
+fn other_forms_of_fit_are_filled() {
+    let own = "\"running_in.amplitude\", \"running_in.decay_cycles\"";
+    for (fit, expected) in [
+        ("[fit]\n", format!("[fit]\nfree = [{FREE}]\n")),
+        (
+            "[fit] # none yet\n",
+            format!("[fit] # none yet\nfree = [{FREE}]\n"),
+        ),
+        ("[fit]\nfree = []\n", format!("[fit]\nfree = [{own}]\n")),
+        (
+            "[fit]\nfree = ['wear.coefficient',]\n",
+            format!("[fit]\nfree = ['wear.coefficient', {own},]\n"),
+        ),
+    ] {
+        let text = format!("{GEARS}{WEAR}{fit}");
+        assert_eq!(
+            added(&text),
+            format!("{GEARS}{}{expected}{EFFECT}", k(WEAR)),
+            "{fit}"
+        );
+    }
+    for (fit, expected) in [
+        ("fit = {}\n", format!("fit = {{ free = [{FREE}] }}\n")),
+        (
+            "fit.free = [\"wear.coefficient\"]\n",
+            format!("fit.free = [{FREE}]\n"),
+        ),
+        (
+            "fit = { free = [\"wear.coefficient\"] } # k\n",
+            format!("fit = {{ free = [{FREE}] }} # k\n"),
+        ),
+    ] {
+        let text = format!("{fit}{GEARS}{WEAR}");
+        assert_eq!(
+            added(&text),
+            format!("{expected}{GEARS}{}{EFFECT}", k(WEAR)),
+            "{fit}"
+        );
+    }
+}
+
+#[test]
+fn effects_before_the_tests_stay_there() {
+    let effect =
+        "[[effect]] # first\nkind = \"tip_relief\"\namount = { value = 5.0, upper = 20.0 }\n";
+    let tests = "[[test]]\nid = \"A\" # a test\n[fit]\nfree = [\"tip_relief.amount\"]\n";
+    let text = format!("{effect}{GEARS}{WEAR}{tests}");
+    let own = "\"tip_relief.amount\", \"running_in.amplitude\", \"running_in.decay_cycles\"";
+    let tests = tests.replace("\"tip_relief.amount\"", own);
+    assert_eq!(
+        added(&text),
+        format!("{effect}{GEARS}{}{tests}{EFFECT}", k(WEAR))
+    );
+}
+
+#[test]
+fn effects_written_as_a_list_stay_one() {
+    let list = "effect = [{ kind = \"tip_relief\" }, ] # one\n";
+    let inside = "{ kind = \"running_in\", amplitude = 1.81, decay_cycles = 127300.0 }";
+    let text = format!("{list}{GEARS}{WEAR}[fit]\nfree = [\"wear.coefficient\"]\n");
+    let expected = format!(
+        "effect = [{{ kind = \"tip_relief\" }}, {inside}, ] # one\n{GEARS}{}[fit]\nfree = [{FREE}]\n",
+        k(WEAR)
+    );
+    assert_eq!(added(&text), expected);
+    let text = text.replace("{ kind = \"tip_relief\" }, ", "");
+    let expected = expected
+        .replace("{ kind = \"tip_relief\" }, ", "")
+        .replace(", ] # one", "] # one");
+    assert_eq!(added(&text), expected);
+}
+
+#[test]
+fn wear_in_other_forms_is_set_in_place() {
+    for wear in [
+        "wear = { coefficient = 6e-10, cycles = 50000 } # k\n",
+        "wear.cycles = 50000\nwear.coefficient = 6e-10\n",
+    ] {
+        let text = format!("{wear}{GEARS}[fit]\nfree = [\"wear.coefficient\"]\n");
+        assert_eq!(
+            added(&text),
+            format!("{}{GEARS}[fit]\nfree = [{FREE}]\n{EFFECT}", k(wear))
+        );
+    }
+}
+
+#[test]
+fn parameters_that_are_there_are_set_where_they_stand() {
+    let effects = "\
+[[effect]]
+kind = \"running_in\" # early
+amplitude = 3.0 # start
+[[effect]]
+kind = \"tip_relief\"
+amount = { value = 5.0, upper = 20.0 }
+[[effect]]
+kind = \"formula\"
+name = \"f\"
+profile = \"a + b\"
+[effect.parameters]
+a = 1.0
+b.value = 2.0
+";
+    let study = parse(&format!("{GEARS}{WEAR}{effects}"));
+    let mut edit = study.edit();
+    for (name, value) in [
+        ("running_in.amplitude", 1.5),
+        ("running_in.decay_cycles", 2e5),
+        ("tip_relief.amount", 8.25),
+        ("f.a", -1e-7),
+        ("f.b", 4.0),
+        ("f.unknown", 4.0),
+    ] {
+        edit.set(name, value);
+    }
+    let expected = effects
+        .replace("amplitude = 3.0 # start", "amplitude = 1.5 # start")
+        .replace("# early\n", "# early\ndecay_cycles = 200000.0\n")
+        .replace("value = 5.0", "value = 8.25")
+        .replace("a = 1.0", "a = -1e-7")
+        .replace("b.value = 2.0", "b.value = 4.0");
+    assert_eq!(
+        edit.finish("s.toml").unwrap().text(),
+        format!("{GEARS}{WEAR}{expected}")
+    );
+}
+
+#[test]
+fn an_effect_that_is_there_is_not_added_again() {
+    let study = parse(&format!("{GEARS}{WEAR}{EFFECT}"));
+    let error = study.edit().add_effect("running_in", &[]).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("has the effect running_in already"),
+        "{error}"
+    );
+    assert_eq!(error.position().unwrap().0, 20, "{error}");
+}
+
+#[test]
+fn fitted_values_have_six_digits() {
+    assert_eq!(rounded(2.370_123_456e-10), 2.37012e-10);
+    assert_eq!(rounded(127_322.328_9), 127_322.0);
+    assert_eq!(rounded(-0.0), 0.0);
+    assert_eq!(rounded(f64::INFINITY), f64::INFINITY);
+}
