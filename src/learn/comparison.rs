@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::fit::Fit;
 use super::parameters::Estimate;
+use super::ratio::{Ratio, ratios};
 use super::region::Map;
 use super::tally::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
 use super::uncertainty::{Validation, validate};
@@ -52,6 +53,8 @@ pub struct Comparison {
     pub by_life: Vec<Group>,
     /// By quantity.
     pub by_quantity: Vec<Group>,
+    /// Measured over computed wear of each test, member and checkpoint.
+    pub ratios: Vec<Ratio>,
     /// Comparison error against validation uncertainty, in the way of ASME V&V 20.
     pub validation: Vec<Validation>,
     /// Rows further off than four of their sigmas, the furthest first.
@@ -134,7 +137,8 @@ impl Comparison {
         };
         let all = Share::of(rows.iter().copied());
         let cells = cells(study, &rows, &map);
-        let worst = sentence(&cells, &map, all.chi2_per_point);
+        let ratios = ratios(study, &rows);
+        let worst = sentence(&cells, &ratios, &map, all.chi2_per_point);
         let mut places: Vec<Cell> = cells.into_values().collect();
         places.sort_by(|a, b| b.chi2_per_point.total_cmp(&a.chi2_per_point));
         let life = |o: &crate::measure::Observation| {
@@ -161,6 +165,7 @@ impl Comparison {
                 format!("{} to {} % of the test", 25 * (q - 1), 25 * q)
             }),
             by_quantity: Group::by(&rows, |o| Some(o.quantity), |q| q.name().to_owned()),
+            ratios: ratios.into_values().flatten().collect(),
             validation: validate(data, &roles, fit, &rows),
             outliers: outliers(data, &rows),
             converged: fit.converged,

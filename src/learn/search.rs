@@ -286,15 +286,12 @@ impl Search<'_> {
     /// Each test's derivatives changed least, in the priors' scales, so that they give the change seen from one state to the next.
     fn broyden(&self, jacobian: &mut DMatrix<f64>, states: [&State; 2], values: [&Values; 2]) {
         let params = self.layout.parameters.len();
-        for test in 0..self.tests.len() {
-            let mut moved: Vec<(usize, f64, f64)> = (0..params)
-                .map(|p| {
-                    (
-                        p,
-                        states[1].theta[p] - states[0].theta[p],
-                        self.layout.parameters[p].scale(),
-                    )
-                })
+        let moves = |p: usize| states[1].theta[p] - states[0].theta[p];
+        for (test, rows) in self.rows.iter().enumerate() {
+            let scales = self.layout.parameters.iter().map(|prior| prior.scale());
+            let mut moved: Vec<(usize, f64, f64)> = scales
+                .enumerate()
+                .map(|(p, scale)| (p, moves(p), scale))
                 .collect();
             let log_k = |s: &State| s.log_k + s.epsilon[test];
             moved.push((params + test, log_k(states[1]) - log_k(states[0]), 1.0));
@@ -305,14 +302,15 @@ impl Search<'_> {
             if length == 0.0 {
                 continue;
             }
-            for (i, &row) in self.rows[test].iter().enumerate() {
-                let seen = values[1][test][i] - values[0][test][i];
+            let [before, after] = values.map(|values| &values[test]);
+            for (&row, (before, after)) in rows.iter().zip(before.iter().zip(after.iter())) {
                 let told: f64 = moved
                     .iter()
                     .map(|&(column, by, _)| jacobian[(row, column)] * by)
                     .sum();
                 for &(column, by, scale) in &moved {
-                    jacobian[(row, column)] += (seen - told) * by / (scale * scale) / length;
+                    jacobian[(row, column)] +=
+                        (after - before - told) * by / (scale * scale) / length;
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::ratio::Ratio;
 use super::region::{Map, words};
 use super::tally::{Cell, CellKey};
 use crate::gear::Member;
@@ -11,7 +12,12 @@ use crate::measure::{Quantity, Subject};
 const SIGNIFICANT: f64 = 5.0;
 
 /// Where the model fails worst, in plain words.
-pub(super) fn sentence(cells: &BTreeMap<CellKey, Cell>, map: &Map, chi2: Option<f64>) -> String {
+pub(super) fn sentence(
+    cells: &BTreeMap<CellKey, Cell>,
+    ratios: &BTreeMap<(usize, Subject), Vec<Ratio>>,
+    map: &Map,
+    chi2: Option<f64>,
+) -> String {
     let excess = |cell: &Cell| (cell.chi2_per_point - 1.0) * cell.points as f64;
     let significance = |cell: &Cell| excess(cell) / (2.0 * cell.points as f64).sqrt();
     let worst = cells
@@ -45,7 +51,14 @@ pub(super) fn sentence(cells: &BTreeMap<CellKey, Cell>, map: &Map, chi2: Option<
         mate(key, cell, cells),
         others(key, cell, cells, map),
     ];
-    parts.concat() + "."
+    let factor = if key.2 == Quantity::WearDepth {
+        ratios
+            .get(&(key.0, key.1))
+            .map_or_else(String::new, |own| factor(own))
+    } else {
+        String::new()
+    };
+    parts.concat() + "." + &factor
 }
 
 fn subject(quantity: Quantity) -> &'static str {
@@ -133,6 +146,34 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
         signed(first),
         signed(last)
     )
+}
+
+/// The size of the measured wear against the computed one over the test, where that explains the misfit.
+fn factor(ratios: &[Ratio]) -> String {
+    let extreme = |r: &&Ratio| (r.measured_over_computed.abs().ln().abs() * 1e6) as i64;
+    let Some(first) = ratios.iter().filter(|r| r.matters()).max_by_key(extreme) else {
+        return String::new();
+    };
+    let told = |r: &Ratio| {
+        format!(
+            "{:.2} times the computed at {:.0} cycles",
+            r.measured_over_computed, r.cycles
+        )
+    };
+    let mut text = format!(
+        " In size the measured wear of that member is {}, which explains {:.0} % of the misfit then",
+        told(first),
+        100.0 * first.explains()
+    );
+    let far = |r: &&Ratio| ((r.cycles / first.cycles).ln().abs() * 1e6) as i64;
+    if let Some(second) = ratios
+        .iter()
+        .max_by_key(far)
+        .filter(|r| r.cycles != first.cycles)
+    {
+        text += &format!(", and {}", told(second));
+    }
+    text + "."
 }
 
 /// What the mate shows where it meets that region.

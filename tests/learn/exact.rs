@@ -35,14 +35,14 @@ fn covariance(data: &Dataset, noise: &NoiseModel) -> DMatrix<f64> {
         if o.trace.is_some() && o.trace == p.trace {
             c += noise.datum_um.powi(2);
         }
-        if let Some(error) = noise.model_error {
-            if (o.test, o.member) == (p.test, p.member) {
-                // Positions reach over 3 mm on each member.
-                let s = (o.position.unwrap() - p.position.unwrap()) / 3.0 / error.along;
-                let g = (o.cycles / p.cycles).ln() / error.over_cycles;
-                let size = error.relative.powi(2) * curve_top(o) * curve_top(p);
-                c += size * (-0.5 * s * s - 0.5 * g * g).exp();
-            }
+        if let Some(error) = noise.model_error
+            && (o.test, o.member) == (p.test, p.member)
+        {
+            // Positions reach over 3 mm on each member.
+            let s = (o.position.unwrap() - p.position.unwrap()) / 3.0 / error.along;
+            let g = (o.cycles / p.cycles).ln() / error.over_cycles;
+            let size = error.relative.powi(2) * curve_top(o) * curve_top(p);
+            c += size * (-0.5 * s * s - 0.5 * g * g).exp();
         }
         c
     })
