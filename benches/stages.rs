@@ -192,6 +192,7 @@ fn wear(bencher: Bencher, fineness: usize) {
     let start = worn(&mut forward, 20_000.0);
     let law = WearLaw {
         coefficient: CONDITIONS.coefficient,
+        acting: None,
         tolerance: numerics(fineness).step_tolerance,
     };
     forward.with_model(|model| {

@@ -290,6 +290,12 @@ impl Position {
     /// Weighted gaps with the worn depth (mm) of both flanks added.
     pub fn worn_gap(&self, depth: [&[f64]; 2]) -> Vec<f64> {
         let mut gap = self.gap.clone();
+        self.open(depth, &mut gap);
+        gap
+    }
+
+    /// Adds the weighted gaps that missing material (mm at the stations of both flanks) opens.
+    pub fn open(&self, depth: [&[f64]; 2], gap: &mut [f64]) {
         for pair in &self.pairs {
             for k in 0..pair.xi.len() {
                 for (opening, depth) in pair.opening.iter().zip(depth) {
@@ -297,7 +303,6 @@ impl Position {
                 }
             }
         }
-        gap
     }
 
     /// The rotation between 0 and 1, base pitches.

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::contact::mortar::{Trace, couple};
@@ -53,6 +54,9 @@ pub struct FemContact<'a> {
     compliance: &'a CycleCompliance,
     /// Pinion torque per face width, N·mm/mm.
     torque: f64,
+    /// Weighted gaps of a profile that effects give the flanks.
+    opened: Option<&'a [Vec<f64>]>,
+    alteration: Option<&'a Alteration>,
 }
 
 /// What the elastic members look like from the contact grids of every position: independent of load and wear.
@@ -91,6 +95,33 @@ impl CycleCompliance {
             positions,
             friction,
         })
+    }
+
+    /// The same with what effects change about load and flexibility.
+    ///
+    /// ```text
+    /// lever_k → lever_k/f of its pair          W → W + q l lᵀ on each pair (l_k = ∫ N_k)
+    /// ```
+    pub fn altered(&self, cycle: &Cycle, alteration: &Alteration) -> Self {
+        let mut out = self.clone();
+        for (q, (elastic, position)) in out.positions.iter_mut().zip(&cycle.positions).enumerate() {
+            for (index, pair) in position.pairs.iter().enumerate() {
+                let own = pair.offset..pair.offset + pair.xi.len();
+                let factor = alteration.factor(q, index);
+                for lever in &mut elastic.lever[own.clone()] {
+                    *lever /= factor;
+                }
+                if alteration.flexibility != 0.0 {
+                    for (k, row) in own.clone().enumerate() {
+                        for (l, column) in own.clone().enumerate() {
+                            elastic.weighted[(row, column)] +=
+                                alteration.flexibility * (pair.length[k] * pair.length[l]);
+                        }
+                    }
+                }
+            }
+        }
+        out
     }
 
     /// Traction on the gear per unit pressure, friction included, fixed frame (the pinion's is the opposite).
@@ -283,7 +314,17 @@ impl<'a> FemContact<'a> {
             cycle,
             compliance,
             torque,
+            opened: None,
+            alteration: None,
         }
+    }
+
+    /// The same with what effects change: `opened` are the alteration's own [`Alteration::gaps`]; load and flexibility stand in
+    /// the compliance already ([`CycleCompliance::altered`]).
+    pub fn with(mut self, alteration: &'a Alteration, opened: Option<&'a [Vec<f64>]>) -> Self {
+        self.alteration = Some(alteration);
+        self.opened = opened;
+        self
     }
 
     fn problem<'b>(&'b self, q: usize, gap: &'b [f64]) -> Problem<'b> {
@@ -297,23 +338,16 @@ impl<'a> FemContact<'a> {
             symmetric: self.compliance.friction == 0.0,
         }
     }
-}
 
-impl ContactModel for FemContact<'_> {
-    fn cycle(&self) -> &Cycle {
-        self.cycle
-    }
-
-    fn solve(
+    fn solve_gap(
         &self,
         q: usize,
-        depth: [&[f64]; 2],
+        gap: &[f64],
         start: &[usize],
     ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
-        let gap = position.worn_gap(depth);
         let solution =
-            solve(&self.problem(q, &gap), start).map_err(|source| ContactError::Unilateral {
+            solve(&self.problem(q, gap), start).map_err(|source| ContactError::Unilateral {
                 theta: position.theta,
                 source,
             })?;
@@ -348,6 +382,67 @@ impl ContactModel for FemContact<'_> {
             iterations: solution.iterations,
             penetration: solution.penetration,
         })
+    }
+
+    /// Teeth differ: each tooth pair in turn is that of the measured tooth, and its pressures are taken from that solution.
+    /// The pressures of one position then belong to different moments and need not balance the torque together; the
+    /// approach is their mean.
+    fn each_tooth_measured(
+        &self,
+        q: usize,
+        gap: &[f64],
+        start: &[usize],
+        alteration: &Alteration,
+    ) -> Result<PositionContact, ContactError> {
+        let pairs = &self.cycle.positions[q].pairs;
+        let mut joint = PositionContact {
+            pressure: vec![0.0; gap.len()],
+            approach: 0.0,
+            active: Vec::new(),
+            iterations: 0,
+            penetration: 0.0,
+        };
+        for (measured, own) in pairs.iter().enumerate() {
+            let mut gap = gap.to_vec();
+            for (index, pair) in pairs.iter().enumerate() {
+                set_back(&mut gap, pair, alteration.offset(measured, index));
+            }
+            let solved = self.solve_gap(q, &gap, start)?;
+            let unknowns = own.offset..own.offset + own.xi.len();
+            joint.pressure[unknowns.clone()].copy_from_slice(&solved.pressure[unknowns.clone()]);
+            let active = solved.active.iter().copied();
+            joint.active.extend(active.filter(|k| unknowns.contains(k)));
+            joint.approach += solved.approach / pairs.len() as f64;
+            joint.iterations = joint.iterations.max(solved.iterations);
+            joint.penetration = joint.penetration.max(solved.penetration);
+        }
+        Ok(joint)
+    }
+}
+
+impl ContactModel for FemContact<'_> {
+    fn cycle(&self) -> &Cycle {
+        self.cycle
+    }
+
+    fn solve(
+        &self,
+        q: usize,
+        depth: [&[f64]; 2],
+        start: &[usize],
+    ) -> Result<PositionContact, ContactError> {
+        let mut gap = self.cycle.positions[q].worn_gap(depth);
+        if let Some(opened) = self.opened {
+            for (gap, opened) in gap.iter_mut().zip(&opened[q]) {
+                *gap += opened;
+            }
+        }
+        match self.alteration {
+            Some(alteration) if alteration.tooth_offset.is_some() => {
+                self.each_tooth_measured(q, &gap, start, alteration)
+            }
+            _ => self.solve_gap(q, &gap, start),
+        }
     }
 
     fn sensitivity(

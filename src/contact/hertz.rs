@@ -11,6 +11,7 @@
 use nalgebra::DMatrix;
 
 use crate::analytic::hertz_line;
+use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
@@ -26,6 +27,7 @@ pub struct HertzContact<'a> {
     modulus: f64,
     /// Largest stiffness of a tooth pair, N/mm per mm of approach and face width.
     stiffness: f64,
+    alteration: Option<&'a Alteration>,
 }
 
 impl<'a> HertzContact<'a> {
@@ -37,7 +39,14 @@ impl<'a> HertzContact<'a> {
             load: torque / cycle.pair.pinion.base_radius,
             modulus,
             stiffness: 1e3 * stiffness,
+            alteration: None,
         }
+    }
+
+    /// The same with what effects change.
+    pub fn with(mut self, alteration: &'a Alteration) -> Self {
+        self.alteration = Some(alteration);
+        self
     }
 
     fn stiffness_at(&self, pair: &PairContact) -> f64 {
@@ -48,10 +57,72 @@ impl<'a> HertzContact<'a> {
         self.stiffness * (beta * (xi - 0.5 * ratio)).cos()
     }
 
+    /// The tooth pairs of position `q` that meet on the line of action.
+    fn springs(&self, q: usize, depth: [&[f64]; 2]) -> Vec<Spring> {
+        let position = &self.cycle.positions[q];
+        let on_line = |(_, pair): &(usize, &PairContact)| pair.frame.touch == Touch::Flanks;
+        let spring = |(index, pair): (usize, &PairContact)| {
+            let mut stiffness = self.stiffness_at(pair);
+            let mut gap = self.deviation(pair, depth);
+            let mut factor = 1.0;
+            if let Some(alteration) = self.alteration {
+                if alteration.flexibility != 0.0 {
+                    stiffness /= 1.0 + alteration.flexibility * stiffness;
+                }
+                if let Some([pinion, gear]) = &alteration.profile {
+                    gap += self.worn(pair, [pinion, gear]);
+                }
+                factor = alteration.factor(q, index);
+            }
+            Spring {
+                index,
+                stiffness,
+                gap,
+                factor,
+            }
+        };
+        let pairs = position.pairs.iter().enumerate();
+        pairs.filter(on_line).map(spring).collect()
+    }
+
+    /// Line loads of `springs` (N/mm) and the approach (mm); where teeth differ, each pair's with its own tooth measured,
+    /// and the mean approach.
+    fn loads(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
+        let carried = |springs: &[Spring]| {
+            let delta = share(springs, self.load);
+            let loads: Vec<f64> = (springs.iter())
+                .map(|s| s.stiffness * (delta - s.gap).max(0.0))
+                .collect();
+            (loads, delta)
+        };
+        let Some(alteration) = self.alteration.filter(|a| a.tooth_offset.is_some()) else {
+            return carried(springs);
+        };
+        let mut joint = (vec![0.0; springs.len()], 0.0);
+        for (own, measured) in joint.0.iter_mut().zip(springs) {
+            let set_back: Vec<Spring> = (springs.iter())
+                .map(|s| Spring {
+                    gap: s.gap + alteration.offset(measured.index, s.index),
+                    ..*s
+                })
+                .collect();
+            let (loads, delta) = carried(&set_back);
+            let at = springs.iter().position(|s| s.index == measured.index);
+            *own = at.map_or(0.0, |at| loads[at]);
+            joint.1 += delta / springs.len() as f64;
+        }
+        joint
+    }
+
     /// What separates the flanks of a pair where they should touch, mm.
     fn deviation(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
+        pair.frame.facing(&self.cycle.pair, 0.0).gap + self.worn(pair, depth)
+    }
+
+    /// Missing material (mm at the stations of both flanks) where the flanks of a pair should touch, mm.
+    fn worn(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
         let facing = pair.frame.facing(&self.cycle.pair, 0.0);
-        let worn: f64 = (0..2)
+        (0..2)
             .map(|side| {
                 interpolate(
                     &self.cycle.stations.arc[side],
@@ -59,8 +130,7 @@ impl<'a> HertzContact<'a> {
                     facing.arc[side],
                 )
             })
-            .sum();
-        facing.gap + worn
+            .sum()
     }
 }
 
@@ -76,22 +146,12 @@ impl ContactModel for HertzContact<'_> {
         _: &[usize],
     ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
-        let mut springs: Vec<Spring> = Vec::new();
-        for (index, pair) in position.pairs.iter().enumerate() {
-            if pair.frame.touch == Touch::Flanks {
-                springs.push(Spring {
-                    index,
-                    stiffness: self.stiffness_at(pair),
-                    gap: self.deviation(pair, depth),
-                });
-            }
-        }
-        let delta = share(&mut springs, self.load);
+        let springs = self.springs(q, depth);
         let mut pressure = vec![0.0; position.gap.len()];
         let mut active = Vec::new();
-        for spring in springs.iter().filter(|s| delta > s.gap) {
+        let (loads, delta) = self.loads(&springs);
+        for (spring, load) in springs.iter().zip(loads).filter(|(_, load)| *load > 0.0) {
             let pair = &position.pairs[spring.index];
-            let load = spring.stiffness * (delta - spring.gap);
             let half_width = hertz_line::half_width(
                 load,
                 self.cycle.pair.relative_radius(pair.path),
@@ -132,22 +192,30 @@ impl ContactModel for HertzContact<'_> {
     }
 }
 
+/// A tooth pair on the line of action.
+#[derive(Debug, Clone, Copy)]
 struct Spring {
     index: usize,
+    /// N/mm per mm.
     stiffness: f64,
+    /// mm.
     gap: f64,
+    /// Its load counts 1/factor in the torque balance.
+    factor: f64,
 }
 
-/// The approach δ at which springs with gaps carry `load` together.
-fn share(springs: &mut [Spring], load: f64) -> f64 {
+/// The approach δ at which springs with gaps carry `load` together: Σ c_i (δ − g_i)/f_i = load over those that touch.
+fn share(springs: &[Spring], load: f64) -> f64 {
+    let mut springs = springs.to_vec();
     springs.sort_by(|a, b| a.gap.total_cmp(&b.gap));
     let (mut stiffness, mut offset, mut delta) = (0.0, 0.0, 0.0);
-    for spring in springs.iter() {
+    for spring in &springs {
         if stiffness > 0.0 && delta <= spring.gap {
             break;
         }
-        stiffness += spring.stiffness;
-        offset += spring.stiffness * spring.gap;
+        let counted = spring.stiffness / spring.factor;
+        stiffness += counted;
+        offset += counted * spring.gap;
         delta = (load + offset) / stiffness;
     }
     delta
@@ -165,17 +233,19 @@ mod tests {
                     index: 0,
                     stiffness: 10.0,
                     gap: 0.0,
+                    factor: 1.0,
                 },
                 Spring {
                     index: 1,
                     stiffness: 30.0,
                     gap: 0.2,
+                    factor: 1.0,
                 },
             ]
         };
         // too small a load to close the second gap
-        assert!((share(&mut springs(), 1.0) - 0.1).abs() < 1e-15);
+        assert!((share(&springs(), 1.0) - 0.1).abs() < 1e-15);
         // 10 δ + 30 (δ − 0.2) = 10
-        assert!((share(&mut springs(), 10.0) - 0.4).abs() < 1e-15);
+        assert!((share(&springs(), 10.0) - 0.4).abs() < 1e-15);
     }
 }

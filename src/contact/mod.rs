@@ -1,5 +1,6 @@
 //! Floor 4: contact between two flanks: mortar coupling, unilateral contact, load sharing.
 
+pub mod alteration;
 pub mod cycle;
 pub mod deposit;
 pub mod fem;

@@ -1,10 +1,14 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
+use std::sync::Arc;
+
 use crate::analytic::iso6336;
+use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, CycleSpec, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::effects::{Effect, Hook};
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
@@ -13,6 +17,8 @@ use crate::simulate::history::{
 };
 use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
+use crate::wear::acting::Acting;
+use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
 
 /// The gears as they are, before they are mounted.
@@ -68,7 +74,19 @@ pub enum ForwardError {
     Contact(#[from] ContactError),
     /// A wear step failed.
     #[error("{0}")]
-    Step(#[from] StepError<ContactError>),
+    Step(#[from] StepError<WearError>),
+    /// A physical effect gave no usable number before wear began.
+    #[error("{0}")]
+    Effect(String),
+}
+
+impl From<WearError> for ForwardError {
+    fn from(error: WearError) -> Self {
+        match error {
+            WearError::Contact(error) => Self::Contact(error),
+            WearError::Effect(reason) => Self::Effect(reason),
+        }
+    }
 }
 
 impl GearSet {
@@ -190,13 +208,24 @@ pub struct Forward<'a> {
     numerics: Numerics,
     kind: ContactKind,
     members: Option<&'a Members>,
-    cycle: Cycle,
-    compliance: Option<CycleCompliance>,
+    cycle: Arc<Cycle>,
+    compliance: Option<Arc<CycleCompliance>>,
     condensed_at: Option<Vec<f64>>,
     worn: Option<Box<Members>>,
     /// Members with more fine teeth than those given, once wear has brought these into reach.
     extended: Option<Box<Members>>,
     factorisations: usize,
+    acting: Option<&'a Acting>,
+    altered: Option<Altered>,
+}
+
+/// The contact as effects change it.
+struct Altered {
+    alteration: Alteration,
+    /// Weighted gaps of the profile, by position.
+    opened: Option<Vec<Vec<f64>>>,
+    /// The projected compliance with load factors and flexibility.
+    compliance: Option<CycleCompliance>,
 }
 
 impl<'a> Forward<'a> {
@@ -210,7 +239,25 @@ impl<'a> Forward<'a> {
         conditions: Conditions,
         numerics: Numerics,
     ) -> Result<Self, ForwardError> {
-        let pair = set.mount(conditions.misalignment)?;
+        Self::with_effects(set, members, conditions, numerics, None)
+    }
+
+    /// As [`Forward::new`], with physical effects.
+    ///
+    /// # Errors
+    /// As [`Forward::new`]; [`ForwardError::Effect`] if an effect gives no number.
+    pub fn with_effects(
+        set: &'a GearSet,
+        members: Option<&'a Members>,
+        mut conditions: Conditions,
+        numerics: Numerics,
+        acting: Option<&'a Acting>,
+    ) -> Result<Self, ForwardError> {
+        let mut pair = set.mount(conditions.misalignment)?;
+        if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
+            conditions.misalignment += acting.added_centre_distance(&pair);
+            pair = set.mount(conditions.misalignment)?;
+        }
         let torque = conditions.torque / set.face_width;
         let spacing = match members {
             Some(members) => members.spacing(),
@@ -218,34 +265,104 @@ impl<'a> Forward<'a> {
         };
         let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
         let stations = Stations::new(&pair, spacing);
-        let cycle = Cycle::new(&pair, &stations, spec);
-        let compliance = match members {
-            Some(members) => Some(CycleCompliance::new(
-                &cycle,
-                members.flanks(),
-                numerics.friction,
-            )?),
-            None => None,
-        };
         let kind = if members.is_some() {
             ContactKind::Fem
         } else {
             ContactKind::Hertz
         };
-        let factorisations = if members.is_some() { 2 } else { 0 };
-        Ok(Self {
+        let mut out = Self {
             set,
             conditions,
             numerics,
             kind,
             members,
-            cycle,
-            compliance,
+            cycle: Arc::new(Cycle::new(&pair, &stations, spec)),
+            compliance: None,
             condensed_at: None,
             worn: None,
             extended: None,
-            factorisations,
-        })
+            factorisations: if members.is_some() { 2 } else { 0 },
+            acting,
+            altered: None,
+        };
+        if acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
+            out.extend_members()?;
+        }
+        out.project()?;
+        Ok(out)
+    }
+
+    /// Projects the compliance of the members onto the cycle, and what effects change about it.
+    fn project(&mut self) -> Result<(), ForwardError> {
+        if let Some(members) = self.condensed() {
+            let flanks = members.flanks();
+            let friction = self.numerics.friction;
+            let compliance = CycleCompliance::new(&self.cycle, flanks, friction)?;
+            self.compliance = Some(Arc::new(compliance));
+        }
+        self.alter()
+    }
+
+    /// Lets the effects change the contact.
+    fn alter(&mut self) -> Result<(), ForwardError> {
+        self.altered = None;
+        let Some(acting) = self.acting else {
+            return Ok(());
+        };
+        let alteration = acting.alteration(&self.cycle);
+        if let Some(fault) = acting.effects.fault() {
+            return Err(ForwardError::Effect(fault));
+        }
+        self.altered = (!alteration.is_none()).then(|| Altered {
+            opened: alteration.gaps(&self.cycle),
+            compliance: (self.compliance.as_ref()).map(|c| c.altered(&self.cycle, &alteration)),
+            alteration,
+        });
+        Ok(())
+    }
+
+    /// A fresh run of the same gears at the same torque and mounting with another wear coefficient and other effects, on the
+    /// projected compliance that this one has made.
+    ///
+    /// # Errors
+    /// As [`Forward::with_effects`].
+    pub fn again<'b>(
+        &'b self,
+        coefficient: [f64; 2],
+        acting: Option<&'b Acting>,
+    ) -> Result<Forward<'b>, ForwardError> {
+        let conditions = Conditions {
+            coefficient,
+            ..self.conditions
+        };
+        if acting.is_some_and(|acting| acting.acts(Hook::Operation)) || self.worn.is_some() {
+            // another mounting is another mesh cycle
+            let members = self.members();
+            let mut out =
+                Forward::with_effects(self.set, members, conditions, self.numerics, acting)?;
+            out.prepare(&Preparation {
+                condensed_at: None,
+                ..self.preparation()
+            })?;
+            return Ok(out);
+        }
+        let mut out = Forward {
+            set: self.set,
+            conditions,
+            numerics: self.numerics,
+            kind: self.kind,
+            members: self.members(),
+            cycle: Arc::clone(&self.cycle),
+            compliance: self.compliance.clone(),
+            condensed_at: None,
+            worn: None,
+            extended: None,
+            factorisations: 0,
+            acting,
+            altered: None,
+        };
+        out.alter()?;
+        Ok(out)
     }
 
     /// The mesh cycle.
@@ -255,7 +372,18 @@ impl<'a> Forward<'a> {
 
     /// Projected compliance, by finite elements only.
     pub fn compliance(&self) -> Option<&CycleCompliance> {
-        self.compliance.as_ref()
+        let altered = self.altered.as_ref();
+        (altered.and_then(|a| a.compliance.as_ref())).or(self.compliance.as_deref())
+    }
+
+    /// Effects that act, if any.
+    pub fn acting(&self) -> Option<&'a Acting> {
+        self.acting
+    }
+
+    /// The conditions, with what effects do to the misalignment.
+    pub fn conditions(&self) -> Conditions {
+        self.conditions
     }
 
     /// The elastic members, by finite elements only.
@@ -275,9 +403,13 @@ impl<'a> Forward<'a> {
 
     /// Calls `work` with the contact model.
     pub fn with_model<R>(&self, work: impl FnOnce(&dyn ContactModel) -> R) -> R {
-        match (&self.compliance, self.kind) {
+        match (self.compliance(), self.kind) {
             (Some(compliance), ContactKind::Fem) => {
-                work(&FemContact::new(&self.cycle, compliance, self.torque()))
+                let model = FemContact::new(&self.cycle, compliance, self.torque());
+                match &self.altered {
+                    Some(a) => work(&model.with(&a.alteration, a.opened.as_deref())),
+                    None => work(&model),
+                }
             }
             _ => {
                 let [pinion, gear] = &self.set.gears;
@@ -287,12 +419,12 @@ impl<'a> Forward<'a> {
                     ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
                 };
                 let stiffness = teeth.theoretical();
-                work(&HertzContact::new(
-                    &self.cycle,
-                    self.torque(),
-                    self.set.modulus(),
-                    stiffness,
-                ))
+                let modulus = self.set.modulus();
+                let model = HertzContact::new(&self.cycle, self.torque(), modulus, stiffness);
+                match &self.altered {
+                    Some(a) => work(&model.with(&a.alteration)),
+                    None => work(&model),
+                }
             }
         }
     }
@@ -335,6 +467,7 @@ impl<'a> Forward<'a> {
     ) -> Result<bool, ForwardError> {
         let law = WearLaw {
             coefficient: self.conditions.coefficient,
+            acting: self.acting,
             tolerance: self.numerics.step_tolerance,
         };
         loop {
@@ -342,12 +475,13 @@ impl<'a> Forward<'a> {
             self.condense_if_stale(progress.as_ref())?;
             let preparation = self.preparation();
             let elastic = self.members.is_some();
+            let condense_after = self.numerics.condense_after;
             let mut go_on = true;
             let mut stale = false;
             let outcome = self.with_model(|model| {
                 wear_until(model, law, progress, stop, &mut |progress| {
                     go_on = observe(&preparation, progress);
-                    stale = elastic && preparation.is_stale(&progress.stand.u);
+                    stale = elastic && preparation.is_stale(&progress.stand.u, condense_after);
                     go_on && !stale
                 })
             });
@@ -356,7 +490,7 @@ impl<'a> Forward<'a> {
                 Ok(_) if stale => {}
                 Ok(_) => return Ok(true),
                 Err(StepError::System {
-                    source: ContactError::WindowTooNarrow { .. },
+                    source: WearError::Contact(ContactError::WindowTooNarrow { .. }),
                     ..
                 }) => {
                     // wear flattens contacts: look for them in a wider strip
@@ -369,7 +503,7 @@ impl<'a> Forward<'a> {
                     }
                 }
                 Err(StepError::System {
-                    source: ContactError::OutOfReach { .. },
+                    source: WearError::Contact(ContactError::OutOfReach { .. }),
                     ..
                 }) if preparation.reach < MOST_REACH * self.cycle.pair.pinion.rack.module => {
                     // wear lets teeth turn far enough for corners that were not looked at
@@ -390,7 +524,10 @@ impl<'a> Forward<'a> {
     fn condense_if_stale(&mut self, progress: Option<&Progress>) -> Result<(), ForwardError> {
         let preparation = self.preparation();
         match progress {
-            Some(progress) if self.members.is_some() && preparation.is_stale(&progress.stand.u) => {
+            Some(progress)
+                if self.members.is_some()
+                    && preparation.is_stale(&progress.stand.u, self.numerics.condense_after) =>
+            {
                 self.prepare(&Preparation {
                     condensed_at: Some(progress.stand.u.clone()),
                     ..preparation
@@ -431,11 +568,11 @@ impl<'a> Forward<'a> {
             ..self.cycle.spec
         };
         if spec != self.cycle.spec {
-            self.cycle = Cycle::new(&self.cycle.pair, &self.cycle.stations, spec);
+            self.cycle = Arc::new(Cycle::new(&self.cycle.pair, &self.cycle.stations, spec));
         }
         let more_teeth = self.extend_members()?;
         let Some(fresh) = self.members() else {
-            return Ok(());
+            return self.project();
         };
         if more_teeth || preparation.condensed_at != self.condensed_at {
             let worn = match &preparation.condensed_at {
@@ -454,14 +591,7 @@ impl<'a> Forward<'a> {
             self.condensed_at.clone_from(&preparation.condensed_at);
             self.worn = worn;
         }
-        if let Some(members) = self.condensed() {
-            self.compliance = Some(CycleCompliance::new(
-                &self.cycle,
-                members.flanks(),
-                self.numerics.friction,
-            )?);
-        }
-        Ok(())
+        self.project()
     }
 
     /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
@@ -500,7 +630,7 @@ impl<'a> Forward<'a> {
     /// Torque per face width that tooth pair number `index` of position `q` puts on the pinion, N·mm/mm.
     pub fn moment(&self, q: usize, index: usize, contact: &PositionContact) -> f64 {
         let pair = &self.cycle.positions[q].pairs[index];
-        match &self.compliance {
+        match self.compliance() {
             Some(compliance) => {
                 let own = pair.offset..pair.offset + pair.xi.len();
                 contact.pressure[own.clone()]
@@ -536,20 +666,14 @@ pub struct Preparation {
 /// Corners farther apart than this are never looked at, in modules: wear of a tenth of a module ends the model's validity.
 const MOST_REACH: f64 = 0.1;
 
-/// Wear since the last condensation after which the members are condensed again, mm.
-///
-/// Condensing again after 16 µm changes load shares by 2e-4, peak pressures by less than 0.4 % away from the tips and the
-/// depth after the same cycles by 0.014 % (the validation's case on condensing again).
-pub const CONDENSE_AFTER: f64 = 0.02;
-
 impl Preparation {
-    fn is_stale(&self, u: &[f64]) -> bool {
+    fn is_stale(&self, u: &[f64], condense_after: f64) -> bool {
         match &self.condensed_at {
             Some(before) => u
                 .iter()
                 .zip(before)
-                .any(|(now, then)| now - then > CONDENSE_AFTER),
-            None => u.iter().any(|now| *now > CONDENSE_AFTER),
+                .any(|(now, then)| now - then > condense_after),
+            None => u.iter().any(|now| *now > condense_after),
         }
     }
 }

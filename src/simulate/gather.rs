@@ -87,7 +87,8 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         let arcs = &cycle.stations.arc[side];
         let rho: Vec<f64> = arcs.iter().map(|&s| gear.rho_at_arc(s)).collect();
         let area = worn_area(arcs, &state.depth[side]);
-        let volume = area * plan.set.face_width * f64::from(gear.spec.teeth);
+        let volume =
+            (area - state.displaced[side]) * plan.set.face_width * f64::from(gear.spec.teeth);
         Profile {
             radius: rho.iter().map(|&r| gear.radius_at_rho(r)).collect(),
             path: rho

@@ -1,10 +1,10 @@
 //! Wear histories: from fresh flanks to the requested cycles, with the balance of worn area at every step.
 
-use crate::contact::cycle::Cycle;
 use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
-use crate::wear::archard::ArchardSystem;
-use crate::wear::integrator::{Stand, StepControl, StepError, advance};
+use crate::wear::acting::Acting;
+use crate::wear::archard::{ArchardSystem, AreaRate, WearError};
+use crate::wear::integrator::{Stand, StepControl, StepError, WearSystem, advance};
 
 /// The flanks after some cycles, and how they mesh then.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,12 +15,14 @@ pub struct WearState {
     pub depth: [Vec<f64>; 2],
     /// Contact at every mesh position.
     pub contacts: Vec<PositionContact>,
+    /// Part of the worn area that effects only displaced, without loss of mass, per tooth of pinion and gear, mm².
+    pub displaced: [f64; 2],
 }
 
 /// Worn area per tooth flank: by the wear law and by geometry, pinion and gear, mm².
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Balance {
-    /// ∫ k ∮ F'|v_s| dt, integrated over cycles by the trapezoidal rule from the line loads alone.
+    /// ∫ k ∮ f F'|v_s| dt and what effects add, integrated over cycles by the trapezoidal rule from the line loads alone.
     pub law: [f64; 2],
     /// ∫ h ds of the worn flanks.
     pub geometry: [f64; 2],
@@ -62,7 +64,9 @@ pub struct Progress {
     /// Worn areas so far.
     pub balance: Balance,
     /// Rate of worn area by the law at the last step's end, mm² per cycle.
-    law_rate: [f64; 2],
+    rate: AreaRate,
+    /// Area that effects displaced so far, mm².
+    displaced: [f64; 2],
     /// Contact problems solved so far.
     pub solves: usize,
     /// Largest depth on pinion and gear, mm.
@@ -82,17 +86,24 @@ impl Progress {
         }
     }
 
+    /// Area that effects displaced without loss of mass, per tooth of pinion and gear, mm².
+    pub fn displaced(&self) -> [f64; 2] {
+        self.displaced
+    }
+
     /// Forgets the contact sets: their numbering has changed.
     pub fn forget_sets(&mut self) {
         self.warm.clear();
     }
 }
 
-/// Archard wear coefficients and step control of a history.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WearLaw {
+/// Archard wear coefficients, effects and step control of a history.
+#[derive(Clone, Copy)]
+pub struct WearLaw<'a> {
     /// Wear coefficient of pinion and gear, mm²/N.
     pub coefficient: [f64; 2],
+    /// Physical effects on the law.
+    pub acting: Option<&'a Acting>,
     /// Allowed step error relative to the largest depth.
     pub tolerance: f64,
 }
@@ -103,7 +114,7 @@ const DEPTH_FLOOR: f64 = 1e-4;
 /// Steps never fall below this, cycles.
 const LEAST_STEP: f64 = 1e-3;
 
-impl WearLaw {
+impl WearLaw<'_> {
     fn control(&self, rate: &[f64]) -> StepControl {
         // the first step wears a tenth of the floor where the flank wears fastest
         let fastest = rate.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(*r));
@@ -123,29 +134,25 @@ impl WearLaw {
 /// [`StepError`] with the cycles reached; `progress` then holds the last accepted step.
 pub fn wear_until<M: ContactModel + ?Sized>(
     model: &M,
-    law: WearLaw,
+    law: WearLaw<'_>,
     progress: &mut Option<Progress>,
     end: f64,
     observe: &mut dyn FnMut(&Progress) -> bool,
-) -> Result<bool, StepError<ContactError>> {
-    use crate::wear::integrator::WearSystem;
+) -> Result<bool, StepError<WearError>> {
     let cycle = model.cycle();
-    let mut system = ArchardSystem::new(model, law.coefficient);
+    let mut system = ArchardSystem::new(model, law.coefficient).with(law.acting);
     let fail = |source| StepError::System { n: 0.0, source };
     let control = match progress {
         Some(_) => law.control(&[]),
         None => {
             let fresh = vec![0.0; cycle.stations.count()];
             let control = law.control(&system.rate(0.0, &fresh).map_err(fail)?);
-            let law_rate = law_rate(
-                cycle,
-                system.contacts(&fresh).map_err(fail)?,
-                law.coefficient,
-            );
+            let rate = system.area_rate(0.0, &fresh).map_err(fail)?;
             *progress = Some(Progress {
                 stand: Stand::new(fresh, control),
                 balance: Balance::default(),
-                law_rate,
+                rate,
+                displaced: [0.0; 2],
                 solves: 0,
                 max_depth: [0.0; 2],
                 warm: Vec::new(),
@@ -160,18 +167,19 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         // the step counts only once the contact at its end is known too
         let mut stand = progress.stand.clone();
         advance(&mut system, &mut stand, end, control)?;
-        let contacts = system
-            .contacts(&stand.u)
+        let rate = system
+            .area_rate(stand.n, &stand.u)
             .map_err(|source| StepError::System { n: stand.n, source })?;
-        let rate = law_rate(cycle, contacts, law.coefficient);
         let (pinion, gear) = stand.u.split_at(cycle.stations.arc[0].len());
         for side in 0..2 {
-            progress.balance.law[side] +=
-                0.5 * (stand.n - progress.stand.n) * (progress.law_rate[side] + rate[side]);
+            let half_step = 0.5 * (stand.n - progress.stand.n);
+            progress.balance.law[side] += half_step * (progress.rate.law[side] + rate.law[side]);
+            progress.displaced[side] +=
+                half_step * (progress.rate.displaced[side] + rate.displaced[side]);
             progress.balance.geometry[side] =
                 worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
         }
-        progress.law_rate = rate;
+        progress.rate = rate;
         progress.solves = solves_before + system.solves;
         progress.warm = system.warm().to_vec();
         progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
@@ -202,6 +210,7 @@ pub fn state_of<M: ContactModel + ?Sized>(
         cycles: progress.stand.n,
         depth: [pinion.to_vec(), gear.to_vec()],
         contacts,
+        displaced: progress.displaced,
     })
 }
 
@@ -212,21 +221,6 @@ pub fn worn_area(stations: &[f64], depth: &[f64]) -> f64 {
         .enumerate()
         .map(|(i, h)| h * tributary(stations, i))
         .sum()
-}
-
-/// Worn area per pinion cycle and flank by the law alone, k Σ F'|v_s| Δy, mm².
-fn law_rate(cycle: &Cycle, contacts: &[PositionContact], coefficient: [f64; 2]) -> [f64; 2] {
-    let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
-    let mut sliding_work = 0.0;
-    for (position, contact) in cycle.positions.iter().zip(contacts) {
-        for pair in &position.pairs {
-            sliding_work += line_load(pair, contact) * pair.slip.abs() * step;
-        }
-    }
-    [
-        coefficient[0] * sliding_work,
-        coefficient[1] * sliding_work / cycle.pair.speed_ratio,
-    ]
 }
 
 /// Line load of one tooth pair, N/mm.

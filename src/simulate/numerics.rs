@@ -17,7 +17,18 @@ pub struct Numerics {
     pub step_tolerance: f64,
     /// Coulomb friction (full slip) in the contact.
     pub friction: f64,
+    /// Wear since the last condensation after which the members are condensed again, mm.
+    pub condense_after: f64,
+    /// Factor on the strip in which contact is looked for from the start; it grows by itself when wear calls for it, which
+    /// changes the contact's unknowns.
+    pub room: f64,
 }
+
+/// Wear since the last condensation after which the members are condensed again, mm.
+///
+/// Condensing again after 16 µm changes load shares by 2e-4, peak pressures by less than 0.4 % away from the tips and the
+/// depth after the same cycles by 0.014 % (the validation's case on condensing again).
+pub const CONDENSE_AFTER: f64 = 0.02;
 
 impl Default for Numerics {
     fn default() -> Self {
@@ -27,6 +38,8 @@ impl Default for Numerics {
             positions: 100,
             step_tolerance: 2e-3,
             friction: 0.0,
+            condense_after: CONDENSE_AFTER,
+            room: 1.0,
         }
     }
 }
@@ -62,7 +75,7 @@ impl Numerics {
         CycleSpec {
             positions: self.positions,
             spacing,
-            window: (WINDOW * widest).max(12.0 * spacing),
+            window: self.room * (WINDOW * widest).max(12.0 * spacing),
             reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus)
                 + WORN_REACH,
         }

@@ -37,6 +37,7 @@ impl Study {
             positions: stated.positions,
             step_tolerance: stated.step_tolerance,
             friction: if stated.friction { coefficient } else { 0.0 },
+            ..Numerics::default()
         }
     }
 

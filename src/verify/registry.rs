@@ -5,7 +5,7 @@ use crate::paper::reference::ReferenceError;
 use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
 use crate::verify::{
-    CaseError, Measured, SKIPPED, Skipped, elasticity, gears, paper_rows, runner::Row,
+    CaseError, Measured, SKIPPED, Skipped, challenge, elasticity, gears, paper_rows, runner::Row,
 };
 
 /// Cases that belong together, as the runner takes them.
@@ -34,17 +34,20 @@ pub enum Work {
     Elastic(fn() -> Result<Vec<Measured>, FemError>),
     /// Whole wear histories.
     Histories(fn() -> Result<Vec<Measured>, ConvergenceError>),
+    /// Wear that an independent program computed, by the challenge's name.
+    Challenge(&'static str),
     /// Rows that judge themselves.
     Rows(fn() -> Result<Vec<Row>, ReferenceError>),
 }
 
 /// Headings, in the order shown.
-pub const GROUPS: [&str; 7] = [
+pub const GROUPS: [&str; 8] = [
     "Elements and linear solver",
     "Contact",
     "Gear geometry",
     "Gear contact",
     "Wear",
+    "Wear of an independent program",
     "Numerical error",
     "Published paper",
 ];
@@ -54,6 +57,14 @@ pub fn entries() -> Vec<Entry> {
     let mut all: Vec<Entry> = ELASTIC.iter().map(elastic).collect();
     let families = contact_and_wear::FAMILIES.iter().chain(gears::FAMILIES);
     all.extend(families.map(|f| family(f.ids, f.title, Work::Family(f.run))));
+    all.extend(challenge::NAMES.map(|(id, name)| Entry {
+        ids: vec![id.to_owned()],
+        group: "Wear of an independent program",
+        title: "wear of both flanks over five tests",
+        source: challenge::SOURCE,
+        reason: challenge::REASON,
+        work: Work::Challenge(name),
+    }));
     all.push(Entry {
         ids: convergence::IDS.map(str::to_owned).to_vec(),
         group: "Numerical error",

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use crate::verify::Measured;
 use crate::verify::contact_and_wear::Effort;
 use crate::verify::registry::{self, Entry, Work};
+use crate::verify::{Measured, challenge};
 
 /// One case with its outcome.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,6 +112,9 @@ fn run_entry(entry: &Entry, effort: Effort) -> Vec<Row> {
         Work::Family(run) => run(effort).map(measured).map_err(|e| e.to_string()),
         Work::Elastic(run) => run().map(measured).map_err(|e| e.to_string()),
         Work::Histories(run) => run().map(measured).map_err(|e| e.to_string()),
+        Work::Challenge(name) => challenge::judge(name)
+            .map(measured)
+            .map_err(|e| e.to_string()),
         Work::Rows(run) => run().map_err(|e| e.to_string()),
     };
     let mut rows = match result {

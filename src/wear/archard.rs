@@ -4,26 +4,58 @@
 //! dh/dn (mm per pinion cycle) = ∫ k p |v| dy over the passage,  for the gear times z₁/z₂ passages per pinion cycle
 //! ```
 //! Archard, J. Appl. Phys. 24 (1953); the passage integral is that of Andersson & Eriksson's single-point observation
-//! (Nordtrib 1990), here with the pressure solved at every position instead of a Hertz profile.
+//! (Nordtrib 1990), here with the pressure solved at every position instead of a Hertz profile. Physical effects multiply
+//! the law's k by f(local state) inside the integral and add depth a once per contact:
+//!
+//! ```text
+//! dh/dn = ∫ k f p |v| dy + a
+//! ```
 
 use faer::Mat;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::contact::cycle::{PairContact, Position};
+use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::effects::{Effect, Hook};
+use crate::gear::Member;
 use crate::numeric::sparse::SparseRows;
+use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::integrator::WearSystem;
+use crate::wear::passage::Passage;
+
+/// Why wear has no rate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum WearError {
+    /// Contact could not be solved.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// A physical effect gave no usable number.
+    #[error("{0}")]
+    Effect(String),
+}
 
 /// The two flanks' depths as one vector: pinion stations, then gear stations, mm.
 pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
     model: &'a M,
     /// Wear coefficient of pinion and gear, mm²/N.
     coefficient: [f64; 2],
+    acting: Option<&'a Acting>,
+    passage: Option<Passage>,
     warm: Vec<Vec<usize>>,
     last: Option<(Vec<f64>, Vec<PositionContact>)>,
     /// Contact problems solved so far.
     pub solves: usize,
+}
+
+/// Worn area per pinion cycle and flank, pinion and gear, mm².
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+pub struct AreaRate {
+    /// By the law: ∮ k f F'|v_s| dt, and what effects add.
+    pub law: [f64; 2],
+    /// Of that, what effects only displace: depth without loss of mass.
+    pub displaced: [f64; 2],
 }
 
 impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
@@ -32,10 +64,21 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         Self {
             model,
             coefficient,
+            acting: None,
+            passage: None,
             warm: vec![Vec::new(); model.cycle().positions.len()],
             last: None,
             solves: 0,
         }
+    }
+
+    /// The same with physical effects.
+    pub fn with(mut self, acting: Option<&'a Acting>) -> Self {
+        self.acting = acting;
+        self.passage = acting
+            .filter(|acting| acting.acts(Hook::AddedDepth))
+            .map(|_| Passage::new(self.model.cycle()));
+        self
     }
 
     /// Goes on from the contact sets `warm` (one list of unknowns per position; others are ignored).
@@ -72,12 +115,189 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         Ok(&self.last.as_ref().expect("just filled").1)
     }
 
+    /// Worn area per pinion cycle at `n` cycles for the depths `u`, from the line loads.
+    ///
+    /// # Errors
+    /// [`WearError`]
+    pub fn area_rate(&mut self, n: f64, u: &[f64]) -> Result<AreaRate, WearError> {
+        self.contacts(u)?;
+        let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
+        let view = self.view(n, u);
+        let cycle = self.model.cycle();
+        let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
+        let mut work = [0.0; 2];
+        for (position, contact) in cycle.positions.iter().zip(contacts) {
+            let factors = self.wear_factors(&view, position, contact);
+            for pair in &position.pairs {
+                let slip = pair.slip.abs() * step;
+                for (side, work) in work.iter_mut().enumerate() {
+                    let load: f64 = (pair.length.iter().enumerate())
+                        .map(|(k, length)| {
+                            let at = pair.offset + k;
+                            let plain = length * contact.pressure[at];
+                            factors.as_ref().map_or(plain, |f| plain * f[side][at])
+                        })
+                        .sum();
+                    *work += load * slip;
+                }
+            }
+        }
+        let mut rate = AreaRate {
+            law: [
+                self.coefficient[0] * work[0],
+                self.coefficient[1] * work[1] / cycle.pair.speed_ratio,
+            ],
+            displaced: [0.0; 2],
+        };
+        for added in self.added(&view, contacts) {
+            let width = tributary(&cycle.stations.arc[added.side], added.station);
+            rate.law[added.side] += (added.removed + added.displaced) * width;
+            rate.displaced[added.side] += added.displaced * width;
+        }
+        Ok(rate)
+    }
+
     fn factors(&self) -> [f64; 2] {
         [
             self.coefficient[0],
             self.coefficient[1] / self.model.cycle().pair.speed_ratio,
         ]
     }
+
+    fn view<'b>(&self, n: f64, u: &'b [f64]) -> View<'b> {
+        let depth = split(self.model, u);
+        let worn_volume = self
+            .acting
+            .map_or(0.0, |acting| acting.worn_volume(self.model.cycle(), depth));
+        View {
+            depth,
+            age: Age {
+                cycles: n,
+                worn_volume,
+            },
+        }
+    }
+
+    /// Factor on k at every unknown of position `q` on pinion and gear; `None`: 1 everywhere.
+    fn wear_factors(
+        &self,
+        view: &View,
+        position: &Position,
+        contact: &PositionContact,
+    ) -> Option<[Vec<f64>; 2]> {
+        self.each_factor(view, position, contact, |f, _, _| f)
+    }
+
+    /// The same of f + p df/dp: what a small change of pressure changes f p by.
+    fn pressure_slopes(
+        &self,
+        view: &View,
+        position: &Position,
+        contact: &PositionContact,
+    ) -> Option<[Vec<f64>; 2]> {
+        const STEP: f64 = 1e-4;
+        self.each_factor(view, position, contact, |f, acting, local| {
+            let mut more = *local;
+            more.pressure *= 1.0 + STEP;
+            more.peak_pressure *= 1.0 + STEP;
+            f + (acting.effects.wear_factor(&more) - f) / STEP
+        })
+    }
+
+    fn each_factor(
+        &self,
+        view: &View,
+        position: &Position,
+        contact: &PositionContact,
+        of: impl Fn(f64, &Acting, &crate::effects::Local) -> f64,
+    ) -> Option<[Vec<f64>; 2]> {
+        let acting = self.acting.filter(|a| a.acts(Hook::WearFactor))?;
+        let cycle = self.model.cycle();
+        let mut factors = [(); 2].map(|()| vec![1.0; contact.pressure.len()]);
+        for pair in &position.pairs {
+            let mut local = acting.at_pair(cycle, pair, PairLoad::of(pair, contact), view.age);
+            for k in 0..pair.xi.len() {
+                let p = contact.pressure[pair.offset + k];
+                if p <= 0.0 {
+                    continue;
+                }
+                for member in Member::BOTH {
+                    let side = side(member);
+                    let depth = pair.opening[side].dot(k, view.depth[side]) / pair.length[k];
+                    acting.at_point(&mut local, cycle, member, pair.arc[side][k], depth, p);
+                    let f = acting.effects.wear_factor(&local);
+                    factors[side][pair.offset + k] = of(f, acting, &local);
+                }
+            }
+        }
+        Some(factors)
+    }
+
+    /// What effects add at every station, mm per pinion cycle.
+    fn added(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added> {
+        let (Some(acting), Some(passage)) = (self.acting, &self.passage) else {
+            return Vec::new();
+        };
+        const STEP: f64 = 1e-4;
+        let cycle = self.model.cycle();
+        let locals: Vec<_> = (0..passage.order.len())
+            .map(|m| {
+                let pair = passage.pair(cycle, m);
+                let load = PairLoad::of(pair, &contacts[passage.order[m].0]);
+                acting.at_pair(cycle, pair, load, view.age)
+            })
+            .collect();
+        let mut out = Vec::new();
+        for member in Member::BOTH {
+            let side = side(member);
+            let per_cycle = 1e-3 / [1.0, cycle.pair.speed_ratio][side];
+            for (station, moment) in passage.moments(cycle, contacts, side).iter().enumerate() {
+                let mut local = locals[moment.pair];
+                local.peak_pressure = moment.pressure;
+                let arc = cycle.stations.arc[side][station];
+                let depth = view.depth[side][station];
+                acting.at_point(&mut local, cycle, member, arc, depth, moment.pressure);
+                let [removed, displaced] = acting.effects.added_depths(&local);
+                let slope = if moment.pressure > 0.0 {
+                    local.pressure *= 1.0 + STEP;
+                    local.peak_pressure *= 1.0 + STEP;
+                    let [more, moved] = acting.effects.added_depths(&local);
+                    per_cycle * (more + moved - removed - displaced) / (STEP * moment.pressure)
+                } else {
+                    0.0
+                };
+                out.push(Added {
+                    side,
+                    station,
+                    removed: per_cycle * removed,
+                    displaced: per_cycle * displaced,
+                    slope,
+                    read: moment.read,
+                });
+            }
+        }
+        out
+    }
+}
+
+/// Depths and age that effects are told.
+struct View<'b> {
+    depth: [&'b [f64]; 2],
+    age: Age,
+}
+
+/// What effects add at one station.
+struct Added {
+    side: usize,
+    station: usize,
+    /// mm per pinion cycle, material lost.
+    removed: f64,
+    /// mm per pinion cycle, material moved aside.
+    displaced: f64,
+    /// Change of both with the largest pressure, mm per MPa.
+    slope: f64,
+    /// The unknowns that pressure is read from.
+    read: [(u32, u32, f64); 4],
 }
 
 /// Pinion and gear part of the joint depth vector.
@@ -87,34 +307,49 @@ fn split<'u, M: ContactModel + ?Sized>(model: &M, u: &'u [f64]) -> [&'u [f64]; 2
 }
 
 impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
-    type Error = ContactError;
+    type Error = WearError;
 
-    fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, ContactError> {
-        let factors = self.factors();
+    fn rate(&mut self, n: f64, u: &[f64]) -> Result<Vec<f64>, WearError> {
+        let scale = self.factors();
         self.contacts(u)?;
         let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
+        let view = self.view(n, u);
         let cycle = self.model.cycle();
+        let factors: Vec<_> = (cycle.positions.par_iter().zip(contacts))
+            .map(|(position, contact)| self.wear_factors(&view, position, contact))
+            .collect();
         let mut rate = vec![0.0; u.len()];
         let (pinion, gear) = rate.split_at_mut(cycle.stations.arc[0].len());
-        for (position, contact) in cycle.positions.iter().zip(contacts) {
+        for ((position, contact), factors) in cycle.positions.iter().zip(contacts).zip(factors) {
             for pair in &position.pairs {
                 for (side, depth) in [&mut *pinion, &mut *gear].into_iter().enumerate() {
                     for k in 0..pair.xi.len() {
-                        let p = contact.pressure[pair.offset + k];
+                        let at = pair.offset + k;
+                        let p = contact.pressure[at];
                         if p > 0.0 {
-                            pair.wear[side].scatter(k, factors[side] * p, depth);
+                            let kp = scale[side] * p;
+                            let kp = factors.as_ref().map_or(kp, |f| kp * f[side][at]);
+                            pair.wear[side].scatter(k, kp, depth);
                         }
                     }
                 }
             }
         }
-        Ok(rate)
+        for added in self.added(&view, contacts) {
+            [&mut *pinion, &mut *gear][added.side][added.station] +=
+                added.removed + added.displaced;
+        }
+        match self.acting.and_then(|acting| acting.effects.fault()) {
+            Some(fault) => Err(WearError::Effect(fault)),
+            None => Ok(rate),
+        }
     }
 
-    fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Mat<f64>>, ContactError> {
-        let factors = self.factors();
+    fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Mat<f64>>, WearError> {
+        let scale = self.factors();
         self.contacts(u)?;
         let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
+        let view = self.view(n, u);
         let cycle = self.model.cycle();
         let shift = [0, cycle.stations.arc[0].len()];
         let blocks: Vec<Option<DMatrix<f64>>> = contacts
@@ -123,13 +358,22 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
             .map(|(q, contact)| self.model.sensitivity(q, contact))
             .collect::<Result<_, _>>()?;
         let mut jacobian = Mat::zeros(u.len(), u.len());
-        for ((position, contact), block) in cycle.positions.iter().zip(contacts).zip(blocks) {
+        let added = self.added(&view, contacts);
+        for (q, (contact, block)) in contacts.iter().zip(blocks).enumerate() {
             let Some(block) = block else { return Ok(None) };
+            let position = &cycle.positions[q];
+            let reads = added.iter().flat_map(|a| {
+                let at = shift[a.side] + a.station;
+                let here = a.read.iter().filter(|r| r.0 as usize == q && r.2 != 0.0);
+                here.map(move |&(_, k, weight)| (k as usize, at, weight * a.slope))
+            });
             let local = Local {
                 position,
                 active: &contact.active,
                 shift,
-                factors,
+                scale,
+                slopes: self.pressure_slopes(&view, position, contact),
+                reads: reads.collect(),
             };
             local.add(&block, &mut jacobian);
         }
@@ -143,7 +387,12 @@ struct Local<'a> {
     active: &'a [usize],
     /// First unknown of each flank.
     shift: [usize; 2],
-    factors: [f64; 2],
+    /// Depth rate per pressure of pinion and gear: k per pinion cycle.
+    scale: [f64; 2],
+    /// Change of f p with p at the unknowns, pinion and gear; `None`: 1.
+    slopes: Option<[Vec<f64>; 2]>,
+    /// What effects add: unknown, joint station, mm per cycle and MPa.
+    reads: Vec<(usize, usize, f64)>,
 }
 
 impl Local<'_> {
@@ -171,8 +420,11 @@ impl Local<'_> {
             .active
             .iter()
             .map(|&k| {
+                let slope = |side: usize| self.slopes.as_ref().map_or(1.0, |s| s[side][k]);
+                let read = self.reads.iter().filter(|read| read.0 == k);
                 self.row(k, |pair| &pair.wear)
-                    .map(|(at, v, side)| (at, self.factors[side] * v))
+                    .map(|(at, v, side)| (at, self.scale[side] * slope(side) * v))
+                    .chain(read.map(|&(_, at, value)| (at, value)))
                     .collect()
             })
             .collect();

@@ -1,4 +1,6 @@
 //! Floor 5: Archard wear of both flanks, and its integration over cycles.
 
+pub mod acting;
 pub mod archard;
 pub mod integrator;
+pub mod passage;

@@ -10,6 +10,7 @@ use gearwear::simulate::forward::Forward;
 use gearwear::simulate::history::{WearLaw, wear_until};
 use gearwear::simulate::run::Plan;
 use gearwear::study::Study;
+use gearwear::wear::archard::WearError;
 use gearwear::wear::integrator::StepError;
 use nalgebra::DMatrix;
 
@@ -105,7 +106,7 @@ fn contact_that_fails_at_one_position_stops_the_wear_there() {
             source.to_string().contains("mesh position 0.25"),
             "{source}"
         );
-        assert!(matches!(source, ContactError::WindowTooNarrow { theta, .. } if theta == 0.25));
+        assert!(matches!(source, WearError::Contact(ContactError::WindowTooNarrow { theta, .. }) if theta == 0.25));
         assert!(n < 1e5);
         let kept = progress.expect("the start is kept");
         assert_eq!(kept.stand.n, steps.last().map_or(0.0, |p| p.stand.n));
@@ -201,8 +202,9 @@ fn a_checkpoint_that_cannot_be_kept_ends_the_run() {
     );
 }
 
-const LAW: WearLaw = WearLaw {
+const LAW: WearLaw<'static> = WearLaw {
     coefficient: [6e-10; 2],
+    acting: None,
     tolerance: 2e-3,
 };
 

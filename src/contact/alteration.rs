@@ -1,0 +1,57 @@
+//! What physical effects change about the contact itself: plain numbers on the grid of a mesh cycle.
+
+use crate::contact::cycle::{Cycle, PairContact, Position};
+
+/// Changes of the contact over a mesh cycle; the default changes nothing.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Alteration {
+    /// Material missing before the start at the stations of pinion and gear, mm.
+    pub profile: Option<[Vec<f64>; 2]>,
+    /// Factor on the load of each tooth pair, by position and pair: its lever in the torque balance is divided by it.
+    pub load_factor: Option<Vec<Vec<f64>>>,
+    /// Deflection added to each tooth pair per line load, mm per N/mm.
+    pub flexibility: f64,
+    /// How far pinion teeth −2 to 2 stand back along the path of contact, mm; tooth 0 is the measured one.
+    pub tooth_offset: Option<[f64; 5]>,
+}
+
+impl Alteration {
+    /// Whether nothing is changed.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Load factor of pair number `index` of position `q`.
+    pub fn factor(&self, q: usize, index: usize) -> f64 {
+        self.load_factor
+            .as_ref()
+            .map_or(1.0, |factors| factors[q][index])
+    }
+
+    /// How far tooth pair `index` stands back where pair `measured` of the same position is that of the measured tooth, mm.
+    ///
+    /// Pairs stand by ascending path, and the tooth that comes next into mesh (number 1) is at the smaller path.
+    pub fn offset(&self, measured: usize, index: usize) -> f64 {
+        let tooth = measured as i64 - index as i64;
+        let at = |offsets: &[f64; 5]| offsets.get((tooth + 2) as usize).copied().unwrap_or(0.0);
+        self.tooth_offset.as_ref().map_or(0.0, at)
+    }
+
+    /// Weighted gaps that the profile opens, position by position.
+    pub fn gaps(&self, cycle: &Cycle) -> Option<Vec<Vec<f64>>> {
+        let [pinion, gear] = self.profile.as_ref()?;
+        let opened = |position: &Position| {
+            let mut gap = vec![0.0; position.gap.len()];
+            position.open([pinion, gear], &mut gap);
+            gap
+        };
+        Some(cycle.positions.iter().map(opened).collect())
+    }
+}
+
+/// `gap` with pair `pair` set back by `offset` (mm).
+pub(super) fn set_back(gap: &mut [f64], pair: &PairContact, offset: f64) {
+    for (k, length) in pair.length.iter().enumerate() {
+        gap[pair.offset + k] += offset * length;
+    }
+}

@@ -1,0 +1,252 @@
+//! How wrong a fitted model is, and where: what `comparison.json` is written from.
+
+use serde::{Deserialize, Serialize};
+
+use super::fit::Fit;
+use super::parameters::Estimate;
+use super::region::Map;
+use super::tally::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
+use super::uncertainty::{Validation, validate};
+use super::worst::sentence;
+use crate::measure::{Dataset, Quantity};
+use crate::study::{Role, Study};
+
+/// Standardised residuals beyond which a row is listed: one in 16 000 by chance.
+const OUTLIER: f64 = 4.0;
+
+/// A fitted model against its measurements. Depths in µm; signs are model minus measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Comparison {
+    /// Number of observations.
+    pub points: usize,
+    /// Mean squared standardised residual of all of them; 1 is the noise floor.
+    pub chi2_per_point: f64,
+    /// Root mean square of model minus measured over wear depths; None without any.
+    pub rms_um: Option<f64>,
+    /// Root mean square of their sigmas.
+    pub noise_rms_um: Option<f64>,
+    /// Of the fit tests.
+    pub fit: Share,
+    /// Of the held-out tests.
+    pub holdout: Share,
+    /// What was free.
+    pub parameters: Vec<ParameterRecord>,
+    /// Every cell of test, member, quantity, region and cycle interval, the worst first.
+    #[serde(rename = "where")]
+    pub places: Vec<Cell>,
+    /// Where the model fails worst, in plain words.
+    pub worst: String,
+    /// What is doubtful about the fit itself.
+    pub warnings: Vec<String>,
+    /// Each test with its own wear coefficient.
+    pub tests: Vec<TestRecord>,
+    /// Scatter of the wear coefficient between tests, relative, and where 68 % of its posterior lie.
+    pub coefficient_scatter: f64,
+    /// See `coefficient_scatter`.
+    pub coefficient_scatter_interval: [f64; 2],
+    /// By member.
+    pub by_member: Vec<Group>,
+    /// By region of the path of contact.
+    pub by_region: Vec<Group>,
+    /// By share of the test's length.
+    pub by_life: Vec<Group>,
+    /// By quantity.
+    pub by_quantity: Vec<Group>,
+    /// Comparison error against validation uncertainty, in the way of ASME V&V 20.
+    pub validation: Vec<Validation>,
+    /// Rows further off than four of their sigmas, the furthest first.
+    pub outliers: Vec<Outlier>,
+    /// Whether the fit converged.
+    pub converged: bool,
+    /// Logarithm of the marginal likelihood of the fit tests.
+    pub log_evidence: f64,
+    /// Predictions of single tests that the fit took.
+    pub evaluations: usize,
+}
+
+/// A fitted parameter as result files have it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ParameterRecord {
+    /// `wear.coefficient` or `effect.parameter`.
+    pub name: String,
+    /// Most probable value.
+    pub value: f64,
+    /// One standard deviation.
+    pub sigma: f64,
+    /// Whether it lies on a bound.
+    pub at_bound: bool,
+    /// 95 % interval.
+    pub interval_95: [f64; 2],
+    /// Unit.
+    pub unit: String,
+}
+
+/// One test as fitted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TestRecord {
+    /// Its id.
+    pub test: String,
+    /// `fit` or `holdout`.
+    pub role: String,
+    /// Its own most probable wear coefficient, mm²/N.
+    pub coefficient: f64,
+    /// Standard deviation of that, mm²/N.
+    pub coefficient_sigma: f64,
+    /// Number of observations.
+    pub points: usize,
+    /// Mean squared standardised residual.
+    pub chi2_per_point: f64,
+    /// Mean of model minus measured over wear depths, µm.
+    pub bias_um: Option<f64>,
+    /// Root mean square of the same, µm.
+    pub rms_um: Option<f64>,
+}
+
+/// A row far off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Outlier {
+    /// File and line.
+    pub place: String,
+    /// Id of the test.
+    pub test: String,
+    /// `pinion`, `gear` or `pair`.
+    pub member: String,
+    /// What was measured.
+    pub quantity: String,
+    /// When, pinion revolutions.
+    pub cycles: f64,
+    /// Where, in the file's unit.
+    pub position: Option<f64>,
+    /// (model − measured)/sigma, the datum subtracted.
+    pub standardised: f64,
+}
+
+impl Comparison {
+    /// Of a fit to a study's measurements.
+    pub fn new(study: &Study, data: &Dataset, fit: &Fit) -> Self {
+        let map = Map::new(study, data);
+        let rows = fitted(data, fit);
+        let roles: Vec<Role> = study.tests.iter().map(|test| test.role).collect();
+        let with = |role: Role| {
+            rows.iter()
+                .copied()
+                .filter(move |(o, _)| study.tests[o.test].role == role)
+        };
+        let all = Share::of(rows.iter().copied());
+        let cells = cells(study, &rows, &map);
+        let worst = sentence(&cells, &map, all.chi2_per_point);
+        let mut places: Vec<Cell> = cells.into_values().collect();
+        places.sort_by(|a, b| b.chi2_per_point.total_cmp(&a.chi2_per_point));
+        let life = |o: &crate::measure::Observation| {
+            let share = o.cycles / study.tests[o.test].conditions.cycles;
+            Some(((4.0 * share).ceil() as usize).clamp(1, 4))
+        };
+        Self {
+            points: all.points,
+            chi2_per_point: all.chi2_per_point.unwrap_or_default(),
+            rms_um: all.rms_um,
+            noise_rms_um: noise_rms(&rows),
+            fit: Share::of(with(Role::Fit)),
+            holdout: Share::of(with(Role::Holdout)),
+            parameters: fit.parameters.iter().map(ParameterRecord::new).collect(),
+            places,
+            worst,
+            warnings: warnings(fit),
+            tests: test_records(study, fit, &rows),
+            coefficient_scatter: fit.scatter,
+            coefficient_scatter_interval: fit.scatter_interval,
+            by_member: Group::by(&rows, |o| Some(o.member), |m| m.name().to_owned()),
+            by_region: Group::by(&rows, |o| map.region(o), |r| r.name().to_owned()),
+            by_life: Group::by(&rows, life, |q| {
+                format!("{} to {} % of the test", 25 * (q - 1), 25 * q)
+            }),
+            by_quantity: Group::by(&rows, |o| Some(o.quantity), |q| q.name().to_owned()),
+            validation: validate(data, &roles, fit, &rows),
+            outliers: outliers(data, &rows),
+            converged: fit.converged,
+            log_evidence: fit.log_evidence,
+            evaluations: fit.evaluations,
+        }
+    }
+}
+
+impl ParameterRecord {
+    /// From a fit's estimate.
+    pub fn new(estimate: &Estimate) -> Self {
+        Self {
+            name: estimate.name.clone(),
+            value: estimate.value,
+            sigma: estimate.sigma,
+            at_bound: estimate.at_bound,
+            interval_95: estimate.interval,
+            unit: estimate.unit.clone(),
+        }
+    }
+}
+
+fn noise_rms(rows: &[Fitted<'_>]) -> Option<f64> {
+    let depths: Vec<f64> = rows
+        .iter()
+        .filter(|(o, _)| o.quantity == Quantity::WearDepth)
+        .map(|(o, _)| o.sigma.powi(2))
+        .collect();
+    (!depths.is_empty()).then(|| (depths.iter().sum::<f64>() / depths.len() as f64).sqrt())
+}
+
+fn warnings(fit: &Fit) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if !fit.converged {
+        warnings.push(format!(
+            "the fit did not converge in {} steps",
+            fit.iterations
+        ));
+    }
+    for parameter in fit.parameters.iter().filter(|p| p.at_bound) {
+        warnings.push(format!(
+            "{} lies on its bound, {:e}",
+            parameter.name, parameter.value
+        ));
+    }
+    warnings
+}
+
+fn test_records(study: &Study, fit: &Fit, rows: &[Fitted<'_>]) -> Vec<TestRecord> {
+    let record = |fitted: &super::fit::TestFit| {
+        let own: Vec<Fitted<'_>> = rows
+            .iter()
+            .copied()
+            .filter(|(o, _)| o.test == fitted.test)
+            .collect();
+        let share = Share::of(own.iter().copied());
+        TestRecord {
+            test: study.tests[fitted.test].id.clone(),
+            role: role_name(fitted.role).to_owned(),
+            coefficient: fitted.coefficient,
+            coefficient_sigma: fitted.coefficient * fitted.sigma,
+            points: share.points,
+            chi2_per_point: share.chi2_per_point.unwrap_or_default(),
+            bias_um: wear(&own, |r| r),
+            rms_um: share.rms_um,
+        }
+    };
+    fit.tests.iter().map(record).collect()
+}
+
+fn outliers(data: &Dataset, rows: &[Fitted<'_>]) -> Vec<Outlier> {
+    let far = rows
+        .iter()
+        .filter(|(_, row)| row.standardised.abs() > OUTLIER);
+    let mut outliers: Vec<Outlier> = far
+        .map(|(o, row)| Outlier {
+            place: data.place(o),
+            test: data.tests[o.test].clone(),
+            member: o.member.name().to_owned(),
+            quantity: o.quantity.name().to_owned(),
+            cycles: o.cycles,
+            position: o.position,
+            standardised: row.standardised,
+        })
+        .collect();
+    outliers.sort_by(|a, b| b.standardised.abs().total_cmp(&a.standardised.abs()));
+    outliers
+}

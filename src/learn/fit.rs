@@ -1,0 +1,406 @@
+//! Fits what is free to the measurements of the fit tests, then judges the held-out ones.
+
+use std::f64::consts::PI;
+
+use nalgebra::DMatrix;
+
+use super::evaluate::Evaluator;
+use super::noise::{Covariance, Datum, NoiseModel};
+use super::parameters::{Estimate, Parameter};
+use super::predictor::{PredictError, Predictor};
+use super::quadratic::{Layout, Quadratic, State};
+use super::scatter::marginal;
+use super::search::{Effort, Found, Search};
+use crate::measure::{Dataset, Quantity};
+use crate::study::{Role, Scatter};
+
+/// A model, what is free in it, and the measurements.
+pub struct Problem<'a> {
+    /// The measurements.
+    pub data: &'a Dataset,
+    /// The role of each test of the data set.
+    pub roles: &'a [Role],
+    /// The model.
+    pub predictor: &'a dyn Predictor,
+    /// The wear coefficient.
+    pub coefficient: Coefficient,
+    /// The model's free effect parameters, in its order.
+    pub parameters: Vec<Parameter>,
+    /// What the measurements carry beyond the model.
+    pub noise: NoiseModel,
+}
+
+/// The wear coefficient common to all tests.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Coefficient {
+    /// Fitted.
+    Free(Parameter),
+    /// Known, mm²/N; single tests may still scatter about it.
+    Fixed(f64),
+}
+
+/// What a fit found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The free parameters: the wear coefficient first, if it is free, then the effects'.
+    pub parameters: Vec<Estimate>,
+    /// Their covariance on natural scales, the scatter of k integrated out.
+    pub covariance: DMatrix<f64>,
+    /// The common wear coefficient, mm²/N.
+    pub coefficient: f64,
+    /// Most probable scatter of k between tests, relative.
+    pub scatter: f64,
+    /// Where 16 and 84 % of its posterior lie.
+    pub scatter_interval: [f64; 2],
+    /// Every test that has observations.
+    pub tests: Vec<TestFit>,
+    /// Every trace's most probable datum.
+    pub datums: Vec<Datum>,
+    /// Per observation of the data set.
+    pub rows: Vec<RowFit>,
+    /// Logarithm of the posterior density on natural scales, datums marginalised, without its normalising constant.
+    pub log_posterior: f64,
+    /// Logarithm of the marginal likelihood of the fit tests: parameters, k per test, datums and scatter integrated out.
+    pub log_evidence: f64,
+    /// Whether a further step would gain nothing.
+    pub converged: bool,
+    /// Steps.
+    pub iterations: usize,
+    /// Predictions of single tests.
+    pub evaluations: usize,
+}
+
+/// One test in a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TestFit {
+    /// Its number in the data set.
+    pub test: usize,
+    /// Its role.
+    pub role: Role,
+    /// Its own wear coefficient, mm²/N.
+    pub coefficient: f64,
+    /// Standard deviation of that coefficient's logarithm.
+    pub sigma: f64,
+    /// ε: the logarithm of its coefficient over the common one.
+    pub deviation: f64,
+    /// Standard deviations of the prediction's rows that what was fitted leaves, in the unit of each row, in the test's order.
+    pub uncertainty: Jacobian,
+}
+
+/// How a test's predictions change with what was fitted, and how well that is known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jacobian {
+    /// Observations of the data set, per row.
+    pub rows: Vec<usize>,
+    /// Derivatives with respect to (effect parameters on natural scales, ln k of the test).
+    pub derivatives: DMatrix<f64>,
+    /// Covariance of those.
+    pub covariance: DMatrix<f64>,
+}
+
+impl Jacobian {
+    /// Standard deviation of a weighted sum of the test's predictions; `weights` by observation.
+    pub fn of_sum(&self, weight: impl Fn(usize) -> f64) -> f64 {
+        let mut change = nalgebra::RowDVector::zeros(self.derivatives.ncols());
+        for (i, &row) in self.rows.iter().enumerate() {
+            change += self.derivatives.row(i) * weight(row);
+        }
+        (&change * &self.covariance * change.transpose())[(0, 0)]
+            .max(0.0)
+            .sqrt()
+    }
+}
+
+/// One observation in a fit, in the unit of its quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowFit {
+    /// What the model says.
+    pub model: f64,
+    /// The most probable datum of its trace, 0 without one.
+    pub datum: f64,
+    /// Model minus (measured minus datum).
+    pub residual: f64,
+    /// The residual over the row's sigma.
+    pub standardised: f64,
+}
+
+/// Why there is no fit.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FitError {
+    /// The model has no answer at the start or in every direction from where the fit stands.
+    #[error("the model cannot be fitted: {0}")]
+    Predict(#[from] PredictError),
+    /// Nothing to fit to.
+    #[error("no test with role \"fit\" has a measurement")]
+    NoObservations,
+}
+
+impl Problem<'_> {
+    /// The fit from the parameters' starts.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn fit(&self, effort: &Effort) -> Result<Fit, FitError> {
+        let start: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
+        self.fit_from(&[start], effort)
+    }
+
+    /// The best fit from several starts: each the values of all effect parameters.
+    ///
+    /// # Errors
+    /// [`FitError`] if no start leads to a fit.
+    pub fn fit_from(&self, starts: &[Vec<f64>], effort: &Effort) -> Result<Fit, FitError> {
+        let fit = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
+        if fit.tests.is_empty() {
+            return Err(FitError::NoObservations);
+        }
+        let mut evaluator = self.evaluator();
+        let mut best: Option<Found> = None;
+        let mut failure = None;
+        for start in starts {
+            let state = self.state(start, fit.tests.len());
+            match fit.run(&mut evaluator, state, effort) {
+                // A later start must be better by more than the tolerance, so that equals keep their order.
+                Ok(found) => {
+                    let better = |b: &Found| found.objective < b.objective - effort.tolerance;
+                    if best.as_ref().is_none_or(better) {
+                        best = Some(found);
+                    }
+                }
+                Err(error) => failure = failure.or(Some(error)),
+            }
+        }
+        let found = match (best, failure) {
+            (Some(found), _) => found,
+            (None, Some(error)) => return Err(error.into()),
+            (None, None) => return Err(FitError::NoObservations),
+        };
+        self.finish(&fit, found, &mut evaluator, effort)
+    }
+
+    /// Adds the held-out tests to what was found and puts it all together.
+    fn finish(
+        &self,
+        fit: &Search<'_>,
+        found: Found,
+        evaluator: &mut Evaluator<'_>,
+        effort: &Effort,
+    ) -> Result<Fit, FitError> {
+        let mut held = self.search(Role::Holdout, None, &self.parameters);
+        held.scatter = Scatter::Relative(found.scatter);
+        let mut converged = found.converged;
+        let mut parts = vec![(fit, &found)];
+        let held_found;
+        if !held.tests.is_empty() {
+            let state = State {
+                epsilon: vec![0.0; held.tests.len()],
+                ..found.state.clone()
+            };
+            held_found = held.run(evaluator, state, effort)?;
+            converged &= held_found.converged;
+            parts.push((&held, &held_found));
+        }
+        let posterior = marginal(self.noise.scatter, &fit.layout, &found.normal, &found.state);
+        let count = fit.measured.len() as f64;
+        let constant = 0.5 * (count * (2.0 * PI).ln() + fit.covariance.log_determinant());
+        let nothing = RowFit {
+            model: 0.0,
+            datum: 0.0,
+            residual: 0.0,
+            standardised: 0.0,
+        };
+        let mut rows = vec![nothing; self.data.observations.len()];
+        let mut tests = Vec::new();
+        let mut datums = Vec::new();
+        for (search, part) in parts {
+            self.rows_of(search, part, &mut rows, &mut datums);
+            self.tests_of(search, part, &mut tests);
+        }
+        tests.sort_by_key(|test| test.test);
+        datums.sort_by_key(|datum| datum.trace);
+        Ok(Fit {
+            parameters: self.estimates(fit, &found, &posterior.covariance),
+            coefficient: found.state.log_k.exp(),
+            covariance: posterior.covariance,
+            scatter: found.scatter,
+            scatter_interval: posterior.interval,
+            tests,
+            datums,
+            rows,
+            log_posterior: -found.objective - constant,
+            log_evidence: posterior.log_integral - constant,
+            converged,
+            iterations: found.iterations,
+            evaluations: evaluator.evaluations(),
+        })
+    }
+
+    fn estimates(
+        &self,
+        fit: &Search<'_>,
+        found: &Found,
+        covariance: &DMatrix<f64>,
+    ) -> Vec<Estimate> {
+        // A mode held by a bound is not the centre of its normal: that lies where the parabola is least without bounds.
+        let quadratic = Quadratic::new(&fit.layout, &found.normal, &found.state, found.scatter);
+        let free = quadratic.least(&fit.layout);
+        let coefficient = fit.coefficient.map(|p| (p, found.state.log_k));
+        let all = coefficient.into_iter().chain(
+            self.parameters
+                .iter()
+                .zip(found.state.theta.iter().copied()),
+        );
+        all.enumerate()
+            .map(|(i, (parameter, mode))| {
+                let sd = covariance[(i, i)].sqrt();
+                parameter.estimate(mode, mode + free[i], sd)
+            })
+            .collect()
+    }
+
+    fn rows_of(
+        &self,
+        search: &Search<'_>,
+        found: &Found,
+        rows: &mut [RowFit],
+        datums: &mut Vec<Datum>,
+    ) {
+        let numbers = self.numbers(&search.tests);
+        let residual: Vec<f64> = search
+            .measured
+            .iter()
+            .zip(&found.model)
+            .map(|(y, f)| y - f)
+            .collect();
+        let found_datums = search.covariance.datums(&residual);
+        for (i, &row) in numbers.iter().enumerate() {
+            let observation = &self.data.observations[row];
+            let datum = observation
+                .trace
+                .and_then(|trace| found_datums.iter().find(|d| d.trace == trace));
+            let datum = datum.map_or(0.0, |datum| datum.value);
+            let off = found.model[i] + datum - observation.value;
+            rows[row] = RowFit {
+                model: found.model[i],
+                datum,
+                residual: off,
+                standardised: off / observation.sigma,
+            };
+        }
+        datums.extend(found_datums);
+    }
+
+    fn tests_of(&self, search: &Search<'_>, found: &Found, tests: &mut Vec<TestFit>) {
+        let quadratic = Quadratic::new(&search.layout, &found.normal, &found.state, found.scatter);
+        let covariance = quadratic.mapped_covariance();
+        let params = search.layout.parameters.len();
+        let numbers = self.numbers(&search.tests);
+        for (i, &test) in search.tests.iter().enumerate() {
+            let columns: Vec<usize> = (0..params).chain([params + i]).collect();
+            let deviation = found.state.epsilon[i];
+            tests.push(TestFit {
+                test,
+                role: self.roles[test],
+                coefficient: (found.state.log_k + deviation).exp(),
+                sigma: covariance[(params + i, params + i)].max(0.0).sqrt(),
+                deviation,
+                uncertainty: Jacobian {
+                    rows: search.rows[i].iter().map(|&row| numbers[row]).collect(),
+                    derivatives: found
+                        .jacobian
+                        .select_rows(&search.rows[i])
+                        .select_columns(&columns),
+                    covariance: covariance.select_rows(&columns).select_columns(&columns),
+                },
+            });
+        }
+    }
+
+    /// The problem of the tests with a role; without a coefficient everything common to the tests is held.
+    fn search<'s>(
+        &'s self,
+        role: Role,
+        coefficient: Option<&'s Coefficient>,
+        parameters: &'s [Parameter],
+    ) -> Search<'s> {
+        let with = |test: &usize| self.data.observations.iter().any(|o| o.test == *test);
+        let tests: Vec<usize> = (0..self.roles.len())
+            .filter(|t| self.roles[*t] == role && with(t))
+            .collect();
+        let numbers = self.numbers(&tests);
+        let observations: Vec<_> = numbers
+            .iter()
+            .map(|&row| &self.data.observations[row])
+            .collect();
+        let rows_of = |&test: &usize| {
+            (0..numbers.len())
+                .filter(|&i| observations[i].test == test)
+                .collect()
+        };
+        let free = match coefficient {
+            Some(Coefficient::Free(parameter)) => Some(parameter),
+            _ => None,
+        };
+        let priors = parameters.iter().map(Parameter::natural_prior);
+        Search {
+            rows: tests.iter().map(rows_of).collect(),
+            measured: observations.iter().map(|o| o.value).collect(),
+            worn: observations
+                .iter()
+                .map(|o| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss))
+                .collect(),
+            covariance: Covariance::new(self.data, &numbers, &self.noise),
+            layout: Layout {
+                coefficient: free.map(Parameter::natural_prior),
+                parameters: if coefficient.is_some() {
+                    priors.collect()
+                } else {
+                    Vec::new()
+                },
+                tests: tests.len(),
+            },
+            tests,
+            coefficient: free,
+            parameters,
+            scatter: self.noise.scatter,
+        }
+    }
+
+    /// The observations of some tests.
+    fn numbers(&self, tests: &[usize]) -> Vec<usize> {
+        let rows = 0..self.data.observations.len();
+        rows.filter(|&row| tests.contains(&self.data.observations[row].test))
+            .collect()
+    }
+
+    fn state(&self, theta: &[f64], tests: usize) -> State {
+        State {
+            log_k: match &self.coefficient {
+                Coefficient::Free(parameter) => parameter.natural_start(parameter.start),
+                Coefficient::Fixed(value) => value.ln(),
+            },
+            theta: self
+                .parameters
+                .iter()
+                .zip(theta)
+                .map(|(p, &x)| p.natural_start(x))
+                .collect(),
+            epsilon: vec![0.0; tests],
+        }
+    }
+
+    fn evaluator(&self) -> Evaluator<'_> {
+        let count = |test| {
+            self.data
+                .observations
+                .iter()
+                .filter(|o| o.test == test)
+                .count()
+        };
+        let ids = self.data.tests.iter().enumerate();
+        Evaluator::new(
+            self.predictor,
+            ids.map(|(test, id)| (id.as_str(), count(test))).collect(),
+        )
+    }
+}

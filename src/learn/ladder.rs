@@ -1,0 +1,85 @@
+//! Versions of a model side by side: what `ladder.json` is written from.
+
+use serde::{Deserialize, Serialize};
+
+use super::comparison::{Comparison, ParameterRecord};
+
+/// One version of a model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LadderStep {
+    /// The study.
+    pub study: String,
+    /// Its effects.
+    pub effects: Vec<String>,
+    /// χ² per point of the fit tests; None without any.
+    pub fit_chi2_per_point: Option<f64>,
+    /// χ² per point of the held-out tests; None without any.
+    pub holdout_chi2_per_point: Option<f64>,
+    /// Root mean square of model minus measured over wear depths, µm.
+    pub rms_um: Option<f64>,
+    /// What was free.
+    pub parameters: Vec<ParameterRecord>,
+    /// Change from the step before; None for the first.
+    pub improvement: Option<Improvement>,
+    /// Whether the fit converged with no parameter on a bound.
+    pub sound: bool,
+}
+
+/// What one step of the ladder gains over the one before. Above 1, or above 0 for the evidence, is better.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Improvement {
+    /// χ² per point of the fit tests before over after. It hardly ever falls: a free parameter more always fits better.
+    pub fit_factor: Option<f64>,
+    /// χ² per point of the held-out tests before over after: this one judges.
+    pub holdout_factor: Option<f64>,
+    /// Root mean square before over after.
+    pub rms_factor: Option<f64>,
+    /// Gain of the logarithm of the marginal likelihood; None if the two were fitted to different numbers of points.
+    pub log_evidence: Option<f64>,
+}
+
+/// One version to be put on the ladder.
+#[derive(Debug, Clone, Copy)]
+pub struct Version<'a> {
+    /// The study's name.
+    pub study: &'a str,
+    /// Its effects, in its order.
+    pub effects: &'a [String],
+    /// How it compares.
+    pub comparison: &'a Comparison,
+}
+
+/// The versions in the order given, each with what it gains over the one before.
+pub fn ladder(versions: &[Version<'_>]) -> Vec<LadderStep> {
+    let before = std::iter::once(None).chain(versions.iter().map(Some));
+    versions
+        .iter()
+        .zip(before)
+        .map(|(version, before)| {
+            let now = version.comparison;
+            LadderStep {
+                study: version.study.to_owned(),
+                effects: version.effects.to_vec(),
+                fit_chi2_per_point: now.fit.chi2_per_point,
+                holdout_chi2_per_point: now.holdout.chi2_per_point,
+                rms_um: now.rms_um,
+                parameters: now.parameters.clone(),
+                improvement: before.map(|before| Improvement::between(before.comparison, now)),
+                sound: now.converged && now.parameters.iter().all(|p| !p.at_bound),
+            }
+        })
+        .collect()
+}
+
+impl Improvement {
+    fn between(before: &Comparison, after: &Comparison) -> Self {
+        let factor = |before: Option<f64>, after: Option<f64>| Some(before? / after?);
+        Self {
+            fit_factor: factor(before.fit.chi2_per_point, after.fit.chi2_per_point),
+            holdout_factor: factor(before.holdout.chi2_per_point, after.holdout.chi2_per_point),
+            rms_factor: factor(before.rms_um, after.rms_um),
+            log_evidence: (before.fit.points == after.fit.points)
+                .then_some(after.log_evidence - before.log_evidence),
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! A study with its measurements: the bench on which its models are fitted.
+
+use crate::learn::bench::{Bench, MeasuredTest, Workshop};
+use crate::learn::fit::{Coefficient, Fit, FitError, Problem};
+use crate::learn::gear_model::GearModel;
+use crate::learn::noise::NoiseModel;
+use crate::learn::parameters::Parameter;
+use crate::learn::search::Effort;
+use crate::measure::Dataset;
+use crate::simulate::forward::{ContactKind, ForwardError};
+use crate::study::{EffectModel, EffectSpec, FreeParameter, Role, Study, WEAR_COEFFICIENT};
+
+/// One version of a model: its effects, and what of it a fit may adjust.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelVersion {
+    /// The effects.
+    pub effects: EffectModel,
+    /// Free parameters, the wear coefficient among them or not.
+    pub free: Vec<FreeParameter>,
+}
+
+impl ModelVersion {
+    /// The study's own.
+    pub fn of(study: &Study) -> Self {
+        Self {
+            effects: study.effect_model().clone(),
+            free: study.free().to_vec(),
+        }
+    }
+
+    /// The same with one more effect, whose fitted parameters are free, and with the wear coefficient free.
+    pub fn with(&self, effect: EffectSpec) -> Self {
+        let mut free = self.free.clone();
+        free.extend(effect.fitted());
+        Self {
+            effects: self.effects.with(effect),
+            free,
+        }
+    }
+}
+
+/// Measurements of a study's tests.
+pub struct Measured<'a> {
+    study: &'a Study,
+    /// The measurements.
+    pub data: Dataset,
+    /// Role of each test.
+    pub roles: Vec<Role>,
+    tests: Vec<MeasuredTest>,
+}
+
+impl<'a> Measured<'a> {
+    /// Sorts `data` by the study's tests.
+    pub fn new(study: &'a Study, data: Dataset) -> Self {
+        let of_test = |number: usize| {
+            let rows = data.observations.iter();
+            rows.filter(|o| o.test == number).cloned().collect()
+        };
+        let tests = study
+            .tests
+            .iter()
+            .enumerate()
+            .map(|(number, test)| MeasuredTest {
+                id: test.id.clone(),
+                conditions: test.conditions.simulated(&study.wear),
+                surroundings: study.surroundings(&test.conditions),
+                reversed: test.conditions.reversed,
+                observations: of_test(number),
+            });
+        Self {
+            tests: tests.collect(),
+            roles: study.tests.iter().map(|test| test.role).collect(),
+            study,
+            data,
+        }
+    }
+
+    /// The study.
+    pub fn study(&self) -> &'a Study {
+        self.study
+    }
+
+    /// The members for all tests, by `kind`.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a pair cannot run or a member cannot be built.
+    pub fn workshop(&self, kind: ContactKind) -> Result<Workshop, ForwardError> {
+        let (set, numerics) = (self.study.gear_set(), self.study.resolution());
+        Workshop::new(set, numerics, kind, &self.tests)
+    }
+
+    /// The bench in a workshop.
+    ///
+    /// # Errors
+    /// [`ForwardError`] of the first test that cannot run.
+    pub fn bench<'b>(&self, workshop: &'b Workshop) -> Result<Bench<'b>, ForwardError> {
+        workshop.bench(self.tests.clone())
+    }
+
+    /// Fits a version of the model, from its parameters' values and from `others`.
+    ///
+    /// # Errors
+    /// [`FitError`]
+    pub fn fit(
+        &self,
+        bench: &Bench,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        others: &[Vec<f64>],
+        effort: &Effort,
+    ) -> Result<Fit, FitError> {
+        let is_k = |free: &&FreeParameter| free.name == WEAR_COEFFICIENT;
+        let coefficient = match version.free.iter().find(is_k) {
+            Some(free) => Coefficient::Free(parameter(free)),
+            None => Coefficient::Fixed(self.study.wear.coefficient),
+        };
+        let parameters: Vec<Parameter> = (version.free.iter().filter(|free| !is_k(free)))
+            .map(parameter)
+            .collect();
+        let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
+        let effects = &version.effects;
+        let model = GearModel::new(
+            bench,
+            Box::new(move |values| {
+                effects.build(&|name| {
+                    let place = names.iter().position(|known| known == name)?;
+                    values.get(place).copied()
+                })
+            }),
+        );
+        let problem = Problem {
+            data: &self.data,
+            roles: &self.roles,
+            predictor: &model,
+            coefficient,
+            parameters,
+            noise,
+        };
+        problem.fit_from(others, effort)
+    }
+}
+
+fn parameter(free: &FreeParameter) -> Parameter {
+    Parameter {
+        name: free.name.clone(),
+        unit: free.unit.to_owned(),
+        start: free.value,
+        lower: free.lower,
+        upper: free.upper,
+        prior: free.prior,
+    }
+}

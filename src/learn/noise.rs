@@ -1,0 +1,285 @@
+//! What measurements carry beyond the model: independent noise, a constant datum per trace, a correlated error of the model.
+//!
+//! ```text
+//! y = f + d_trace + m + e      e ~ N(0, diag σ²),  d ~ N(0, τ²) one per trace,  m ~ N(0, K) only if switched on
+//! S = diag σ² + Σ_traces τ² 1 1ᵀ + K
+//! ```
+//! Datums are marginalised: with z = e/σ and the trace's u = 1/σ, q = |u|, the inverse root of `I + τ² u uᵀ` is
+//! `I − (1 − 1/√(1 + τ² q²)) û ûᵀ` (Sherman, Morrison and Woodbury), so whitening costs one pass. With K, rows of one test,
+//! member and quantity make one dense block with its Cholesky factor.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use crate::measure::{Dataset, Observation, Quantity};
+use crate::study;
+
+/// The noise model's settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoiseModel {
+    /// Prior standard deviation of a wear trace's datum, µm. Datums of other quantities' traces get a broad prior: the
+    /// largest magnitude measured in the trace, at least ten of its largest sigmas.
+    pub datum_um: f64,
+    /// Scatter of the wear coefficient between tests.
+    pub scatter: study::Scatter,
+    /// Error of the model itself, correlated along a trace and over cycles.
+    pub model_error: Option<ModelError>,
+}
+
+/// An error of the model, proportional to each curve's largest measured magnitude (a curve: same test, member, quantity and cycles).
+///
+/// ```text
+/// K_ij = r² a_i a_j exp(−(s_i − s_j)²/(2 l²)) exp(−(ln(n_i/n_j))²/(2 g²))
+/// ```
+/// a: the curve's largest magnitude; s: position in shares of the range measured on that member; n: cycles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModelError {
+    /// r, relative standard deviation.
+    pub relative: f64,
+    /// l, correlation length as a share of the measured range.
+    pub along: f64,
+    /// g, correlation length in the logarithm of cycles.
+    pub over_cycles: f64,
+}
+
+impl Default for ModelError {
+    fn default() -> Self {
+        Self {
+            relative: 0.005,
+            along: 0.15,
+            over_cycles: 1.0,
+        }
+    }
+}
+
+impl NoiseModel {
+    /// A study's `[noise]`, without a model error.
+    pub fn of(noise: &study::Noise) -> Self {
+        Self {
+            datum_um: noise.datum_um,
+            scatter: noise.coefficient_scatter,
+            model_error: None,
+        }
+    }
+}
+
+/// The most probable datum of a trace, in the unit of its quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Datum {
+    /// Its place in [`Dataset::traces`].
+    pub trace: usize,
+    /// Value: measured = model + datum + noise.
+    pub value: f64,
+    /// Posterior standard deviation at given parameters.
+    pub sigma: f64,
+}
+
+/// The covariance of some of a data set's rows.
+#[derive(Debug)]
+pub(super) struct Covariance {
+    sigma: Vec<f64>,
+    blocks: Vec<Block>,
+    traces: Vec<TraceRows>,
+}
+
+#[derive(Debug)]
+struct TraceRows {
+    trace: usize,
+    rows: Vec<usize>,
+    tau: f64,
+}
+
+#[derive(Debug)]
+enum Block {
+    Datum(TraceRows),
+    Dense(Vec<usize>, Box<Cholesky<f64, Dyn>>),
+}
+
+impl Covariance {
+    /// Of the observations `rows` of a data set; rows are counted from 0 in that list from here on.
+    pub(super) fn new(data: &Dataset, rows: &[usize], model: &NoiseModel) -> Self {
+        let picked: Vec<&Observation> = rows.iter().map(|&row| &data.observations[row]).collect();
+        let traces = || trace_rows(&picked, model.datum_um);
+        let blocks = match &model.model_error {
+            None => traces().into_iter().map(Block::Datum).collect(),
+            Some(error) => dense_blocks(&picked, &traces(), error),
+        };
+        Self {
+            sigma: picked.iter().map(|o| o.sigma).collect(),
+            blocks,
+            traces: traces(),
+        }
+    }
+
+    /// W v, where WᵀW is the inverse of the covariance.
+    pub(super) fn whiten(&self, v: &[f64]) -> Vec<f64> {
+        let mut z: Vec<f64> = v.iter().zip(&self.sigma).map(|(v, s)| v / s).collect();
+        for block in &self.blocks {
+            match block {
+                Block::Datum(TraceRows { rows, tau, .. }) => {
+                    let q2: f64 = rows.iter().map(|&i| self.sigma[i].powi(-2)).sum();
+                    let along: f64 = rows.iter().map(|&i| z[i] / self.sigma[i]).sum();
+                    let change = (1.0 - (1.0 + tau * tau * q2).sqrt().recip()) * along / q2;
+                    for &i in rows {
+                        z[i] -= change / self.sigma[i];
+                    }
+                }
+                Block::Dense(rows, factor) => {
+                    let mut part = DVector::from_iterator(rows.len(), rows.iter().map(|&i| v[i]));
+                    factor.l_dirty().solve_lower_triangular_mut(&mut part);
+                    for (&i, part) in rows.iter().zip(part.iter()) {
+                        z[i] = *part;
+                    }
+                }
+            }
+        }
+        z
+    }
+
+    /// Logarithm of the covariance's determinant.
+    pub(super) fn log_determinant(&self) -> f64 {
+        let mut dense = vec![false; self.sigma.len()];
+        let mut sum = 0.0;
+        for block in &self.blocks {
+            match block {
+                Block::Datum(TraceRows { rows, tau, .. }) => {
+                    let q2: f64 = rows.iter().map(|&i| self.sigma[i].powi(-2)).sum();
+                    sum += (tau * tau * q2).ln_1p();
+                }
+                Block::Dense(rows, factor) => {
+                    rows.iter().for_each(|&i| dense[i] = true);
+                    sum += 2.0 * factor.l_dirty().diagonal().map(f64::ln).sum();
+                }
+            }
+        }
+        let alone = self.sigma.iter().zip(dense).filter(|(_, dense)| !dense);
+        sum + alone.map(|(sigma, _)| 2.0 * sigma.ln()).sum::<f64>()
+    }
+
+    /// Each trace's most probable datum when measured minus model is `residual`; a model error is not counted.
+    ///
+    /// ```text
+    /// d = τ² Σ r/σ² / (1 + τ² Σ 1/σ²)      sd = τ/√(1 + τ² Σ 1/σ²)
+    /// ```
+    pub(super) fn datums(&self, residual: &[f64]) -> Vec<Datum> {
+        let of = |TraceRows { trace, rows, tau }: &TraceRows| {
+            let weight = |i: usize| self.sigma[i].powi(-2);
+            let sum: f64 = rows.iter().map(|&i| weight(i)).sum();
+            let residual: f64 = rows.iter().map(|&i| residual[i] * weight(i)).sum();
+            let shrink = 1.0 + tau * tau * sum;
+            Datum {
+                trace: *trace,
+                value: tau * tau * residual / shrink,
+                sigma: tau / shrink.sqrt(),
+            }
+        };
+        self.traces.iter().map(of).collect()
+    }
+}
+
+/// The rows of each trace and its datum's prior standard deviation.
+fn trace_rows(picked: &[&Observation], datum_um: f64) -> Vec<TraceRows> {
+    let mut traces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, observation) in picked.iter().enumerate() {
+        if let Some(trace) = observation.trace {
+            traces.entry(trace).or_default().push(i);
+        }
+    }
+    let of = |(trace, rows): (usize, Vec<usize>)| {
+        let tau = if picked[rows[0]].quantity == Quantity::WearDepth {
+            datum_um
+        } else {
+            let largest =
+                |f: fn(&Observation) -> f64| rows.iter().map(|&i| f(picked[i])).fold(0.0, f64::max);
+            largest(|o| o.value.abs()).max(10.0 * largest(|o| o.sigma))
+        };
+        TraceRows { trace, rows, tau }
+    };
+    traces.into_iter().map(of).collect()
+}
+
+/// One block per test, member and quantity; traces that reach over several tie them together.
+fn dense_blocks(picked: &[&Observation], traces: &[TraceRows], error: &ModelError) -> Vec<Block> {
+    let mut groups = BTreeMap::new();
+    for (i, o) in picked.iter().enumerate() {
+        let rows: &mut Vec<usize> = groups.entry((o.test, o.member, o.quantity)).or_default();
+        rows.push(i);
+    }
+    let groups: Vec<Vec<usize>> = groups.into_values().collect();
+    let mut label = vec![0; picked.len()];
+    for (number, rows) in groups.iter().enumerate() {
+        rows.iter().for_each(|&i| label[i] = number);
+    }
+    for trace in traces {
+        let first = label[trace.rows[0]];
+        for &row in &trace.rows {
+            let other = label[row];
+            if other != first {
+                label
+                    .iter_mut()
+                    .filter(|l| **l == other)
+                    .for_each(|l| *l = first);
+            }
+        }
+    }
+    let amplitude = amplitudes(picked);
+    let share = shares(picked, &groups);
+    let mut blocks: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, &label) in label.iter().enumerate() {
+        blocks.entry(label).or_default().push(i);
+    }
+    let block = |rows: Vec<usize>| {
+        let n = rows.len();
+        let mut matrix = DMatrix::zeros(n, n);
+        for (a, &i) in rows.iter().enumerate() {
+            for (b, &j) in rows.iter().enumerate().take(a + 1) {
+                let (o, p) = (picked[i], picked[j]);
+                if (o.test, o.member, o.quantity) == (p.test, p.member, p.quantity) {
+                    let along = (share[i] - share[j]) / error.along;
+                    let over = (o.cycles.max(1.0) / p.cycles.max(1.0)).ln() / error.over_cycles;
+                    let size = error.relative.powi(2) * amplitude[i] * amplitude[j];
+                    matrix[(a, b)] += size * (-0.5 * (along * along + over * over)).exp();
+                }
+                if o.trace.is_some() && o.trace == p.trace {
+                    let tau = traces.iter().find(|t| Some(t.trace) == o.trace);
+                    matrix[(a, b)] += tau.map_or(0.0, |t| t.tau * t.tau);
+                }
+            }
+            matrix[(a, a)] += picked[i].sigma.powi(2);
+        }
+        // Positive definite: a sum of positive semi-definite parts and diag σ² > 0.
+        let factor = Cholesky::new(matrix).expect("σ is above 0");
+        Block::Dense(rows, Box::new(factor))
+    };
+    blocks.into_values().map(block).collect()
+}
+
+/// The largest magnitude measured in each row's curve.
+fn amplitudes(picked: &[&Observation]) -> Vec<f64> {
+    let key = |o: &Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
+    let mut largest = BTreeMap::new();
+    for o in picked {
+        let entry: &mut f64 = largest.entry(key(o)).or_insert(0.0);
+        *entry = entry.max(o.value.abs());
+    }
+    picked.iter().map(|o| largest[&key(o)]).collect()
+}
+
+/// Each row's position as a share of its group's measured range, 0 where there is none.
+fn shares(picked: &[&Observation], groups: &[Vec<usize>]) -> Vec<f64> {
+    let mut shares = vec![0.0; picked.len()];
+    for rows in groups {
+        let place = |i: usize| picked[i].position.unwrap_or(0.0);
+        let low = rows.iter().map(|&i| place(i)).fold(f64::INFINITY, f64::min);
+        let high = rows
+            .iter()
+            .map(|&i| place(i))
+            .fold(f64::NEG_INFINITY, f64::max);
+        if high > low {
+            rows.iter()
+                .for_each(|&i| shares[i] = (place(i) - low) / (high - low));
+        }
+    }
+    shares
+}

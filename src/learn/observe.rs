@@ -1,0 +1,178 @@
+//! What an instrument reads off the model: each quantity of the measurement file, in its unit.
+
+use std::cell::OnceCell;
+
+use crate::gear::Member;
+use crate::measure::{Observation, Quantity, Subject};
+use crate::numeric::interpolate;
+use crate::simulate::forward::{Forward, ForwardError, GearSet};
+use crate::simulate::history::{Progress, WearState, worn_area};
+use crate::wear::passage::{Moment, Passage};
+
+/// A worn state that can be read. Contacts are solved only when a quantity asks for them.
+pub(super) struct Reading<'a> {
+    forward: &'a Forward<'a>,
+    progress: &'a Progress,
+    set: &'a GearSet,
+    meshing: OnceCell<Meshing>,
+}
+
+/// What follows from the contacts of a worn state.
+struct Meshing {
+    state: WearState,
+    /// Order of a passage, and the largest pressures on both flanks.
+    passage: Passage,
+    moments: [Vec<Moment>; 2],
+    /// Rotation (base pitches, ascending from 0 to 1) and approach (rad), closed around.
+    turns: (Vec<f64>, Vec<f64>),
+    /// Mean approach over the base pitch, rad.
+    mean: f64,
+}
+
+impl<'a> Reading<'a> {
+    /// Reads the state where `progress` stands.
+    pub(super) fn new(forward: &'a Forward<'a>, progress: &'a Progress, set: &'a GearSet) -> Self {
+        Self {
+            forward,
+            progress,
+            set,
+            meshing: OnceCell::new(),
+        }
+    }
+
+    /// The value that `observation` should have, in the unit of its quantity.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a contact cannot be solved.
+    pub(super) fn of(&self, observation: &Observation) -> Result<f64, ForwardError> {
+        let at = observation.position.unwrap_or(0.0);
+        let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
+        match observation.quantity {
+            Quantity::WearDepth => Ok(self.depth(pinion_for_pair, at)),
+            Quantity::MassLoss => Ok(match observation.member {
+                Subject::Pair => Member::BOTH.into_iter().map(|m| self.mass(m)).sum(),
+                _ => self.mass(pinion_for_pair),
+            }),
+            Quantity::TransmissionError => self.transmission_error(at),
+            Quantity::LoadShare => self.load_share(pinion_for_pair, at),
+            Quantity::ContactPressure => self.pressure(pinion_for_pair, at),
+            Quantity::MeshStiffness => self.stiffness(at),
+        }
+    }
+
+    fn depths(&self, member: Member) -> &[f64] {
+        let arcs = &self.forward.cycle().stations.arc;
+        let (pinion, gear) = self.progress.stand.u.split_at(arcs[0].len());
+        match member {
+            Member::Pinion => pinion,
+            Member::Gear => gear,
+        }
+    }
+
+    fn stations(&self, member: Member) -> &[f64] {
+        &self.forward.cycle().stations.arc[crate::wear::acting::side(member)]
+    }
+
+    /// Arc of the point at `radius` (mm) on the flank of `member`, mm.
+    fn arc(&self, member: Member, radius: f64) -> f64 {
+        let gear = self.forward.cycle().pair.member(member);
+        gear.arc(
+            (radius * radius - gear.base_radius * gear.base_radius)
+                .max(0.0)
+                .sqrt(),
+        )
+    }
+
+    /// µm.
+    fn depth(&self, member: Member, radius: f64) -> f64 {
+        let arc = self.arc(member, radius);
+        1e3 * interpolate(self.stations(member), self.depths(member), arc)
+    }
+
+    /// mg of the whole member.
+    fn mass(&self, member: Member) -> f64 {
+        let side = crate::wear::acting::side(member);
+        let lost =
+            worn_area(self.stations(member), self.depths(member)) - self.progress.displaced()[side];
+        let teeth = self.forward.cycle().pair.member(member).spec.teeth;
+        // mm³ · kg/m³ = µg
+        1e-3 * lost * self.set.face_width * f64::from(teeth) * self.set.densities[side]
+    }
+
+    fn meshing(&self) -> Result<&Meshing, ForwardError> {
+        if let Some(known) = self.meshing.get() {
+            return Ok(known);
+        }
+        let state = self.forward.state(self.progress)?;
+        let cycle = self.forward.cycle();
+        let passage = Passage::new(cycle);
+        let moments = [0, 1].map(|side| passage.moments(cycle, &state.contacts, side));
+        let mut turns: Vec<(f64, f64)> = (cycle.positions.iter().zip(&state.contacts))
+            .map(|(position, contact)| (position.phase(), contact.approach))
+            .collect();
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mean = turns.iter().map(|t| t.1).sum::<f64>() / turns.len() as f64;
+        let (first, last) = (turns[0], turns[turns.len() - 1]);
+        turns.insert(0, (last.0 - 1.0, last.1));
+        turns.push((first.0 + 1.0, first.1));
+        let meshing = Meshing {
+            state,
+            passage,
+            moments,
+            turns: turns.into_iter().unzip(),
+            mean,
+        };
+        Ok(self.meshing.get_or_init(|| meshing))
+    }
+
+    /// Rotation of the pinion that closes the flanks at the rotation `phase` (base pitches), rad; and its mean.
+    fn approach(&self, phase: f64) -> Result<(f64, f64), ForwardError> {
+        let meshing = self.meshing()?;
+        let (turn, approach) = &meshing.turns;
+        Ok((
+            interpolate(turn, approach, phase.rem_euclid(1.0)),
+            meshing.mean,
+        ))
+    }
+
+    /// µrad at the gear, a lagging gear negative, mean removed.
+    fn transmission_error(&self, phase: f64) -> Result<f64, ForwardError> {
+        let (approach, mean) = self.approach(phase)?;
+        Ok(-1e6 * (approach - mean) / self.forward.cycle().pair.speed_ratio)
+    }
+
+    /// N/(mm µm): load per width over approach along the line of action.
+    fn stiffness(&self, phase: f64) -> Result<f64, ForwardError> {
+        let (approach, _) = self.approach(phase)?;
+        let base = self.forward.cycle().pair.pinion.base_radius;
+        Ok(self.forward.torque() / base / (1e3 * approach * base))
+    }
+
+    /// MPa, the largest the point sees in a passage.
+    fn pressure(&self, member: Member, radius: f64) -> Result<f64, ForwardError> {
+        let moments = &self.meshing()?.moments[crate::wear::acting::side(member)];
+        let largest: Vec<f64> = moments.iter().map(|m| m.pressure).collect();
+        let arc = self.arc(member, radius);
+        Ok(interpolate(self.stations(member), &largest, arc))
+    }
+
+    /// Share of the torque that the tooth pair carries while its contact passes the point.
+    fn load_share(&self, member: Member, radius: f64) -> Result<f64, ForwardError> {
+        let meshing = self.meshing()?;
+        let cycle = self.forward.cycle();
+        let gear = cycle.pair.member(member);
+        let rho = gear.rho_at_radius(radius);
+        let (paths, shares): (Vec<f64>, Vec<f64>) = (meshing.passage.order.iter())
+            .map(|&(q, index)| {
+                let moment = self.forward.moment(q, index, &meshing.state.contacts[q]);
+                let path = cycle.positions[q].pairs[index].path;
+                (path, moment / self.forward.torque())
+            })
+            .unzip();
+        Ok(interpolate(
+            &paths,
+            &shares,
+            cycle.pair.path_at_rho(member, rho),
+        ))
+    }
+}

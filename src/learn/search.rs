@@ -1,0 +1,369 @@
+//! The most probable state: Levenberg and Marquardt's damped Gauss-Newton steps within bounds.
+//!
+//! One round asks for the predictions of all tests at one state, or for all tests' derivatives by forward differences: these run
+//! side by side. ∂f_t/∂ln k and ∂f_t/∂ε_t are one and the same. Close to where derivatives were taken they are kept up to date by
+//! Broyden's formula instead of being taken anew. The scatter σ_k is chosen anew before each step (see [`super::scatter`]).
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::evaluate::{Evaluator, Point};
+use super::noise::Covariance;
+use super::parameters::Parameter;
+use super::predictor::PredictError;
+use super::quadratic::{Layout, Normal, Quadratic, State};
+use super::scatter::most_probable;
+use crate::study::Scatter;
+
+/// How long and how finely a fit searches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Most steps.
+    pub iterations: usize,
+    /// A fit has converged when a further step promises less than this of ln posterior.
+    pub tolerance: f64,
+    /// Loss of ln posterior that a step which fails to better it may have promised and the fit still counts as converged:
+    /// the predictions' own rounding then hides the rest. 0.05 is a third of a standard deviation.
+    pub floor: f64,
+    /// How far, in prior standard deviations (for ln k: 1), derivatives are carried before they are taken anew.
+    pub carry: f64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self {
+            iterations: 40,
+            tolerance: 1e-4,
+            floor: 0.05,
+            carry: 0.1,
+        }
+    }
+}
+
+/// One problem of some tests.
+pub(super) struct Search<'s> {
+    /// The tests, by their number in the data set.
+    pub(super) tests: Vec<usize>,
+    /// Rows of each of them among those of `measured`.
+    pub(super) rows: Vec<Vec<usize>>,
+    pub(super) measured: Vec<f64>,
+    /// Rows whose prediction grows with the wear coefficient.
+    pub(super) worn: Vec<bool>,
+    pub(super) covariance: Covariance,
+    pub(super) layout: Layout,
+    pub(super) coefficient: Option<&'s Parameter>,
+    pub(super) parameters: &'s [Parameter],
+    pub(super) scatter: Scatter,
+}
+
+/// Where a search ended.
+pub(super) struct Found {
+    pub(super) state: State,
+    pub(super) scatter: f64,
+    /// Model values of the rows.
+    pub(super) model: Vec<f64>,
+    pub(super) normal: Normal,
+    /// Derivatives of the rows with respect to (θ, ln k_t), without whitening.
+    pub(super) jacobian: DMatrix<f64>,
+    pub(super) objective: f64,
+    pub(super) iterations: usize,
+    pub(super) converged: bool,
+}
+
+/// Model values per test.
+type Values = Vec<Arc<[f64]>>;
+
+impl Search<'_> {
+    /// Searches from `state`; `theta` of the state is also what the predictor is given where no parameter is free.
+    pub(super) fn run(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: State,
+        effort: &Effort,
+    ) -> Result<Found, PredictError> {
+        let (mut state, mut values) = self.scaled_start(evaluator, state)?;
+        let mut jacobian = self.derivatives(evaluator, &state, &values)?;
+        let mut taken_at = state.clone();
+        let mut damping = 1e-3;
+        let mut iterations = 0;
+        let (converged, scatter, normal) = loop {
+            let normal = self.normal(&values, &jacobian);
+            let scatter = most_probable(self.scatter, &self.layout, &normal, &state);
+            let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
+            let fresh = taken_at == state;
+            let promised = quadratic.step(0.0).decrease;
+            if promised <= effort.tolerance {
+                if fresh || self.distance(&taken_at, &state) <= effort.carry {
+                    break (true, scatter, normal);
+                }
+                jacobian = self.derivatives(evaluator, &state, &values)?;
+                taken_at = state.clone();
+                continue;
+            }
+            if iterations == effort.iterations {
+                break (false, scatter, normal);
+            }
+            iterations += 1;
+            let tried = self.improve(evaluator, &quadratic, &state, scatter, &mut damping);
+            let Some((next, next_values)) = tried else {
+                if promised <= effort.floor {
+                    break (true, scatter, normal);
+                }
+                if fresh {
+                    break (false, scatter, normal);
+                }
+                jacobian = self.derivatives(evaluator, &state, &values)?;
+                taken_at = state.clone();
+                damping = 1e-3;
+                continue;
+            };
+            if self.distance(&taken_at, &next) <= effort.carry {
+                self.broyden(&mut jacobian, [&state, &next], [&values, &next_values]);
+                (state, values) = (next, next_values);
+            } else {
+                (state, values) = (next, next_values);
+                jacobian = self.derivatives(evaluator, &state, &values)?;
+                taken_at = state.clone();
+            }
+        };
+        Ok(Found {
+            objective: self.layout.objective(normal.square, &state, scatter),
+            model: self.joined(&values),
+            state,
+            scatter,
+            normal,
+            jacobian,
+            iterations,
+            converged,
+        })
+    }
+
+    /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none.
+    fn improve(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        quadratic: &Quadratic,
+        state: &State,
+        scatter: f64,
+        damping: &mut f64,
+    ) -> Option<(State, Values)> {
+        for _ in 0..8 {
+            let step = quadratic.step(*damping);
+            let next = self.layout.moved(state, &step.x, scatter);
+            if let Ok(values) = self.predict(evaluator, &next) {
+                let square = squared(&self.covariance.whiten(&self.residual(&values)));
+                let gained = quadratic.value - self.layout.objective(square, &next, scatter);
+                if gained > 1e-3 * step.decrease {
+                    let good = gained > 0.75 * step.decrease;
+                    *damping = if good { *damping * 0.1 } else { *damping };
+                    *damping = damping.max(1e-6);
+                    return Some((next, values));
+                }
+            }
+            *damping = (*damping * 10.0).max(0.1);
+        }
+        None
+    }
+
+    /// The start with k (if free) scaled so that wear has the size of the measured one.
+    fn scaled_start(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        mut state: State,
+    ) -> Result<(State, Values), PredictError> {
+        let values = self.predict(evaluator, &state)?;
+        let Some(prior) = &self.layout.coefficient else {
+            return Ok((state, values));
+        };
+        let only_worn = |v: Vec<f64>| -> Vec<f64> {
+            v.iter()
+                .zip(&self.worn)
+                .map(|(v, &worn)| if worn { *v } else { 0.0 })
+                .collect()
+        };
+        let model = self.covariance.whiten(&only_worn(self.joined(&values)));
+        let measured = self.covariance.whiten(&only_worn(self.measured.clone()));
+        let product: f64 = model.iter().zip(&measured).map(|(f, y)| f * y).sum();
+        let factor = (product / squared(&model)).clamp(0.01, 100.0);
+        if !factor.is_finite() || product <= 0.0 || factor.ln().abs() < 0.1 {
+            return Ok((state, values));
+        }
+        let before = state.log_k;
+        state.log_k = (before + factor.ln()).clamp(prior.lower, prior.upper);
+        if let Ok(scaled) = self.predict(evaluator, &state) {
+            let square = |values| squared(&self.covariance.whiten(&self.residual(values)));
+            if square(&scaled) < square(&values) {
+                return Ok((state, scaled));
+            }
+        }
+        state.log_k = before;
+        Ok((state, values))
+    }
+
+    fn point(&self, state: &State, test: usize) -> Point {
+        let log_k = state.log_k + state.epsilon[test];
+        Point {
+            test: self.tests[test],
+            coefficient: log_k.exp(),
+            parameters: self.values(&state.theta),
+        }
+    }
+
+    fn values(&self, theta: &[f64]) -> Arc<[f64]> {
+        self.parameters
+            .iter()
+            .zip(theta)
+            .map(|(p, &x)| p.value(x))
+            .collect()
+    }
+
+    fn predict(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+    ) -> Result<Values, PredictError> {
+        let points: Vec<Point> = (0..self.tests.len())
+            .map(|t| self.point(state, t))
+            .collect();
+        evaluator.all(&points).into_iter().collect()
+    }
+
+    /// Forward differences of all tests in one round; where a prediction fails, the other side is tried.
+    fn derivatives(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        let params = self.layout.parameters.len();
+        let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
+        let mut asked = Vec::new();
+        for test in 0..self.tests.len() {
+            for p in 0..params {
+                let step = self.parameters[p].difference(state.theta[p]);
+                asked.push((test, p, step));
+            }
+            if moves_k {
+                asked.push((test, params + test, 0.02));
+            }
+        }
+        let shifted = |&(test, column, step): &(usize, usize, f64)| {
+            let mut state = state.clone();
+            match state.theta.get_mut(column).filter(|_| column < params) {
+                Some(theta) => *theta += step,
+                None => state.epsilon[test] += step,
+            }
+            self.point(&state, test)
+        };
+        let points: Vec<Point> = asked.iter().map(shifted).collect();
+        let mut found = evaluator.all(&points);
+        let failed: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_err()).collect();
+        if !failed.is_empty() {
+            failed.iter().for_each(|&i| asked[i].2 *= -1.0);
+            let again: Vec<Point> = failed.iter().map(|&i| shifted(&asked[i])).collect();
+            for (i, second) in failed.into_iter().zip(evaluator.all(&again)) {
+                found[i] = second;
+            }
+        }
+        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        for ((test, column, step), found) in asked.into_iter().zip(found) {
+            let divisor = match self.parameters.get(column).filter(|_| column < params) {
+                Some(parameter) => parameter.divisor(step),
+                None => step.exp_m1(),
+            };
+            for ((&row, after), before) in self.rows[test]
+                .iter()
+                .zip(found?.iter())
+                .zip(values[test].iter())
+            {
+                jacobian[(row, column)] = (after - before) / divisor;
+            }
+        }
+        Ok(jacobian)
+    }
+
+    /// Each test's derivatives changed least, in the priors' scales, so that they give the change seen from one state to the next.
+    fn broyden(&self, jacobian: &mut DMatrix<f64>, states: [&State; 2], values: [&Values; 2]) {
+        let params = self.layout.parameters.len();
+        for test in 0..self.tests.len() {
+            let mut moved: Vec<(usize, f64, f64)> = (0..params)
+                .map(|p| {
+                    (
+                        p,
+                        states[1].theta[p] - states[0].theta[p],
+                        self.layout.parameters[p].scale(),
+                    )
+                })
+                .collect();
+            let log_k = |s: &State| s.log_k + s.epsilon[test];
+            moved.push((params + test, log_k(states[1]) - log_k(states[0]), 1.0));
+            let length: f64 = moved
+                .iter()
+                .map(|(_, by, scale)| (by / scale).powi(2))
+                .sum();
+            if length == 0.0 {
+                continue;
+            }
+            for (i, &row) in self.rows[test].iter().enumerate() {
+                let seen = values[1][test][i] - values[0][test][i];
+                let told: f64 = moved
+                    .iter()
+                    .map(|&(column, by, _)| jacobian[(row, column)] * by)
+                    .sum();
+                for &(column, by, scale) in &moved {
+                    jacobian[(row, column)] += (seen - told) * by / (scale * scale) / length;
+                }
+            }
+        }
+    }
+
+    /// How far two states are apart in the priors' scales.
+    fn distance(&self, a: &State, b: &State) -> f64 {
+        let theta = self
+            .layout
+            .parameters
+            .iter()
+            .zip(a.theta.iter().zip(&b.theta));
+        let theta = theta.map(|(prior, (a, b))| (a - b).abs() / prior.scale());
+        let tests = a.epsilon.iter().zip(&b.epsilon);
+        let tests = tests.map(|(e, f)| (a.log_k + e - b.log_k - f).abs());
+        theta.chain(tests).fold(0.0, f64::max)
+    }
+
+    fn normal(&self, values: &Values, jacobian: &DMatrix<f64>) -> Normal {
+        let residual = DVector::from_vec(self.covariance.whiten(&self.residual(values)));
+        let mut white = DMatrix::zeros(jacobian.nrows(), jacobian.ncols());
+        for column in 0..jacobian.ncols() {
+            let whitened = self.covariance.whiten(jacobian.column(column).as_slice());
+            white.column_mut(column).copy_from_slice(&whitened);
+        }
+        Normal {
+            gram: white.transpose() * &white,
+            rhs: white.transpose() * &residual,
+            square: squared(residual.as_slice()),
+        }
+    }
+
+    fn joined(&self, values: &Values) -> Vec<f64> {
+        let mut joined = vec![0.0; self.measured.len()];
+        for (rows, values) in self.rows.iter().zip(values) {
+            for (&row, value) in rows.iter().zip(values.iter()) {
+                joined[row] = *value;
+            }
+        }
+        joined
+    }
+
+    fn residual(&self, values: &Values) -> Vec<f64> {
+        self.measured
+            .iter()
+            .zip(self.joined(values))
+            .map(|(y, f)| y - f)
+            .collect()
+    }
+}
+
+fn squared(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum()
+}

@@ -1,0 +1,195 @@
+//! A sentence on where the model fails worst and what that looks like, made from the cells' figures.
+
+use std::collections::BTreeMap;
+
+use super::region::{Map, words};
+use super::tally::{Cell, CellKey};
+use crate::gear::Member;
+use crate::measure::{Quantity, Subject};
+
+/// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
+const SIGNIFICANT: f64 = 5.0;
+
+/// Where the model fails worst, in plain words.
+pub(super) fn sentence(cells: &BTreeMap<CellKey, Cell>, map: &Map, chi2: Option<f64>) -> String {
+    let excess = |cell: &Cell| (cell.chi2_per_point - 1.0) * cell.points as f64;
+    let significance = |cell: &Cell| excess(cell) / (2.0 * cell.points as f64).sqrt();
+    let worst = cells
+        .iter()
+        .max_by(|a, b| excess(a.1).total_cmp(&excess(b.1)));
+    let worst = worst.filter(|(_, cell)| significance(cell) > SIGNIFICANT);
+    let Some((key, cell)) = worst else {
+        let chi2 = chi2.map_or_else(String::new, |chi2| format!(": χ² per point is {chi2:.2}"));
+        return format!(
+            "Nowhere does the model miss the measurements by more than their noise{chi2}."
+        );
+    };
+    let share = {
+        let total: f64 = cells.values().map(|cell| excess(cell).max(0.0)).sum();
+        100.0 * excess(cell) / total
+    };
+    let parts = [
+        format!(
+            "{}{} is {} {} in test {}",
+            subject(key.2),
+            when(key, cell, map),
+            size(cell),
+            place(key),
+            cell.test
+        ),
+        format!(
+            " (χ² per point {:.1}, {share:.0} % of all that exceeds the noise)",
+            cell.chi2_per_point
+        ),
+        trend(key, cells),
+        mate(key, cell, cells),
+        others(key, cell, cells, map),
+    ];
+    parts.concat() + "."
+}
+
+fn subject(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::WearDepth => "Computed wear",
+        Quantity::TransmissionError => "The computed transmission error",
+        Quantity::MassLoss => "The computed mass loss",
+        Quantity::LoadShare => "The computed load share",
+        Quantity::ContactPressure => "The computed pressure",
+        Quantity::MeshStiffness => "The computed mesh stiffness",
+    }
+}
+
+fn when(key: &CellKey, cell: &Cell, map: &Map) -> String {
+    let count = map.intervals(key.0);
+    if count < 2 {
+        return String::new();
+    }
+    let stage = match key.4 {
+        first if 3 * first < count => "early in life",
+        late if 3 * (late + 1) > 2 * count => "late in life",
+        _ => "in mid-life",
+    };
+    format!(
+        " {stage} ({:.0} to {:.0} cycles)",
+        cell.cycles[0], cell.cycles[1]
+    )
+}
+
+/// Sign and size of the error; its root mean square where it has no one sign.
+fn size(cell: &Cell) -> String {
+    let unit = match cell.unit.as_str() {
+        "um" => " µm",
+        "urad" => " µrad",
+        "1" => "",
+        unit => &format!(" {unit}"),
+    };
+    if cell.bias.abs() < 0.5 * cell.rms {
+        return format!(
+            "off by {}{unit} (root mean square, either sign)",
+            short(cell.rms)
+        );
+    }
+    let sign = if cell.bias < 0.0 { "low" } else { "high" };
+    format!("{}{unit} too {sign}", short(cell.bias.abs()))
+}
+
+fn place(key: &CellKey) -> String {
+    match (key.1.member(), key.3) {
+        (Some(member), Some(region)) => {
+            format!(
+                "on the {}'s {} ({})",
+                member.name(),
+                words(member, region),
+                region.name()
+            )
+        }
+        (Some(member), None) => format!("of the {}", member.name()),
+        (None, _) => "of the pair".to_owned(),
+    }
+}
+
+/// Whether the error at that place grows, falls or changes sign over the test's intervals.
+fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
+    let same = cells
+        .iter()
+        .filter(|(k, _)| (k.0, k.1, k.2, k.3) == (key.0, key.1, key.2, key.3));
+    let over: Vec<&Cell> = same.map(|(_, cell)| cell).collect();
+    if over.len() < 2 {
+        return String::new();
+    }
+    let (first, last) = (over[0], over[over.len() - 1]);
+    let clear = |cell: &Cell| cell.bias.abs() > 3.0 * cell.bias_sigma;
+    let word = if clear(first) && clear(last) && first.bias * last.bias < 0.0 {
+        "changes its sign"
+    } else if last.bias.abs() > 1.5 * first.bias.abs() {
+        "grows"
+    } else if last.bias.abs() < first.bias.abs() / 1.5 {
+        "falls"
+    } else {
+        "stays alike"
+    };
+    format!(
+        "; the error there {word} over the test, from {} to {}",
+        signed(first),
+        signed(last)
+    )
+}
+
+/// What the mate shows where it meets that region.
+fn mate(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>) -> String {
+    let Some(member) = key.1.member() else {
+        return String::new();
+    };
+    let other = match member.other() {
+        Member::Pinion => Subject::Pinion,
+        Member::Gear => Subject::Gear,
+    };
+    let Some(found) = cells.get(&(key.0, other, key.2, key.3, key.4)) else {
+        return String::new();
+    };
+    let name = other.name();
+    if found.bias.abs() < 3.0 * found.bias_sigma || cell.bias.abs() < 0.5 * cell.rms {
+        format!("; the {name} there is not clearly off ({})", signed(found))
+    } else if found.bias * cell.bias > 0.0 {
+        format!("; the {name} there shares it ({})", signed(found))
+    } else {
+        format!(
+            "; the {name} there is off the other way ({})",
+            signed(found)
+        )
+    }
+}
+
+/// The tests that show the same sign at the same place and stage of life.
+fn others(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>, map: &Map) -> String {
+    let stage = |k: &CellKey| 3 * k.4 / map.intervals(k.0).max(1);
+    let mut like = Vec::new();
+    for (k, found) in cells {
+        let same_place =
+            (k.1, k.2, k.3, stage(k)) == (key.1, key.2, key.3, stage(key)) && k.0 != key.0;
+        let same_sign = found.bias * cell.bias > 0.0 && found.bias.abs() > 3.0 * found.bias_sigma;
+        if same_place && same_sign && !like.contains(&found.test.as_str()) {
+            like.push(found.test.as_str());
+        }
+    }
+    match like.as_slice() {
+        [] => String::new(),
+        [one] => format!("; test {one} shows the same"),
+        [all @ .., last] => format!("; tests {} and {last} show the same", all.join(", ")),
+    }
+}
+
+fn signed(cell: &Cell) -> String {
+    let sign = if cell.bias < 0.0 { "−" } else { "+" };
+    let unit = if cell.unit == "um" { "µm" } else { &cell.unit };
+    format!("{sign}{} {unit}", short(cell.bias.abs()))
+}
+
+/// A positive number with two significant digits.
+fn short(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = (1 - x.log10().floor() as i32).clamp(0, 9) as usize;
+    format!("{x:.digits$}")
+}

@@ -1,0 +1,230 @@
+//! Physical effects in a run: what they are told at each place of the mesh cycle, and what they change.
+
+use std::f64::consts::TAU;
+
+use crate::contact::alteration::Alteration;
+use crate::contact::cycle::{Cycle, PairContact};
+use crate::contact::deposit::tributary;
+use crate::contact::model::PositionContact;
+use crate::effects::{
+    Combined, Effect, Hook, Local, OperationState, ProfileAt, REFERENCE_TEMPERATURE, Surroundings,
+};
+use crate::gear::{Member, Pair};
+
+/// Effects under the conditions of one run.
+pub struct Acting {
+    /// The effects.
+    pub effects: Combined,
+    /// Oil and heat.
+    pub surroundings: Surroundings,
+    /// Pinion torque, N·m.
+    pub torque: f64,
+    /// Pinion speed, rpm.
+    pub speed: f64,
+    /// Whether the drive direction is the other one: what was approach is recess.
+    pub reversed: bool,
+    /// Face width, mm.
+    pub face_width: f64,
+}
+
+/// What the wear of a run has come to: the part of an effect's surroundings that grows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Age {
+    /// Pinion revolutions.
+    pub cycles: f64,
+    /// Volume worn off both members, mm³.
+    pub worn_volume: f64,
+}
+
+/// Load of one tooth pair as effects see it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PairLoad {
+    /// N/mm.
+    pub line_load: f64,
+    /// mm.
+    pub half_width: f64,
+    /// MPa.
+    pub peak_pressure: f64,
+}
+
+impl PairLoad {
+    /// Load, largest pressure and the half width of the ellipse with both: a = 2 w/(π p0).
+    pub fn of(pair: &PairContact, contact: &PositionContact) -> Self {
+        let own = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
+        let line_load = own.iter().zip(&pair.length).map(|(p, l)| p * l).sum();
+        let peak_pressure = own.iter().fold(0.0, |m: f64, p| m.max(*p));
+        let half_width = if peak_pressure > 0.0 {
+            2.0 * line_load / (std::f64::consts::PI * peak_pressure)
+        } else {
+            0.0
+        };
+        Self {
+            line_load,
+            half_width,
+            peak_pressure,
+        }
+    }
+}
+
+impl Acting {
+    /// Whether any effect acts through `hook`.
+    pub fn acts(&self, hook: Hook) -> bool {
+        self.effects.acts(hook)
+    }
+
+    /// What the effects add to the centre distance of `pair`, mm.
+    pub fn added_centre_distance(&self, pair: &Pair) -> f64 {
+        let state = OperationState {
+            torque: self.torque,
+            speed: self.speed,
+            normal_force: 1e3 * self.torque / pair.pinion.base_radius,
+            working_pressure_angle: pair.working_pressure_angle,
+            centre_distance: pair.centre_distance,
+            bulk_temperature: self
+                .surroundings
+                .bulk_temperature_c
+                .unwrap_or(REFERENCE_TEMPERATURE),
+        };
+        self.effects.operation(&state).centre_distance
+    }
+
+    /// What the effects change about the contact over `cycle`.
+    pub fn alteration(&self, cycle: &Cycle) -> Alteration {
+        let acts = |hook| self.acts(hook).then_some(());
+        Alteration {
+            profile: acts(Hook::Profile).map(|()| Member::BOTH.map(|m| self.profile(cycle, m))),
+            load_factor: acts(Hook::LoadFactor).map(|()| self.load_factors(cycle)),
+            // µm per N/mm
+            flexibility: 1e-3 * self.effects.compliance(),
+            tooth_offset: acts(Hook::ToothOffset)
+                .map(|()| [-2, -1, 0, 1, 2].map(|tooth| 1e-3 * self.effects.tooth_offset(tooth))),
+        }
+    }
+
+    /// Material missing before the start at the stations of one flank, mm.
+    fn profile(&self, cycle: &Cycle, member: Member) -> Vec<f64> {
+        let pair = &cycle.pair;
+        let gear = pair.member(member);
+        let [start, .., end] = pair.path_points();
+        let tip = match member {
+            Member::Pinion => end,
+            Member::Gear => start,
+        };
+        let at = |arc: &f64| {
+            let rho = gear.rho_at_arc(*arc);
+            let path = pair.path_at_rho(member, rho);
+            1e-3 * self.effects.profile(&ProfileAt {
+                member,
+                radius: gear.radius_at_rho(rho),
+                path,
+                from_tip: (tip - path).abs(),
+                along: (path - start) / (end - start),
+            })
+        };
+        cycle.stations.arc[side(member)].iter().map(at).collect()
+    }
+
+    fn load_factors(&self, cycle: &Cycle) -> Vec<Vec<f64>> {
+        let fresh = Age {
+            cycles: 0.0,
+            worn_volume: 0.0,
+        };
+        let factor = |pair: &PairContact| {
+            let local = self.at_pair(cycle, pair, PairLoad::default(), fresh);
+            self.effects.load_factor(&local)
+        };
+        let of_position = |position: &crate::contact::cycle::Position| {
+            position.pairs.iter().map(factor).collect()
+        };
+        cycle.positions.iter().map(of_position).collect()
+    }
+
+    /// What holds for all of a tooth pair's contact; the place on a flank is then set by [`Acting::at_point`].
+    pub fn at_pair(&self, cycle: &Cycle, pair: &PairContact, load: PairLoad, age: Age) -> Local {
+        let gears = &cycle.pair;
+        let omega = self.speed * TAU / 60.0;
+        // along the path at r_b1 ω1; the mean of both rolling speeds and their difference, the sliding
+        let sliding = 1e-3 * pair.slip * gears.pinion.base_radius * omega;
+        let mean = 0.5e-3 * omega * (pair.frame.rho[0] + pair.frame.rho[1] / gears.speed_ratio);
+        let hours = if self.speed > 0.0 {
+            1.0 / (60.0 * self.speed)
+        } else {
+            0.0
+        };
+        let mut local = Local {
+            member: Member::Pinion,
+            radius: 0.0,
+            path: pair.path,
+            approach: (pair.path < 0.0) != self.reversed,
+            curvature: pair.frame.rho,
+            rolling: [mean + 0.5 * sliding, mean - 0.5 * sliding],
+            pressure: 0.0,
+            peak_pressure: load.peak_pressure,
+            line_load: load.line_load,
+            half_width: load.half_width,
+            normal_load: 1e3 * self.torque / (gears.pinion.base_radius * self.face_width),
+            depth: 0.0,
+            cycles: age.cycles,
+            contacts: age.cycles,
+            hours: age.cycles * hours,
+            contact_hours: hours,
+            worn_volume: age.worn_volume,
+            torque: self.torque,
+            speed: self.speed,
+            base_radius: gears.pinion.base_radius,
+            base_pitch: gears.base_pitch,
+            film_ratio: 0.0,
+            friction: 0.0,
+            flash_temperature: 0.0,
+            bulk_temperature: REFERENCE_TEMPERATURE,
+        };
+        self.surroundings.complete(&mut local);
+        local
+    }
+
+    /// `local` moved to the point at arc `arc` (mm) of `member`, worn by `depth` (mm), under `pressure` (MPa).
+    pub fn at_point(
+        &self,
+        local: &mut Local,
+        cycle: &Cycle,
+        member: Member,
+        arc: f64,
+        depth: f64,
+        pressure: f64,
+    ) {
+        let gear = cycle.pair.member(member);
+        let per_contact = match member {
+            Member::Pinion => 1.0,
+            Member::Gear => cycle.pair.speed_ratio,
+        };
+        local.member = member;
+        local.radius = gear.radius_at_rho(gear.rho_at_arc(arc));
+        local.depth = 1e3 * depth;
+        local.pressure = pressure;
+        local.contacts = local.cycles / per_contact;
+        local.contact_hours = if self.speed > 0.0 {
+            per_contact / (60.0 * self.speed)
+        } else {
+            0.0
+        };
+    }
+
+    /// Volume worn off all teeth of both members at the depths `u` (mm at the stations of pinion and gear), mm³.
+    pub fn worn_volume(&self, cycle: &Cycle, u: [&[f64]; 2]) -> f64 {
+        Member::BOTH
+            .into_iter()
+            .map(|member| {
+                let stations = &cycle.stations.arc[side(member)];
+                let depths = u[side(member)].iter().enumerate();
+                let area: f64 = depths.map(|(i, h)| h * tributary(stations, i)).sum();
+                let teeth = cycle.pair.member(member).spec.teeth;
+                area * self.face_width * f64::from(teeth)
+            })
+            .sum()
+    }
+}
+
+/// 0 for the pinion, 1 for the gear.
+pub fn side(member: Member) -> usize {
+    usize::from(member == Member::Gear)
+}

@@ -1,0 +1,168 @@
+//! Claim: every effect acts in a run by both contact models, and does nothing at its neutral values.
+//!
+//! Sources: the catalogue's own hooks (their formulas are tested against hand calculations elsewhere); the time change
+//! `n → n + A n0 (1 − exp(−n/n0))` that turns running-in into the base model exactly; equilibrium of forces.
+//! Tolerances: none for neutrality (bits); step control for the time change; rounding for equilibrium.
+
+use gearwear::effects::{CATALOGUE, Card, Combined, Surroundings, find};
+use gearwear::simulate::forward::{Conditions, Forward, GearSet};
+use gearwear::simulate::history::{WearState, worn_area};
+use gearwear::simulate::members::Members;
+use gearwear::simulate::numerics::Numerics;
+use gearwear::study::Study;
+use gearwear::wear::acting::Acting;
+
+const STUDY: &str = include_str!("../validation/paper/study.toml");
+
+/// Worn area by the law against geometry: most effects stay below 2e-3, a coating's jump within a wear step makes 1e-2
+/// (the law's side is a trapezoidal rule over steps).
+const BALANCE: f64 = 1.5e-2;
+
+fn set() -> GearSet {
+    Study::parse(STUDY, "study.toml").unwrap().gear_set()
+}
+
+/// Coarse: what is asked here does not depend on resolution.
+fn numerics() -> Numerics {
+    Numerics {
+        elements_per_half_width: 2.0,
+        positions: 40,
+        ..Numerics::default()
+    }
+}
+
+fn conditions(cycles: f64) -> Conditions {
+    Conditions {
+        torque: 1e5,
+        speed: 2000.0,
+        misalignment: 0.0,
+        cycles,
+        coefficient: [6e-10; 2],
+    }
+}
+
+fn members(set: &GearSet) -> Members {
+    set.members(&numerics(), &[1e5], &[0.0, 0.3]).unwrap()
+}
+
+fn acting(card: &Card, values: &[f64]) -> Acting {
+    let mut effects = Combined::default();
+    effects.push(card.hook, (card.build)(values));
+    Acting {
+        effects,
+        surroundings: Surroundings {
+            contact_modulus: 115_385.0,
+            viscosity_pa_s: Some(0.015),
+            pressure_viscosity_per_gpa: Some(18.0),
+            roughness_um: Some(0.5),
+            friction_coefficient: Some(0.06),
+            contact_coefficient: Some(13_000.0),
+            bulk_temperature_c: Some(60.0),
+        },
+        torque: 100.0,
+        speed: 2000.0,
+        reversed: false,
+        face_width: 33.0,
+    }
+}
+
+fn worn(
+    set: &GearSet,
+    members: Option<&Members>,
+    conditions: Conditions,
+    acting: Option<&Acting>,
+) -> WearState {
+    let mut forward = Forward::with_effects(set, members, conditions, numerics(), acting).unwrap();
+    let mut progress = None;
+    forward
+        .wear_to(&mut progress, conditions.cycles, &mut |_, _| true)
+        .unwrap();
+    let progress = progress.unwrap();
+    assert!(
+        progress.balance.error() < BALANCE,
+        "law and geometry differ by {}",
+        progress.balance.error()
+    );
+    forward.state(&progress).unwrap()
+}
+
+#[test]
+fn neutral_effects_change_no_bit() {
+    let set = set();
+    let members = members(&set);
+    for model in [None, Some(&members)] {
+        let base = worn(&set, model, conditions(2e4), None);
+        for card in CATALOGUE {
+            let acting = acting(card, &card.neutral());
+            let with = worn(&set, model, conditions(2e4), Some(&acting));
+            assert!(base == with, "{} is not neutral", card.name);
+        }
+    }
+}
+
+#[test]
+fn every_effect_acts_by_both_models() {
+    let set = set();
+    let members = members(&set);
+    for model in [None, Some(&members)] {
+        let base = worn(&set, model, conditions(2e4), None);
+        let mut idle = Vec::new();
+        for card in CATALOGUE {
+            let stated: &[(&str, f64)] = match card.name {
+                // worn through within this short run
+                "coating" => &[("thickness", 0.2)],
+                _ => &[],
+            };
+            let values = card.values(stated).unwrap();
+            let acting = acting(card, &values);
+            let with = worn(&set, model, conditions(2e4), Some(&acting));
+            let change = base.depth.iter().flatten().zip(with.depth.iter().flatten());
+            let largest = change.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            if largest < 1e-8 {
+                idle.push((card.name, largest));
+            }
+        }
+        assert!(idle.is_empty(), "these do nothing: {idle:?}");
+    }
+}
+
+#[test]
+fn running_in_is_the_base_model_later() {
+    let set = set();
+    let members = members(&set);
+    let (amplitude, decay, end) = (3.0, 2e4, 6e4);
+    let card = find("running_in").unwrap();
+    let values = card
+        .values(&[("amplitude", amplitude), ("decay_cycles", decay)])
+        .unwrap();
+    let acting = acting(card, &values);
+    let later = end + amplitude * decay * (1.0 - f64::exp(-end / decay));
+    let with = worn(&set, Some(&members), conditions(end), Some(&acting));
+    let base = worn(&set, Some(&members), conditions(later), None);
+    for side in 0..2 {
+        let stations = &Forward::new(&set, Some(&members), conditions(end), numerics())
+            .unwrap()
+            .cycle()
+            .stations
+            .arc[side]
+            .clone();
+        let ratio = worn_area(stations, &with.depth[side]) / worn_area(stations, &base.depth[side]);
+        assert!((ratio - 1.0).abs() < 2e-3, "{ratio}");
+    }
+}
+
+#[test]
+fn displaced_material_has_no_mass() {
+    let set = set();
+    let card = find("plastic_deformation").unwrap();
+    let acting = acting(
+        card,
+        &card
+            .values(&[("depth_limit", 2.0), ("yield_pressure", 300.0)])
+            .unwrap(),
+    );
+    let state = worn(&set, None, conditions(5e4), Some(&acting));
+    assert!(state.displaced.iter().all(|area| *area > 1e-4));
+    let base = worn(&set, None, conditions(5e4), None);
+    assert_eq!(base.displaced, [0.0; 2]);
+}
