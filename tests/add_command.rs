@@ -7,6 +7,7 @@ use std::fs;
 
 use assert_cmd::Command;
 use gearwear::study::{Study, rounded};
+use proptest::prelude::*;
 use tempfile::TempDir;
 
 const GEARS: &str = "\
@@ -396,4 +397,34 @@ fn what_add_cannot_use_is_refused_with_exit_2_and_nothing_written() {
         assert!(err.contains(says), "no `{says}` in: {err}");
     }
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
+}
+
+proptest! {
+    /// Whatever stands between the lines of a valid study, the edit changes the places concerned alone.
+    #[test]
+    fn any_layout_survives(
+        noise in prop::collection::vec("[ \t]{0,3}(#[^\r\n\u{0}-\u{8}\u{b}-\u{1f}\u{7f}]{0,12})?", 30),
+        windows in any::<bool>(),
+        last in any::<bool>(),
+    ) {
+        let fit = "[fit]\nfree = [\"wear.coefficient\"]\n";
+        let plain = format!("{GEARS}{WEAR}{fit}");
+        let changed = format!("{GEARS}{}{}", k(WEAR), fit.replace("\"wear.coefficient\"", FREE));
+        let lay_out = |text: &str| {
+            let lines = text.lines().zip(&noise).map(|(line, noise)| format!("{line}\n{noise}\n"));
+            let text: String = lines.collect();
+            if windows { text.replace('\n', "\r\n") } else { text }
+        };
+        let (mut text, mut expected) = (lay_out(&plain), lay_out(&changed));
+        let end = if windows { "\r\n" } else { "\n" };
+        if last {
+            text = text.trim_end_matches(['\r', '\n']).to_owned();
+            expected = expected.trim_end_matches(['\r', '\n']).to_owned();
+            if !text.ends_with('\n') {
+                expected.push_str(end);
+            }
+        }
+        expected.push_str(&EFFECT.replace('\n', end));
+        prop_assert_eq!(added(&text), expected);
+    }
 }
