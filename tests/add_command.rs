@@ -3,7 +3,12 @@
 //!
 //! Source: the study format and the command table. Tolerance: none; texts are compared byte by byte.
 
+use std::fs;
+
+use assert_cmd::Command;
 use gearwear::study::{Study, rounded};
+use proptest::prelude::*;
+use tempfile::TempDir;
 
 const GEARS: &str = "\
 [gears]
@@ -247,4 +252,179 @@ fn fitted_values_have_six_digits() {
     assert_eq!(rounded(127_322.328_9), 127_322.0);
     assert_eq!(rounded(-0.0), 0.0);
     assert_eq!(rounded(f64::INFINITY), f64::INFINITY);
+}
+
+/// Runs the program in a folder: exit code, standard output, standard error.
+fn gearwear(home: &TempDir, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::cargo_bin("gearwear")
+        .unwrap()
+        .current_dir(home)
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+/// A folder with the example of a hidden effect.
+fn home() -> TempDir {
+    let home = tempfile::tempdir().unwrap();
+    let (code, out, err) = gearwear(&home, &["init", "--example", "hidden-effect"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        out.ends_with("next: gearwear compare study.toml\n"),
+        "{out}"
+    );
+    home
+}
+
+const SET: [&str; 4] = [
+    "--set",
+    "amplitude=1.8",
+    "decay_cycles=1.3e5",
+    "wear.coefficient=2.37e-10",
+];
+
+#[test]
+fn add_with_everything_set_needs_no_fit() {
+    let home = home();
+    let original = fs::read_to_string(home.path().join("study.toml")).unwrap();
+    let mut arguments = vec!["add", "study.toml", "running_in", "--json"];
+    arguments.extend(SET);
+    let (code, out, err) = gearwear(&home, &arguments);
+    assert_eq!(code, 0, "{err}");
+    let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(
+        document["written"],
+        serde_json::json!(["study+running_in.toml"])
+    );
+    let new = fs::read_to_string(home.path().join("study+running_in.toml")).unwrap();
+    let effect = "\n[[effect]]\nkind = \"running_in\"\namplitude = 1.8\ndecay_cycles = 130000.0\n";
+    assert_eq!(new, original.replace("1.61e-10 ", "2.37e-10 ") + effect);
+    // not overwritten unasked
+    let (code, out, err) = gearwear(&home, &arguments);
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    assert!(err.contains("--force overwrites it"), "{err}");
+    arguments.push("--force");
+    assert_eq!(gearwear(&home, &arguments).0, 0);
+}
+
+#[test]
+fn a_study_written_elsewhere_finds_its_measurements() {
+    let home = home();
+    let mut arguments = vec!["add", "study.toml", "running_in", "-o", "new/deep/b.toml"];
+    arguments.extend(SET);
+    let (code, _, err) = gearwear(&home, &arguments);
+    assert_eq!(code, 0, "{err}");
+    let new = Study::load(&home.path().join("new/deep/b.toml")).unwrap();
+    assert!(
+        new.text()
+            .contains("file = \"../../measurements.csv\" # relative")
+    );
+    assert_eq!(new.dataset().unwrap().observations.len(), 2850);
+}
+
+#[test]
+fn what_add_cannot_use_is_refused_with_exit_2_and_nothing_written() {
+    let home = home();
+    for (arguments, says) in [
+        (
+            &["add", "study.toml", "runing_in"][..],
+            "the nearest is `running_in`",
+        ),
+        (
+            &["add", "study.toml", "formula"],
+            "written into the study by hand",
+        ),
+        (
+            &["add", "study.toml", "measurements.csv"],
+            "kind = \"formula\"",
+        ),
+        (
+            &["add", "none.toml", "running_in"],
+            "cannot read the study file",
+        ),
+        (
+            &["add", "study.toml", "running_in", "--set", "amplitud=1"],
+            "the nearest is `amplitude`",
+        ),
+        (
+            &["add", "study.toml", "running_in", "--set", "amplitude=-1"],
+            "outside 0 to 50",
+        ),
+        (
+            &["add", "study.toml", "running_in", "--set", "amplitude"],
+            "name=value is needed",
+        ),
+        (
+            &["add", "study.toml", "running_in", "--set", "amplitude=x"],
+            "`x` is no number",
+        ),
+        (&["add", "study.toml", "running_in", "amplitude=1"], "--set"),
+        (
+            &[
+                "add",
+                "study.toml",
+                "running_in",
+                "--set",
+                "amplitude=1",
+                "--set",
+                "running_in.amplitude=2",
+            ],
+            "twice",
+        ),
+        (
+            &[
+                "add",
+                "study.toml",
+                "running_in",
+                "--set",
+                "wear.coefficient=1",
+            ],
+            "looks like a value without its power of ten",
+        ),
+        (
+            &["add", "study.toml", "running_in", "-o", "."],
+            "is a folder",
+        ),
+    ] {
+        let (code, out, err) = gearwear(&home, arguments);
+        assert_eq!((code, out.as_str()), (2, ""), "{arguments:?}: {err}");
+        assert!(err.contains(says), "no `{says}` in: {err}");
+    }
+    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
+}
+
+proptest! {
+    /// Whatever stands between the lines of a valid study, the edit changes the places concerned alone.
+    #[test]
+    fn any_layout_survives(
+        noise in prop::collection::vec("[ \t]{0,3}(#[^\r\n\u{0}-\u{8}\u{b}-\u{1f}\u{7f}]{0,12})?", 30),
+        windows in any::<bool>(),
+        last in any::<bool>(),
+    ) {
+        let fit = "[fit]\nfree = [\"wear.coefficient\"]\n";
+        let plain = format!("{GEARS}{WEAR}{fit}");
+        let changed = format!("{GEARS}{}{}", k(WEAR), fit.replace("\"wear.coefficient\"", FREE));
+        let lay_out = |text: &str| {
+            let lines = text.lines().zip(&noise).map(|(line, noise)| format!("{line}\n{noise}\n"));
+            let text: String = lines.collect();
+            if windows { text.replace('\n', "\r\n") } else { text }
+        };
+        let (mut text, mut expected) = (lay_out(&plain), lay_out(&changed));
+        let end = if windows { "\r\n" } else { "\n" };
+        if last {
+            text = text.trim_end_matches(['\r', '\n']).to_owned();
+            expected = expected.trim_end_matches(['\r', '\n']).to_owned();
+            if !text.ends_with('\n') {
+                expected.push_str(end);
+            }
+        }
+        expected.push_str(&EFFECT.replace('\n', end));
+        prop_assert_eq!(added(&text), expected);
+    }
 }

@@ -8,6 +8,7 @@
 use gearwear::effects::{Effect, Hook, Local, Prior, find};
 use gearwear::gear::Member;
 use gearwear::study::{EffectSpec, Fault, Role, Study};
+use proptest::prelude::*;
 
 const BASE: &str = include_str!("../validation/challenges/none_L2/study.toml");
 
@@ -311,5 +312,33 @@ fn a_missing_need_is_named() {
         assert!(error.to_string().contains("in [lubricant]"), "{error}");
     }
     let fine = "[[effect]]\nkind = \"micropitting\"\nlambda_c = inf\n";
+    let freed = format!("{dry}\n{fine}[fit]\nfree = [\"micropitting.lambda_c\"]\n");
+    let error = Study::parse(&freed, "study.toml").unwrap_err().to_string();
+    assert!(
+        error.contains("\"micropitting.lambda_c\" needs lubricant.roughness"),
+        "{error}"
+    );
     Study::parse(&format!("{dry}\n{fine}"), "study.toml").unwrap();
+}
+
+proptest! {
+    /// Whatever stands in an expression: it is accepted, or refused at a place inside it.
+    #[test]
+    fn any_expression_is_accepted_or_refused_inside(
+        text in "[ -&(-~µ]{1,20}|[a-z(*+^.,0-9) -]{1,20}",
+        form in 0..3,
+    ) {
+        let written = match form {
+            0 => format!("'{text}'"),
+            1 => format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"")),
+            _ => format!("\"{}\"", text.chars().map(|c| format!("\\u{:04X}", u32::from(c))).collect::<String>()),
+        };
+        let file = format!("{BASE}\n[[effect]]\nkind = \"formula\"\nname = \"f\"\nwear_factor = {written}\n");
+        if let Err(error) = Study::parse(&file, "study.toml") {
+            let span = error.diagnostic().span.clone().unwrap();
+            let begin = file.find(&written).unwrap();
+            prop_assert!(span.start > begin && span.end <= begin + written.len(), "{}", error);
+            prop_assert_eq!(error.diagnostic().key.as_str(), "effect.wear_factor");
+        }
+    }
 }

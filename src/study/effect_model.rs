@@ -116,6 +116,21 @@ impl EffectModel {
         self.parameters().find(|parameter| parameter.name == name)
     }
 
+    /// What the effect of a free parameter needs of the study once a fit moves that parameter.
+    pub(super) fn needs_with(&self, free: &FreeParameter) -> Vec<&'static str> {
+        let concerned = |spec: &&EffectSpec| spec.parameters.iter().any(|p| p.name == free.name);
+        let Some(spec) = self.specs.iter().find(concerned) else {
+            return Vec::new();
+        };
+        let mut moved = spec.clone();
+        for parameter in &mut moved.parameters {
+            if parameter.name == free.name {
+                parameter.value = free.value;
+            }
+        }
+        moved.needs()
+    }
+
     /// All parameters.
     pub fn parameters(&self) -> impl Iterator<Item = &Parameter> {
         self.specs.iter().flat_map(|spec| &spec.parameters)

@@ -6,7 +6,8 @@ use super::effect::{Result, stated};
 use super::effect_model::{EffectSpec, Law, Parameter};
 use super::reader::Table;
 use crate::effects::Hook;
-use crate::effects::formula::{Formula, FormulaError};
+use crate::effects::formula::{FUNCTIONS, Formula, FormulaError};
+use crate::effects::variables::VARIABLES;
 use crate::source_text::{Diagnostic, Fault, list, nearest};
 
 /// The `kind` of a formula.
@@ -33,8 +34,8 @@ const HOOKS: [Hook; 4] = [
 pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
     check_keys(table)?;
     let name = name(table)?;
-    let (hook, key) = hook(table)?;
-    let expression = table.text(key)?.unwrap_or_default();
+    let hook = hook(table)?;
+    let expression = table.text(hook.name())?.unwrap_or_default();
     let inner = table.free_table("parameters")?;
     let mut parameters = Vec::new();
     for short in inner.iter().flat_map(Table::present) {
@@ -50,7 +51,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
     }
     let names: Vec<&str> = parameters.iter().map(Parameter::short).collect();
     let formula = Formula::new(hook, expression, &names)
-        .map_err(|error| fault(table, inner.as_ref(), key, &error))?;
+        .map_err(|error| fault(table, inner.as_ref(), hook, &error))?;
     Ok(EffectSpec {
         kind: KIND.to_owned(),
         name: name.to_owned(),
@@ -102,15 +103,15 @@ fn name<'a>(table: &Table<'a>) -> Result<&'a str> {
     Ok(name)
 }
 
-/// The one hook that the entry states, with its key.
-fn hook(table: &Table<'_>) -> Result<(Hook, &'static str)> {
+/// The one hook that the entry states.
+fn hook(table: &Table<'_>) -> Result<Hook> {
     let stated: Vec<Hook> = HOOKS
         .into_iter()
         .filter(|hook| table.has(hook.name()))
         .collect();
     let allowed = format!("one of {}", list(HOOKS.map(Hook::name)));
     match stated[..] {
-        [only] => Ok((only, only.name())),
+        [only] => Ok(only),
         [] => Err(Box::new(table.missing("wear_factor", &allowed))),
         [_, second, ..] => Err(Box::new(table.refuse(
             second.name(),
@@ -124,16 +125,14 @@ fn hook(table: &Table<'_>) -> Result<(Hook, &'static str)> {
 fn fault(
     table: &Table<'_>,
     parameters: Option<&Table<'_>>,
-    key: &str,
+    hook: Hook,
     error: &FormulaError,
 ) -> Box<Diagnostic> {
     let base = |message: &str| {
-        let mut diagnostic = table.refuse(key, "", "");
+        let mut diagnostic = table.refuse(hook.name(), "", "");
         diagnostic.message = format!("{}: {message}", diagnostic.key);
         diagnostic
     };
-    let functions =
-        "`gearwear effects` shows formulas; variables and functions stand in the README";
     match error {
         FormulaError::Expression(inside) => {
             let mut diagnostic = base(&inside.message);
@@ -143,7 +142,14 @@ fn fault(
                 let place = inside_text(raw, inside.column, inside.length);
                 diagnostic.span = Some(span.start + place.start..span.start + place.end);
             }
-            Box::new(diagnostic.with_hint(functions))
+            let variables = VARIABLES.iter().filter(|v| v.available(hook));
+            let variables = list(variables.map(|variable| variable.name));
+            let functions = list(FUNCTIONS.iter().map(|(name, ..)| *name));
+            Box::new(
+                diagnostic
+                    .with_hint(format!("variables of {}: {variables}", hook.name()))
+                    .with_hint(format!("functions: {functions}; constant: pi")),
+            )
         }
         FormulaError::Name { name, .. } | FormulaError::Unused { name } => {
             let mut diagnostic = base(&error.to_string());

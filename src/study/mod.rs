@@ -291,7 +291,9 @@ impl Study {
             operation,
             wear,
             contact: settings::read_model(&root)?,
-            free: settings::read_fit(&root, &wear, &effects)?,
+            free: settings::read_fit(&root, &wear, &effects, &|key| {
+                effect::is_stated(key, lubricant, thermal)
+            })?,
             noise: settings::read_noise(&root)?,
             effects,
             tests,

@@ -83,11 +83,12 @@ pub(super) fn read_model(root: &Table<'_>) -> Result<ContactKind> {
     Ok(kind.unwrap_or(ContactKind::Fem))
 }
 
-/// `[fit] free`, each name looked up among the study's parameters.
+/// `[fit] free`, each name looked up among the study's parameters; `states` tells which optional keys the study has.
 pub(super) fn read_fit(
     root: &Table<'_>,
     wear: &Wear,
     effects: &EffectModel,
+    states: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<FreeParameter>> {
     let coefficient = FreeParameter::wear_coefficient(wear);
     let names = root.table("fit", FIT_KEYS)?;
@@ -117,7 +118,17 @@ pub(super) fn read_fit(
             return Err(refusal("stands there twice"));
         }
         free.push(match effects.parameter(name) {
-            Some(parameter) => parameter.free(),
+            Some(parameter) => {
+                let parameter = parameter.free();
+                // a value that switches a part of the effect off may be a fit's start no longer
+                let needs = effects.needs_with(&parameter);
+                if let Some(key) = needs.into_iter().find(|key| !states(key)) {
+                    return Err(refusal(&format!(
+                        "needs {key}, which the study does not state"
+                    )));
+                }
+                parameter
+            }
             None if name == WEAR_COEFFICIENT => coefficient.clone(),
             None => return Err(refusal("is no parameter of this study")),
         });
