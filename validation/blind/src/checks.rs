@@ -9,12 +9,17 @@ use crate::passage::{Fineness, Passage};
 use crate::ring::{self, FlankCompliance};
 use crate::wear::Run;
 
-pub fn main() {
-    if std::env::args().nth(1).as_deref() == Some("none") {
-        return none();
+pub fn print(what: &str) {
+    if what != "none" {
+        shares(1);
     }
+    if what != "shares" {
+        none(&Fineness::default(), 5e-4);
+    }
+}
+
+fn shares(fine: usize) {
     let t = Instant::now();
-    let fine: usize = std::env::args().nth(1).and_then(|s| s.parse().ok()).unwrap_or(1);
     for (name, m, z, x, bores, e, torque, width) in [
         ("REF", 2.0, [27, 53], [0.0, 0.0], [12.5, 20.0], 2.1e5, 100.0, 33.0),
         ("FZG-C", 4.5, [16, 24], [0.1817, 0.1715], [15.0, 15.0], 2.06e5, 200.0, 14.0),
@@ -82,14 +87,7 @@ pub fn double(pair: &Mating, soft: &[FlankCompliance; 2], e: f64, s: f64, w: f64
 }
 
 /// All tests of `../challenges/none_L2` with the true coefficient.
-pub fn none() {
-    let num = |k: usize, d: f64| std::env::args().nth(k).and_then(|s| s.parse().ok()).unwrap_or(d);
-    let fine = Fineness {
-        positions: num(2, 72.0) as usize,
-        cells_per_half_width: num(3, 7.0),
-        extent: num(4, 3.2),
-    };
-    let tolerance = num(5, 1e-3);
+pub fn none(fine: &Fineness, tolerance: f64) {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../challenges/none_L2");
     let truth: serde_json::Value =
         serde_json::from_str(&std::fs::read_to_string(format!("{folder}/truth.json")).unwrap()).unwrap();
@@ -121,7 +119,7 @@ pub fn none() {
         let t = Instant::now();
         let pair = Mating::new(&p, &g, 80.0 + mis);
         let load = 1e3 * torque / 33.0 / p.rb;
-        let passage = Arc::new(Passage::new(pair, &soft, 2.1e5, load, fine));
+        let passage = Arc::new(Passage::new(pair, &soft, 2.1e5, load, *fine));
         let set = t.elapsed();
         let run = Run {
             passage: passage.clone(),
@@ -166,9 +164,6 @@ pub fn none() {
             let mass = rows.iter().find(|r| r.0 == id && r.1 == m && r.2 == n && r.3 == "mass_loss").map_or(0.0, |r| r.5);
             println!("  {} {n:8}: max {top:6.3} um, inside {inside:5.2} %, rms {rms:5.2} %, ends {:5.2} {:5.2} %, mass {:5.2} %",
                 ["pinion", "gear"][m], err[0], err[len - 1], 100.0 * (run.mass(&state, m) / mass - 1.0));
-            if std::env::args().nth(6).is_some() {
-                println!("    {}", err.iter().map(|e| format!("{e:.2}")).collect::<Vec<_>>().join(" "));
-            }
         }
     }
     println!("rms of all {:.3} %, {:.2?}", (sum / f64::from(count as u32)).sqrt(), all.elapsed());

@@ -87,9 +87,9 @@ pub struct Fineness {
 impl Default for Fineness {
     fn default() -> Self {
         Self {
-            positions: 72,
-            cells_per_half_width: 7.0,
-            extent: 3.2,
+            positions: 84,
+            cells_per_half_width: 7.5,
+            extent: 4.0,
         }
     }
 }
