@@ -75,6 +75,8 @@ pub struct Rig {
     pub tests: Vec<Plan>,
     pub sealed: Plan,
     pub points: usize,
+    /// Finer for laws that are sharp in the local pressure.
+    pub fine: Fineness,
     passages: Mutex<HashMap<(i64, i64), Arc<Passage>>>,
 }
 
@@ -225,6 +227,7 @@ impl Rig {
             tests,
             sealed,
             points: 40 + d.below(17),
+            fine: Fineness::default(),
             passages: Mutex::new(HashMap::new()),
         }
     }
@@ -235,7 +238,7 @@ impl Rig {
         map.entry(key)
             .or_insert_with(|| {
                 let pair = Mating::new(&self.pinion, &self.gear, centre);
-                Arc::new(Passage::new(pair, &self.soft, self.youngs, load, Fineness::default()))
+                Arc::new(Passage::new(pair, &self.soft, self.youngs, load, self.fine))
             })
             .clone()
     }
@@ -251,9 +254,18 @@ impl Rig {
             width: self.width,
             k,
             hidden: Arc::new(hidden),
-            tolerance: 5e-4,
+            tolerance: 4e-4,
         };
+        let start = std::time::Instant::now();
         let history = run.run(cycles);
+        if std::env::var("BLIND_COST").is_ok() {
+            eprintln!(
+                "{} {:?} steps {} evaluations {} stations {:?} cells {} {:.2?}",
+                plan.id, laws.iter().map(|l| l.name).collect::<Vec<_>>(), history.cycles.len(), history.evaluations,
+                run.passage.stations.iter().map(|s| s.count).collect::<Vec<_>>(),
+                run.passage.positions[0].cells.len(), start.elapsed()
+            );
+        }
         (run, history)
     }
 
@@ -324,7 +336,7 @@ impl Rig {
 }
 
 /// How far base histories reach, over the planned cycles at the true k.
-const REACH: f64 = 4.0;
+const REACH: f64 = 2.6;
 
 fn compliances(p: &Tooth, g: &Tooth, paper: bool) -> Arc<[FlankCompliance; 2]> {
     static PAPER: Mutex<Option<Arc<[FlankCompliance; 2]>>> = Mutex::new(None);
@@ -460,7 +472,10 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let named: Vec<(&'static str, &'static str)> = names(wish, kind, &mut choice);
 
     let mut d = root.branch(attempt as u64);
-    let rig = Rig::draw(paper, &mut d);
+    let mut rig = Rig::draw(paper, &mut d);
+    if named.iter().any(|n| ["pressure_exponent", "micropitting", "plastic_deformation"].contains(&n.0)) {
+        rig.fine.cells_per_half_width = 10.0;
+    }
     let depth = d.log_uniform(3.0, 15.0);
     // A first guess of k from the start of contact, corrected with the base histories.
     let pair = Mating::new(&rig.pinion, &rig.gear, rig.centre);

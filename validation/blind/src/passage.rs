@@ -87,8 +87,8 @@ pub struct Fineness {
 impl Default for Fineness {
     fn default() -> Self {
         Self {
-            positions: 84,
-            cells_per_half_width: 7.5,
+            positions: 64,
+            cells_per_half_width: 6.5,
             extent: 4.0,
         }
     }
