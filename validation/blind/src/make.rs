@@ -286,6 +286,22 @@ impl Rig {
         })
     }
 
+    /// Deepest wear where the test is measured, um.
+    fn deepest(&self, plan: &Plan, run: &Run, history: &History, cycles: f64) -> f64 {
+        let state = history.at(cycles);
+        let p = &run.passage;
+        let n0 = p.stations[0].count;
+        let mut deepest = 0.0f64;
+        for (m, radii) in self.radii(plan).iter().enumerate() {
+            let t = p.pair.teeth(m);
+            let part = if m == 0 { &state[..n0] } else { &state[n0..] };
+            for &r in radii {
+                deepest = deepest.max(1e3 * p.stations[m].sample(part, t.arc(t.rho(r))));
+            }
+        }
+        deepest
+    }
+
     /// Rows of a test without values, in the order of the file.
     fn rows(&self, plan: &Plan, test: usize) -> Vec<Row> {
         let radii = self.radii(plan);
@@ -483,12 +499,11 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let w = 1e3 * a.conditions.torque / (rig.width * rig.pinion.rb);
     let sr = (pair.rho(1, pair.start) * pair.pinion.z as f64 / pair.gear.z as f64 / pair.rho(0, pair.start) - 1.0).abs();
     let mut k0 = 1e-3 * depth / (0.4 * w * sr * a.cycles);
-    let end_depth = |h: &History, n: f64| 1e3 * h.at(n).iter().copied().fold(0.0, f64::max);
-    let (_, first) = rig.run(a, k0, &[], a.cycles * 3.0);
+    let (first_run, first) = rig.run(a, k0, &[], a.cycles * 3.0);
     let (mut lo, mut hi) = (0.0, 3.0);
     for _ in 0..40 {
         let mid = 0.5 * (lo + hi);
-        if end_depth(&first, mid * a.cycles) < depth { lo = mid } else { hi = mid }
+        if rig.deepest(a, &first_run, &first, mid * a.cycles) < depth { lo = mid } else { hi = mid }
     }
     k0 *= lo;
     let k = (k0 * 1e13).round() / 1e13;
@@ -496,7 +511,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         return None;
     }
     let base: Vec<(Run, History)> = rig.tests.par_iter().map(|p| rig.run(p, k, &[], p.cycles * REACH)).collect();
-    let deepest = base.iter().zip(&rig.tests).map(|(b, p)| end_depth(&b.1, p.cycles)).fold(0.0, f64::max);
+    let deepest = base.iter().zip(&rig.tests).map(|(b, p)| rig.deepest(p, &b.0, &b.1, p.cycles)).fold(0.0, f64::max);
     if deepest > 22.0 {
         return None;
     }
@@ -515,7 +530,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let context = context(&rig, &pair, &bench);
     let (mut found, rows, dd, d_each) = strength(&bench, &context, &named, target, kind, &mut d)?;
     let top = rows.iter().flatten().filter(|r| r.radius.is_some()).map(|r| r.free).fold(0.0, f64::max);
-    if !(1.2..26.0).contains(&top) {
+    if !(1.8..26.0).contains(&top) {
         return None;
     }
     let weigh = !found.iter().any(Law::moves_material);
@@ -634,7 +649,7 @@ fn context(rig: &Rig, pair: &Mating, bench: &Bench) -> Context {
         torque: a.conditions.torque,
         speed: a.conditions.speed,
         cycles: a.cycles,
-        depth: 1e3 * state.iter().copied().fold(0.0, f64::max),
+        depth: rig.deepest(a, run, history, a.cycles),
         p0,
         load: w,
         film: laws::film(w, r, speeds(0.0), run.passage.e_star, &a.conditions),
