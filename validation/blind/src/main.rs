@@ -1,0 +1,164 @@
+//! Wear measurements with a hidden cause, made without anything of the solver that they judge, and the judging.
+
+mod banded;
+mod checks;
+mod contact;
+mod detect;
+mod dice;
+mod files;
+mod hidden;
+mod involute;
+mod laws;
+mod make;
+mod passage;
+mod ring;
+mod score;
+mod wear;
+
+use std::error::Error;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use make::{Kind, Wish};
+
+#[derive(Parser)]
+#[command(about = "Blind data for wear diagnosis, and their judging")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Gear {
+    Paper,
+    Random,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write data sets.
+    Make {
+        #[arg(long)]
+        seed: u64,
+        #[arg(long, default_value_t = 1)]
+        count: u64,
+        /// First index of the seed's series.
+        #[arg(long, default_value_t = 0)]
+        from: u64,
+        #[arg(long)]
+        out: PathBuf,
+        /// Default: a mix (30 % none, 15 % single, 25 % foreign, 15 % outside, 15 % pair).
+        #[arg(long)]
+        class: Option<Kind>,
+        /// Relative noise; default: 2, 5 or 10 %.
+        #[arg(long)]
+        noise: Option<f64>,
+        #[arg(long)]
+        gear: Option<Gear>,
+        /// One cause, "name" or "name:form".
+        #[arg(long)]
+        law: Option<String>,
+        /// Tilt one trace by several sigma.
+        #[arg(long)]
+        outlier: bool,
+        /// Part of the points that is missing.
+        #[arg(long, default_value_t = 0.0)]
+        missing: f64,
+        /// Divide the written sigma by this.
+        #[arg(long, default_value_t = 1.0)]
+        understate: f64,
+    },
+    /// Judge diagnosis.json files against the answers.
+    Score {
+        data: PathBuf,
+        #[arg(long)]
+        results: PathBuf,
+        /// Also write the figures as JSON here.
+        #[arg(long)]
+        json: Option<PathBuf>,
+    },
+    /// The generator's base model against published shares, stiffness and the open data.
+    Check {
+        #[arg(default_value = "all")]
+        what: String,
+    },
+    /// List the causes.
+    Laws,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    match Arguments::parse().command {
+        Command::Make {
+            seed,
+            count,
+            from,
+            out,
+            class,
+            noise,
+            gear,
+            law,
+            outlier,
+            missing,
+            understate,
+        } => {
+            let law = law.map(|l| match l.split_once(':') {
+                Some((a, b)) => (a.to_string(), Some(b.to_string())),
+                None => (l, None),
+            });
+            let start = Instant::now();
+            for index in from..from + count {
+                let folder = out.join(files::name_of(seed, index));
+                if folder.join("truth.json").exists() {
+                    continue;
+                }
+                let wish = Wish {
+                    seed,
+                    index,
+                    kind: class,
+                    noise,
+                    paper: gear.map(|g| matches!(g, Gear::Paper)),
+                    law: law.clone(),
+                    outlier,
+                    missing,
+                    understate,
+                };
+                let set = make::make(&wish);
+                files::write(&set, &folder)?;
+                let causes: Vec<String> = set.laws.iter().map(|l| format!("{}:{}", l.name, l.form)).collect();
+                println!(
+                    "{} {} [{}] d {:.1} each {:.1?} noise {} gear {} k {:.2e} attempts {} rows {} ({:.1} s)",
+                    files::name(&set),
+                    set.kind.name(),
+                    causes.join(" + "),
+                    set.d,
+                    set.d_each,
+                    set.noise,
+                    if set.rig.paper { "paper" } else { "random" },
+                    set.k,
+                    set.attempts,
+                    set.rows.len(),
+                    start.elapsed().as_secs_f64()
+                );
+            }
+        }
+        Command::Score { data, results, json } => {
+            let (text, figures) = score::score(&data, &results)?;
+            print!("{text}");
+            if let Some(path) = json {
+                std::fs::write(path, serde_json::to_string_pretty(&figures)?)?;
+            }
+        }
+        Command::Check { what } => checks::print(&what),
+        Command::Laws => {
+            for (name, form) in laws::CATALOGUE {
+                println!("{name}: {form}");
+            }
+            for name in laws::OUTSIDE {
+                println!("{name}: outside the catalogue");
+            }
+        }
+    }
+    Ok(())
+}
