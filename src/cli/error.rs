@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::effects::EffectError;
+use crate::learn::FitError;
 use crate::report::OutputError;
 use crate::simulate::checkpoint::CheckpointError;
 use crate::simulate::forward::ForwardError;
@@ -26,6 +27,9 @@ pub enum CliError {
     /// The simulation did not come to a result.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// What is free cannot be fitted to the measurements.
+    #[error(transparent)]
+    Fit(#[from] FitError),
     /// A checkpoint cannot be used.
     #[error("{source}: {}; run without --resume to start afresh", .path.display())]
     Checkpoint {
@@ -98,9 +102,10 @@ impl CliError {
                 | OutputError::NotAFolder { .. }
                 | OutputError::Nameless { .. },
             ) => 2,
-            CliError::Checkpoint { .. } => 2,
+            CliError::Checkpoint { .. } | CliError::Fit(FitError::NoObservations) => 2,
             CliError::Output(_)
             | CliError::Run(_)
+            | CliError::Fit(_)
             | CliError::Io { .. }
             | CliError::Print(_)
             | CliError::Threads { .. }

@@ -10,8 +10,10 @@
 
 mod add;
 pub mod args;
+mod compare;
 mod effects;
 mod error;
+mod fitting;
 mod folder;
 mod init;
 mod mesh;

@@ -1,10 +1,13 @@
 //! A study with its measurements: the bench on which its models are fitted.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use crate::learn::bench::{Bench, MeasuredTest, Workshop};
 use crate::learn::fit::{Coefficient, Fit, FitError, Problem};
 use crate::learn::gear_model::GearModel;
 use crate::learn::noise::NoiseModel;
 use crate::learn::parameters::Parameter;
+use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{ContactKind, ForwardError};
@@ -109,6 +112,22 @@ impl<'a> Measured<'a> {
         others: &[Vec<f64>],
         effort: &Effort,
     ) -> Result<Fit, FitError> {
+        self.fit_watched(bench, version, noise, others, effort, &|_| {})
+    }
+
+    /// As [`Measured::fit`]; `watch` hears after each wear history of a test how many there have been.
+    ///
+    /// # Errors
+    /// [`FitError`]
+    pub fn fit_watched(
+        &self,
+        bench: &Bench,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        others: &[Vec<f64>],
+        effort: &Effort,
+        watch: &(dyn Fn(usize) + Sync),
+    ) -> Result<Fit, FitError> {
         let is_k = |free: &&FreeParameter| free.name == WEAR_COEFFICIENT;
         let coefficient = match version.free.iter().find(is_k) {
             Some(free) => Coefficient::Free(parameter(free)),
@@ -128,19 +147,41 @@ impl<'a> Measured<'a> {
                 })
             }),
         );
-        let first: Vec<f64> = parameters.iter().map(|p| p.start).collect();
-        let starts: Vec<Vec<f64>> = std::iter::once(first)
-            .chain(others.iter().cloned())
-            .collect();
+        let own: Vec<f64> = parameters.iter().map(|p| p.start).collect();
+        let starts: Vec<Vec<f64>> = std::iter::once(own).chain(others.iter().cloned()).collect();
         let problem = Problem {
             data: &self.data,
             roles: &self.roles,
-            predictor: &model,
+            predictor: &Counted {
+                model,
+                count: AtomicUsize::new(0),
+                watch,
+            },
             coefficient,
             parameters,
             noise,
         };
         problem.fit_from(&starts, effort)
+    }
+}
+
+/// A model that tells how often it was asked.
+struct Counted<'w, P> {
+    model: P,
+    count: AtomicUsize,
+    watch: &'w (dyn Fn(usize) + Sync),
+}
+
+impl<P: Predictor> Predictor for Counted<'_, P> {
+    fn predict(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+    ) -> Result<Vec<f64>, PredictError> {
+        let found = self.model.predict(test, coefficient, parameters);
+        (self.watch)(self.count.fetch_add(1, Ordering::Relaxed) + 1);
+        found
     }
 }
 

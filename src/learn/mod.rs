@@ -15,6 +15,7 @@
 
 mod add;
 mod bench;
+mod compare;
 mod comparison;
 mod curves;
 mod evaluate;
@@ -38,6 +39,7 @@ mod worst;
 
 pub use add::{Addition, add};
 pub use bench::{Bench, MeasuredTest, Workshop};
+pub use compare::{CompareError, Compared, Doing, Watch, compare, contact_of};
 pub use comparison::{Comparison, Outlier, ParameterRecord, TestRecord};
 pub use curves::{Curve, CurvePoint, curves};
 pub use fit::{Coefficient, Fit, FitError, Jacobian, Problem, RowFit, TestFit};

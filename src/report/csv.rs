@@ -119,14 +119,14 @@ pub(super) fn same_length(
 }
 
 /// A table being built; rows end explicitly, commas come by themselves.
-struct Table {
+pub(super) struct Table {
     file: &'static str,
     text: String,
     row_begins: bool,
 }
 
 impl Table {
-    fn new(file: &'static str, header: &str) -> Self {
+    pub(super) fn new(file: &'static str, header: &str) -> Self {
         Table {
             file,
             text: format!("{header}\n"),
@@ -134,7 +134,7 @@ impl Table {
         }
     }
 
-    fn text(&mut self, cell: &str) {
+    pub(super) fn text(&mut self, cell: &str) {
         if !self.row_begins {
             self.text.push(',');
         }
@@ -142,18 +142,18 @@ impl Table {
         self.row_begins = false;
     }
 
-    fn number(&mut self, what: &str, value: f64) -> Result<(), OutputError> {
+    pub(super) fn number(&mut self, what: &str, value: f64) -> Result<(), OutputError> {
         let cell = exact(finite(self.file, what, value)?);
         self.text(&cell);
         Ok(())
     }
 
-    fn end_row(&mut self) {
+    pub(super) fn end_row(&mut self) {
         self.text.push('\n');
         self.row_begins = true;
     }
 
-    fn into_bytes(self) -> Vec<u8> {
+    pub(super) fn into_bytes(self) -> Vec<u8> {
         self.text.into_bytes()
     }
 }

@@ -49,6 +49,29 @@ pub fn count(value: f64) -> String {
     }
 }
 
+/// A value with its standard deviation: two digits of that, the value to the same place.
+pub fn uncertain(value: f64, sigma: f64) -> String {
+    if !(value.is_finite() && sigma.is_finite() && sigma > 0.0) {
+        return significant(value, 4);
+    }
+    let size = value.abs().max(sigma);
+    let power = size.log10().floor() as i32;
+    let tiny_or_huge = !(-3..6).contains(&power);
+    let scale = if tiny_or_huge { 10f64.powi(power) } else { 1.0 };
+    let (value, sigma) = (value / scale, sigma / scale);
+    let decimals = (1.0 - sigma.log10().floor()).clamp(0.0, 9.0) as usize;
+    let both = format!(
+        "{} ± {}",
+        grouped(&format!("{value:.decimals$}")),
+        grouped(&format!("{sigma:.decimals$}"))
+    );
+    if tiny_or_huge {
+        format!("({both})·10{}", superscript(power))
+    } else {
+        both
+    }
+}
+
 /// A percentage of a ratio.
 pub fn percent(ratio: f64, digits: usize) -> String {
     format!("{} %", significant(100.0 * ratio, digits))
@@ -114,6 +137,13 @@ mod tests {
         assert_eq!(significant(6e-10, 2), "6.0·10\u{207b}\u{b9}\u{2070}");
         assert_eq!(significant(115_385.2, 3), "115\u{202f}385");
         assert_eq!(significant(9.999_9, 3), "10.0");
+        assert_eq!(
+            uncertain(6.1234e-10, 2.3e-12),
+            "(6.123 ± 0.023)·10\u{207b}\u{b9}\u{2070}"
+        );
+        assert_eq!(uncertain(-2.913, 0.21), "\u{2212}2.91 ± 0.21");
+        assert_eq!(uncertain(127_300.0, 5_400.0), "127\u{202f}300 ± 5400");
+        assert_eq!(uncertain(3.0, 0.0), "3.000");
         assert_eq!(count(50_000.0), "50\u{202f}000");
         assert_eq!(count(1018.0), "1018");
         assert_eq!(plain(2.0), "2");

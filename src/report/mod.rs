@@ -6,6 +6,7 @@
 //! ```
 //! Every command that writes a folder does so through [`Staging`], every single file through [`write_file`].
 pub mod atomic;
+pub mod comparison;
 pub mod csv;
 mod error;
 pub mod format;
@@ -19,4 +20,7 @@ pub mod vtk;
 
 pub use atomic::{Staging, write_file};
 pub use error::OutputError;
-pub use run::{Written, write_models, write_page, write_run, write_run_with, write_validation};
+pub use run::{
+    Written, write_comparison, write_models, write_page, write_run, write_run_with,
+    write_validation,
+};

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::error::OutputError;
 use super::html::{self, Case, Page};
-use super::{Staging, csv, json as documents, models, plots, vtk};
+use super::{Staging, comparison, csv, json as documents, models, plots, vtk};
 use crate::simulate::models::Comparison;
 use crate::simulate::result::Run;
 
@@ -65,6 +65,17 @@ pub fn write_models(
     )
 }
 
+/// Writes `comparison.json`, `residuals.csv`, its page and its plots.
+pub fn write_comparison(
+    result: &comparison::Result<'_>,
+    folder: &Path,
+) -> Result<Written, OutputError> {
+    let document = comparison::document(result.comparison)?;
+    let further = [("residuals.csv", comparison::residuals(result)?)];
+    let page = html::comparison(result);
+    write_page_with(&page, "comparison.json", &document, &further, folder)
+}
+
 /// Writes `validation.json`, its page, and the same as Markdown (`RESULTS.md`).
 pub fn write_validation(cases: &[Case], folder: &Path) -> Result<Written, OutputError> {
     let mut staging = Staging::begin(folder)?;
@@ -85,8 +96,22 @@ pub fn write_page(
     document: &impl Serialize,
     folder: &Path,
 ) -> Result<Written, OutputError> {
+    write_page_with(page, name, document, &[], folder)
+}
+
+/// The same with further files (name, content).
+fn write_page_with(
+    page: &Page,
+    name: &str,
+    document: &impl Serialize,
+    further: &[(&str, Vec<u8>)],
+    folder: &Path,
+) -> Result<Written, OutputError> {
     let mut staging = Staging::begin(folder)?;
     staging.write(name, &documents::text(name, document)?)?;
+    for (name, content) in further {
+        staging.write(name, content)?;
+    }
     for plot in page.sections.iter().flat_map(|section| &section.plots) {
         staging.write(&format!("plots/{}.svg", plot.name), plot.svg()?.as_bytes())?;
     }

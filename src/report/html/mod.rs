@@ -1,6 +1,7 @@
 //! Self-contained HTML pages: no scripts, no network, light and dark, fit for print.
 //!
 //! A [`Page`] is a conclusion, then sections of text, tables and plots. The same page can be had as Markdown.
+mod comparison;
 mod files;
 mod models;
 mod page;
@@ -8,6 +9,7 @@ mod run;
 mod table;
 mod validation;
 
+pub use comparison::comparison;
 pub use models::models;
 pub use page::{Page, Section};
 pub use run::run;

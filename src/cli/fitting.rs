@@ -1,0 +1,53 @@
+//! Fits for commands: the study's measurements, a fit with its progress on standard error.
+
+use super::progress::Progress;
+use super::{CliError, Context};
+use crate::learn::{CompareError, Compared, Doing, ModelVersion, compare};
+use crate::measure::Dataset;
+use crate::study::Study;
+
+/// Fits a version of the study's model to the measurements, with a progress bar named `what`.
+pub(super) fn fitted(
+    study: &Study,
+    data: &Dataset,
+    version: &ModelVersion,
+    context: &Context,
+    what: &'static str,
+) -> Result<Compared, CliError> {
+    let progress = context.progress(what);
+    Ok(compare(study, data, version, &|doing| {
+        show(&progress, doing)
+    })?)
+}
+
+/// Share of the time that members and tests take.
+const PREPARING: f64 = 0.15;
+
+/// Shows what a comparison is at.
+pub(super) fn show(progress: &Progress, doing: Doing) {
+    match doing {
+        Doing::Members => progress.show(0.0, "meshing and condensing the members".to_owned()),
+        Doing::Tests => progress.show(0.1, "preparing the tests".to_owned()),
+        Doing::Fitting {
+            histories,
+            expected,
+        } => {
+            // the number of steps is not known before; the bar never claims to be at its end
+            let share = (histories as f64 / expected.max(1) as f64).min(0.98);
+            progress.show(
+                PREPARING + (1.0 - PREPARING) * share,
+                format!("fitting: {histories} wear histories"),
+            );
+        }
+    }
+}
+
+impl From<CompareError> for CliError {
+    fn from(error: CompareError) -> Self {
+        match error {
+            CompareError::Study(error) => error.into(),
+            CompareError::Forward(error) => error.into(),
+            CompareError::Fit(error) => CliError::Fit(error),
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! From a study and its measurements to a fit and what it says: the one way that commands go.
+//!
+//! ```text
+//! study, measurements -> members -> tests on the bench -> fit of what is free -> Comparison
+//! ```
+
+use super::bench::Bench;
+use super::comparison::Comparison;
+use super::fit::{Fit, FitError};
+use super::measured::{Measured, ModelVersion};
+use super::noise::NoiseModel;
+use super::search::Effort;
+use crate::measure::Dataset;
+use crate::simulate::forward::{self, ForwardError};
+use crate::study::{ContactKind, Study, StudyError, WEAR_COEFFICIENT};
+
+/// A fit and what it says of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Compared {
+    /// The fit.
+    pub fit: Fit,
+    /// How wrong the fitted model is, and where.
+    pub comparison: Comparison,
+}
+
+/// What a comparison is at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Doing {
+    /// Meshing and condensing the members.
+    Members,
+    /// Preparing the tests' mesh cycles.
+    Tests,
+    /// Fitting.
+    Fitting {
+        /// Wear histories of single tests so far.
+        histories: usize,
+        /// About how many it will take.
+        expected: usize,
+    },
+}
+
+/// Whom a comparison tells what it is at; from any thread.
+pub type Watch<'w> = &'w (dyn Fn(Doing) + Sync);
+
+/// Why there is no comparison.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// The study cannot be compared.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The gears or a test cannot run.
+    #[error(transparent)]
+    Forward(#[from] ForwardError),
+    /// There is no fit.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}
+
+/// The contact model that measurements of a study are compared with.
+///
+/// # Errors
+/// A [`StudyError`] for the published model: it is a printed table for one pair, with the pinion's wear alone.
+pub fn contact_of(study: &Study) -> Result<forward::ContactKind, StudyError> {
+    match study.contact {
+        ContactKind::Fem => Ok(forward::ContactKind::Fem),
+        ContactKind::Hertz => Ok(forward::ContactKind::Hertz),
+        ContactKind::Paper => Err(study.refuse(
+            "model.contact",
+            "the published model is not compared with measurements",
+            "\"fem\" or \"hertz\"",
+            "it wears the pinion alone, takes no effects and has no transmission error; `gearwear models` shows it beside the others",
+        )),
+    }
+}
+
+/// Fits a version of the study's model to the measurements and judges it; `version` is [`ModelVersion::of`] the study for
+/// what the study itself says.
+///
+/// # Errors
+/// [`CompareError`].
+pub fn compare(
+    study: &Study,
+    data: &Dataset,
+    version: &ModelVersion,
+    watch: Watch<'_>,
+) -> Result<Compared, CompareError> {
+    let kind = contact_of(study)?;
+    let measured = Measured::new(study, data.clone());
+    watch(Doing::Members);
+    let workshop = measured.workshop(kind)?;
+    watch(Doing::Tests);
+    let bench = measured.bench(&workshop)?;
+    Ok(measured.compare(&bench, version, watch)?)
+}
+
+impl Measured<'_> {
+    /// Fits a version of the model on a bench that is ready, and judges it.
+    ///
+    /// Once more from the priors' medians, if the fit from the study's values does not converge or ends on a bound.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn compare(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        watch: Watch<'_>,
+    ) -> Result<Compared, FitError> {
+        let noise = NoiseModel::of(&self.study().noise);
+        let effort = Effort::default();
+        let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
+        let told = |histories| {
+            watch(Doing::Fitting {
+                histories,
+                expected,
+            });
+        };
+        told(0);
+        let first = self.fit_watched(bench, version, noise, &[], &effort, &told)?;
+        let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
+        let fit = if settled || version.effects.is_empty() {
+            first
+        } else {
+            let second =
+                self.fit_watched(bench, version, noise, &[medians(version)], &effort, &told);
+            second
+                .ok()
+                .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
+                .unwrap_or(first)
+        };
+        Ok(Compared {
+            comparison: Comparison::new(self.study(), &self.data, &fit),
+            fit,
+        })
+    }
+}
+
+/// Wear histories of one test that a fit of one parameter takes, from experience.
+const HISTORIES_PER_TEST: usize = 6;
+
+/// The priors' medians of the effects' free parameters.
+fn medians(version: &ModelVersion) -> Vec<f64> {
+    let effects = version.free.iter();
+    effects
+        .filter(|free| free.name != WEAR_COEFFICIENT)
+        .map(|free| free.prior.median().clamp(free.lower, free.upper))
+        .collect()
+}

@@ -1,0 +1,39 @@
+//! A fitted model against its measurements: document, table, words.
+mod residuals;
+mod text;
+
+use serde_json::Value;
+
+use super::error::OutputError;
+use crate::learn::{Comparison, Fit};
+use crate::measure::Dataset;
+use crate::study::Study;
+
+pub use residuals::residuals;
+pub use text::{conclusion, summary};
+
+/// All that `compare` shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Result<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// Its file as the user named it.
+    pub name: &'a str,
+    /// The measurements.
+    pub data: &'a Dataset,
+    /// The fit.
+    pub fit: &'a Fit,
+    /// What it says.
+    pub comparison: &'a Comparison,
+}
+
+/// `comparison.json`. χ² without dimension, depths µm, cycles in pinion revolutions; signs are model minus measured.
+///
+/// # Errors
+/// [`OutputError`] if a figure has no JSON form.
+pub fn document(comparison: &Comparison) -> std::result::Result<Value, OutputError> {
+    serde_json::to_value(comparison).map_err(|source| OutputError::Json {
+        file: "comparison.json".to_owned(),
+        source,
+    })
+}

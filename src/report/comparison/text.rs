@@ -1,0 +1,204 @@
+//! A comparison in words: the sentence at the top of its page, and the lines for the terminal.
+use std::path::Path;
+
+use super::super::format::{percent, significant, uncertain, whole};
+use crate::learn::{Comparison, TestRecord};
+use crate::study::{Role, Study};
+
+/// χ² per point above which the model is told to lack something: three standard deviations √(2/n) above 1.
+fn noise_floor(points: usize) -> f64 {
+    1.0 + 3.0 * (2.0 / points.max(1) as f64).sqrt()
+}
+
+/// Whether the model misses the fit tests by more than their noise.
+pub(super) fn lacks(comparison: &Comparison) -> bool {
+    let fit = &comparison.fit;
+    fit.chi2_per_point
+        .is_some_and(|chi2| chi2 > noise_floor(fit.points))
+}
+
+/// How wrong the model is, and where it fails worst.
+pub fn conclusion(comparison: &Comparison) -> String {
+    let mut said = Vec::new();
+    let shares = [
+        (&comparison.fit, "the tests it is fitted to"),
+        (&comparison.holdout, "held-out tests"),
+    ];
+    let parts: Vec<String> = shares
+        .iter()
+        .filter_map(|(share, of)| {
+            Some(format!("{} on {of}", significant(share.chi2_per_point?, 3)))
+        })
+        .collect();
+    said.push(format!(
+        "χ² per point is {} (1 is the noise floor).",
+        parts.join(", ")
+    ));
+    if let (Some(rms), Some(noise)) = (comparison.rms_um, comparison.noise_rms_um) {
+        said.push(format!(
+            "Worn depths are off by {} µm (root mean square); the measurements' own noise is {} µm.",
+            significant(rms, 3),
+            significant(noise, 3)
+        ));
+    }
+    said.push(comparison.worst.clone());
+    said.join(" ")
+}
+
+/// What was compared: contact model, effects, tests, measurements.
+pub(super) fn what(study: &Study, comparison: &Comparison) -> String {
+    let effects: Vec<&str> = study.effects().iter().map(|e| e.name.as_str()).collect();
+    let count = |role: Role| study.tests.iter().filter(|t| t.role == role).count();
+    let held = count(Role::Holdout);
+    format!(
+        "{} contact, {}; {} measured points of {} fit {}{}",
+        study.contact.name(),
+        match effects.as_slice() {
+            [] => "no effect".to_owned(),
+            some => format!("with {}", some.join(", ")),
+        },
+        whole(comparison.points),
+        count(Role::Fit),
+        if count(Role::Fit) == 1 {
+            "test"
+        } else {
+            "tests"
+        },
+        match held {
+            0 => String::new(),
+            n => format!(" and {n} held out"),
+        }
+    )
+}
+
+/// A few lines for the terminal: the figures that matter, where the files are, what to do next.
+pub fn summary(result: &super::Result<'_>, folder: &Path) -> String {
+    let c = result.comparison;
+    let mut lines = Vec::new();
+    if !result.study.title.is_empty() {
+        lines.push(result.study.title.clone());
+    }
+    lines.push(what(result.study, c));
+    lines.push(String::new());
+    figures(&mut lines, c);
+    parameters(&mut lines, c);
+    tests(&mut lines, &c.tests);
+    lines.push(String::new());
+    lines.push(c.worst.clone());
+    for warning in &c.warnings {
+        lines.push(format!("warning: {warning}"));
+    }
+    if let Some(first) = c.outliers.first() {
+        lines.push(format!(
+            "outliers: {} further off than 4 sigma, the furthest {} ({} sigma)",
+            match c.outliers.len() {
+                1 => "1 row".to_owned(),
+                n => format!("{n} rows"),
+            },
+            first.place,
+            significant(first.standardised, 3)
+        ));
+    }
+    lines.push(String::new());
+    for (what, file) in [
+        ("page:     ", "report.html"),
+        ("figures:  ", "comparison.json"),
+        ("residuals:", "residuals.csv"),
+    ] {
+        lines.push(format!("{what} {}", folder.join(file).display()));
+    }
+    next(&mut lines, result);
+    lines.push(String::new());
+    lines.join("\n")
+}
+
+fn figures(lines: &mut Vec<String>, c: &Comparison) {
+    let parts: Vec<String> = [(&c.fit, "fit"), (&c.holdout, "held out")]
+        .iter()
+        .filter_map(|(share, name)| {
+            Some(format!("{} {name}", significant(share.chi2_per_point?, 3)))
+        })
+        .collect();
+    lines.push(format!(
+        "  chi2 per point    {}   (1: the noise floor)",
+        parts.join(", ")
+    ));
+    if let (Some(rms), Some(noise)) = (c.rms_um, c.noise_rms_um) {
+        lines.push(format!(
+            "  worn depth        {} µm rms off, noise {} µm",
+            significant(rms, 3),
+            significant(noise, 3)
+        ));
+    }
+    let [low, high] = c.coefficient_scatter_interval;
+    lines.push(format!(
+        "  scatter of k      {} between tests (68 %: {} to {})",
+        percent(c.coefficient_scatter, 2),
+        percent(low, 2),
+        percent(high, 2)
+    ));
+}
+
+fn parameters(lines: &mut Vec<String>, c: &Comparison) {
+    let longest = c.parameters.iter().map(|p| p.name.len()).max().unwrap_or(0);
+    for parameter in &c.parameters {
+        lines.push(format!(
+            "  {:<longest$}  {}{}",
+            parameter.name,
+            with_unit(uncertain(parameter.value, parameter.sigma), &parameter.unit),
+            if parameter.at_bound {
+                "   on its bound"
+            } else {
+                ""
+            }
+        ));
+    }
+}
+
+/// A figure with its unit, if it has one.
+pub(super) fn with_unit(figure: String, unit: &str) -> String {
+    match unit {
+        "" | "-" | "1" => figure,
+        "um" => format!("{figure} µm"),
+        "urad" => format!("{figure} µrad"),
+        "mm2/N" => format!("{figure} mm²/N"),
+        unit => format!("{figure} {unit}"),
+    }
+}
+
+fn tests(lines: &mut Vec<String>, tests: &[TestRecord]) {
+    let longest = tests.iter().map(|t| t.test.chars().count()).max();
+    let width = longest.unwrap_or(0).max(4);
+    lines.push(String::new());
+    lines.push(format!(
+        "  {:<width$}  {:<8}{:>8}{:>10}{:>10}{:>9}   {}",
+        "test", "role", "points", "chi2", "bias µm", "rms µm", "k, mm²/N"
+    ));
+    let depth = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 2));
+    for test in tests {
+        lines.push(format!(
+            "  {:<width$}  {:<8}{:>8}{:>10}{:>10}{:>9}   {}",
+            test.test,
+            test.role,
+            whole(test.points),
+            significant(test.chi2_per_point, 3),
+            depth(test.bias_um),
+            depth(test.rms_um),
+            uncertain(test.coefficient, test.coefficient_sigma)
+        ));
+    }
+}
+
+fn next(lines: &mut Vec<String>, result: &super::Result<'_>) {
+    if lacks(result.comparison) {
+        let name = result.name;
+        lines.push(format!(
+            "next:      gearwear diagnose {name}     which effect is missing"
+        ));
+        lines.push(format!(
+            "           gearwear add {name} EFFECT   if you know it; `gearwear effects` lists them"
+        ));
+    } else {
+        lines.push("next:      nothing is missing that these measurements could show".to_owned());
+    }
+}
