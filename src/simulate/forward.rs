@@ -286,7 +286,8 @@ impl<'a> Forward<'a> {
                     profile_shift: [pinion, gear].map(|g| g.spec.profile_shift),
                     ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
                 };
-                let stiffness = teeth.theoretical();
+                let stiffness = teeth.theoretical()
+                    * iso6336::material_factor(self.set.materials.map(|m| m.youngs_modulus));
                 work(&HertzContact::new(
                     &self.cycle,
                     self.torque(),
