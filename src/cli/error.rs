@@ -94,7 +94,8 @@ impl CliError {
                 | OutputError::NotAFolder { .. }
                 | OutputError::Nameless { .. },
             ) => 2,
-            CliError::Checkpoint { .. } => 2,
+            CliError::Checkpoint { .. }
+            | CliError::Run(RunError::Forward(ForwardError::TooFine { .. })) => 2,
             CliError::Output(_)
             | CliError::Run(_)
             | CliError::Io { .. }

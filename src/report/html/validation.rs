@@ -3,7 +3,7 @@ use serde::Serialize;
 
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::report::format::significant;
+use crate::report::format::{plain, significant};
 
 /// One verification or validation case with its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -131,7 +131,7 @@ fn group<'a>(name: &str, cases: impl Iterator<Item = &'a Case>) -> Section {
                     .to_owned()
             }
         };
-        let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 6));
+        let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), plain);
         table = table.row([
             Cell::Code(case.id.clone()),
             Cell::text(case.quantity.clone()),
