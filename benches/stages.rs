@@ -5,7 +5,8 @@
 //! mesh        both gears meshed                                        fineness = flank edges per Hertz half width
 //! factor      one gear factored and condensed onto its flanks          (5 is the default of a study)
 //! cycle       geometry of the mesh cycle; compliance projected on it
-//! contact     all positions of one mesh cycle solved, from nothing and from the contact sets of flanks half as worn
+//! contact     all positions of one mesh cycle solved, from nothing and from the contact sets of flanks half as worn;
+//!             and each position alone, from the sets of the step before: the median over them all
 //! wear        one accepted wear step on flanks worn for 20 000 cycles
 //! fields      displacement and stress of both members at one position
 //! whole       50 000 cycles with everything above, and the same by the analytic model
@@ -177,6 +178,41 @@ mod contact {
     #[divan::bench(args = FINENESS, max_time = 4)]
     fn cold(bencher: Bencher, fineness: usize) {
         solve(bencher, fineness, false);
+    }
+
+    /// One sample a position, over and over, each from the contact set that it had one wear step earlier.
+    #[divan::bench(args = FINENESS, max_time = 4, sample_size = 1, sample_count = 20_000)]
+    fn warm_one_position(bencher: Bencher, fineness: usize) {
+        let members = members(fineness);
+        let mut forward = forward(&members, fineness);
+        let before = worn(&mut forward, 20_000.0);
+        let law = WearLaw {
+            coefficient: CONDITIONS.coefficient,
+            tolerance: numerics(fineness).step_tolerance,
+        };
+        forward.with_model(|model| {
+            let mut after = Some(before.clone());
+            wear_until(model, law, &mut after, 1e9, &mut |_| false).expect("a step is accepted");
+            let after = after.expect("a step was taken");
+            let flanks = |progress: &Progress| {
+                let (pinion, gear) = progress
+                    .stand
+                    .u
+                    .split_at(model.cycle().stations.arc[0].len());
+                [pinion.to_vec(), gear.to_vec()]
+            };
+            let ([pinion, gear], [next_pinion, next_gear]) = (flanks(&before), flanks(&after));
+            let earlier = all(model, [&pinion, &gear], |_| Vec::new());
+            let mut q = 0;
+            bencher
+                .with_inputs(|| {
+                    q = (q + 1) % earlier.len();
+                    q
+                })
+                .bench_local_values(|q| {
+                    model.solve(q, [&next_pinion, &next_gear], &earlier[q].active)
+                });
+        });
     }
 
     #[divan::bench(args = FINENESS, max_time = 4)]

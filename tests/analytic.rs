@@ -586,3 +586,19 @@ fn iso_6336_stiffness() {
         3e-5,
     );
 }
+
+#[test]
+fn stiffness_of_other_materials_is_that_of_springs_in_series() {
+    use gearwear::analytic::iso6336::material_factor;
+    close(material_factor([206_000.0; 2]), 1.0, 1e-15);
+    // two teeth of the same shape, each as stiff as its modulus, one behind the other
+    let (steel, plastic) = (206_000.0, 3_000.0);
+    let each = |modulus: f64| 2.0 * modulus / steel;
+    let series = 1.0 / (1.0 / each(steel) + 1.0 / each(plastic));
+    close(material_factor([steel, plastic]), series, 1e-14);
+    close(material_factor([plastic, steel]), series, 1e-14);
+    // grey cast iron as the standard has it: 0.59 on itself makes it 0.74 on steel, both rounded to two digits
+    let iron = 0.59 * steel;
+    close(material_factor([iron; 2]), 0.59, 1e-12);
+    assert!((material_factor([iron, steel]) - 0.74).abs() < 0.005);
+}

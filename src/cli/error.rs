@@ -102,7 +102,9 @@ impl CliError {
                 | OutputError::NotAFolder { .. }
                 | OutputError::Nameless { .. },
             ) => 2,
-            CliError::Checkpoint { .. } | CliError::Fit(FitError::NoObservations) => 2,
+            CliError::Checkpoint { .. }
+            | CliError::Fit(FitError::NoObservations)
+            | CliError::Run(RunError::Forward(ForwardError::TooFine { .. })) => 2,
             CliError::Output(_)
             | CliError::Run(_)
             | CliError::Fit(_)

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
 use crate::report::format::significant;
 use crate::report::html::{self, Case};
-use crate::report::{Staging, atomic, json as documents};
+use crate::report::{self, atomic};
 use crate::verify::contact_and_wear::Effort;
 use crate::verify::registry;
 use crate::verify::runner::{self, Row, Verdict};
@@ -55,8 +55,9 @@ fn run_cases(
     );
     let mut outcome = outcome(&rows);
     if let Some(folder) = folder {
-        let written = write(&rows, &outcome.json, folder)?;
-        outcome.text += &format!("Written to {}\n", written.display());
+        let cases: Vec<Case> = rows.iter().map(case).collect();
+        let written = report::write_validation(&cases, folder)?;
+        outcome.text += &format!("Written to {}\n", written.folder.display());
     }
     Ok(outcome)
 }
@@ -74,27 +75,10 @@ fn case_name(name: &str) -> Result<String, String> {
 
 fn outcome(rows: &[Row]) -> Outcome {
     Outcome {
-        json: json!({"cases": rows.iter().map(document).collect::<Vec<_>>()}),
+        json: json!({"cases": rows.iter().map(case).collect::<Vec<_>>()}),
         text: text(rows),
         success: runner::passed(rows),
     }
-}
-
-fn document(row: &Row) -> Value {
-    json!({
-        "id": row.id,
-        "group": row.group,
-        "quantity": row.quantity,
-        "target": row.target,
-        "source": row.source,
-        "value": row.value,
-        "error": row.error,
-        "tolerance": row.tolerance,
-        "measure": if row.relative { "relative" } else { "absolute" },
-        "verdict": verdict(row),
-        "reason": row.reason,
-        "seconds": (row.seconds * 1e3).round() / 1e3,
-    })
 }
 
 fn verdict(row: &Row) -> html::Verdict {
@@ -106,30 +90,20 @@ fn verdict(row: &Row) -> html::Verdict {
     }
 }
 
-/// Writes the document, the page, and the page as Markdown.
-fn write(rows: &[Row], document: &Value, folder: &Path) -> Result<PathBuf, CliError> {
-    let cases: Vec<Case> = rows.iter().map(case).collect();
-    let page = html::validation(&cases);
-    let mut staging = Staging::begin(folder)?;
-    let json = documents::text("validation.json", document)?;
-    staging.write("validation.json", &json)?;
-    staging.write("RESULTS.md", page.markdown().as_bytes())?;
-    staging.write("report.html", page.html()?.as_bytes())?;
-    Ok(staging.commit()?)
-}
-
 fn case(row: &Row) -> Case {
     Case {
         id: row.id.clone(),
         group: row.group.to_owned(),
-        what: row.quantity.clone(),
+        quantity: row.quantity.clone(),
         target: row.target,
         source: row.source.clone(),
         value: row.value,
         error: row.error,
-        tolerance: row.tolerance.unwrap_or(f64::NAN),
-        measure: if row.relative { "relative" } else { "" }.to_owned(),
+        tolerance: row.tolerance,
+        measure: if row.relative { "relative" } else { "absolute" }.to_owned(),
         verdict: verdict(row),
+        reason: row.reason.clone(),
+        seconds: (row.seconds * 1e3).round() / 1e3,
         note: remark(row).unwrap_or_default(),
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! w_i = c(y_i) · max(0, δ − e_i),   Σ w_i = w            c(y) = c_max cos(β₀ (ξ(y) − ε_α/2)),  ξ = (y − y_A)/p_b
-//! β₀ = [½ (1.11 + ε_α/2)² − 1.17]^(−1/2)                  c_max = c'_th of ISO 6336-1, N/(mm·µm)
+//! β₀ = [½ (1.11 + ε_α/2)² − 1.17]^(−1/2)                  c_max = c'_th E/E_St of ISO 6336-1, N/(mm·µm)
 //! ```
 //! The stiffness curve is Pedrero, Pleguezuelos, Artés & Antona, Mech. Mach. Theory 45 (2010), as refined by Sánchez et
 //! al. (2013); e_i are worn depth and profile deviations where the pair touches. Assumed away: contact outside the path

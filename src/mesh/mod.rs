@@ -27,7 +27,7 @@ pub use msh::read_msh;
 pub use order::{Order, raise_order};
 pub use outline::{Loop, Outline};
 pub use quality::{Quality, check_jacobians};
-pub use relocate::relocate;
+pub use relocate::{relocate, unworn};
 pub use triangulate::{Triangles, TriangulateOptions, triangulate};
 pub use user::{BORE_TOLERANCE, FLANK_TOLERANCE};
 pub use vtu::read_vtu;

@@ -58,6 +58,12 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
             let normal = rotate(gear.involute_normal(gear.rho_at_arc(*s)), turn);
             moved[*node as usize] = Some(-*h * normal);
         }
+        // below a worn lowest node the boundary has a ledge, of a straight edge
+        let lowest = chain.nodes.first().copied();
+        let ledge = edges.iter().find(|e| Some(e.start) == lowest);
+        if let Some((mid, start)) = ledge.and_then(|e| Some((e.mid?, e.start))) {
+            moved[mid as usize] = moved[start as usize].map(|u| 0.5 * u);
+        }
         if let Some(tip) = chain.nodes.last() {
             slide_tip(nominal, gear, *tip, &edges, &before, &mut moved);
         }
@@ -82,6 +88,20 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
     };
     check_jacobians(&mesh)?;
     Ok(mesh)
+}
+
+/// The nodes of a worn mesh with its flanks back where they were before they wore by `depths` (as for [`relocate`]); all
+/// other nodes stay.
+pub fn unworn(worn: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Vec<Vec2> {
+    let mut points = worn.points.clone();
+    for (chain, depth) in worn.flanks.iter().zip(depths) {
+        let turn = f64::from(chain.tooth) * gear.pitch_angle();
+        for ((node, s), h) in chain.nodes.iter().zip(&chain.arc).zip(depth) {
+            let normal = rotate(gear.involute_normal(gear.rho_at_arc(*s)), turn);
+            points[*node as usize] += *h * normal;
+        }
+    }
+    points
 }
 
 /// Lets the nodes of rounding and tip land behind the corner `tip` follow it.

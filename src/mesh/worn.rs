@@ -22,9 +22,11 @@ pub(super) fn wear_outline(
         let tip = outer.points[flank.start % count];
         for (i, s) in flank.arcs.iter().enumerate() {
             outer.points[(flank.start + i) % count] += lost(*s);
-            if let Some(next) = flank.arcs.get(i + 1) {
-                outer.mids[flank.start + i] += lost(0.5 * (s + next));
-            }
+            outer.mids[(flank.start + i) % count] += match flank.arcs.get(i + 1) {
+                Some(next) => lost(0.5 * (s + next)),
+                // below a worn lowest point the boundary has a ledge, of a straight edge
+                None => 0.5 * lost(*s),
+            };
         }
         // Backwards along rounding and land, to where the boundary leaves the tip circle.
         let (mut behind, mut length, mut at) = (Vec::new(), 0.0, flank.start);

@@ -82,10 +82,12 @@ pub fn summary(run: &Run, folder: &Path) -> String {
     if !failed.is_empty() {
         lines.push("Next: read Checks in report.html before using the figures".to_owned());
     } else if last.cycles > 0.0 {
-        lines.push(
-            "Next: gearwear models STUDY sets the finite-element, Hertz and published models side by side"
-                .to_owned(),
-        );
+        let what = if run.conditions.model == "fem" {
+            "what the analytic models would have said, and why"
+        } else {
+            "what solving the contact by finite elements changes, and why"
+        };
+        lines.push(format!("Next: gearwear models STUDY shows {what}"));
     }
     lines.push(String::new());
     lines.join("\n")

@@ -25,7 +25,7 @@ pub struct MemberFields {
 }
 
 impl Forward<'_> {
-    /// Fields of pinion and gear at mesh position `q` under `contact`, pressures on the unworn flanks.
+    /// Fields of pinion and gear at mesh position `q` under `contact`, pressures on the flanks as last condensed.
     ///
     /// `None` for the analytic contact model.
     ///
@@ -37,7 +37,7 @@ impl Forward<'_> {
         contact: &PositionContact,
     ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
         let points = self
-            .members()
+            .condensed()
             .map(|m| [&m.members[0].mesh.points[..], &m.members[1].mesh.points[..]]);
         points.map_or(Ok(None), |points| self.fields_on(q, contact, points))
     }

@@ -72,6 +72,17 @@ pub enum ForwardError {
     /// Contact could not be solved.
     #[error(transparent)]
     Contact(#[from] ContactError),
+    /// The flanks would need more elements than fit into memory.
+    #[error(
+        "{unknowns} unknowns on the flanks of one member, at most {MOST_UNKNOWNS} are possible: under the smallest torque the \
+         elements' edges would be {edge_um:.2} µm long; a larger torque or a smaller numerics.elements_per_half_width needs fewer"
+    )]
+    TooFine {
+        /// Unknowns on the fine flanks of the larger member.
+        unknowns: usize,
+        /// Length of an edge, µm.
+        edge_um: f64,
+    },
     /// A wear step failed.
     #[error("{0}")]
     Step(#[from] StepError<WearError>),
@@ -88,6 +99,9 @@ impl From<WearError> for ForwardError {
         }
     }
 }
+
+/// Most unknowns on the flanks of one member: their compliance is a full matrix, of 2 GB then.
+const MOST_UNKNOWNS: usize = 16_000;
 
 impl GearSet {
     /// The pair mounted with a radial misalignment (mm).
@@ -191,6 +205,19 @@ impl GearSet {
         }
         teeth.sort_unstable();
         teeth.dedup();
+        let longest = self
+            .gears
+            .iter()
+            .map(|g| g.arc(g.rho_tip) - g.arc(g.rho_form))
+            .fold(0.0, f64::max);
+        let edges = (longest / spacing).ceil() as usize;
+        let unknowns = 2 * teeth.len() * (numerics.order * edges + 1);
+        if unknowns > MOST_UNKNOWNS {
+            return Err(ForwardError::TooFine {
+                unknowns,
+                edge_um: 1e3 * spacing,
+            });
+        }
         Ok(Fineness { teeth, spacing })
     }
 }
@@ -263,8 +290,11 @@ impl<'a> Forward<'a> {
             Some(members) => members.spacing(),
             None => numerics.flank_spacing(&pair, set.modulus(), torque),
         };
-        let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
-        let stations = Stations::new(&pair, spacing);
+        // linear flanks carry half as many modes: pressures as fine as their edges would oscillate
+        let linear = members.is_some_and(|m| m.members.iter().any(|member| member.order() == 1));
+        let grid = if linear { 2.0 * spacing } else { spacing };
+        let spec = numerics.cycle(&pair, set.modulus(), torque, grid);
+        let stations = Stations::new(&pair, grid);
         let kind = if members.is_some() {
             ContactKind::Fem
         } else {
@@ -418,7 +448,8 @@ impl<'a> Forward<'a> {
                     profile_shift: [pinion, gear].map(|g| g.spec.profile_shift),
                     ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
                 };
-                let stiffness = teeth.theoretical();
+                let stiffness = teeth.theoretical()
+                    * iso6336::material_factor(self.set.materials.map(|m| m.youngs_modulus));
                 let modulus = self.set.modulus();
                 let model = HertzContact::new(&self.cycle, self.torque(), modulus, stiffness);
                 match &self.altered {

@@ -8,6 +8,7 @@ use crate::numeric::{Vec2, interpolate};
 use crate::simulate::fields::MemberFields;
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
 use crate::simulate::history::{WearState, line_load, worn_area};
+use crate::simulate::members::DrawnMesh;
 use crate::simulate::result::{
     Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State,
     WheelGeometry,
@@ -199,22 +200,23 @@ pub fn frame(
     state: &WearState,
     q: usize,
 ) -> Result<Option<FieldFrame>, ForwardError> {
-    let Some(members) = forward.members() else {
+    let (Some(members), Some(condensed)) = (forward.members(), forward.condensed()) else {
         return Ok(None);
     };
     let cycle = forward.cycle();
     let contact = &state.contacts[q];
-    let worn = members.worn_meshes(
+    let drawn = members.drawn_meshes(
+        condensed,
         &cycle.pair,
         &cycle.stations,
         [&state.depth[0], &state.depth[1]],
     )?;
-    let Some([pinion, gear]) = forward.fields_on(q, contact, [&worn[0].points, &worn[1].points])?
-    else {
+    let points = [&drawn[0].mesh.points[..], &drawn[1].mesh.points[..]];
+    let Some([pinion, gear]) = forward.fields_on(q, contact, points)? else {
         return Ok(None);
     };
     let member = |side: usize, fields: MemberFields| {
-        let mesh = &members.members[side].mesh;
+        let DrawnMesh { mesh, unworn } = &drawn[side];
         let mut depth = vec![0.0; mesh.points.len()];
         for chain in &mesh.flanks {
             for (&node, &s) in chain.nodes.iter().zip(&chain.arc) {
@@ -233,8 +235,8 @@ pub fn frame(
                 0.0,
             ],
             rotation: fields.turn,
-            reference: plain(&mesh.points),
-            worn: plain(&worn[side].points),
+            reference: plain(unworn),
+            worn: plain(&mesh.points),
             cells: mesh.cells.clone(),
             displacement: plain(&fields.displacement),
             von_mises: fields.stress.iter().map(|s| s.von_mises()).collect(),

@@ -8,7 +8,10 @@ use crate::contact::fem::{ElasticFlanks, ToothFlank};
 use crate::fem::{Body, FemError};
 use crate::gear::{Gear, Pair};
 use crate::material::Elastic;
-use crate::mesh::{Cells, Mesh, MeshError, MeshSpec, Order, mesh_gear, relocate};
+use crate::mesh::{
+    Cells, Mesh, MeshError, MeshSpec, Order, Quality, mesh_gear, mesh_worn_gear, relocate, unworn,
+};
+use crate::numeric::Vec2;
 use crate::numeric::interpolate;
 
 /// One elastic gear.
@@ -40,7 +43,28 @@ pub struct Members {
     pub members: [Member; 2],
     spacing: f64,
     of_user: bool,
+    /// Depths at the stations for which a member was meshed anew; none: its mesh is the unworn one, moved or not.
+    anew: [Option<Vec<f64>>; 2],
 }
+
+/// The mesh of a worn member.
+pub struct WornMesh {
+    /// Nodes at their worn places.
+    pub mesh: Mesh,
+    /// Depths at the stations for which it was meshed anew; none: the unworn mesh, moved.
+    anew: Option<Vec<f64>>,
+}
+
+/// A worn mesh with the places its nodes had before any wear.
+pub struct DrawnMesh {
+    /// Nodes at their worn places.
+    pub mesh: Mesh,
+    /// Unworn places. A member that was meshed anew has none inside: there they are the worn ones.
+    pub unworn: Vec<Vec2>,
+}
+
+/// Smallest angle down to which a moved mesh is used, degrees; below it the worn gear is meshed anew.
+const LEAST_ANGLE: f64 = 10.0;
 
 impl Members {
     /// Meshes and condenses both gears, in parallel.
@@ -68,6 +92,7 @@ impl Members {
             members: [pinion?, gear?],
             spacing,
             of_user,
+            anew: [None, None],
         })
     }
 
@@ -91,31 +116,37 @@ impl Members {
         self.spacing
     }
 
-    /// The members with the material of `depth` (mm at the `stations`, pinion then gear) removed: nodes moved along the
-    /// inward normal, the interior following; not factored.
+    /// The members with the material of `depth` (mm at the `stations`, pinion then gear) removed, not factored: nodes moved
+    /// along the inward normal, the interior following. A gear whose mesh cannot follow is meshed anew in its worn shape,
+    /// unless a mesh is the user's own.
     ///
     /// # Errors
-    /// [`MemberError`] if a triangle turns over.
+    /// [`MemberError`] if a triangle of a user's mesh turns over, or the worn shape cannot be meshed.
     pub fn worn_meshes(
         &self,
         pair: &Pair,
         stations: &Stations,
         depth: [&[f64]; 2],
-    ) -> Result<[Mesh; 2], MemberError> {
-        let worn = |side: usize| -> Result<Mesh, MemberError> {
-            let mesh = &self.members[side].mesh;
-            let depths: Vec<Vec<f64>> = mesh
-                .flanks
-                .iter()
-                .map(|chain| {
-                    chain
-                        .arc
-                        .iter()
-                        .map(|&s| interpolate(&stations.arc[side], depth[side], s))
-                        .collect()
-                })
-                .collect();
-            Ok(relocate(mesh, [&pair.pinion, &pair.gear][side], &depths)?)
+    ) -> Result<[WornMesh; 2], MemberError> {
+        let worn = |side: usize| -> Result<WornMesh, MemberError> {
+            let member = &self.members[side];
+            let gear = [&pair.pinion, &pair.gear][side];
+            let moved = moved(&member.mesh, gear, &stations.arc[side], depth[side]);
+            let usable = |mesh: &Mesh| Quality::of(mesh).min_angle_deg >= LEAST_ANGLE;
+            match moved {
+                Ok(mesh) if self.of_user || usable(&mesh) => Ok(WornMesh { mesh, anew: None }),
+                Err(error) if self.of_user => Err(error.into()),
+                Ok(_) | Err(MeshError::Inverted { .. }) => {
+                    let teeth = member.flanks.flanks.iter().map(|f| f.tooth).collect();
+                    let spec = spec(gear, teeth, self.spacing, member.order());
+                    let lost = |_: i32, s: f64| interpolate(&stations.arc[side], depth[side], s);
+                    Ok(WornMesh {
+                        mesh: mesh_worn_gear(gear, &spec, &lost)?,
+                        anew: Some(depth[side].to_vec()),
+                    })
+                }
+                Err(error) => Err(error.into()),
+            }
         };
         let (pinion, gear) = join(|| worn(0), || worn(1));
         Ok([pinion?, gear?])
@@ -125,17 +156,55 @@ impl Members {
     ///
     /// # Errors
     /// [`MemberError`].
-    pub fn condensed_on(&self, meshes: [Mesh; 2]) -> Result<Self, MemberError> {
+    pub fn condensed_on(&self, meshes: [WornMesh; 2]) -> Result<Self, MemberError> {
         let [pinion, gear] = meshes;
+        let anew = [pinion.anew, gear.anew];
         let (pinion, gear) = join(
-            || Member::from_mesh(pinion, self.members[0].material),
-            || Member::from_mesh(gear, self.members[1].material),
+            || Member::from_mesh(pinion.mesh, self.members[0].material),
+            || Member::from_mesh(gear.mesh, self.members[1].material),
         );
         Ok(Self {
             members: [pinion?, gear?],
             spacing: self.spacing,
             of_user: self.of_user,
+            anew,
         })
+    }
+
+    /// The meshes with the material of `depth` (mm at the `stations`) removed, each with the triangles that `condensed`
+    /// has: these members, or what [`Members::condensed_on`] made of them.
+    ///
+    /// # Errors
+    /// [`MemberError`] if a triangle turns over.
+    pub fn drawn_meshes(
+        &self,
+        condensed: &Members,
+        pair: &Pair,
+        stations: &Stations,
+        depth: [&[f64]; 2],
+    ) -> Result<[DrawnMesh; 2], MemberError> {
+        let drawn = |side: usize| -> Result<DrawnMesh, MemberError> {
+            let gear = [&pair.pinion, &pair.gear][side];
+            let arc = &stations.arc[side];
+            let Some(at) = &condensed.anew[side] else {
+                let fresh = &self.members[side].mesh;
+                return Ok(DrawnMesh {
+                    mesh: moved(fresh, gear, arc, depth[side])?,
+                    unworn: fresh.points.clone(),
+                });
+            };
+            let since: Vec<f64> = depth[side].iter().zip(at).map(|(h, a)| h - a).collect();
+            let mesh = moved(&condensed.members[side].mesh, gear, arc, &since)?;
+            let unworn = unworn(&mesh, gear, &node_depths(&mesh, arc, depth[side]));
+            Ok(DrawnMesh { mesh, unworn })
+        };
+        let (pinion, gear) = join(|| drawn(0), || drawn(1));
+        Ok([pinion?, gear?])
+    }
+
+    /// Which members were meshed anew in their worn shape.
+    pub fn meshed_anew(&self) -> [bool; 2] {
+        [self.anew[0].is_some(), self.anew[1].is_some()]
     }
 
     /// The condensed flanks of both.
@@ -196,6 +265,28 @@ impl Member {
     }
 }
 
+/// `mesh` with its flank nodes moved inwards by `depth` (mm at the stations `arc`).
+fn moved(mesh: &Mesh, gear: &Gear, arc: &[f64], depth: &[f64]) -> Result<Mesh, MeshError> {
+    relocate(mesh, gear, &node_depths(mesh, arc, depth))
+}
+
+/// Depths (mm at the stations `arc`) at the nodes of each flank of `mesh`.
+fn node_depths(mesh: &Mesh, arc: &[f64], depth: &[f64]) -> Vec<Vec<f64>> {
+    let at = |s: &f64| interpolate(arc, depth, *s);
+    mesh.flanks
+        .iter()
+        .map(|chain| chain.arc.iter().map(at).collect())
+        .collect()
+}
+
+/// What the mesh of a gear is to be like.
+fn spec(gear: &Gear, fine: Vec<i32>, spacing: f64, order: usize) -> MeshSpec {
+    MeshSpec {
+        order: if order == 1 { Order::T3 } else { Order::T6 },
+        ..MeshSpec::new(gear, fine, spacing, gear.rho_form)
+    }
+}
+
 /// Meshes of both gears, fine on the loaded flanks of the pinion's `teeth` and of the gear's teeth of opposite number;
 /// `own` meshes stand in for ours.
 ///
@@ -214,9 +305,7 @@ pub fn meshes(
         }
         let sign = if side == 0 { 1 } else { -1 };
         let fine = teeth.iter().map(|t| sign * t).collect();
-        let mut spec = MeshSpec::new(&gears[side], fine, spacing, gears[side].rho_form);
-        spec.order = if order == 1 { Order::T3 } else { Order::T6 };
-        mesh_gear(&gears[side], &spec)
+        mesh_gear(&gears[side], &spec(&gears[side], fine, spacing, order))
     };
     let [own_pinion, own_gear] = own;
     let (pinion, gear) = join(|| one(0, own_pinion), || one(1, own_gear));

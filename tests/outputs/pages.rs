@@ -151,14 +151,16 @@ fn validation_is_written_for_people_and_programs() {
     let case = |id: &str, group: &str, verdict: Verdict| Case {
         id: id.to_owned(),
         group: group.to_owned(),
-        what: "peak pressure, MPa".to_owned(),
+        quantity: "peak pressure, MPa".to_owned(),
         target: Some(3585.37),
         source: "NAFEMS, \"Cylinder\" | roller".to_owned(),
         value: (verdict != Verdict::Skipped).then_some(3590.0),
         error: (verdict != Verdict::Skipped).then_some(0.0013),
-        tolerance: 0.02,
+        tolerance: Some(0.02),
         measure: "relative".to_owned(),
         verdict,
+        reason: String::new(),
+        seconds: 1.0,
         note: if verdict == Verdict::Pass {
             String::new()
         } else {

@@ -3,7 +3,7 @@ use serde::Serialize;
 
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::report::format::significant;
+use crate::report::format::{plain, significant};
 
 /// One verification or validation case with its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -13,7 +13,7 @@ pub struct Case {
     /// Heading under which it is listed, for example `Contact`.
     pub group: String,
     /// What is compared, in words, unit included.
-    pub what: String,
+    pub quantity: String,
     /// The value to be met; none where the case is a property that holds or not.
     pub target: Option<f64>,
     /// Where the target comes from.
@@ -22,13 +22,18 @@ pub struct Case {
     pub value: Option<f64>,
     /// Distance between value and target in the measure of `tolerance`; none if skipped.
     pub error: Option<f64>,
-    /// Largest error that passes.
-    pub tolerance: f64,
-    /// What error and tolerance are: `relative`, or a unit.
+    /// Largest error that passes; none if skipped.
+    pub tolerance: Option<f64>,
+    /// What error and tolerance are: `relative` to the target, `absolute` in the unit of the quantity, or a unit.
     pub measure: String,
     /// The outcome.
     pub verdict: Verdict,
-    /// Why it was skipped, why theory contradicts the target, or anything a reader should know; may be empty.
+    /// Why it was skipped, why theory contradicts the target, why the tolerance is what it is; may be empty.
+    pub reason: String,
+    /// Time that the family of the case took, s.
+    pub seconds: f64,
+    /// What of the reason a reader of the page should know; may be empty.
+    #[serde(skip)]
     pub note: String,
 }
 
@@ -116,19 +121,24 @@ fn group<'a>(name: &str, cases: impl Iterator<Item = &'a Case>) -> Section {
             if relative {
                 format!("{} %", significant(100.0 * value, 2))
             } else {
-                format!("{} {}", significant(value, 2), case.measure)
+                let unit = if case.measure == "absolute" {
+                    ""
+                } else {
+                    &case.measure
+                };
+                format!("{} {unit}", significant(value, 2))
                     .trim_end()
                     .to_owned()
             }
         };
-        let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 6));
+        let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), plain);
         table = table.row([
             Cell::Code(case.id.clone()),
-            Cell::text(case.what.clone()),
+            Cell::text(case.quantity.clone()),
             Cell::number(or_dash(case.target)),
             Cell::number(or_dash(case.value)),
             Cell::number(case.error.map_or("–".to_owned(), shown)),
-            Cell::number(shown(case.tolerance)),
+            Cell::number(case.tolerance.map_or("–".to_owned(), shown)),
             Cell::Badge(case.verdict.class(), case.verdict.word().to_owned()),
             Cell::text(case.source.clone()),
         ]);
