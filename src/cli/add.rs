@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 use super::{CliError, Context, Outcome};
 use crate::effects::{Card, find};
+use crate::learn::{Compared, ModelVersion, Share, contact_of};
 use crate::measure::Dataset;
 use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded};
 
@@ -61,12 +62,51 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
 
 /// Fits the free parameters of a study to its measurements.
 fn fit(
-    _study: &Study,
-    _data: &Dataset,
-    _free: &[FreeParameter],
-    _context: &Context,
+    study: &Study,
+    data: &Dataset,
+    free: &[FreeParameter],
+    context: &Context,
 ) -> Result<Fitted, CliError> {
-    Err(CliError::NotBuilt { command: "add" })
+    contact_of(study)?;
+    let version = ModelVersion {
+        effects: study.effect_model().clone(),
+        free: free.to_vec(),
+    };
+    let Compared { fit, comparison } =
+        super::fitting::fitted(study, data, &version, context, "add")?;
+    let mut text = String::new();
+    for p in &fit.parameters {
+        let [low, high] = p.interval;
+        let at_bound = if p.at_bound { ", at a bound" } else { "" };
+        let _ = writeln!(
+            text,
+            "    {}: 95 % between {low:.4e} and {high:.4e}{at_bound}",
+            p.name
+        );
+    }
+    let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
+    if let Some(chi2) = chi2(&comparison.fit) {
+        let _ = writeln!(text, "  chi2 per point of the fit tests: {chi2}");
+    }
+    if let Some(chi2) = chi2(&comparison.holdout) {
+        let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
+    }
+    for warning in &comparison.warnings {
+        let _ = writeln!(text, "  warning: {warning}");
+    }
+    Ok(Fitted {
+        values: (fit.parameters.iter())
+            .map(|p| (p.name.clone(), p.value))
+            .collect(),
+        json: json!({
+            "parameters": comparison.parameters,
+            "fit": comparison.fit,
+            "holdout": comparison.holdout,
+            "converged": comparison.converged,
+            "warnings": comparison.warnings,
+        }),
+        text,
+    })
 }
 
 /// The command with its fit, which is asked only if a parameter has no set value: the study has the effect in it, `free` is

@@ -74,12 +74,6 @@ pub enum CliError {
         /// Why not.
         source: rayon::ThreadPoolBuildError,
     },
-    /// The command's body is not part of this version.
-    #[error("`gearwear {command}` is not built yet in this version")]
-    NotBuilt {
-        /// The command.
-        command: &'static str,
-    },
 }
 
 impl From<ForwardError> for CliError {
@@ -110,8 +104,7 @@ impl CliError {
             | CliError::Fit(_)
             | CliError::Io { .. }
             | CliError::Print(_)
-            | CliError::Threads { .. }
-            | CliError::NotBuilt { .. } => 1,
+            | CliError::Threads { .. } => 1,
         }
     }
 

@@ -81,7 +81,7 @@ fn without_measurements_there_is_nothing_to_fit() {
 fn a_failed_fit_writes_nothing() {
     let home = home();
     let failed = add(&args(&home, &[]), |_, _, _| {
-        Err(CliError::NotBuilt { command: "add" })
+        Err(CliError::Unusable("the fit failed".to_owned()))
     });
     assert!(failed.is_err());
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
