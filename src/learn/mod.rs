@@ -32,8 +32,10 @@ mod quadratic;
 mod region;
 mod scatter;
 mod search;
+mod synthesize;
 mod tally;
 mod uncertainty;
+mod versions;
 mod worst;
 
 pub use add::{Addition, add};
@@ -49,5 +51,7 @@ pub use noise::{Datum, ModelError, NoiseModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};
 pub use predictor::{PredictError, Predictor};
 pub use search::Effort;
+pub use synthesize::{Synthetic, synthesize};
 pub use tally::{Cell, Group, Share};
 pub use uncertainty::Validation;
+pub use versions::{Item, compare_all, differences};
