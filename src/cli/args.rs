@@ -5,7 +5,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use super::{CliError, Context, Outcome, add, compare, effects, init, mesh, models, run, validate};
+use super::{
+    CliError, Context, Outcome, add, compare, effects, init, ladder, mesh, models, run, synthesize,
+    validate,
+};
 
 /// Finite-element contact and wear of spur gears.
 #[derive(Debug, Parser)]
@@ -67,6 +70,10 @@ pub enum Command {
     Compare(compare::CompareArgs),
     /// Add a physical effect to a study, its parameters and the wear coefficient fitted to the measurements unless set
     Add(add::AddArgs),
+    /// Put versions of a model side by side: the error of each on fitted and on held-out tests
+    Ladder(ladder::LadderArgs),
+    /// Make up measurements of the study's own model, with noise, to plan and to try
+    Synthesize(synthesize::SynthesizeArgs),
     /// List the catalogue of physical effects, or tell all about one: formula, parameters, source, signature
     Effects(effects::EffectsArgs),
     /// Run the verification and validation cases; exit code 1 if one fails
@@ -83,6 +90,8 @@ impl Command {
             Command::Mesh(args) => mesh::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
             Command::Add(args) => add::execute(args, context),
+            Command::Ladder(args) => ladder::execute(args, context),
+            Command::Synthesize(args) => synthesize::execute(args, context),
             Command::Effects(args) => effects::execute(args),
             Command::Validate(args) => validate::execute(args, context),
         }

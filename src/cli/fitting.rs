@@ -25,19 +25,29 @@ const PREPARING: f64 = 0.15;
 
 /// Shows what a comparison is at.
 pub(super) fn show(progress: &Progress, doing: Doing) {
+    let (done, what) = state(doing);
+    progress.show(done, what);
+}
+
+/// Shows what the comparison `number` (from 0) of `count` is at.
+pub(super) fn show_one_of(progress: &Progress, doing: Doing, number: usize, count: usize) {
+    let (done, what) = state(doing);
+    let done = (number as f64 + done) / count.max(1) as f64;
+    progress.show(done, format!("version {} of {count}: {what}", number + 1));
+}
+
+fn state(doing: Doing) -> (f64, String) {
     match doing {
-        Doing::Members => progress.show(0.0, "meshing and condensing the members".to_owned()),
-        Doing::Tests => progress.show(0.1, "preparing the tests".to_owned()),
+        Doing::Members => (0.0, "meshing and condensing the members".to_owned()),
+        Doing::Tests => (0.1, "preparing the tests".to_owned()),
         Doing::Fitting {
             histories,
             expected,
         } => {
             // the number of steps is not known before; the bar never claims to be at its end
             let share = (histories as f64 / expected.max(1) as f64).min(0.98);
-            progress.show(
-                PREPARING + (1.0 - PREPARING) * share,
-                format!("fitting: {histories} wear histories"),
-            );
+            let done = PREPARING + (1.0 - PREPARING) * share;
+            (done, format!("{histories} wear histories"))
         }
     }
 }

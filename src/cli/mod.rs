@@ -16,10 +16,12 @@ mod error;
 mod fitting;
 mod folder;
 mod init;
+mod ladder;
 mod mesh;
 mod models;
 mod progress;
 mod run;
+mod synthesize;
 mod validate;
 
 use std::ffi::OsString;

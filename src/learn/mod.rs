@@ -33,8 +33,10 @@ mod ratio;
 mod region;
 mod scatter;
 mod search;
+mod synthesize;
 mod tally;
 mod uncertainty;
+mod versions;
 mod worst;
 
 pub use add::{Addition, add};
@@ -51,5 +53,7 @@ pub use parameters::{COEFFICIENT, Estimate, Parameter};
 pub use predictor::{PredictError, Predictor};
 pub use ratio::Ratio;
 pub use search::Effort;
+pub use synthesize::{Synthetic, synthesize};
 pub use tally::{Cell, Group, Share};
 pub use uncertainty::Validation;
+pub use versions::{Item, compare_all, differences};

@@ -12,6 +12,7 @@ mod error;
 pub mod format;
 pub mod html;
 pub mod json;
+pub mod ladder;
 pub mod models;
 pub mod plots;
 mod run;
@@ -21,6 +22,6 @@ pub mod vtk;
 pub use atomic::{Staging, write_file};
 pub use error::OutputError;
 pub use run::{
-    Written, write_comparison, write_models, write_page, write_run, write_run_with,
+    Written, write_comparison, write_ladder, write_models, write_page, write_run, write_run_with,
     write_validation,
 };

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::error::OutputError;
 use super::html::{self, Case, Page};
-use super::{Staging, comparison, csv, json as documents, models, plots, vtk};
+use super::{Staging, comparison, csv, json as documents, ladder, models, plots, vtk};
 use crate::simulate::models::Comparison;
 use crate::simulate::result::Run;
 
@@ -74,6 +74,12 @@ pub fn write_comparison(
     let further = [("residuals.csv", comparison::residuals(result)?)];
     let page = html::comparison(result);
     write_page_with(&page, "comparison.json", &document, &further, folder)
+}
+
+/// Writes `ladder.json`, its page and its plots.
+pub fn write_ladder(result: &ladder::Result<'_>, folder: &Path) -> Result<Written, OutputError> {
+    let document = ladder::document(result)?;
+    write_page(&html::ladder(result), "ladder.json", &document, folder)
 }
 
 /// Writes `validation.json`, its page, and the same as Markdown (`RESULTS.md`).

@@ -151,6 +151,24 @@ impl Edit<'_> {
         }
     }
 
+    /// Names another measurement file, as it is to stand in the study.
+    pub fn measure_from(&mut self, file: &str) {
+        if let Some(span) = self.span("measurements.file") {
+            // a path that was moved is replaced all the same
+            self.changes.retain(|(changed, _)| *changed != span);
+            self.changes.push((span, quoted(file)));
+        } else {
+            let line = format!("file = {}", quoted(file));
+            self.tables.push(vec!["[measurements]".to_owned(), line]);
+        }
+    }
+
+    /// Adds a test at the conditions of `[operation]`.
+    pub fn add_test(&mut self, id: &str) {
+        let line = format!("id = {}", quoted(id));
+        self.tables.push(vec!["[[test]]".to_owned(), line]);
+    }
+
     /// Rewrites relative paths for a study file in the folder `to` that stood in the folder `from`.
     ///
     /// # Errors

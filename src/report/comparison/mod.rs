@@ -9,8 +9,10 @@ use crate::learn::{Comparison, Fit};
 use crate::measure::Dataset;
 use crate::study::Study;
 
+pub(crate) use residuals::quoted;
 pub use residuals::residuals;
 pub use text::{conclusion, summary};
+pub(crate) use text::{what, with_unit};
 
 /// All that `compare` shows.
 #[derive(Debug, Clone, Copy)]

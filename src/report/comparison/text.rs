@@ -46,7 +46,7 @@ pub fn conclusion(comparison: &Comparison) -> String {
 }
 
 /// What was compared: contact model, effects, tests, measurements.
-pub(super) fn what(study: &Study, comparison: &Comparison) -> String {
+pub(crate) fn what(study: &Study, comparison: &Comparison) -> String {
     let effects: Vec<&str> = study.effects().iter().map(|e| e.name.as_str()).collect();
     let count = |role: Role| study.tests.iter().filter(|t| t.role == role).count();
     let held = count(Role::Holdout);
@@ -156,7 +156,7 @@ fn parameters(lines: &mut Vec<String>, c: &Comparison) {
 }
 
 /// A figure with its unit, if it has one.
-pub(super) fn with_unit(figure: String, unit: &str) -> String {
+pub(crate) fn with_unit(figure: String, unit: &str) -> String {
     match unit {
         "" | "-" | "1" => figure,
         "um" => format!("{figure} µm"),

@@ -1,17 +1,288 @@
 //! The page of `compare`: measured against model along both flanks, places by χ², parameters.
-use super::page::Page;
-use crate::report::comparison::{self, Result};
+use super::page::{Page, Section};
+use super::table::{Cell, Table};
+use crate::learn::{Comparison, Group, TestRecord};
+use crate::report::comparison::{self, Result, with_unit};
+use crate::report::format::{count, percent, significant, uncertain, whole};
+use crate::report::models::signed;
+use crate::report::plots;
+use crate::study::Test;
+
+/// Rows of the table of places; all of them stand in the JSON file.
+const PLACES: usize = 16;
+/// Rows of the table of outliers.
+const OUTLIERS: usize = 12;
 
 /// The page of a comparison.
 pub fn comparison(result: &Result<'_>) -> Page {
+    let mut sections = vec![figures(result), places(result.comparison)];
+    let tests = result.study.tests.iter();
+    for (test, plots) in tests.zip(plots::of_comparison(result)) {
+        let record = result.comparison.tests.iter().find(|r| r.test == test.id);
+        if let Some(record) = record {
+            sections.push(of_test(test, record).plots(plots));
+        }
+    }
+    sections.push(groups(result.comparison));
+    sections.push(validation(result.comparison));
+    sections.extend(outliers(result.comparison));
     Page {
         title: if result.study.title.is_empty() {
             "Measured against model".to_owned()
         } else {
             result.study.title.clone()
         },
-        kicker: String::new(),
+        kicker: format!(
+            "Measured against model: {}",
+            comparison::what(result.study, result.comparison)
+        ),
         conclusion: comparison::conclusion(result.comparison),
-        sections: Vec::new(),
+        sections,
     }
+}
+
+fn depth(value: Option<f64>) -> Cell {
+    Cell::number(value.map_or("–".to_owned(), |v| significant(v, 3)))
+}
+
+fn figures(result: &Result<'_>) -> Section {
+    let c = result.comparison;
+    let mut fitted = Table::new(
+        "What was free",
+        ["parameter", "value", "95 % from", "to", ""],
+    );
+    for p in &c.parameters {
+        let [low, high] = p.interval_95;
+        fitted = fitted.row([
+            Cell::Code(p.name.clone()),
+            Cell::number(with_unit(uncertain(p.value, p.sigma), &p.unit)),
+            Cell::number(significant(low, 3)),
+            Cell::number(significant(high, 3)),
+            if p.at_bound {
+                Cell::Badge("theory", "on its bound".to_owned())
+            } else {
+                Cell::text("")
+            },
+        ]);
+    }
+    let mut tests = Table::new(
+        "Tests",
+        [
+            "test",
+            "role",
+            "points",
+            "χ² per point",
+            "bias, µm",
+            "rms, µm",
+            "own k, mm²/N",
+        ],
+    );
+    for t in &c.tests {
+        tests = tests.row([
+            Cell::text(t.test.clone()),
+            Cell::text(role(&t.role)),
+            Cell::number(whole(t.points)),
+            Cell::number(significant(t.chi2_per_point, 3)),
+            depth(t.bias_um),
+            depth(t.rms_um),
+            Cell::number(uncertain(t.coefficient, t.coefficient_sigma)),
+        ]);
+    }
+    let [low, high] = c.coefficient_scatter_interval;
+    let mut section = Section::new("Figures").table(fitted).table(tests).note(format!(
+        "χ² per point is the mean of ((model − measured)/sigma)² with each trace's most probable datum subtracted and each \
+         test's most probable wear coefficient; 1 is the noise floor. Signs are model minus measured. The wear coefficient \
+         scatters by {} between tests (68 %: {} to {}). For held-out tests only their datums and their own coefficient are \
+         estimated. The fit took {} wear histories.",
+        percent(c.coefficient_scatter, 2),
+        percent(low, 2),
+        percent(high, 2),
+        whole(c.evaluations)
+    ));
+    for warning in &c.warnings {
+        section = section.paragraph(format!("Warning: {warning}."));
+    }
+    section
+}
+
+fn role(role: &str) -> &str {
+    if role == "holdout" { "held out" } else { role }
+}
+
+/// The cells of test, member, region and cycles with the largest χ².
+fn places(c: &Comparison) -> Section {
+    let mut table = Table::new(
+        "",
+        [
+            "test",
+            "member",
+            "quantity",
+            "region",
+            "cycles",
+            "points",
+            "χ² per point",
+            "bias",
+            "rms",
+        ],
+    );
+    for cell in c.places.iter().take(PLACES) {
+        let [from, to] = cell.cycles;
+        table = table.row([
+            Cell::text(cell.test.clone()),
+            Cell::text(cell.member.clone()),
+            Cell::text(cell.quantity.replace('_', " ")),
+            Cell::text(cell.region.replace('_', " ")),
+            Cell::number(format!("{} to {}", count(from), count(to))),
+            Cell::number(whole(cell.points)),
+            Cell::number(significant(cell.chi2_per_point, 3)),
+            Cell::number(with_unit(
+                format!(
+                    "{} ± {}",
+                    signed(cell.bias, 2),
+                    significant(cell.bias_sigma, 1)
+                ),
+                &cell.unit,
+            )),
+            Cell::number(significant(cell.rms, 2)),
+        ]);
+    }
+    let left = c.places.len().saturating_sub(PLACES);
+    let section = Section::new("Where it fails").table(table);
+    if left == 0 {
+        section
+    } else {
+        section.note(format!(
+            "The {PLACES} worst of {} places; all of them stand in `comparison.json`, every row in `residuals.csv`.",
+            c.places.len()
+        ))
+    }
+}
+
+fn of_test(test: &Test, record: &TestRecord) -> Section {
+    let o = &test.conditions;
+    let mut conditions = vec![
+        format!("{} N·m", significant(1e-3 * o.torque_nmm, 4)),
+        format!("{} rpm", count(o.speed_rpm)),
+        format!("misalignment {} mm", o.misalignment_mm),
+        format!("{} cycles", count(o.cycles)),
+    ];
+    if o.reversed {
+        conditions.push("driven the other way".to_owned());
+    }
+    let heading = format!("Test {}", test.id);
+    let heading = if record.role == "holdout" {
+        format!("{heading}, held out")
+    } else {
+        heading
+    };
+    Section::new(&heading)
+        .paragraph(format!(
+            "{}: χ² per point {} over {} points.",
+            conditions.join(", "),
+            significant(record.chi2_per_point, 3),
+            whole(record.points)
+        ))
+        .note(
+            "Points: measured, each trace's most probable datum removed, with bars of one standard deviation. Lines: the \
+             fitted model. Below: model minus measured. A to E: the path of contact; single contact from B to D, pitch point C.",
+        )
+}
+
+fn groups(c: &Comparison) -> Section {
+    let mut table = Table::new(
+        "",
+        ["what", "points", "χ² per point", "bias, µm", "rms, µm"],
+    );
+    let all: [&[Group]; 4] = [&c.by_quantity, &c.by_member, &c.by_region, &c.by_life];
+    for group in all.into_iter().flatten() {
+        table = table.row([
+            Cell::text(group.name.replace('_', " ")),
+            Cell::number(whole(group.points)),
+            Cell::number(significant(group.chi2_per_point, 3)),
+            depth(group.bias_um),
+            depth(group.rms_um),
+        ]);
+    }
+    Section::new("By quantity, member, region and life").table(table)
+}
+
+fn validation(c: &Comparison) -> Section {
+    let mut table = Table::new(
+        "",
+        [
+            "test",
+            "member",
+            "quantity",
+            "E",
+            "u num",
+            "u input",
+            "u data",
+            "2 u val",
+            "model error",
+        ],
+    );
+    for v in &c.validation {
+        let number = |value: f64| Cell::number(significant(value, 2));
+        table = table.row([
+            Cell::text(if v.role == "holdout" {
+                format!("{}, held out", v.test)
+            } else {
+                v.test.clone()
+            }),
+            Cell::text(v.member.clone()),
+            Cell::text(v.quantity.replace('_', " ")),
+            Cell::number(with_unit(significant(v.error, 2), &v.unit)),
+            number(v.u_num),
+            number(v.u_input),
+            number(v.u_data),
+            number(2.0 * v.u_val),
+            if v.resolved {
+                Cell::Badge("fail", "seen".to_owned())
+            } else {
+                Cell::Badge("pass", "below the uncertainty".to_owned())
+            },
+        ]);
+    }
+    Section::new("Mean error against uncertainty")
+        .paragraph(
+            "In the way of ASME V&V 20-2009: E, the mean of model minus measured, against the validation uncertainty of \
+             numerics, fitted inputs and data. Where |E| > 2 u val the model's own error is seen. For fit tests E shows \
+             only what no parameter can mend.",
+        )
+        .table(table)
+}
+
+fn outliers(c: &Comparison) -> Option<Section> {
+    if c.outliers.is_empty() {
+        return None;
+    }
+    let mut table = Table::new(
+        "",
+        [
+            "row",
+            "test",
+            "member",
+            "quantity",
+            "cycles",
+            "position",
+            "error, sigmas",
+        ],
+    );
+    for o in c.outliers.iter().take(OUTLIERS) {
+        table = table.row([
+            Cell::Code(o.place.clone()),
+            Cell::text(o.test.clone()),
+            Cell::text(o.member.clone()),
+            Cell::text(o.quantity.replace('_', " ")),
+            Cell::number(count(o.cycles)),
+            Cell::number(o.position.map_or(String::new(), |p| p.to_string())),
+            Cell::number(signed(o.standardised, 1)),
+        ]);
+    }
+    let text = format!(
+        "{} of {} rows are further off than four of their sigmas (by chance: one in 16 000).",
+        whole(c.outliers.len()),
+        whole(c.points)
+    );
+    Some(Section::new("Outliers").paragraph(text).table(table))
 }

@@ -3,6 +3,7 @@
 //! A [`Page`] is a conclusion, then sections of text, tables and plots. The same page can be had as Markdown.
 mod comparison;
 mod files;
+mod ladder;
 mod models;
 mod page;
 mod run;
@@ -10,6 +11,7 @@ mod table;
 mod validation;
 
 pub use comparison::comparison;
+pub use ladder::ladder;
 pub use models::models;
 pub use page::{Page, Section};
 pub use run::run;

@@ -5,10 +5,13 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Curve, Plot, Style, finite};
 use crate::report::error::OutputError;
+use crate::report::format::significant;
 use crate::report::html::escape;
 
 /// Size in which the plot is meant to be seen, pixels.
 const SIZE: (u32, u32) = (600, 390);
+/// Height of a plot below another.
+const LOWER: u32 = 190;
 /// plotters rounds to whole units: drawn this many times larger and shown smaller, curves have no steps.
 const FINE: i32 = 8;
 const TEXT: i32 = 19 * FINE;
@@ -40,65 +43,112 @@ const RAMP: [RGBColor; 6] = [
 impl Plot {
     /// The plot as a complete SVG document without a background of its own.
     pub fn svg(&self) -> Result<String, OutputError> {
+        let height = SIZE.1 + self.lower.as_ref().map_or(0, |_| LOWER);
         let mut text = String::new();
         {
             let area =
-                SVGBackend::with_string(&mut text, (SIZE.0 * FINE as u32, SIZE.1 * FINE as u32))
+                SVGBackend::with_string(&mut text, (SIZE.0 * FINE as u32, height * FINE as u32))
                     .into_drawing_area();
             self.draw(&area).map_err(|message| OutputError::Plot {
                 title: self.title.clone(),
                 message,
             })?;
         }
-        Ok(accessible(&text, &self.title))
+        Ok(accessible(&text, &self.title, height))
     }
 
-    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), String> {
+    fn draw(&self, area: &Area<'_>) -> Result<(), String> {
         let said = |error: &dyn std::fmt::Display| error.to_string();
-        let (x, y) = self.ranges();
-        let legend_rows = self.curves.len().div_ceil(self.legend_columns()) as i32;
+        let legend_rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
         let (legend, below) = area.split_vertically(legend_rows * LEGEND_ROW + 8 * FINE);
-        let top = if self.marks.is_empty() {
+        let mut x = self.horizontal();
+        if let Some(lower) = &self.lower {
+            let theirs = lower.horizontal();
+            x = (x.0.min(theirs.0), x.1.max(theirs.1));
+            let upper_height = (SIZE.1 as i32 - 52) * FINE - legend_rows * LEGEND_ROW;
+            let (upper_area, lower_area) = below.split_vertically(upper_height);
+            self.panel(area, &upper_area, x, false)?;
+            lower.panel(area, &lower_area, x, true)?;
+        } else {
+            self.panel(area, &below, x, true)?;
+        }
+        self.draw_legend(&legend).map_err(|e| said(&e))?;
+        area.present().map_err(|e| said(&e))
+    }
+
+    /// Axes, marks and curves in `place`, a part of `area`; without `named` the horizontal axis has neither numbers nor name.
+    fn panel(
+        &self,
+        area: &Area<'_>,
+        place: &Area<'_>,
+        x: (f64, f64),
+        named: bool,
+    ) -> Result<(), String> {
+        let said = |error: &dyn std::fmt::Display| error.to_string();
+        let y = self.vertical();
+        let top = if self.marks.iter().all(|mark| mark.1.is_empty()) {
             10 * FINE
         } else {
             24 * FINE
         };
-        let mut chart = ChartBuilder::on(&below)
+        let mut chart = ChartBuilder::on(place)
             .margin_top(top)
             .margin_right(32 * FINE)
             .margin_bottom(6 * FINE)
             .margin_left(6 * FINE)
-            .x_label_area_size(52 * FINE)
+            .x_label_area_size(if named { 52 * FINE } else { 4 * FINE })
             .y_label_area_size(80 * FINE)
             .build_cartesian_2d(x.0..x.1, y.0..y.1)
             .map_err(|e| said(&e))?;
         let (x_digits, y_digits) = (digits(x), digits(y));
+        let short = self.residuals;
+        let x_tick = |v: &f64| match (named, self.names.is_empty()) {
+            (false, _) => String::new(),
+            (true, true) => tick(*v, x_digits),
+            (true, false) => self.name_at(*v),
+        };
+        let y_tick = |v: &f64| {
+            if self.logarithmic {
+                significant(10f64.powf(*v), 2)
+            } else {
+                tick(*v, y_digits)
+            }
+        };
         chart
             .configure_mesh()
-            .x_labels(7)
-            .y_labels(6)
+            .x_labels(if self.names.is_empty() {
+                7
+            } else {
+                2 * self.names.len() + 1
+            })
+            .y_labels(if short { 4 } else { 6 })
             .bold_line_style(GRID.stroke_width(FINE as u32))
             .light_line_style(TRANSPARENT)
             .axis_style(INK.stroke_width(FINE as u32))
-            .set_all_tick_mark_size(5 * FINE)
+            .set_all_tick_mark_size(if named { 5 * FINE } else { 2 * FINE })
             .label_style((FONT, TEXT).into_font().color(&INK))
             .axis_desc_style((FONT, TEXT).into_font().color(&INK))
-            .x_desc(&self.x_label)
+            .x_desc(if named { self.x_label.as_str() } else { "" })
             .y_desc(&self.y_label)
-            .x_label_formatter(&|v| tick(*v, x_digits))
-            .y_label_formatter(&|v| tick(*v, y_digits))
+            .x_label_formatter(&x_tick)
+            .y_label_formatter(&y_tick)
             .draw()
             .map_err(|e| said(&e))?;
         let mark_text = TextStyle::from((FONT, TEXT).into_font())
             .color(&MARK)
             .pos(Pos::new(HPos::Center, VPos::Bottom));
-        for (at, letter) in self.marks.iter().filter(|(at, _)| (x.0..=x.1).contains(at)) {
+        let level = self.residuals.then_some([(x.0, 0.0), (x.1, 0.0)]);
+        let upright = self.marks.iter().filter(|(at, _)| (x.0..=x.1).contains(at));
+        let lines = upright.clone().map(|(at, _)| [(*at, y.0), (*at, y.1)]);
+        for line in lines.chain(level) {
             chart
                 .draw_series([PathElement::new(
-                    vec![(*at, y.0), (*at, y.1)],
+                    line.to_vec(),
                     MARK.stroke_width(FINE as u32),
                 )])
                 .map_err(|e| said(&e))?;
+        }
+        for (at, letter) in upright.filter(|mark| !mark.1.is_empty()) {
             let (px, py) = chart.backend_coord(&(*at, y.1));
             area.draw(&Text::new(
                 letter.clone(),
@@ -109,22 +159,49 @@ impl Plot {
         }
         for (number, curve) in self.curves.iter().enumerate() {
             let color = curve.style.color();
-            let shown: Vec<(f64, f64)> = curve.points.iter().copied().filter(finite).collect();
-            if !matches!(curve.style, Style::Points(_)) {
+            let shown: Vec<(f64, f64)> = self.seen(&curve.points).collect();
+            if let Some(width) = curve.style.line() {
                 chart
                     .draw_series(LineSeries::new(
                         shown.clone(),
-                        color.stroke_width(2 * FINE as u32),
+                        color.stroke_width((width * f64::from(FINE)) as u32),
                     ))
                     .map_err(|e| said(&e))?;
             }
+            for (&(at, value), sigma) in curve.points.iter().zip(&curve.errors) {
+                let bar = [(at, value - sigma), (at, value + sigma)];
+                let bar = PathElement::new(
+                    self.seen(&bar).collect::<Vec<_>>(),
+                    color.stroke_width(FINE as u32),
+                );
+                chart.draw_series([bar]).map_err(|e| said(&e))?;
+            }
             for at in curve.marker_places(&shown, x.1 - x.0, number) {
                 let (px, py) = chart.backend_coord(&at);
-                draw_marker(area, curve.style.marker(), (px, py), color).map_err(|e| said(&e))?;
+                draw_marker(area, curve.style, (px, py)).map_err(|e| said(&e))?;
             }
         }
-        self.draw_legend(&legend).map_err(|e| said(&e))?;
-        area.present().map_err(|e| said(&e))
+        Ok(())
+    }
+
+    /// Finite points as the axes show them.
+    fn seen<'p>(&self, points: &'p [(f64, f64)]) -> impl Iterator<Item = (f64, f64)> + use<'p> {
+        let logarithmic = self.logarithmic;
+        points
+            .iter()
+            .map(move |&(x, y)| (x, if logarithmic { y.log10() } else { y }))
+            .filter(finite)
+    }
+
+    /// The name at a tick, if it stands at a whole number.
+    fn name_at(&self, tick: f64) -> String {
+        let near = (tick - tick.round()).abs() < 1e-6 && tick >= 0.5;
+        let name = near.then(|| self.names.get(tick.round() as usize - 1));
+        name.flatten().cloned().unwrap_or_default()
+    }
+
+    fn labelled(&self) -> impl Iterator<Item = &Curve> {
+        self.curves.iter().filter(|curve| !curve.label.is_empty())
     }
 
     fn draw_legend(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), DrawError> {
@@ -133,17 +210,17 @@ impl Plot {
             .pos(Pos::new(HPos::Left, VPos::Center));
         let columns = self.legend_columns();
         let column = (SIZE.0 as i32 - 40) * FINE / columns as i32;
-        for (number, curve) in self.curves.iter().enumerate() {
+        for (number, curve) in self.labelled().enumerate() {
             let x = 30 * FINE + (number % columns) as i32 * column;
             let y = 14 * FINE + (number / columns) as i32 * LEGEND_ROW;
             let color = curve.style.color();
-            if !matches!(curve.style, Style::Points(_)) {
+            if let Some(width) = curve.style.line() {
                 area.draw(&PathElement::new(
                     vec![(x, y), (x + 28 * FINE, y)],
-                    color.stroke_width(2 * FINE as u32),
+                    color.stroke_width((width * f64::from(FINE)) as u32),
                 ))?;
             }
-            draw_marker(area, curve.style.marker(), (x + 14 * FINE, y), color)?;
+            draw_marker(area, curve.style, (x + 14 * FINE, y))?;
             area.draw(&Text::new(
                 curve.label.clone(),
                 (x + 36 * FINE, y),
@@ -168,31 +245,43 @@ impl Plot {
         }
     }
 
-    /// What the axes span: all finite points with a little air above and below, and the vertical marks.
-    fn ranges(&self) -> ((f64, f64), (f64, f64)) {
-        let points = || {
-            self.curves
-                .iter()
-                .flat_map(|curve| curve.points.iter().copied())
-                .filter(finite)
-        };
-        let span = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-                (low.min(v), high.max(v))
-            })
-        };
+    /// What the horizontal axis spans: all finite points and the vertical marks.
+    fn horizontal(&self) -> (f64, f64) {
+        if !self.names.is_empty() {
+            return (0.5, self.names.len() as f64 + 0.5);
+        }
+        let points = self
+            .curves
+            .iter()
+            .flat_map(|curve| self.seen(&curve.points));
         let marks = self.marks.iter().map(|mark| mark.0);
-        let x = widened(span(&mut points().map(|p| p.0).chain(marks)));
-        let (mut low, mut high) = widened(span(&mut points().map(|p| p.1)));
+        widened(span(points.map(|p| p.0).chain(marks)))
+    }
+
+    /// What the vertical axis spans: all finite points with a little air above and below.
+    fn vertical(&self) -> (f64, f64) {
+        let points = self
+            .curves
+            .iter()
+            .flat_map(|curve| self.seen(&curve.points));
+        let level = self.residuals.then_some(0.0);
+        let (low, high) = widened(span(points.map(|p| p.1).chain(level)));
         let air = 0.05 * (high - low);
         if self.from_zero && low >= 0.0 {
-            (low, high) = (0.0, high + air);
+            (0.0, high + air)
         } else {
-            (low, high) = (low - air, high + air);
+            (low - air, high + air)
         }
-        (x, (low, high))
     }
 }
+
+fn span(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+        (low.min(v), high.max(v))
+    })
+}
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 type DrawError = DrawingAreaErrorKind<std::io::Error>;
 
@@ -201,16 +290,40 @@ const LEGEND_ROW: i32 = 23 * FINE;
 impl Style {
     fn color(self) -> RGBColor {
         match self {
-            Style::Kind(kind) | Style::Points(kind) => KINDS[kind % KINDS.len()],
-            Style::Time { index, count } => RAMP[ramp_place(index, count)],
+            Style::Kind(kind) | Style::Points(kind) | Style::Line(kind) | Style::Measured(kind) => {
+                KINDS[kind % KINDS.len()]
+            }
+            Style::Time { index, count }
+            | Style::TimeMeasured { index, count }
+            | Style::TimeLine { index, count } => RAMP[ramp_place(index, count)],
         }
     }
 
     fn marker(self) -> usize {
         match self {
-            Style::Kind(kind) => kind % SHAPES,
-            Style::Time { index, count } => ramp_place(index, count) % SHAPES,
+            Style::Kind(kind) | Style::Measured(kind) => kind % SHAPES,
+            Style::Time { index, count } | Style::TimeMeasured { index, count } => {
+                ramp_place(index, count) % SHAPES
+            }
             Style::Points(_) => CROSS,
+            Style::Line(_) | Style::TimeLine { .. } => NOTHING,
+        }
+    }
+
+    /// Width of its line, if it has one.
+    fn line(self) -> Option<f64> {
+        match self {
+            Style::Kind(_) | Style::Time { .. } => Some(2.0),
+            Style::Line(_) | Style::TimeLine { .. } => Some(1.5),
+            Style::Points(_) | Style::Measured(_) | Style::TimeMeasured { .. } => None,
+        }
+    }
+
+    /// Size of its markers: measured points are many.
+    fn unit(self) -> i32 {
+        match self {
+            Style::Measured(_) | Style::TimeMeasured { .. } => FINE * 5 / 8,
+            _ => FINE,
         }
     }
 }
@@ -226,7 +339,7 @@ fn ramp_place(index: usize, count: usize) -> usize {
 impl Curve {
     /// About nine markers along a line, shifted from curve to curve; every point where there is no line or few points.
     fn marker_places(&self, shown: &[(f64, f64)], width: f64, number: usize) -> Vec<(f64, f64)> {
-        if matches!(self.style, Style::Points(_)) || shown.len() <= 12 {
+        if self.style.line().is_none() || shown.len() <= 12 {
             return shown.to_vec();
         }
         let spacing = width / 9.0;
@@ -245,50 +358,52 @@ impl Curve {
 
 const SHAPES: usize = 6;
 const CROSS: usize = SHAPES;
+const NOTHING: usize = SHAPES + 1;
 
 /// Markers that differ in outline: disc, ring, square, triangle, open square, diamond; and a cross.
 fn draw_marker(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
-    shape: usize,
+    style: Style,
     (x, y): (i32, i32),
-    color: RGBColor,
 ) -> Result<(), DrawError> {
-    let line = color.stroke_width(2 * FINE as u32);
-    match shape {
-        0 => area.draw(&Circle::new((x, y), 4 * FINE, color.filled())),
-        1 => area.draw(&Circle::new((x, y), 4 * FINE, line)),
+    let (color, unit) = (style.color(), style.unit());
+    let line = color.stroke_width(2 * unit as u32);
+    match style.marker() {
+        NOTHING => Ok(()),
+        0 => area.draw(&Circle::new((x, y), 4 * unit, color.filled())),
+        1 => area.draw(&Circle::new((x, y), 4 * unit, line)),
         2 => area.draw(&Rectangle::new(
-            [(x - 4 * FINE, y - 4 * FINE), (x + 4 * FINE, y + 4 * FINE)],
+            [(x - 4 * unit, y - 4 * unit), (x + 4 * unit, y + 4 * unit)],
             color.filled(),
         )),
         3 => area.draw(&Polygon::new(
             vec![
-                (x - 5 * FINE, y + 4 * FINE),
-                (x + 5 * FINE, y + 4 * FINE),
-                (x, y - 5 * FINE),
+                (x - 5 * unit, y + 4 * unit),
+                (x + 5 * unit, y + 4 * unit),
+                (x, y - 5 * unit),
             ],
             color,
         )),
         4 => area.draw(&Rectangle::new(
-            [(x - 4 * FINE, y - 4 * FINE), (x + 4 * FINE, y + 4 * FINE)],
+            [(x - 4 * unit, y - 4 * unit), (x + 4 * unit, y + 4 * unit)],
             line,
         )),
         5 => area.draw(&Polygon::new(
             vec![
-                (x - 5 * FINE, y),
-                (x, y + 5 * FINE),
-                (x + 5 * FINE, y),
-                (x, y - 5 * FINE),
+                (x - 5 * unit, y),
+                (x, y + 5 * unit),
+                (x + 5 * unit, y),
+                (x, y - 5 * unit),
             ],
             color,
         )),
         _ => {
             area.draw(&PathElement::new(
-                vec![(x - 4 * FINE, y - 4 * FINE), (x + 4 * FINE, y + 4 * FINE)],
+                vec![(x - 4 * unit, y - 4 * unit), (x + 4 * unit, y + 4 * unit)],
                 line,
             ))?;
             area.draw(&PathElement::new(
-                vec![(x - 4 * FINE, y + 4 * FINE), (x + 4 * FINE, y - 4 * FINE)],
+                vec![(x - 4 * unit, y + 4 * unit), (x + 4 * unit, y - 4 * unit)],
                 line,
             ))
         }
@@ -325,15 +440,15 @@ fn tick(value: f64, digits: usize) -> String {
 }
 
 /// Adds what a screen reader says, and sets the size in which the drawing is seen.
-fn accessible(svg: &str, title: &str) -> String {
+fn accessible(svg: &str, title: &str, height: u32) -> String {
     let title = escape(title);
     let tag = format!("<svg role=\"img\" aria-label=\"{title}\" font-family=\"sans-serif\" ");
     let large = format!(
         "width=\"{}\" height=\"{}\"",
         SIZE.0 * FINE as u32,
-        SIZE.1 * FINE as u32
+        height * FINE as u32
     );
-    let shown = format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1);
+    let shown = format!("width=\"{}\" height=\"{height}\"", SIZE.0);
     let text = svg.replacen("<svg ", &tag, 1).replacen(&large, &shown, 1);
     match text.find('>') {
         Some(end) => format!(

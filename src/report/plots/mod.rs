@@ -3,10 +3,14 @@
 //! [`Plot`] is the description (curves, axes with units, vertical marks), [`Plot::svg`] draws it with plotters' SVG backend,
 //! which needs no fonts. Colours are told apart by colour-blind readers (Okabe and Ito 2008 for members and models, a dark to
 //! light ramp for states in time), and never carry the meaning alone: each curve also has its own marker and a legend entry.
+mod comparison;
 mod draw;
+mod ladder;
 mod models;
 mod run;
 
+pub use comparison::of_comparison;
+pub use ladder::of_ladder;
 pub use models::of_models;
 pub use run::of_run;
 
@@ -27,15 +31,25 @@ pub struct Plot {
     pub marks: Vec<(f64, String)>,
     /// True if the vertical axis must include 0.
     pub from_zero: bool,
+    /// True if the vertical axis is logarithmic; points must be above 0.
+    pub logarithmic: bool,
+    /// Names at 1, 2, 3, ... along the horizontal axis in place of numbers.
+    pub names: Vec<String>,
+    /// A second plot below over the same horizontal axis; it has no legend of its own.
+    pub lower: Option<Box<Plot>>,
+    /// True if the plot shows residuals: 0 is on the vertical axis, with a line.
+    pub residuals: bool,
 }
 
 /// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Legend entry.
+    /// Legend entry; none if empty.
     pub label: String,
     /// Points in drawing order.
     pub points: Vec<(f64, f64)>,
+    /// One standard deviation of each point, drawn as a bar up and down; none if empty.
+    pub errors: Vec<f64>,
     /// Colour and marker.
     pub style: Style,
 }
@@ -54,6 +68,24 @@ pub enum Style {
     },
     /// Single points without a line, crosses in the colour of kind `usize`.
     Points(usize),
+    /// A thin line without markers in the colour of kind `usize`.
+    Line(usize),
+    /// Measured points without a line in the colour of kind `usize`.
+    Measured(usize),
+    /// Measured points without a line at state `index` of `count` in time.
+    TimeMeasured {
+        /// Which state, from 0.
+        index: usize,
+        /// Of how many.
+        count: usize,
+    },
+    /// A thin line without markers at state `index` of `count` in time.
+    TimeLine {
+        /// Which state, from 0.
+        index: usize,
+        /// Of how many.
+        count: usize,
+    },
 }
 
 impl Plot {
@@ -67,6 +99,10 @@ impl Plot {
             curves: Vec::new(),
             marks: Vec::new(),
             from_zero: false,
+            logarithmic: false,
+            names: Vec::new(),
+            lower: None,
+            residuals: false,
         }
     }
 
@@ -76,9 +112,45 @@ impl Plot {
             self.curves.push(Curve {
                 label: label.to_owned(),
                 points,
+                errors: Vec::new(),
                 style,
             });
         }
+        self
+    }
+
+    /// Adds points with one standard deviation each.
+    pub fn with_errors(
+        mut self,
+        label: &str,
+        style: Style,
+        points: Vec<(f64, f64)>,
+        errors: Vec<f64>,
+    ) -> Self {
+        let before = self.curves.len();
+        self = self.curve(label, style, points);
+        if let Some(added) = self.curves.get_mut(before) {
+            added.errors = errors;
+        }
+        self
+    }
+
+    /// Makes the vertical axis logarithmic.
+    pub fn logarithmic(mut self) -> Self {
+        self.logarithmic = true;
+        self
+    }
+
+    /// Names the places 1, 2, 3, ... of the horizontal axis.
+    pub fn with_names(mut self, names: Vec<String>) -> Self {
+        self.names = names;
+        self
+    }
+
+    /// Puts residuals below, over the same horizontal axis.
+    pub fn above(mut self, mut lower: Plot) -> Self {
+        lower.residuals = true;
+        self.lower = Some(Box::new(lower));
         self
     }
 

@@ -1,0 +1,86 @@
+//! `gearwear ladder`: versions of a model side by side, each fitted to its measurements.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{CliError, Context, Outcome, fitting, folder};
+use crate::learn::{self, Item, Version, compare_all, contact_of};
+use crate::measure::Dataset;
+use crate::report::{self, atomic, ladder};
+use crate::study::Study;
+
+/// Arguments of `ladder`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  gearwear ladder study.toml study+running_in.toml\n  gearwear ladder study*.toml -o results/ladder\n  gearwear ladder study.toml study+tip_relief.toml --json --quiet | jq '.[].holdout_chi2_per_point'"
+)]
+pub struct LadderArgs {
+    /// Study files (TOML), one for each version of the model, in the order of the ladder
+    #[arg(value_name = "STUDY", required = true)]
+    studies: Vec<PathBuf>,
+    /// Result folder; a finished one is replaced, any other that is not empty is refused [default: STUDYSTEM.out/ladder beside the first study]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+/// Checks all input and the folder, fits one version after the other, writes.
+pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, CliError> {
+    let mut loaded: Vec<(Study, Dataset)> = Vec::new();
+    for path in &args.studies {
+        let study = Study::load(path)?;
+        contact_of(&study)?;
+        let data = study.dataset()?;
+        if loaded
+            .first()
+            .is_some_and(|first| first.0.gears != study.gears)
+        {
+            return Err(CliError::Unusable(format!(
+                "{} has other gears than {}; a ladder compares versions of one model of the same gears",
+                path.display(),
+                args.studies[0].display()
+            )));
+        }
+        loaded.push((study, data));
+    }
+    let default = || folder::default_path(&args.studies[0], "ladder");
+    let target = args.output.clone().unwrap_or_else(default);
+    atomic::check(&target)?;
+    let items: Vec<Item<'_>> = loaded.iter().map(|(study, data)| (study, data)).collect();
+    let progress = context.progress("ladder");
+    let compared = compare_all(&items, &|number, doing| {
+        fitting::show_one_of(&progress, doing, number, items.len());
+    })?;
+    drop(progress);
+    let names: Vec<String> = args
+        .studies
+        .iter()
+        .map(|p| p.display().to_string())
+        .collect();
+    let effects: Vec<Vec<String>> = items
+        .iter()
+        .map(|(study, _)| study.effects().iter().map(|e| e.name.clone()).collect())
+        .collect();
+    let versions: Vec<Version<'_>> = (0..items.len())
+        .map(|i| Version {
+            study: &names[i],
+            effects: &effects[i],
+            comparison: &compared[i].comparison,
+        })
+        .collect();
+    let result = ladder::Result {
+        title: &loaded[0].0.title,
+        steps: learn::ladder(&versions),
+        comparisons: compared.iter().map(|c| &c.comparison).collect(),
+        notes: items
+            .iter()
+            .map(|item| learn::differences(items[0], *item))
+            .collect(),
+    };
+    let written = report::write_ladder(&result, &target)?;
+    Ok(Outcome {
+        json: ladder::document(&result)?,
+        text: ladder::summary(&result, &written.folder),
+        success: true,
+    })
+}

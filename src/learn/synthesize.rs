@@ -1,0 +1,267 @@
+//! Measurements of a study's own model: what instruments would read if the model were the truth, with stated noise.
+//!
+//! ```text
+//! value = model(k_t, effects) + datum of the trace + sigma · N(0, 1)
+//! sigma = noise · largest magnitude of the trace + 0.02 µm          k_t = k exp(scatter · N(0, 1))
+//! ```
+//! The 0.02 µm become a mass by the worn flanks' area and an angle by the gear's base radius.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::compare::{CompareError, Doing, Watch, contact_of};
+use super::fit::FitError;
+use super::gear_model::GearModel;
+use super::measured::Measured;
+use super::predictor::Predictor;
+use crate::gear::{Member, Pair};
+use crate::measure::{Dataset, Observation, Quantity, Subject, Trace};
+use crate::study::{Scatter, Study, Test};
+
+/// Points of a trace along a flank.
+const POINTS: usize = 41;
+/// Arc left out at the root end and at the tip end of the active flank, modules.
+const MARGINS: [f64; 2] = [0.12, 0.15];
+/// When is measured, as shares of a test's cycles.
+const CHECKPOINTS: [f64; 5] = [0.1, 0.25, 0.5, 0.75, 1.0];
+/// Positions of a transmission error over the base pitch.
+const TURNS: usize = 24;
+/// Noise of an instrument that measures nothing, µm.
+const FLOOR_UM: f64 = 0.02;
+
+/// Measurements made up, with what is true of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Synthetic {
+    /// The measurements.
+    pub data: Dataset,
+    /// Wear coefficient of each test, mm²/N.
+    pub coefficients: Vec<f64>,
+    /// Datum of each trace, µm.
+    pub datums: Vec<f64>,
+}
+
+/// Measures the study's own model, its effects included, in each of its tests; the same for the same seed.
+///
+/// # Errors
+/// [`CompareError`] if a test cannot run.
+pub fn synthesize(
+    study: &Study,
+    noise: f64,
+    seed: u64,
+    watch: Watch<'_>,
+) -> Result<Synthetic, CompareError> {
+    let kind = contact_of(study)?;
+    let data = places(study)?;
+    let measured = Measured::new(study, data.clone());
+    watch(Doing::Members);
+    let workshop = measured.workshop(kind)?;
+    watch(Doing::Tests);
+    let bench = measured.bench(&workshop)?;
+    let model = GearModel::new(&bench, Box::new(|_| study.effect_model().stated()));
+    let mut synthetic = Synthetic {
+        datums: vec![0.0; data.traces.len()],
+        data,
+        coefficients: Vec::new(),
+    };
+    for (test, conditions) in study.tests.iter().enumerate() {
+        watch(Doing::Fitting {
+            histories: test,
+            expected: study.tests.len(),
+        });
+        let mut draw = Draw::new(seed, test);
+        let k = study.wear.coefficient
+            * match study.noise.coefficient_scatter {
+                Scatter::Relative(scatter) => libm::exp(scatter * draw.normal()),
+                Scatter::Estimate => 1.0,
+            };
+        synthetic.coefficients.push(k);
+        let exact = model.predict(test, k, &[]).map_err(FitError::from)?;
+        let pair = pair(study, conditions)?;
+        synthetic.disturb(test, &exact, study, &pair, noise, &mut draw);
+    }
+    Ok(synthetic)
+}
+
+impl Synthetic {
+    /// Sets values and sigmas of one test's rows from what the model says.
+    fn disturb(
+        &mut self,
+        test: usize,
+        exact: &[f64],
+        study: &Study,
+        pair: &Pair,
+        noise: f64,
+        draw: &mut Draw,
+    ) {
+        let rows: Vec<usize> = (0..self.data.observations.len())
+            .filter(|&row| self.data.observations[row].test == test)
+            .collect();
+        let curve = |o: &Observation| (o.member, o.quantity, o.cycles.to_bits());
+        let mut start = 0;
+        while start < rows.len() {
+            let all = &self.data.observations;
+            let key = curve(&all[rows[start]]);
+            let end = (start..rows.len())
+                .find(|&i| curve(&all[rows[i]]) != key)
+                .unwrap_or(rows.len());
+            let largest = exact[start..end]
+                .iter()
+                .fold(0.0, |m: f64, v| m.max(v.abs()));
+            let first = &all[rows[start]];
+            let sigma = noise * largest + floor(first, study, pair);
+            let datum = first.trace.map_or(0.0, |trace| {
+                self.datums[trace] = study.noise.datum_um * draw.normal();
+                self.datums[trace]
+            });
+            for i in start..end {
+                let o = &mut self.data.observations[rows[i]];
+                o.sigma = sigma;
+                o.value = exact[i] + datum + sigma * draw.normal();
+            }
+            start = end;
+        }
+    }
+}
+
+/// [`FLOOR_UM`] in the unit of an observation's quantity.
+fn floor(o: &Observation, study: &Study, pair: &Pair) -> f64 {
+    match o.quantity {
+        Quantity::MassLoss => {
+            let member = o.member.member().unwrap_or(Member::Pinion);
+            let density = match member {
+                Member::Pinion => study.materials.pinion.density_kg_m3,
+                Member::Gear => study.materials.gear.density_kg_m3,
+            };
+            let [from, to] = active_arcs(pair, member);
+            let teeth = f64::from(pair.member(member).spec.teeth);
+            // mm³ · kg/m³ = µg
+            1e-3 * (1e-3 * FLOOR_UM) * (to - from) * study.gears.face_width * teeth * density
+        }
+        // µm over mm = 1e-3 rad
+        Quantity::TransmissionError => 1e3 * FLOOR_UM / pair.gear.base_radius,
+        _ => FLOOR_UM,
+    }
+}
+
+/// Every row that is measured, without values.
+fn places(study: &Study) -> Result<Dataset, CompareError> {
+    let mut data = Dataset {
+        name: "measurements.csv".to_owned(),
+        tests: study.tests.iter().map(|test| test.id.clone()).collect(),
+        observations: Vec::new(),
+        traces: Vec::new(),
+    };
+    for (number, test) in study.tests.iter().enumerate() {
+        let pair = pair(study, test)?;
+        let mut times: Vec<f64> = CHECKPOINTS
+            .iter()
+            .map(|share| (share * test.conditions.cycles).round())
+            .filter(|&cycles| cycles >= 1.0 && cycles <= test.conditions.cycles)
+            .collect();
+        times.dedup();
+        if times.is_empty() {
+            times.push(test.conditions.cycles);
+        }
+        for (checkpoint, &cycles) in times.iter().enumerate() {
+            for member in Member::BOTH {
+                let subject = subject(member);
+                let trace = data.traces.len();
+                data.traces.push(Trace {
+                    name: format!("{}-{}-{}", test.id, member.name(), checkpoint + 1),
+                    quantity: Quantity::WearDepth,
+                    line: 0,
+                });
+                let row = |quantity, position, trace| Observation {
+                    test: number,
+                    member: subject,
+                    cycles,
+                    quantity,
+                    position,
+                    value: 0.0,
+                    sigma: 1.0,
+                    trace,
+                    face: None,
+                    tooth: None,
+                    line: 0,
+                };
+                let radii = radii(&pair, member);
+                let depths = radii.map(|r| row(Quantity::WearDepth, Some(r), Some(trace)));
+                data.observations.extend(depths);
+                data.observations.push(row(Quantity::MassLoss, None, None));
+            }
+        }
+        let turn = |i: usize| Observation {
+            test: number,
+            member: Subject::Pair,
+            cycles: times[times.len() - 1],
+            quantity: Quantity::TransmissionError,
+            // rounded as it is written
+            position: Some((1e4 * i as f64 / TURNS as f64).round() / 1e4),
+            value: 0.0,
+            sigma: 1.0,
+            trace: None,
+            face: None,
+            tooth: None,
+            line: 0,
+        };
+        data.observations.extend((0..TURNS).map(turn));
+    }
+    Ok(data)
+}
+
+fn pair(study: &Study, test: &Test) -> Result<Pair, CompareError> {
+    let mounted = study.gear_set().mount(test.conditions.misalignment_mm);
+    Ok(mounted.map_err(crate::simulate::forward::ForwardError::from)?)
+}
+
+fn subject(member: Member) -> Subject {
+    match member {
+        Member::Pinion => Subject::Pinion,
+        Member::Gear => Subject::Gear,
+    }
+}
+
+/// Arcs where the active flank begins and ends, mm.
+fn active_arcs(pair: &Pair, member: Member) -> [f64; 2] {
+    let [a, .., e] = pair.path_points();
+    let gear = pair.member(member);
+    let ends = [a, e].map(|path| gear.arc(pair.rho(member, path)));
+    [ends[0].min(ends[1]), ends[0].max(ends[1])]
+}
+
+/// Radii inside the active flank, equally far apart along it, mm, with three decimals as they are written.
+fn radii(pair: &Pair, member: Member) -> impl Iterator<Item = f64> {
+    let gear = pair.member(member).clone();
+    let [from, to] = active_arcs(pair, member);
+    let module = gear.rack.module;
+    let [root, tip] = MARGINS.map(|margin| (margin * module).min(0.2 * (to - from)));
+    let (from, to) = (from + root, to - tip);
+    (0..POINTS).map(move |i| {
+        let arc = from + (to - from) * i as f64 / (POINTS - 1) as f64;
+        let radius = gear.radius_at_rho(gear.rho_at_arc(arc));
+        (1e3 * radius).round() / 1e3
+    })
+}
+
+/// Random numbers of one test.
+struct Draw(ChaCha8Rng);
+
+impl Draw {
+    /// Every test has a stream of its own, so that a test more or less changes no other.
+    fn new(seed: u64, test: usize) -> Self {
+        let mut source = ChaCha8Rng::seed_from_u64(seed);
+        source.set_stream(test as u64);
+        Self(source)
+    }
+
+    /// Uniform in (0, 1].
+    fn uniform(&mut self) -> f64 {
+        1.0 - (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Standard normal (Box and Muller 1958), by functions that give the same bits everywhere.
+    fn normal(&mut self) -> f64 {
+        let (u, v) = (self.uniform(), self.uniform());
+        (-2.0 * libm::log(u)).sqrt() * libm::cos(2.0 * std::f64::consts::PI * v)
+    }
+}

@@ -1,0 +1,127 @@
+//! The ladder in words: the sentence at the top of its page, and the table for the terminal.
+use std::path::Path;
+
+use super::super::format::{significant, uncertain};
+use super::{Result, effects, factor};
+use crate::learn::LadderStep;
+
+/// The error by which a version is judged: that of the held-out tests, without any that of the fit tests.
+fn judge(step: &LadderStep) -> Option<f64> {
+    step.holdout_chi2_per_point.or(step.fit_chi2_per_point)
+}
+
+/// Which version predicts best, and which steps do not help.
+pub fn conclusion(result: &Result<'_>) -> String {
+    let steps = &result.steps;
+    let held_out = steps.iter().all(|s| s.holdout_chi2_per_point.is_some());
+    let of = if held_out {
+        "held-out tests"
+    } else {
+        "the tests it is fitted to (none is held out, so nothing here guards against fitting noise)"
+    };
+    let mut said = Vec::new();
+    let best = steps
+        .iter()
+        .filter_map(|step| Some((step, judge(step)?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    if let (Some((best, least)), Some(first)) = (best, steps.first().and_then(judge)) {
+        let with = format!("{} (effects: {})", best.study, effects(best));
+        let change = if best == &steps[0] {
+            format!("χ² per point {}", significant(least, 3))
+        } else {
+            format!(
+                "χ² per point {} against {} of the first version",
+                significant(least, 3),
+                significant(first, 3)
+            )
+        };
+        said.push(format!(
+            "Least error on {of}: {with}, {change}; 1 is the noise floor."
+        ));
+    }
+    for pair in steps.windows(2) {
+        let (before, after) = (&pair[0], &pair[1]);
+        let (Some(a), Some(b)) = (judge(before), judge(after)) else {
+            continue;
+        };
+        if b > 0.98 * a {
+            said.push(format!(
+                "From {} to {} the error on {} does not fall ({} to {}): that step explains nothing new.",
+                before.study,
+                after.study,
+                if held_out { "held-out tests" } else { "the fit tests" },
+                significant(a, 3),
+                significant(b, 3)
+            ));
+        }
+    }
+    said.extend(notes(result));
+    said.join(" ")
+}
+
+/// What keeps versions from being judged against the first.
+fn notes(result: &Result<'_>) -> Vec<String> {
+    let first = result.steps.first().map_or("", |step| step.study.as_str());
+    let with = result.steps.iter().zip(&result.notes);
+    with.filter(|(_, notes)| !notes.is_empty())
+        .map(|(step, notes)| {
+            format!(
+                "{} cannot be judged against {first} by its χ²: {}.",
+                step.study,
+                notes.join(", ")
+            )
+        })
+        .collect()
+}
+
+/// A table for the terminal, the conclusion, where the files are.
+pub fn summary(result: &Result<'_>, folder: &Path) -> String {
+    let mut lines = Vec::new();
+    if !result.title.is_empty() {
+        lines.push(result.title.to_owned());
+    }
+    let longest = result.steps.iter().map(|s| s.study.chars().count()).max();
+    let width = longest.unwrap_or(0).max(5);
+    lines.push(format!(
+        "  {:<width$}{:>11}{:>9}{:>11}{:>9}{:>10}  {}",
+        "study", "fit chi2", "", "held out", "", "rms µm", "effects"
+    ));
+    let number = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 3));
+    for step in &result.steps {
+        let gain = |of: fn(&crate::learn::Improvement) -> Option<f64>| {
+            factor(step.improvement.as_ref().and_then(of))
+        };
+        lines.push(format!(
+            "  {:<width$}{:>11}{:>9}{:>11}{:>9}{:>10}  {}{}",
+            step.study,
+            number(step.fit_chi2_per_point),
+            gain(|i| i.fit_factor),
+            number(step.holdout_chi2_per_point),
+            gain(|i| i.holdout_factor),
+            number(step.rms_um),
+            effects(step),
+            if step.sound { "" } else { "   (fit doubtful)" }
+        ));
+    }
+    lines.push(String::new());
+    for step in &result.steps {
+        let values: Vec<String> = step
+            .parameters
+            .iter()
+            .map(|p| format!("{} = {}", p.name, uncertain(p.value, p.sigma)))
+            .collect();
+        lines.push(format!("  {}: {}", step.study, values.join(", ")));
+    }
+    lines.push(String::new());
+    lines.push(conclusion(result));
+    for (step, comparison) in result.steps.iter().zip(&result.comparisons) {
+        for warning in &comparison.warnings {
+            lines.push(format!("warning: {}: {warning}", step.study));
+        }
+    }
+    lines.push(String::new());
+    lines.push(format!("page:    {}", folder.join("report.html").display()));
+    lines.push(format!("figures: {}", folder.join("ladder.json").display()));
+    lines.push(String::new());
+    lines.join("\n")
+}
