@@ -134,8 +134,15 @@ pub fn refit(
     (best, x)
 }
 
-/// What is left of a small change `r` (per test) when ln k of each test and one more amplitude are refitted, linearly.
-pub fn left_over(r: &[Vec<f64>], blocks: &[Vec<Block>], by_k: &[Vec<f64>], by_amplitude: &[Vec<f64>]) -> f64 {
+/// What is left of a small change `r` (per test) when ln k of each test and one more amplitude are refitted, linearly;
+/// and that amplitude.
+pub fn left_over(r: &[Vec<f64>], blocks: &[Vec<Block>], by_k: &[Vec<f64>], by_amplitude: &[Vec<f64>]) -> (f64, f64) {
+    let white = |v: &[Vec<f64>]| -> Vec<Vec<f64>> { v.iter().zip(blocks).map(|(v, b)| whiten(b, v)).collect() };
+    left_over_white(&white(r), &white(by_k), &white(by_amplitude))
+}
+
+/// The same on whitened values.
+pub fn left_over_white(r: &[Vec<f64>], by_k: &[Vec<f64>], by_amplitude: &[Vec<f64>]) -> (f64, f64) {
     let tests = r.len();
     let n = tests + 1;
     let mut a = vec![0.0; n * n];
@@ -143,25 +150,23 @@ pub fn left_over(r: &[Vec<f64>], blocks: &[Vec<Block>], by_k: &[Vec<f64>], by_am
     let mut all = 0.0;
     let q = 1.0 / (SCATTER * SCATTER);
     for t in 0..tests {
-        let w = whiten(&blocks[t], &r[t]);
-        let k = whiten(&blocks[t], &by_k[t]);
-        let s = whiten(&blocks[t], &by_amplitude[t]);
-        all += product(&w, &w);
-        a[t * n + t] += product(&k, &k);
+        let (w, k, s) = (&r[t], &by_k[t], &by_amplitude[t]);
+        all += product(w, w);
+        a[t * n + t] += product(k, k);
         for u in 0..tests {
             a[t * n + u] += q * (f64::from(u8::from(t == u)) - 1.0 / tests as f64);
         }
-        a[t * n + tests] = product(&k, &s);
+        a[t * n + tests] = product(k, s);
         a[tests * n + t] = a[t * n + tests];
-        a[tests * n + tests] += product(&s, &s);
-        g[t] = product(&k, &w);
-        g[tests] += product(&s, &w);
+        a[tests * n + tests] += product(s, s);
+        g[t] = product(k, w);
+        g[tests] += product(s, w);
     }
     for i in 0..n {
-        a[i * n + i] *= 1.0 + 1e-9;
+        a[i * n + i] = a[i * n + i] * (1.0 + 1e-9) + 1e-12;
     }
     let x = solve(a, g.clone());
-    (all - product(&x, &g)).max(0.0)
+    ((all - product(&x, &g)).max(0.0), x[tests])
 }
 
 pub fn penalty(e: &[f64]) -> f64 {

@@ -137,6 +137,7 @@ fn truth(set: &DataSet) -> Value {
         "sigma_understated_by": set.wish.understate,
         "max_depth_um": deepest,
         "attempts": set.attempts,
+        "rivals": set.rivals.iter().map(|r| json!({"name": r.name, "form": r.form, "share": round(r.share), "left_chi2": round(r.left)})).collect::<Vec<_>>(),
         "noise_free": set.rows.iter().map(|r| round(r.free)).collect::<Vec<_>>(),
     })
 }

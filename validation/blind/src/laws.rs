@@ -112,7 +112,7 @@ pub const OUTSIDE: &[&str] = &[
     "on_off_blocks",
     "gear_hardness_waves",
     "load_moved_band",
-    "pinion_work_hardening",
+    "members_swap",
     "half_flank_oil_failure",
     "humidity_cycle",
     "gear_groove",
@@ -120,9 +120,9 @@ pub const OUTSIDE: &[&str] = &[
 ];
 
 /// The first form of a name is the catalogue's.
-fn class_of(name: &str, form: &str) -> Class {
+pub fn class_of(name: &str, form: Option<&str>) -> Class {
     match CATALOGUE.iter().find(|c| c.0 == name) {
-        Some(first) if first.1 == form => Class::Single,
+        Some(first) if form.is_none_or(|f| f == first.1) => Class::Single,
         Some(_) => Class::Foreign,
         None => Class::Outside,
     }
@@ -349,10 +349,10 @@ pub fn draw(name: &'static str, form: &'static str, c: &Context, d: &mut Dice) -
             drivers = &["position", "torque"];
             vec![("gain", d.log_uniform(0.4, 2.0)), ("centre_at_reference", c.pair.end * d.uniform(0.35, 0.6)), ("width", path * d.uniform(0.05, 0.1)), ("reference_torque", c.torque)]
         }
-        ("pinion_work_hardening", _) => {
-            limit = 0.95;
+        ("members_swap", _) => {
+            limit = 3.0;
             drivers = &["cycles", "member", "depth"];
-            vec![("loss", d.uniform(0.2, 0.7)), ("cycles", c.cycles * d.uniform(0.15, 0.5))]
+            vec![("log_ratio", d.uniform(0.2, 0.7)), ("cycles", c.cycles * d.uniform(0.3, 0.5))]
         }
         ("half_flank_oil_failure", _) => {
             limit = 8.0;
@@ -378,7 +378,7 @@ pub fn draw(name: &'static str, form: &'static str, c: &Context, d: &mut Dice) -
     Law {
         name,
         form,
-        class: class_of(name, form),
+        class: class_of(name, Some(form)),
         parameters: p,
         drivers,
         limit,
@@ -451,7 +451,7 @@ impl Hidden for Law {
             self.name,
             "running_in" | "micropitting" | "debris_abrasion" | "lubricant_ageing" | "roughness_polish" | "corrosive_loss"
                 | "member_hardness" | "surface_layer" | "coating" | "plastic_deformation" | "growing_scuff" | "on_off_blocks"
-                | "gear_hardness_waves" | "pinion_work_hardening" | "half_flank_oil_failure" | "humidity_cycle" | "gear_tip_plating"
+                | "gear_hardness_waves" | "members_swap" | "half_flank_oil_failure" | "humidity_cycle" | "gear_tip_plating"
         )
     }
 
@@ -528,7 +528,11 @@ impl Hidden for Law {
                 1.0 - a * logistic(12.0 * phase.sin())
             }
             ("gear_hardness_waves", _) if x.member == 1 => 1.0 + a * (2.0 * PI * x.s / self.p(1) + self.p(2)).cos(),
-            ("pinion_work_hardening", _) if x.member == 0 => 1.0 - a * (1.0 - (-n / self.p(1)).exp()),
+            ("members_swap", _) => {
+                // The pinion wears faster early, the gear late.
+                let side = ((self.p(1) - n) / (0.5 * self.p(1))).tanh();
+                (a * side * (0.5 - x.member as f64)).exp()
+            }
             ("half_flank_oil_failure", _) => {
                 let late = logistic((n - self.p(1)) / (0.02 * self.p(1)));
                 if x.s * self.p(2) > 0.0 { 1.0 + a * late } else { 1.0 }
@@ -568,8 +572,8 @@ impl Hidden for Law {
             }
             ("corrosive_loss", "linear") => a * per_hour,
             ("corrosive_loss", _) => {
-                // d/dn of a sqrt(t), its first minutes smoothed.
-                let t = (n * per_hour).max(1e-4 * self.p(0).abs().max(1e-3)) + 0.02;
+                // d/dn of a sqrt(t), its first minute smoothed.
+                let t = n * per_hour + 0.02;
                 0.5 * a * per_hour / t.sqrt()
             }
             ("plastic_deformation", form) => {

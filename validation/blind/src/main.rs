@@ -69,6 +69,9 @@ enum Command {
         /// Divide the written sigma by this.
         #[arg(long, default_value_t = 1.0)]
         understate: f64,
+        /// Also look which known causes of other names could explain the data (in truth.json; some seconds more).
+        #[arg(long)]
+        rivals: bool,
     },
     /// Judge diagnosis.json files against the answers.
     Score {
@@ -102,6 +105,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             outlier,
             missing,
             understate,
+            rivals,
         } => {
             let law = law.map(|l| match l.split_once(':') {
                 Some((a, b)) => (a.to_string(), Some(b.to_string())),
@@ -123,17 +127,19 @@ fn main() -> Result<(), Box<dyn Error>> {
                     outlier,
                     missing,
                     understate,
+                    rivals,
                 };
                 let set = make::make(&wish);
                 files::write(&set, &folder)?;
                 let causes: Vec<String> = set.laws.iter().map(|l| format!("{}:{}", l.name, l.form)).collect();
                 println!(
-                    "{} {} [{}] d {:.1} each {:.1?} noise {} gear {} k {:.2e} attempts {} rows {} ({:.1} s)",
+                    "{} {} [{}] d {:.1} each {:.1?} rivals {:?} noise {} gear {} k {:.2e} attempts {} rows {} ({:.1} s)",
                     files::name(&set),
                     set.kind.name(),
                     causes.join(" + "),
                     set.d,
                     set.d_each,
+                    set.rivals.iter().take(2).map(|r| format!("{} {:.2} leaves {:.1}", r.name, r.share, r.left)).collect::<Vec<_>>(),
                     set.noise,
                     if set.rig.paper { "paper" } else { "random" },
                     set.k,

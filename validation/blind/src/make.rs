@@ -40,6 +40,19 @@ pub struct Wish {
     pub outlier: bool,
     pub missing: f64,
     pub understate: f64,
+    /// Also find the catalogue's causes that explain most of the difference.
+    pub rivals: bool,
+}
+
+/// A cause of another name that explains part of the difference.
+#[derive(Clone, Debug)]
+pub struct Rival {
+    pub name: &'static str,
+    pub form: &'static str,
+    /// Part of the base model's chi^2 that it removes.
+    pub share: f64,
+    /// chi^2 that it leaves.
+    pub left: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -77,6 +90,7 @@ pub struct Rig {
     pub points: usize,
     /// Finer for laws that are sharp in the local pressure.
     pub fine: Fineness,
+    pub tolerance: f64,
     passages: Mutex<HashMap<(i64, i64), Arc<Passage>>>,
 }
 
@@ -97,6 +111,11 @@ pub struct DataSet {
     pub d: f64,
     pub d_each: Vec<f64>,
     pub attempts: usize,
+    pub rivals: Vec<Rival>,
+}
+
+fn three_digits(v: f64) -> f64 {
+    format!("{v:.2e}").parse().unwrap_or(v)
 }
 
 fn paper_teeth() -> (Tooth, Tooth) {
@@ -134,7 +153,8 @@ fn draw_teeth(d: &mut Dice) -> (Tooth, Tooth, f64) {
 }
 
 impl Rig {
-    pub fn draw(paper: bool, d: &mut Dice) -> Self {
+    /// `many`: five checkpoints, for causes that come and go in time.
+    pub fn draw(paper: bool, many: bool, d: &mut Dice) -> Self {
         let (pinion, gear, centre) = if paper {
             let (p, g) = paper_teeth();
             (p, g, 80.0)
@@ -166,7 +186,8 @@ impl Rig {
         let roughness = if paper { 0.5 } else { (d.log_uniform(0.25, 1.0) * 100.0).round() / 100.0 };
         let tidy_checks = |d: &mut Dice| {
             let lists: [&[f64]; 4] = [&[0.1, 0.25, 0.5, 0.75, 1.0], &[0.05, 0.2, 0.5, 1.0], &[0.15, 0.4, 0.7, 1.0], &[0.1, 0.4, 1.0]];
-            d.pick(&lists).to_vec()
+            let some = d.pick(&lists).to_vec();
+            if many { lists[0].to_vec() } else { some }
         };
         let fractions = tidy_checks(d);
         let conditions = |t: f64, n: f64, mis: f64, index: usize| Conditions {
@@ -228,6 +249,26 @@ impl Rig {
             sealed,
             points: 40 + d.below(17),
             fine: Fineness::default(),
+            tolerance: 4e-4,
+            passages: Mutex::new(HashMap::new()),
+        }
+    }
+
+    /// The same rig on a coarse grid, for comparing causes among themselves.
+    fn coarse(&self) -> Self {
+        Self {
+            pinion: self.pinion.clone(),
+            gear: self.gear.clone(),
+            centre: self.centre,
+            width: self.width,
+            youngs: self.youngs,
+            paper: self.paper,
+            soft: self.soft.clone(),
+            tests: self.tests.clone(),
+            sealed: self.sealed.clone(),
+            points: self.points,
+            fine: Fineness { positions: 36, cells_per_half_width: 4.0, extent: 4.0 },
+            tolerance: 2e-3,
             passages: Mutex::new(HashMap::new()),
         }
     }
@@ -254,7 +295,7 @@ impl Rig {
             width: self.width,
             k,
             hidden: Arc::new(hidden),
-            tolerance: 4e-4,
+            tolerance: self.tolerance,
         };
         let start = std::time::Instant::now();
         let history = run.run(cycles);
@@ -432,6 +473,12 @@ impl Bench<'_> {
 
     /// sqrt of the drop in chi^2 when the cause is known.
     fn detectability(&self, truth: &[Vec<Row>]) -> f64 {
+        let (chi2, _) = self.refit(truth);
+        (chi2 - detect::penalty(&self.scatter)).max(0.0).sqrt()
+    }
+
+    /// chi^2 of the refitted base model and its k per test.
+    fn refit(&self, truth: &[Vec<Row>]) -> (f64, Vec<f64>) {
         let blocks: Vec<Vec<Block>> = truth.iter().map(|r| blocks(r)).collect();
         let values: Vec<Vec<f64>> = truth.iter().map(|r| r.iter().map(|x| x.free).collect()).collect();
         let k = self.k_tests.iter().zip(&self.scatter).map(|(k, e)| k / e.exp()).sum::<f64>() / self.k_tests.len() as f64;
@@ -443,8 +490,65 @@ impl Bench<'_> {
             // The base run has k0; its mass and depth depend on k times cycles only.
             values
         };
-        let (chi2, _) = detect::refit(&values, &blocks, &model, (REACH * 0.98f64).ln());
-        (chi2 - detect::penalty(&self.scatter)).max(0.0).sqrt()
+        let (chi2, x) = detect::refit(&values, &blocks, &model, (REACH * 0.98f64).ln());
+        (chi2, x.iter().map(|x| k * x.exp()).collect())
+    }
+
+    /// Causes of other names, each alone, by how much of the difference they explain (linearised at the refitted base).
+    fn rivals(&self, context: &Context, truth: &[Vec<Row>], own: &[Law], d: &mut Dice) -> Vec<Rival> {
+        let (_, k) = self.refit(truth);
+        let coarse = self.rig.coarse();
+        let run = |laws: &[Law], factor: f64| -> Vec<Vec<f64>> {
+            (0..k.len())
+                .into_par_iter()
+                .map(|t| {
+                    let plan = &coarse.tests[t];
+                    let (run, history) = coarse.run(plan, k[t] * factor, laws, plan.cycles);
+                    coarse.observe(&run, &history, &truth[t], 1.0)
+                })
+                .collect()
+        };
+        let blocks: Vec<Vec<Block>> = truth.iter().map(|r| blocks(r)).collect();
+        let white = |a: &[Vec<f64>], b: &[Vec<f64>], by: f64| -> Vec<Vec<f64>> {
+            (0..a.len())
+                .map(|t| detect::whiten(&blocks[t], &a[t].iter().zip(&b[t]).map(|(x, y)| (x - y) / by).collect::<Vec<_>>()))
+                .collect()
+        };
+        let fitted: Vec<Vec<f64>> = (0..k.len())
+            .map(|t| {
+                let (run, history) = &self.base[t];
+                self.rig.observe(run, history, &truth[t], k[t] / self.k0)
+            })
+            .collect();
+        let values: Vec<Vec<f64>> = truth.iter().map(|r| r.iter().map(|x| x.free).collect()).collect();
+        let r = white(&values, &fitted, 1.0);
+        let base = run(&[], 1.0);
+        let by_k = white(&run(&[], 1.1), &base, 1.1f64.ln());
+        let none: Vec<Vec<f64>> = r.iter().map(|v| vec![0.0; v.len()]).collect();
+        let (all, _) = detect::left_over_white(&r, &by_k, &none);
+        let mut best: Vec<Rival> = Vec::new();
+        for &(name, form) in CATALOGUE {
+            if own.iter().any(|l| l.name == name) {
+                continue;
+            }
+            for _ in 0..2 {
+                let law = laws::draw(name, form, context, d);
+                let either = ["member_hardness", "profile_slope", "approach_recess", "sliding_speed_exponent", "pressure_exponent",
+                    "radial_misalignment", "bearing_compliance", "thermal_expansion"].contains(&name);
+                let change = white(&run(std::slice::from_ref(&law), 1.0), &base, 1.0);
+                let (left, amplitude) = detect::left_over_white(&r, &by_k, &change);
+                let left = if amplitude < 0.0 && !either { all } else { left };
+                let rival = Rival { name, form, share: 1.0 - left / all.max(1e-9), left };
+                match best.iter_mut().find(|b| b.name == name) {
+                    Some(b) if b.share < rival.share => *b = rival,
+                    Some(_) => {}
+                    None => best.push(rival),
+                }
+            }
+        }
+        best.sort_by(|a, b| b.share.total_cmp(&a.share));
+        best.truncate(5);
+        best
     }
 }
 
@@ -465,7 +569,12 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     // The plan of the set does not change between attempts, the gears and causes do.
     let mut plan = root.branch(0);
     let u = plan.unit();
-    let kind = wish.kind.unwrap_or(if u < 0.3 {
+    let of_law = wish.law.as_ref().map(|(name, form)| match laws::class_of(name, form.as_deref()) {
+        Class::Single => Kind::Single,
+        Class::Foreign => Kind::Foreign,
+        Class::Outside => Kind::Outside,
+    });
+    let kind = wish.kind.or(of_law).unwrap_or(if u < 0.3 {
         Kind::None
     } else if u < 0.45 {
         Kind::Single
@@ -488,7 +597,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let named: Vec<(&'static str, &'static str)> = names(wish, kind, &mut choice);
 
     let mut d = root.branch(attempt as u64);
-    let mut rig = Rig::draw(paper, &mut d);
+    let mut rig = Rig::draw(paper, kind == Kind::Outside, &mut d);
     if named.iter().any(|n| ["pressure_exponent", "micropitting", "plastic_deformation"].contains(&n.0)) {
         rig.fine.cells_per_half_width = 10.0;
     }
@@ -506,7 +615,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         if rig.deepest(a, &first_run, &first, mid * a.cycles) < depth { lo = mid } else { hi = mid }
     }
     k0 *= lo;
-    let k = (k0 * 1e13).round() / 1e13;
+    let k = three_digits(k0);
     if k <= 0.0 {
         return None;
     }
@@ -533,6 +642,11 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     if !(1.8..26.0).contains(&top) {
         return None;
     }
+    let rivals = if wish.rivals && !found.is_empty() {
+        bench.rivals(&context, &rows, &found, &mut root.branch(31))
+    } else {
+        Vec::new()
+    };
     let weigh = !found.iter().any(Law::moves_material);
     let (run, history) = rig.run(&rig.sealed, k, &found, rig.sealed.cycles);
     let mut sealed: Vec<Row> = rig.rows(&rig.sealed, rig.tests.len()).into_iter().filter(|r| weigh || r.radius.is_some()).collect();
@@ -579,7 +693,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         noise,
         laws: found,
         k,
-        k_study: (k * wrong * 1e12).round() / 1e12,
+        k_study: three_digits(k * wrong),
         scatter,
         k_tests,
         datum,
@@ -589,6 +703,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         d: dd,
         d_each,
         attempts: attempt,
+        rivals,
         rig,
     })
 }
@@ -622,7 +737,7 @@ fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static s
         Kind::Foreign => vec![known(Class::Foreign, d)],
         Kind::Outside => vec![(*d.pick(OUTSIDE), "own")],
         Kind::Pair => loop {
-            let mut any = |d: &mut Dice| known(if d.unit() < 0.5 { Class::Single } else { Class::Foreign }, d);
+            let any = |d: &mut Dice| known(if d.unit() < 0.5 { Class::Single } else { Class::Foreign }, d);
             let (a, b) = (any(d), any(d));
             if a.0 != b.0 {
                 return vec![a, b];
@@ -738,5 +853,5 @@ fn given(bench: &Bench, laws: &[Law], x: usize, both: &[Vec<Row>], weigh: bool) 
     let by_a = difference(&free(bench.truth(&[stronger], weigh, 1.0)), &alone, 0.1);
     let blocks: Vec<Vec<Block>> = both.iter().map(|r| blocks(r)).collect();
     let r = difference(&free(both.to_vec()), &alone, 1.0);
-    detect::left_over(&r, &blocks, &by_k, &by_a).sqrt()
+    detect::left_over(&r, &blocks, &by_k, &by_a).0.sqrt()
 }

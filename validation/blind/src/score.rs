@@ -25,6 +25,8 @@ pub struct Outcome {
     pub false_claim: f64,
     pub named: Vec<String>,
     pub name: String,
+    /// chi^2 that the best rival of another name leaves, and the part that it explains, when known.
+    pub rival: Option<(f64, f64)>,
 }
 
 pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
@@ -106,6 +108,7 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     };
     Outcome {
         name: name.to_string(),
+        rival: truth["rivals"][0]["left_chi2"].as_f64().zip(truth["rivals"][0]["share"].as_f64()),
         result,
         driver_right: (class == "outside").then(|| driver.is_some_and(|n| drivers.iter().any(|x| x == n))),
         top: best.map_or(0.0, |b| *b.1),
@@ -217,6 +220,26 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
         "\nfalse alarms on nothing: {alarms} of {} ({:.1}–{:.1} %), with probability > 0.95: {sure}\nouter causes: driver named {driver} of {}, a wrong name above 0.9: {bold}\nfalse names above 0.95 in all: {over}\nexpected calibration error of the largest probability: {ece:.3}\n",
         none.len(), 100.0 * fa, 100.0 * fz, outside.len()
     ));
+    text.push_str("\n| among d >= 6, where rivals are known | sets | results |\n|---|---|---|\n");
+    let known = |o: &&Outcome| o.class == "single" || o.class == "foreign";
+    type Test<'a> = (&'a str, Box<dyn Fn(&&Outcome) -> bool>);
+    let splits: [Test; 4] = [
+        ("known, the best other cause leaves chi^2 >= 16 (separable)", Box::new(move |o| known(o) && o.rival.is_some_and(|r| r.0 >= 16.0))),
+        ("known, it leaves less (look-alikes)", Box::new(move |o| known(o) && o.rival.is_some_and(|r| r.0 < 16.0))),
+        ("outer, the best known cause explains < 65 %", Box::new(|o| o.class == "outside" && o.rival.is_some_and(|r| r.1 < 0.65))),
+        ("outer, it explains more", Box::new(|o| o.class == "outside" && o.rival.is_some_and(|r| r.1 >= 0.65))),
+    ];
+    let mut rivals = Vec::new();
+    for (name, test) in &splits {
+        let some: Vec<&Outcome> = list.iter().filter(|o| o.d >= 6.0 && test(o)).collect();
+        let row: Vec<String> = RESULTS
+            .iter()
+            .filter_map(|r| Some((r, some.iter().filter(|o| o.result == *r).count())).filter(|c| c.1 > 0))
+            .map(|(r, c)| format!("{r} {c}"))
+            .collect();
+        text.push_str(&format!("| {name} | {} | {} |\n", some.len(), row.join(", ")));
+        rivals.push(json!({"of": name, "sets": some.len(), "results": row}));
+    }
     let mut by: BTreeMap<(String, &str), usize> = BTreeMap::new();
     for o in list.iter().filter(|o| o.class != "none" && o.class != "pair" && o.d >= 6.0) {
         *by.entry((o.kinds.join("+"), o.result)).or_default() += 1;
@@ -235,7 +258,7 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
     let json = json!({"sets": list.len(), "without_result": missing, "cells": cells,
         "false_alarms": {"sets": none.len(), "alarms": alarms, "interval": [fa, fz], "above_0.95": sure},
         "outside": {"sets": outside.len(), "driver_named": driver, "wrong_above_0.9": bold},
-        "false_names_above_0.95": over, "calibration_error": ece, "wrong": worst,
+        "false_names_above_0.95": over, "calibration_error": ece, "rivals": rivals, "wrong": worst,
         "verdicts": list.iter().map(|o| json!({"name": o.name, "verdict": o.verdict, "result": o.result})).collect::<Vec<_>>()});
     Ok((text, json))
 }
