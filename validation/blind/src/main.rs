@@ -1,16 +1,19 @@
 //! Wear measurements with a hidden cause, made without anything of the solver that they judge, and the judging.
 
 mod banded;
+mod bench;
 mod checks;
 mod contact;
 mod detect;
 mod dice;
+mod draw;
 mod files;
 mod hidden;
 mod involute;
 mod laws;
 mod make;
 mod passage;
+mod rig;
 mod ring;
 mod score;
 mod wear;
@@ -131,7 +134,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 };
                 let set = make::make(&wish);
                 files::write(&set, &folder)?;
-                let causes: Vec<String> = set.laws.iter().map(|l| format!("{}:{}", l.name, l.form)).collect();
+                let causes: Vec<String> = set
+                    .laws
+                    .iter()
+                    .map(|l| format!("{}:{}", l.name, l.form))
+                    .collect();
                 println!(
                     "{} {} [{}] d {:.1} each {:.1?} rivals {:?} noise {} gear {} k {:.2e} attempts {} rows {} ({:.1} s)",
                     files::name(&set),
@@ -139,7 +146,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                     causes.join(" + "),
                     set.d,
                     set.d_each,
-                    set.rivals.iter().take(2).map(|r| format!("{} {:.2} leaves {:.1}", r.name, r.share, r.left)).collect::<Vec<_>>(),
+                    set.rivals
+                        .iter()
+                        .take(2)
+                        .map(|r| format!("{} {:.2} leaves {:.1}", r.name, r.share, r.left))
+                        .collect::<Vec<_>>(),
                     set.noise,
                     if set.rig.paper { "paper" } else { "random" },
                     set.k,
@@ -149,7 +160,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 );
             }
         }
-        Command::Score { data, results, json } => {
+        Command::Score {
+            data,
+            results,
+            json,
+        } => {
             let (text, figures) = score::score(&data, &results)?;
             print!("{text}");
             if let Some(path) = json {
@@ -158,10 +173,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         Command::Check { what } => checks::print(&what),
         Command::Laws => {
-            for (name, form) in laws::CATALOGUE {
+            for (name, form) in draw::CATALOGUE {
                 println!("{name}: {form}");
             }
-            for name in laws::OUTSIDE {
+            for name in draw::OUTSIDE {
                 println!("{name}: outside the catalogue");
             }
         }
