@@ -59,15 +59,17 @@ impl Stations {
         values[k] * (1.0 - f) + values[k + 1] * f
     }
     pub fn width(&self, k: usize) -> f64 {
-        if k == 0 || k + 1 == self.count { 0.5 * self.step } else { self.step }
+        if k == 0 || k + 1 == self.count {
+            0.5 * self.step
+        } else {
+            self.step
+        }
     }
 }
 
 pub struct Passage {
     pub pair: Mating,
     pub cell: f64,
-    /// Path between two positions.
-    pub stride: f64,
     pub stations: [Stations; 2],
     pub positions: Vec<Position>,
     /// Deposit weights, `SPAN` per cell and member: depth per pressure, mm/MPa, for k = 1 and one contact.
@@ -266,7 +268,6 @@ impl Passage {
         Self {
             pair,
             cell: dx,
-            stride,
             stations,
             positions,
             deposits,
