@@ -128,10 +128,15 @@ impl Measured<'_> {
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
                 .unwrap_or(first)
         };
-        Ok(Compared {
-            comparison: Comparison::new(self.study(), &self.data, &fit),
-            fit,
-        })
+        let mut comparison = Comparison::new(self.study(), &self.data, &fit);
+        let own = self.study().own_meshes();
+        if self.study().contact == ContactKind::Fem && own.iter().any(|(_, mesh)| mesh.is_some()) {
+            comparison.warnings.push(
+                "the meshes that [numerics] names are not used: fits mesh the members themselves"
+                    .to_owned(),
+            );
+        }
+        Ok(Compared { fit, comparison })
     }
 }
 

@@ -208,7 +208,7 @@ fn warnings(fit: &Fit) -> Vec<String> {
     }
     for parameter in fit.parameters.iter().filter(|p| p.at_bound) {
         warnings.push(format!(
-            "{} lies on its bound, {:e}",
+            "{} lies on its bound, {:.3e}",
             parameter.name, parameter.value
         ));
     }

@@ -140,7 +140,9 @@ fn figures(lines: &mut Vec<String>, c: &Comparison) {
 }
 
 fn parameters(lines: &mut Vec<String>, c: &Comparison) {
-    let longest = c.parameters.iter().map(|p| p.name.len()).max().unwrap_or(0);
+    let longest = c.parameters.iter().map(|p| p.name.len()).max();
+    // under the figures above where the names are short enough
+    let longest = longest.unwrap_or(0).max(16);
     for parameter in &c.parameters {
         lines.push(format!(
             "  {:<longest$}  {}{}",

@@ -1,7 +1,7 @@
 //! The page of `compare`: measured against model along both flanks, places by χ², parameters.
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::learn::{Comparison, Group, TestRecord};
+use crate::learn::{Cell as Place, Comparison, Group, TestRecord};
 use crate::report::comparison::{self, Result, with_unit};
 use crate::report::format::{count, percent, significant, uncertain, whole};
 use crate::report::models::signed;
@@ -109,8 +109,12 @@ fn role(role: &str) -> &str {
     if role == "holdout" { "held out" } else { role }
 }
 
-/// The cells of test, member, region and cycles with the largest χ².
+/// The cells of test, member, region and cycles that exceed the noise most: χ² less one for each point.
 fn places(c: &Comparison) -> Section {
+    let excess = |cell: &Place| (cell.chi2_per_point - 1.0) * cell.points as f64;
+    let total: f64 = c.places.iter().map(|cell| excess(cell).max(0.0)).sum();
+    let mut worst: Vec<&Place> = c.places.iter().filter(|cell| excess(cell) > 0.0).collect();
+    worst.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
     let mut table = Table::new(
         "",
         [
@@ -121,11 +125,12 @@ fn places(c: &Comparison) -> Section {
             "cycles",
             "points",
             "χ² per point",
+            "share",
             "bias",
             "rms",
         ],
     );
-    for cell in c.places.iter().take(PLACES) {
+    for cell in worst.iter().take(PLACES) {
         let [from, to] = cell.cycles;
         table = table.row([
             Cell::text(cell.test.clone()),
@@ -135,6 +140,7 @@ fn places(c: &Comparison) -> Section {
             Cell::number(format!("{} to {}", count(from), count(to))),
             Cell::number(whole(cell.points)),
             Cell::number(significant(cell.chi2_per_point, 3)),
+            Cell::number(percent(excess(cell) / total, 2)),
             Cell::number(with_unit(
                 format!(
                     "{} ± {}",
@@ -146,16 +152,12 @@ fn places(c: &Comparison) -> Section {
             Cell::number(significant(cell.rms, 2)),
         ]);
     }
-    let left = c.places.len().saturating_sub(PLACES);
-    let section = Section::new("Where it fails").table(table);
-    if left == 0 {
-        section
-    } else {
-        section.note(format!(
-            "The {PLACES} worst of {} places; all of them stand in `comparison.json`, every row in `residuals.csv`.",
-            c.places.len()
-        ))
-    }
+    Section::new("Where it fails").table(table).note(format!(
+        "The {} of {} places that exceed the noise most; share: of all that exceeds it. All places stand in \
+         `comparison.json`, every row in `residuals.csv`.",
+        worst.len().min(PLACES),
+        c.places.len()
+    ))
 }
 
 fn of_test(test: &Test, record: &TestRecord) -> Section {

@@ -93,7 +93,7 @@ impl Plot {
         };
         let mut chart = ChartBuilder::on(place)
             .margin_top(top)
-            .margin_right(32 * FINE)
+            .margin_right(if x.1 >= 1e6 { 50 * FINE } else { 32 * FINE })
             .margin_bottom(6 * FINE)
             .margin_left(6 * FINE)
             .x_label_area_size(if named { 52 * FINE } else { 4 * FINE })
@@ -214,7 +214,12 @@ impl Plot {
             let x = 30 * FINE + (number % columns) as i32 * column;
             let y = 14 * FINE + (number / columns) as i32 * LEGEND_ROW;
             let color = curve.style.color();
-            if let Some(width) = curve.style.line() {
+            // the line of what was measured is the model's, of the same colour and without an entry of its own
+            let line = match curve.style {
+                Style::Measured(_) | Style::TimeMeasured { .. } => Some(1.5),
+                style => style.line(),
+            };
+            if let Some(width) = line {
                 area.draw(&PathElement::new(
                     vec![(x, y), (x + 28 * FINE, y)],
                     color.stroke_width((width * f64::from(FINE)) as u32),
@@ -384,10 +389,18 @@ fn draw_marker(
             ],
             color,
         )),
-        4 => area.draw(&Rectangle::new(
-            [(x - 4 * unit, y - 4 * unit), (x + 4 * unit, y + 4 * unit)],
-            line,
-        )),
+        // an open rectangle's own stroke has no width
+        4 => {
+            let a = 4 * unit;
+            let corners = [
+                (x - a, y - a),
+                (x + a, y - a),
+                (x + a, y + a),
+                (x - a, y + a),
+            ];
+            let around = corners.into_iter().chain([corners[0], corners[1]]);
+            area.draw(&PathElement::new(around.collect::<Vec<_>>(), line))
+        }
         5 => area.draw(&Polygon::new(
             vec![
                 (x - 5 * unit, y),

@@ -1,0 +1,377 @@
+//! Claim: `compare`, `ladder` and `synthesize` keep the words of the command table: `comparison.json` and `ladder.json` hold the
+//! promised keys and agree with `residuals.csv`; what was put into made-up measurements is found again; the right effect brings
+//! the error of held-out tests to the noise floor and a wrong one does not lower it; results do not depend on threads, made-up
+//! measurements only on the seed; unusable input ends with exit code 2 and nothing written.
+//!
+//! Source: the command and file tables of the README; the χ² distribution (mean 1 per point, standard deviation √(2/n)); the
+//! definition of χ² per point, evaluated anew from the table of residuals. Tolerances: 1e-9 where the same figures are summed
+//! in another order; five standard deviations of χ² for n points; three stated standard deviations for parameters.
+//!
+//! The contact is Hertz's, so that a comparison lasts a second; the way from the study to the files is the same by finite elements.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const BASE: &str = r#"title = "made up"
+[gears]
+module = 2.0
+pressure_angle = 20.0
+face_width = 33.0
+centre_distance = 80.0
+[gears.pinion]
+teeth = 27
+bore_diameter = 25.0
+[gears.gear]
+teeth = 53
+bore_diameter = 40.0
+[material]
+youngs_modulus = 2.1e5
+poisson_ratio = 0.3
+density = 7850.0
+[operation]
+torque = 100.0
+speed = 2000.0
+[wear]
+coefficient = 2e-10
+cycles = 1e6
+[model]
+contact = "hertz"
+[numerics]
+positions = 40
+[noise]
+coefficient_scatter = 0.0
+[[test]]
+id = "A"
+[[test]]
+id = "B"
+torque = 170.0
+cycles = 6e5
+[[test]]
+id = "H, held out"
+role = "holdout"
+torque = 130.0
+cycles = 4e5
+"#;
+const RUNNING_IN: &str =
+    "[[effect]]\nkind = \"running_in\"\namplitude = 2.0\ndecay_cycles = 1.5e5\n";
+const FREE: &str =
+    "[fit]\nfree = [\"wear.coefficient\", \"running_in.amplitude\", \"running_in.decay_cycles\"]\n";
+const WRONG: &str = "[[effect]]\nkind = \"pressure_exponent\"\nexponent = 1.2\n[fit]\nfree = \
+                     [\"wear.coefficient\", \"pressure_exponent.exponent\"]\n";
+const FILE: &str = "[measurements]\nfile = \"measurements.csv\"\n";
+
+fn gearwear(home: &TempDir, line: &str) -> (Option<i32>, String, String) {
+    let output = Command::cargo_bin("gearwear")
+        .unwrap()
+        .current_dir(home)
+        .args(line.split(' '))
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+fn succeed(home: &TempDir, line: &str) -> String {
+    let (code, out, err) = gearwear(home, line);
+    assert_eq!(code, Some(0), "{line}: {err}");
+    out
+}
+
+/// A folder with measurements of the model with running-in in `data`, and versions of the model beside them.
+fn home() -> TempDir {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    write("truth.toml", format!("{BASE}{RUNNING_IN}"));
+    succeed(&home, "synthesize truth.toml -o data --seed 5");
+    fs::create_dir(home.path().join("try")).unwrap();
+    let data = home.path().join("data/measurements.csv");
+    fs::copy(data, home.path().join("try/measurements.csv")).unwrap();
+    // every fit begins with a wrong wear coefficient and wrong parameters
+    let guess = BASE.replace("2e-10", "5e-10");
+    let other = RUNNING_IN.replace("2.0", "4.0").replace("1.5e5", "4e5");
+    write("try/base.toml", format!("{guess}{FILE}"));
+    write("try/right.toml", format!("{guess}{other}{FREE}{FILE}"));
+    write("try/wrong.toml", format!("{guess}{WRONG}{FILE}"));
+    home
+}
+
+fn document(folder: &Path, name: &str) -> Value {
+    serde_json::from_str(&fs::read_to_string(folder.join(name)).unwrap()).unwrap()
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    let found = value.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("{pointer} in {value}"))
+}
+
+/// Whether a page names no script, picture or style elsewhere.
+fn loads_nothing(page: &str) -> bool {
+    let elsewhere = ["src=", "href=\"http", "@import", "url("];
+    elsewhere.iter().all(|word| !page.contains(word))
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let name = |e: std::io::Result<fs::DirEntry>| e.unwrap().file_name().into_string().unwrap();
+    let mut names: Vec<String> = entries.map(name).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn what_was_put_in_is_found_and_only_the_right_effect_helps() {
+    let home = home();
+    let base = succeed(&home, "compare try/base.toml");
+    assert!(
+        base.contains("next:      gearwear diagnose try/base.toml"),
+        "{base}"
+    );
+    succeed(&home, "compare try/right.toml");
+    let folder = home.path().join("try");
+    let base = document(&folder.join("base.out/compare"), "comparison.json");
+    let right = document(&folder.join("right.out/compare"), "comparison.json");
+    assert!(number(&base, "/fit/chi2_per_point") > 2.0, "{base:#}");
+    for share in ["fit", "holdout"] {
+        let chi2 = number(&right, &format!("/{share}/chi2_per_point"));
+        let points = number(&right, &format!("/{share}/points"));
+        assert!(
+            (chi2 - 1.0).abs() < 5.0 * (2.0 / points).sqrt(),
+            "{share}: {chi2}"
+        );
+    }
+    let truth = [
+        ("wear.coefficient", 2e-10),
+        ("running_in.amplitude", 2.0),
+        ("running_in.decay_cycles", 1.5e5),
+    ];
+    for (place, (name, truth)) in truth.into_iter().enumerate() {
+        let of = |key: &str| number(&right, &format!("/parameters/{place}/{key}"));
+        assert_eq!(right["parameters"][place]["name"], name);
+        assert_eq!(right["parameters"][place]["at_bound"], false);
+        assert!(
+            (of("value") - truth).abs() < 3.0 * of("sigma"),
+            "{name}: {} +- {}",
+            of("value"),
+            of("sigma")
+        );
+    }
+
+    let steps = succeed(
+        &home,
+        "ladder try/base.toml try/wrong.toml try/right.toml --json",
+    );
+    let steps: Value = serde_json::from_str(&steps).unwrap();
+    assert_eq!(
+        steps,
+        document(&folder.join("base.out/ladder"), "ladder.json")
+    );
+    let held: Vec<f64> = (0..3)
+        .map(|i| number(&steps, &format!("/{i}/holdout_chi2_per_point")))
+        .collect();
+    assert!(held[2] < 0.5 * held[0], "{held:?}");
+    assert!(
+        held[1] > 0.9 * held[0],
+        "a wrong effect does not help: {held:?}"
+    );
+    // a step of the ladder is what compare says of it
+    for (place, compared) in [(0, &base), (2, &right)] {
+        for (key, pointer) in [
+            ("fit_chi2_per_point", "/fit/chi2_per_point"),
+            ("rms_um", "/rms_um"),
+        ] {
+            let step = number(&steps, &format!("/{place}/{key}"));
+            assert_eq!(step, number(compared, pointer), "{place} {key}");
+        }
+    }
+    assert_eq!(steps[0]["effects"], serde_json::json!([]));
+    assert_eq!(steps[2]["effects"], serde_json::json!(["running_in"]));
+    assert_eq!(steps[1]["study"], "try/wrong.toml");
+    for key in ["value", "sigma", "at_bound", "name"] {
+        assert!(!steps[1]["parameters"][1][key].is_null(), "{key}");
+    }
+    let page = fs::read_to_string(folder.join("base.out/ladder/report.html")).unwrap();
+    assert!(page.contains("<svg") && page.contains("running_in") && loads_nothing(&page));
+}
+
+#[test]
+fn the_files_of_a_comparison_agree() {
+    let home = home();
+    let printed = succeed(&home, "compare try/base.toml -o out --json --threads 1");
+    let folder = home.path().join("out");
+    let written = document(&folder, "comparison.json");
+    assert_eq!(serde_json::from_str::<Value>(&printed).unwrap(), written);
+    for pointer in [
+        "/points",
+        "/chi2_per_point",
+        "/rms_um",
+        "/noise_rms_um",
+        "/fit/points",
+        "/holdout/points",
+        "/holdout/chi2_per_point",
+        "/parameters/0/value",
+        "/parameters/0/sigma",
+        "/where/0/points",
+        "/where/0/cycles/0",
+        "/where/0/cycles/1",
+        "/where/0/chi2_per_point",
+    ] {
+        number(&written, pointer);
+    }
+    let places = written["where"].as_array().unwrap();
+    let counted: u64 = places.iter().map(|p| p["points"].as_u64().unwrap()).sum();
+    assert_eq!(counted, written["points"].as_u64().unwrap());
+    for region in [
+        "lower_double",
+        "single_lower",
+        "single_upper",
+        "upper_double",
+    ] {
+        let of_region = |p: &&Value| p["region"] == region && p["member"] == "pinion";
+        let place = places.iter().find(of_region);
+        assert!(place.is_some_and(|p| p["bias_um"].is_f64()), "{region}");
+    }
+
+    let mut table = csv::Reader::from_path(folder.join("residuals.csv")).unwrap();
+    let head = "test,member,cycles,quantity,position,measured,datum,model,residual,standardised";
+    assert_eq!(
+        table
+            .headers()
+            .unwrap()
+            .iter()
+            .collect::<Vec<_>>()
+            .join(","),
+        head
+    );
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let value = |row: &csv::StringRecord, column: usize| row[column].parse::<f64>().unwrap();
+    let close = |a: f64, b: f64| assert!((a - b).abs() <= 1e-9 * b.abs(), "{a} {b}");
+    assert_eq!(rows.len() as u64, written["points"].as_u64().unwrap());
+    let mean = |rows: &[&csv::StringRecord], column: usize| {
+        let sum: f64 = rows.iter().map(|row| value(row, column).powi(2)).sum();
+        sum / rows.len() as f64
+    };
+    let all: Vec<_> = rows.iter().collect();
+    close(mean(&all, 9), number(&written, "/chi2_per_point"));
+    let held: Vec<_> = rows.iter().filter(|row| &row[0] == "H, held out").collect();
+    close(mean(&held, 9), number(&written, "/holdout/chi2_per_point"));
+    let worn: Vec<_> = rows.iter().filter(|row| &row[3] == "wear_depth").collect();
+    close(mean(&worn, 8).sqrt(), number(&written, "/rms_um"));
+    for row in &rows {
+        let residual = value(row, 7) - (value(row, 5) - value(row, 6));
+        assert!((residual - value(row, 8)).abs() < 1e-9, "{row:?}");
+    }
+
+    let page = fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(page.contains("Test B") && page.contains("held out") && loads_nothing(&page));
+    assert!(folder.join("plots/wear_depth_A_pinion.svg").is_file());
+    succeed(&home, "compare try/base.toml -o out2 -q");
+    for name in ["comparison.json", "residuals.csv", "report.html"] {
+        let again = fs::read(home.path().join("out2").join(name)).unwrap();
+        assert!(
+            again == fs::read(folder.join(name)).unwrap(),
+            "{name}: threads"
+        );
+    }
+}
+
+#[test]
+fn made_up_measurements_depend_on_the_seed_alone() {
+    let home = tempfile::tempdir().unwrap();
+    let start = BASE.find("[[test]]").unwrap();
+    let only = format!("# mine\n{}{RUNNING_IN}", &BASE[..start]);
+    fs::write(home.path().join("one.toml"), &only).unwrap();
+    let out = succeed(&home, "synthesize one.toml -o a --seed 7 --json");
+    let out: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(
+        out,
+        serde_json::json!({"written": ["a/study.toml", "a/measurements.csv"]})
+    );
+    succeed(&home, "synthesize one.toml -o b --seed 7 --threads 1");
+    succeed(&home, "synthesize one.toml -o c --seed 8");
+    let data = |folder: &str| {
+        fs::read_to_string(home.path().join(folder).join("measurements.csv")).unwrap()
+    };
+    assert_eq!(data("a"), data("b"));
+    assert_ne!(data("a"), data("c"));
+    let copy = fs::read_to_string(home.path().join("a/study.toml")).unwrap();
+    assert!(
+        copy.starts_with(&only) && copy.contains("[[test]]\nid = \"A\""),
+        "{copy}"
+    );
+    let text = data("a");
+    let said: Vec<&str> = text.lines().take_while(|l| l.starts_with("# ")).collect();
+    let said = said.join("\n");
+    for word in [
+        "Synthetic",
+        "seed 7",
+        "wear.coefficient = 2e-10",
+        "running_in.amplitude = 2.0",
+    ] {
+        assert!(said.contains(word), "{word}: {said}");
+    }
+    for word in [
+        ",wear_depth,",
+        ",mass_loss,,",
+        ",transmission_error,",
+        ",A-pinion-1",
+    ] {
+        assert!(text.contains(word), "{word}");
+    }
+    // it is a study with measurements like any other
+    succeed(&home, "compare a/study.toml -q");
+    let compared = document(&home.path().join("a/study.out/compare"), "comparison.json");
+    assert_eq!(compared["holdout"]["points"], 0);
+}
+
+#[test]
+fn unusable_input_writes_nothing() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
+    write("bare.toml", BASE);
+    write("gone.toml", &format!("{BASE}{FILE}"));
+    write("paper.toml", &BASE.replace("\"hertz\"", "\"paper\""));
+    write(
+        "a.toml",
+        &format!("{BASE}[measurements]\nfile = \"m.csv\"\n"),
+    );
+    let shorter = BASE.replace("face_width = 33.0", "face_width = 30.0");
+    write(
+        "b.toml",
+        &format!("{shorter}[measurements]\nfile = \"m.csv\"\n"),
+    );
+    write(
+        "m.csv",
+        "test,member,cycles,quantity,position,value,sigma\nA,pinion,1e6,wear_depth,27.5,3.0,0.1\n",
+    );
+    fs::create_dir(home.path().join("mine")).unwrap();
+    write("mine/notes.txt", "mine");
+    let before = names(home.path());
+    for (line, word) in [
+        ("compare bare.toml", "no measurements"),
+        ("compare gone.toml", "measurements.csv"),
+        ("compare paper.toml", "model.contact"),
+        ("compare missing.toml", "missing.toml"),
+        ("compare a.toml -o mine", "mine"),
+        ("ladder", "STUDY"),
+        ("ladder a.toml bare.toml", "no measurements"),
+        ("ladder a.toml b.toml", "b.toml has other gears than a.toml"),
+        ("synthesize bare.toml", "--output"),
+        ("synthesize bare.toml -o mine", "mine"),
+        ("synthesize bare.toml -o new --noise -0.1", "--noise"),
+        ("synthesize bare.toml -o new --noise nan", "--noise"),
+        ("synthesize paper.toml -o new", "model.contact"),
+    ] {
+        let (code, out, err) = gearwear(&home, line);
+        assert_eq!((code, out.as_str()), (Some(2), ""), "{line}: {err}");
+        assert!(err.contains(word), "{line}: {err}");
+        assert_eq!(names(home.path()), before, "{line}");
+    }
+}
