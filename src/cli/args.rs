@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
-use super::{CliError, Context, Outcome, add, effects, init, mesh, models, run, validate};
+use super::{
+    CliError, Context, Outcome, add, diagnose, effects, init, mesh, models, run, validate,
+};
 
 /// Finite-element contact and wear of spur gears.
 #[derive(Debug, Parser)]
@@ -63,6 +65,8 @@ pub enum Command {
     Models(models::ModelsArgs),
     /// Mesh both members, report the quality and write the meshes
     Mesh(mesh::MeshArgs),
+    /// Find the physical effect that the model lacks: ranks the catalogue, says how sure that is and what to measure next
+    Diagnose(diagnose::DiagnoseArgs),
     /// Add a physical effect to a study, its parameters and the wear coefficient fitted to the measurements unless set
     Add(add::AddArgs),
     /// List the catalogue of physical effects, or tell all about one: formula, parameters, source, signature
@@ -79,6 +83,7 @@ impl Command {
             Command::Run(args) => run::execute(args, context),
             Command::Models(args) => models::execute(args, context),
             Command::Mesh(args) => mesh::execute(args, context),
+            Command::Diagnose(args) => diagnose::execute(args, context),
             Command::Add(args) => add::execute(args, context),
             Command::Effects(args) => effects::execute(args),
             Command::Validate(args) => validate::execute(args, context),

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use crate::effects::EffectError;
+use crate::learn::diagnose::DiagnoseError;
 use crate::report::OutputError;
 use crate::simulate::checkpoint::CheckpointError;
 use crate::simulate::forward::ForwardError;
@@ -23,6 +24,9 @@ pub enum CliError {
     /// The result folder cannot be used, or a file not written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// There is no diagnosis.
+    #[error(transparent)]
+    Diagnose(#[from] DiagnoseError),
     /// The simulation did not come to a result.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -99,8 +103,10 @@ impl CliError {
                 | OutputError::Nameless { .. },
             ) => 2,
             CliError::Checkpoint { .. } => 2,
+            CliError::Diagnose(DiagnoseError::NoObservations) => 2,
             CliError::Output(_)
             | CliError::Run(_)
+            | CliError::Diagnose(_)
             | CliError::Io { .. }
             | CliError::Print(_)
             | CliError::Threads { .. }

@@ -10,6 +10,7 @@
 
 mod add;
 pub mod args;
+mod diagnose;
 mod effects;
 mod error;
 mod folder;

@@ -80,6 +80,11 @@ impl<'a> Measured<'a> {
         self.study
     }
 
+    /// The tests.
+    pub fn tests(&self) -> &[MeasuredTest] {
+        &self.tests
+    }
+
     /// The members for all tests, by `kind`.
     ///
     /// # Errors
@@ -144,7 +149,8 @@ impl<'a> Measured<'a> {
     }
 }
 
-fn parameter(free: &FreeParameter) -> Parameter {
+/// A free parameter of a study as a fit takes it.
+pub(super) fn parameter(free: &FreeParameter) -> Parameter {
     Parameter {
         name: free.name.clone(),
         unit: free.unit.to_owned(),

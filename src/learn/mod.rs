@@ -17,6 +17,7 @@ mod add;
 mod bench;
 mod comparison;
 mod curves;
+pub mod diagnose;
 mod evaluate;
 mod fit;
 mod gaussian;

@@ -7,6 +7,7 @@
 //! Every command that writes a folder does so through [`Staging`], every single file through [`write_file`].
 pub mod atomic;
 pub mod csv;
+pub mod diagnosis;
 mod error;
 pub mod format;
 pub mod html;
