@@ -234,8 +234,8 @@ impl Rig {
         }
     }
 
-    /// The same rig on a coarse grid, for comparing causes among themselves.
-    pub fn coarse(&self) -> Self {
+    /// The same rig on another grid.
+    pub fn on_grid(&self, fine: Fineness, tolerance: f64) -> Self {
         Self {
             pinion: self.pinion.clone(),
             gear: self.gear.clone(),
@@ -247,12 +247,8 @@ impl Rig {
             tests: self.tests.clone(),
             sealed: self.sealed.clone(),
             points: self.points,
-            fine: Fineness {
-                positions: 36,
-                cells_per_half_width: 4.0,
-                extent: 4.0,
-            },
-            tolerance: 2e-3,
+            fine,
+            tolerance,
             passages: Mutex::new(HashMap::new()),
         }
     }
