@@ -116,7 +116,8 @@ impl Passage {
         let mut positions = fine.positions as f64;
         for s in [pair.start, pair.end] {
             let (a, b) = (pair.rho(0, s), pair.rho(1, s));
-            let narrow = (4.0 * 0.4 * load * a * b / (a + b) / (std::f64::consts::PI * e_star)).sqrt();
+            let narrow =
+                (4.0 * 0.4 * load * a * b / (a + b) / (std::f64::consts::PI * e_star)).sqrt();
             let way = (a / pair.pinion.rb).max(b / pair.gear.rb) * pair.pb;
             positions = positions.max(way / (0.6 * narrow).min(2.6 * dx));
         }

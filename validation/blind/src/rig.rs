@@ -117,7 +117,7 @@ impl Rig {
         let p0 = if paper {
             d.uniform(750.0, 950.0)
         } else {
-            d.uniform(600.0, 1050.0)
+            d.uniform(750.0, 1100.0)
         };
         let e_star = youngs / (2.0 * (1.0 - ring::NU * ring::NU));
         let r = pair.c1 * pair.c2 / (pair.c1 + pair.c2);
