@@ -8,6 +8,7 @@ use crate::draw::{self, CATALOGUE, Context};
 use crate::involute::Mating;
 use crate::laws::{self, Law};
 use crate::make::Kind;
+use crate::passage::Fineness;
 use crate::rig::{Rig, Row};
 use crate::wear::{History, Run};
 
@@ -21,6 +22,13 @@ pub struct Rival {
     /// chi^2 that it leaves.
     pub left: f64,
 }
+
+/// For comparing causes among themselves.
+const COARSE: Fineness = Fineness {
+    positions: 36,
+    cells_per_half_width: 4.0,
+    extent: 4.0,
+};
 
 /// How far base histories reach, over the planned cycles at the true k.
 pub const REACH: f64 = 2.6;
@@ -99,7 +107,7 @@ impl Bench<'_> {
         d: &mut Dice,
     ) -> Vec<Rival> {
         let (_, k) = self.refit(truth);
-        let coarse = self.rig.coarse();
+        let coarse = self.rig.on_grid(COARSE, 2e-3);
         let run = |laws: &[Law], factor: f64| -> Vec<Vec<f64>> {
             (0..k.len())
                 .into_par_iter()
@@ -285,7 +293,9 @@ pub fn strength(
         } else {
             target
         };
-        let (mut low, mut high): (Option<(f64, f64)>, Option<(f64, f64)>) = (None, None);
+        // (strength, what is seen) below and above the aim.
+        let mut low: Option<(f64, f64)> = None;
+        let mut high: Option<(f64, f64)> = None;
         let mut ok = false;
         for _ in 0..8 {
             let a = law.strength().abs();

@@ -132,13 +132,7 @@ impl Hidden for Law {
                     _ => (-a * l / self.p(1)).exp(),
                 }
             }
-            ("approach_recess", "step") => {
-                if x.s < 0.0 {
-                    1.0 + a
-                } else {
-                    1.0
-                }
-            }
+            ("approach_recess", "step") => 1.0 + if x.s < 0.0 { a } else { 0.0 },
             ("approach_recess", _) => 1.0 + 0.5 * a * (1.0 - (x.s / self.p(1)).tanh()),
             ("flash_temperature", "exponential") => {
                 let t = flash(x.load, x.u, x.half, x.conditions.friction);
@@ -178,13 +172,7 @@ impl Hidden for Law {
             ("lubricant_ageing", "linear") => 1.0 + a * hours / self.p(1),
             ("lubricant_ageing", _) => 1.0 + a * (1.0 - (-hours / self.p(1)).exp()),
             ("member_hardness", "ratio") => (a * (0.5 - x.member as f64)).exp(),
-            ("member_hardness", _) => {
-                if x.member == 1 {
-                    (-a).exp()
-                } else {
-                    1.0
-                }
-            }
+            ("member_hardness", _) => (-a * x.member as f64).exp(),
             ("surface_layer", "exponential") => {
                 1.0 + a * (1.0 - (-x.depth.max(0.0) / self.p(1)).exp())
             }

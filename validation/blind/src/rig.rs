@@ -117,7 +117,7 @@ impl Rig {
         let p0 = if paper {
             d.uniform(750.0, 950.0)
         } else {
-            d.uniform(600.0, 1050.0)
+            d.uniform(750.0, 1100.0)
         };
         let e_star = youngs / (2.0 * (1.0 - ring::NU * ring::NU));
         let r = pair.c1 * pair.c2 / (pair.c1 + pair.c2);
@@ -234,8 +234,8 @@ impl Rig {
         }
     }
 
-    /// The same rig on a coarse grid, for comparing causes among themselves.
-    pub fn coarse(&self) -> Self {
+    /// The same rig on another grid.
+    pub fn on_grid(&self, fine: Fineness, tolerance: f64) -> Self {
         Self {
             pinion: self.pinion.clone(),
             gear: self.gear.clone(),
@@ -247,12 +247,8 @@ impl Rig {
             tests: self.tests.clone(),
             sealed: self.sealed.clone(),
             points: self.points,
-            fine: Fineness {
-                positions: 36,
-                cells_per_half_width: 4.0,
-                extent: 4.0,
-            },
-            tolerance: 2e-3,
+            fine,
+            tolerance,
             passages: Mutex::new(HashMap::new()),
         }
     }
