@@ -19,9 +19,6 @@ pub fn print(what: &str) {
     match what {
         "shares" => {}
         "grid" => grid(),
-        "look1" => look(1, Kind::Single),
-        "look2" => look(2, Kind::Foreign),
-        "look3" => look(3, Kind::Outside),
         "none" => drop(none(&open("none_L2"), &Fineness::default(), 4e-4)),
         "all" => {
             none(&open("none_L2"), &Fineness::default(), 4e-4);
@@ -221,84 +218,6 @@ fn grid() {
         all[all.len() / 2],
         all[all.len() - 1]
     );
-}
-
-fn look(index: u64, kind: Kind) {
-    let wish = Wish {
-        seed: 9,
-        index,
-        kind: Some(kind),
-        noise: Some(0.02),
-        paper: None,
-        law: None,
-        outlier: false,
-        missing: 0.0,
-        understate: 1.0,
-        rivals: false,
-    };
-    let set = make::make(&wish);
-    println!(
-        "{:?} m {} z {} {} x {} {} depth",
-        set.laws,
-        set.rig.pinion.m,
-        set.rig.pinion.z,
-        set.rig.gear.z,
-        set.rig.pinion.x,
-        set.rig.gear.x
-    );
-    for (pos, cells, tol) in [(200, 6.5, 2e-4)] {
-        let fine = set.rig.on_grid(
-            Fineness {
-                positions: pos,
-                cells_per_half_width: cells,
-                extent: 4.0,
-            },
-            tol,
-        );
-        for (t, plan) in set.rig.tests.iter().enumerate().take(2) {
-            let rows: Vec<_> = set
-                .rows
-                .iter()
-                .filter(|r| r.test == t && r.radius.is_some())
-                .cloned()
-                .collect();
-            let (run, history) = fine.run(plan, set.k_tests[t], &set.laws, plan.cycles);
-            let values = fine.observe(&run, &history, &rows, 1.0);
-            let mut worst = (0.0, 0);
-            for (i, (r, v)) in rows.iter().zip(&values).enumerate() {
-                let top = rows
-                    .iter()
-                    .filter(|o| o.trace == r.trace)
-                    .map(|o| o.free.abs())
-                    .fold(0.0, f64::max);
-                let e = 100.0 * (r.free - v) / top;
-                if f64::abs(e) > f64::abs(worst.0) {
-                    worst = (e, i);
-                }
-            }
-            let r = &rows[worst.1];
-            println!(
-                "{pos} {cells} {tol}: test {t} worst {:.2} % at member {} cycles {} radius {:?} ({:?}) free {:.3} steps {} evaluations {}",
-                worst.0,
-                r.member,
-                r.cycles,
-                r.radius,
-                [set.rig.pinion.ra, set.rig.gear.ra],
-                r.free,
-                history.cycles.len(),
-                history.evaluations
-            );
-            if worst.0.abs() > 5.0 {
-                let list: Vec<String> = rows
-                    .iter()
-                    .zip(&values)
-                    .filter(|(o, _)| o.trace == r.trace)
-                    .map(|(o, v)| format!("{:.2}/{:.2}", o.free, v))
-                    .collect();
-                println!("{}", list.join(" "));
-            }
-        }
-    }
 }
 
 /// The cause of an open data set in our terms.
