@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::{
-    CliError, Context, Outcome, add, compare, effects, init, ladder, mesh, models, run, synthesize,
-    validate,
+    CliError, Context, Outcome, add, compare, diagnose, effects, init, ladder, mesh, models, run,
+    synthesize, validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -68,6 +68,8 @@ pub enum Command {
     Mesh(mesh::MeshArgs),
     /// Fit what is free to the measurements and show how wrong the model is, and where
     Compare(compare::CompareArgs),
+    /// Find the physical effect that the model lacks: ranks the catalogue, says how sure that is and what to measure next
+    Diagnose(diagnose::DiagnoseArgs),
     /// Add a physical effect to a study, its parameters and the wear coefficient fitted to the measurements unless set
     Add(add::AddArgs),
     /// Put versions of a model side by side: the error of each on fitted and on held-out tests
@@ -89,6 +91,7 @@ impl Command {
             Command::Models(args) => models::execute(args, context),
             Command::Mesh(args) => mesh::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
+            Command::Diagnose(args) => diagnose::execute(args, context),
             Command::Add(args) => add::execute(args, context),
             Command::Ladder(args) => ladder::execute(args, context),
             Command::Synthesize(args) => synthesize::execute(args, context),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::effects::EffectError;
 use crate::learn::FitError;
+use crate::learn::diagnose::DiagnoseError;
 use crate::report::OutputError;
 use crate::simulate::checkpoint::CheckpointError;
 use crate::simulate::forward::ForwardError;
@@ -24,6 +25,9 @@ pub enum CliError {
     /// The result folder cannot be used, or a file not written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// There is no diagnosis.
+    #[error(transparent)]
+    Diagnose(#[from] DiagnoseError),
     /// The simulation did not come to a result.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -98,10 +102,12 @@ impl CliError {
             ) => 2,
             CliError::Checkpoint { .. }
             | CliError::Fit(FitError::NoObservations)
+            | CliError::Diagnose(DiagnoseError::NoObservations)
             | CliError::Run(RunError::Forward(ForwardError::TooFine { .. })) => 2,
             CliError::Output(_)
             | CliError::Run(_)
             | CliError::Fit(_)
+            | CliError::Diagnose(_)
             | CliError::Io { .. }
             | CliError::Print(_)
             | CliError::Threads { .. } => 1,

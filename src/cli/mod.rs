@@ -11,6 +11,7 @@
 mod add;
 pub mod args;
 mod compare;
+mod diagnose;
 mod effects;
 mod error;
 mod fitting;

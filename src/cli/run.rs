@@ -99,11 +99,20 @@ fn simulate(
     }
     let own = own_members(study, &plan)?;
     let mut watcher = Watcher { keeper, progress };
-    run(&plan, own.as_ref(), start, &mut watcher).map_err(|error| lacks_flank(study, error))
+    run(&plan, own.as_ref(), start, &mut watcher).map_err(|error| refused(study, error))
 }
 
-/// A user's own mesh that lacks the fine flank of a tooth which can touch is unusable input.
-fn lacks_flank(study: &Study, error: RunError) -> CliError {
+/// Errors of a run that are unusable input: a user's own mesh that lacks the fine flank of a tooth which can touch, and a
+/// torque so small that its contact cannot be resolved.
+fn refused(study: &Study, error: RunError) -> CliError {
+    if let RunError::Forward(ForwardError::TooFine { .. }) = &error {
+        return CliError::Study(study.refuse(
+            "operation.torque",
+            &error.to_string(),
+            "a torque whose contact the flanks' elements can resolve",
+            "numerics.elements_per_half_width sets how finely",
+        ));
+    }
     if let RunError::Forward(ForwardError::Contact(ContactError::NoFlank { side, .. })) = &error
         && let (member, Some(path)) = study.own_meshes()[*side]
     {

@@ -1,6 +1,7 @@
 //! Fits what is free to the measurements of the fit tests, then judges the held-out ones.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
@@ -349,7 +350,7 @@ impl Problem<'_> {
                 .iter()
                 .map(|o| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss))
                 .collect(),
-            covariance: Covariance::new(self.data, &numbers, &self.noise),
+            covariance: Arc::new(Covariance::new(self.data, &numbers, &self.noise)),
             layout: Layout {
                 coefficient: free.map(Parameter::natural_prior),
                 parameters: if coefficient.is_some() {

@@ -83,6 +83,11 @@ impl<'a> Measured<'a> {
         self.study
     }
 
+    /// The tests.
+    pub fn tests(&self) -> &[MeasuredTest] {
+        &self.tests
+    }
+
     /// The members for all tests, by `kind`.
     ///
     /// # Errors
@@ -185,7 +190,8 @@ impl<P: Predictor> Predictor for Counted<'_, P> {
     }
 }
 
-fn parameter(free: &FreeParameter) -> Parameter {
+/// A free parameter of a study as a fit takes it.
+pub(super) fn parameter(free: &FreeParameter) -> Parameter {
     Parameter {
         name: free.name.clone(),
         unit: free.unit.to_owned(),

@@ -18,6 +18,7 @@ mod bench;
 mod compare;
 mod comparison;
 mod curves;
+pub mod diagnose;
 mod evaluate;
 mod fit;
 mod gaussian;

@@ -99,11 +99,27 @@ enum Block {
 impl Covariance {
     /// Of the observations `rows` of a data set; rows are counted from 0 in that list from here on.
     pub(super) fn new(data: &Dataset, rows: &[usize], model: &NoiseModel) -> Self {
+        Self::with_errors(data, rows, model, &[])
+    }
+
+    /// With further correlated errors, each with its amplitude at every row.
+    pub(super) fn with_errors(
+        data: &Dataset,
+        rows: &[usize],
+        model: &NoiseModel,
+        further: &[(&[f64], ModelError)],
+    ) -> Self {
         let picked: Vec<&Observation> = rows.iter().map(|&row| &data.observations[row]).collect();
         let traces = || trace_rows(&picked, model.datum_um);
-        let blocks = match &model.model_error {
-            None => traces().into_iter().map(Block::Datum).collect(),
-            Some(error) => dense_blocks(&picked, &traces(), error),
+        let mut errors: Vec<(Vec<f64>, ModelError)> = Vec::new();
+        if let Some(error) = model.model_error {
+            errors.push((amplitudes(&picked), error));
+        }
+        errors.extend(further.iter().map(|(size, error)| (size.to_vec(), *error)));
+        let blocks = if errors.is_empty() {
+            traces().into_iter().map(Block::Datum).collect()
+        } else {
+            dense_blocks(&picked, &traces(), &errors)
         };
         Self {
             sigma: picked.iter().map(|o| o.sigma).collect(),
@@ -200,7 +216,11 @@ fn trace_rows(picked: &[&Observation], datum_um: f64) -> Vec<TraceRows> {
 }
 
 /// One block per test, member and quantity; traces that reach over several tie them together.
-fn dense_blocks(picked: &[&Observation], traces: &[TraceRows], error: &ModelError) -> Vec<Block> {
+fn dense_blocks(
+    picked: &[&Observation],
+    traces: &[TraceRows],
+    errors: &[(Vec<f64>, ModelError)],
+) -> Vec<Block> {
     let mut groups = BTreeMap::new();
     for (i, o) in picked.iter().enumerate() {
         let rows: &mut Vec<usize> = groups.entry((o.test, o.member, o.quantity)).or_default();
@@ -223,8 +243,8 @@ fn dense_blocks(picked: &[&Observation], traces: &[TraceRows], error: &ModelErro
             }
         }
     }
-    let amplitude = amplitudes(picked);
     let share = shares(picked, &groups);
+    let logs: Vec<f64> = picked.iter().map(|o| o.cycles.max(1.0).ln()).collect();
     let mut blocks: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (i, &label) in label.iter().enumerate() {
         blocks.entry(label).or_default().push(i);
@@ -236,10 +256,12 @@ fn dense_blocks(picked: &[&Observation], traces: &[TraceRows], error: &ModelErro
             for (b, &j) in rows.iter().enumerate().take(a + 1) {
                 let (o, p) = (picked[i], picked[j]);
                 if (o.test, o.member, o.quantity) == (p.test, p.member, p.quantity) {
-                    let along = (share[i] - share[j]) / error.along;
-                    let over = (o.cycles.max(1.0) / p.cycles.max(1.0)).ln() / error.over_cycles;
-                    let size = error.relative.powi(2) * amplitude[i] * amplitude[j];
-                    matrix[(a, b)] += size * (-0.5 * (along * along + over * over)).exp();
+                    for (amplitude, error) in errors {
+                        let along = (share[i] - share[j]) / error.along;
+                        let over = (logs[i] - logs[j]) / error.over_cycles;
+                        let size = error.relative.powi(2) * amplitude[i] * amplitude[j];
+                        matrix[(a, b)] += size * (-0.5 * (along * along + over * over)).exp();
+                    }
                 }
                 if o.trace.is_some() && o.trace == p.trace {
                     let tau = traces.iter().find(|t| Some(t.trace) == o.trace);

@@ -50,7 +50,7 @@ pub(super) struct Search<'s> {
     pub(super) measured: Vec<f64>,
     /// Rows whose prediction grows with the wear coefficient.
     pub(super) worn: Vec<bool>,
-    pub(super) covariance: Covariance,
+    pub(super) covariance: Arc<Covariance>,
     pub(super) layout: Layout,
     pub(super) coefficient: Option<&'s Parameter>,
     pub(super) parameters: &'s [Parameter],

@@ -8,6 +8,7 @@
 pub mod atomic;
 pub mod comparison;
 pub mod csv;
+pub mod diagnosis;
 mod error;
 pub mod format;
 pub mod html;

@@ -8,6 +8,8 @@ fn unusable_input_is_refused_and_nothing_is_written() {
     let wrong = [
         ("torque", "nan", "torque"),
         ("torque", "-100.0", "torque"),
+        // its contact would be half a micrometre wide, and the flanks' compliance larger than the memory
+        ("torque", "1e-3", "unknowns"),
         ("module", "inf", "module"),
         ("misalignment", "5.0", "misalignment"),
         ("coefficient", "\"6e-10\"", "coefficient"),

@@ -7,11 +7,8 @@ use crate::passage::Position;
 pub struct Answer {
     /// Pressure per cell, MPa.
     pub pressure: Vec<f64>,
-    /// Approach along the line of action, mm.
-    pub approach: f64,
     /// Line load per slot, N/mm.
     pub loads: Vec<f64>,
-    pub rounds: usize,
 }
 
 /// `gaps`: per cell with wear and profile; `softness`: extra compliance of each pair, mm^2/N; `load` N/mm in all.
@@ -42,7 +39,6 @@ pub fn solve(
     let extra = softness * cell;
     let mut matrix: Vec<f64> = Vec::new();
     let mut pressure = vec![0.0; n];
-    let mut approach = 0.0;
     let mut rounds = 0;
     loop {
         rounds += 1;
@@ -71,7 +67,7 @@ pub fn solve(
         // Sum of p = approach * sum(A^-1 1) - sum(A^-1 g), by the half-solved vectors.
         let ones = dot(&y, &y);
         let cross = dot(&y, &z);
-        approach = (load / cell + cross) / ones;
+        let approach = (load / cell + cross) / ones;
         let mut x: Vec<f64> = y.iter().zip(&z).map(|(a, b)| approach * a - b).collect();
         for r in (0..m).rev() {
             x[r] /= matrix[r * m + r];
@@ -130,12 +126,13 @@ pub fn solve(
     let loads = at
         .slots
         .iter()
-        .map(|s| pressure[s.from..s.from + s.count].iter().map(|p| p.max(0.0)).sum::<f64>() * cell)
+        .map(|s| {
+            pressure[s.from..s.from + s.count]
+                .iter()
+                .map(|p| p.max(0.0))
+                .sum::<f64>()
+                * cell
+        })
         .collect();
-    Answer {
-        pressure,
-        approach,
-        loads,
-        rounds,
-    }
+    Answer { pressure, loads }
 }

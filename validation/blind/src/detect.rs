@@ -19,7 +19,11 @@ impl Block {
         let n = rows.len();
         let top = values.iter().fold(0.0f64, |a, v| a.max(v.abs()));
         let trace = !at.is_empty();
-        let span = if trace { (at[n - 1] - at[0]).abs().max(1e-9) } else { 1.0 };
+        let span = if trace {
+            (at[n - 1] - at[0]).abs().max(1e-9)
+        } else {
+            1.0
+        };
         let mut c = vec![0.0; n * n];
         for i in 0..n {
             for j in 0..n {
@@ -36,7 +40,11 @@ impl Block {
         for i in 0..n {
             for j in 0..=i {
                 let s: f64 = (0..j).map(|k| c[i * n + k] * c[j * n + k]).sum();
-                c[i * n + j] = if i == j { (c[i * n + i] - s).sqrt() } else { (c[i * n + j] - s) / c[j * n + j] };
+                c[i * n + j] = if i == j {
+                    (c[i * n + i] - s).sqrt()
+                } else {
+                    (c[i * n + j] - s) / c[j * n + j]
+                };
             }
         }
         Self { rows, factor: c }
@@ -83,7 +91,15 @@ pub fn refit(
         let r: Vec<f64> = truth[t].iter().zip(&model).map(|(a, b)| a - b).collect();
         whiten(&blocks[t], &r)
     };
-    let cost = |x: &[f64]| (0..tests).map(|t| { let r = residual(t, x[t]); product(&r, &r) }).sum::<f64>() + scattered(x);
+    let cost = |x: &[f64]| {
+        (0..tests)
+            .map(|t| {
+                let r = residual(t, x[t]);
+                product(&r, &r)
+            })
+            .sum::<f64>()
+            + scattered(x)
+    };
     let mut x = vec![0.0; tests];
     // A common start by a scan, then each test its own.
     let mut best = f64::MAX;
@@ -104,7 +120,11 @@ pub fn refit(
             let r = residual(t, x[t]);
             let h = 2e-3;
             let (p, m) = (residual(t, (x[t] + h).min(limit)), residual(t, x[t] - h));
-            let j: Vec<f64> = p.iter().zip(&m).map(|(a, b)| (a - b) / ((x[t] + h).min(limit) - x[t] + h)).collect();
+            let j: Vec<f64> = p
+                .iter()
+                .zip(&m)
+                .map(|(a, b)| (a - b) / ((x[t] + h).min(limit) - x[t] + h))
+                .collect();
             a[t * tests + t] += product(&j, &j) * (1.0 + damp) + 1e-9;
             g[t] -= product(&j, &r);
             let q = 1.0 / (SCATTER * SCATTER);
@@ -114,7 +134,11 @@ pub fn refit(
             g[t] -= q * (x[t] - mean);
         }
         let step = solve(a, g);
-        let next: Vec<f64> = x.iter().zip(&step).map(|(a, b)| (a + b.clamp(-0.5, 0.5)).clamp(-4.0, limit)).collect();
+        let next: Vec<f64> = x
+            .iter()
+            .zip(&step)
+            .map(|(a, b)| (a + b.clamp(-0.5, 0.5)).clamp(-4.0, limit))
+            .collect();
         let c = cost(&next);
         if c < best {
             let gain = best - c;
@@ -134,8 +158,22 @@ pub fn refit(
     (best, x)
 }
 
-/// What is left of a small change `r` (per test) when ln k of each test and one more amplitude are refitted, linearly.
-pub fn left_over(r: &[Vec<f64>], blocks: &[Vec<Block>], by_k: &[Vec<f64>], by_amplitude: &[Vec<f64>]) -> f64 {
+/// What is left of a small change `r` (per test) when ln k of each test and one more amplitude are refitted, linearly;
+/// and that amplitude.
+pub fn left_over(
+    r: &[Vec<f64>],
+    blocks: &[Vec<Block>],
+    by_k: &[Vec<f64>],
+    by_amplitude: &[Vec<f64>],
+) -> (f64, f64) {
+    let white = |v: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        v.iter().zip(blocks).map(|(v, b)| whiten(b, v)).collect()
+    };
+    left_over_white(&white(r), &white(by_k), &white(by_amplitude))
+}
+
+/// The same on whitened values.
+pub fn left_over_white(r: &[Vec<f64>], by_k: &[Vec<f64>], by_amplitude: &[Vec<f64>]) -> (f64, f64) {
     let tests = r.len();
     let n = tests + 1;
     let mut a = vec![0.0; n * n];
@@ -143,25 +181,23 @@ pub fn left_over(r: &[Vec<f64>], blocks: &[Vec<Block>], by_k: &[Vec<f64>], by_am
     let mut all = 0.0;
     let q = 1.0 / (SCATTER * SCATTER);
     for t in 0..tests {
-        let w = whiten(&blocks[t], &r[t]);
-        let k = whiten(&blocks[t], &by_k[t]);
-        let s = whiten(&blocks[t], &by_amplitude[t]);
-        all += product(&w, &w);
-        a[t * n + t] += product(&k, &k);
+        let (w, k, s) = (&r[t], &by_k[t], &by_amplitude[t]);
+        all += product(w, w);
+        a[t * n + t] += product(k, k);
         for u in 0..tests {
             a[t * n + u] += q * (f64::from(u8::from(t == u)) - 1.0 / tests as f64);
         }
-        a[t * n + tests] = product(&k, &s);
+        a[t * n + tests] = product(k, s);
         a[tests * n + t] = a[t * n + tests];
-        a[tests * n + tests] += product(&s, &s);
-        g[t] = product(&k, &w);
-        g[tests] += product(&s, &w);
+        a[tests * n + tests] += product(s, s);
+        g[t] = product(k, w);
+        g[tests] += product(s, w);
     }
     for i in 0..n {
-        a[i * n + i] *= 1.0 + 1e-9;
+        a[i * n + i] = a[i * n + i] * (1.0 + 1e-9) + 1e-12;
     }
     let x = solve(a, g.clone());
-    (all - product(&x, &g)).max(0.0)
+    ((all - product(&x, &g)).max(0.0), x[tests])
 }
 
 pub fn penalty(e: &[f64]) -> f64 {
@@ -172,7 +208,9 @@ pub fn penalty(e: &[f64]) -> f64 {
 fn solve(mut a: Vec<f64>, mut b: Vec<f64>) -> Vec<f64> {
     let n = b.len();
     for c in 0..n {
-        let p = (c..n).max_by(|&i, &j| a[i * n + c].abs().total_cmp(&a[j * n + c].abs())).unwrap_or(c);
+        let p = (c..n)
+            .max_by(|&i, &j| a[i * n + c].abs().total_cmp(&a[j * n + c].abs()))
+            .unwrap_or(c);
         for j in 0..n {
             a.swap(c * n + j, p * n + j);
         }

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::make::{DataSet, Plan, Row};
+use crate::make::DataSet;
+use crate::rig::{Plan, Row};
 
 pub fn name(set: &DataSet) -> String {
     name_of(set.wish.seed, set.wish.index)
@@ -49,7 +50,9 @@ fn study(set: &DataSet) -> String {
     for (name, t) in [("pinion", &rig.pinion), ("gear", &rig.gear)] {
         put(format!(
             "\n[gears.{name}]\nteeth = {}\nprofile_shift = {:?}\nthickness_reduction = 0.0\nbore_diameter = {:?}\ntip_relief_amount = 0.0\ntip_relief_length = 0.0\n",
-            t.z, t.x, 2.0 * t.bore
+            t.z,
+            t.x,
+            2.0 * t.bore
         ));
     }
     put(format!(
@@ -80,7 +83,11 @@ fn table(set: &DataSet, rows: &[Row]) -> String {
                 "{id},{member},{:.0},wear_depth,{radius:.3},{:.4},{:.4},{}",
                 r.cycles, r.value, r.sigma, r.trace
             ),
-            None => writeln!(s, "{id},{member},{:.0},mass_loss,,{:.4},{:.4},", r.cycles, r.value, r.sigma),
+            None => writeln!(
+                s,
+                "{id},{member},{:.0},mass_loss,,{:.4},{:.4},",
+                r.cycles, r.value, r.sigma
+            ),
         };
     }
     s
@@ -111,10 +118,18 @@ fn truth(set: &DataSet) -> Value {
         .enumerate()
         .map(|(i, p)| (p.id.clone(), json!([round(top(0, i)), round(top(1, i))])))
         .collect();
-    let ks: serde_json::Map<String, Value> =
-        set.rig.tests.iter().zip(&set.k_tests).map(|(p, k)| (p.id.clone(), json!(k))).collect();
-    let datums: serde_json::Map<String, Value> =
-        set.datums.iter().map(|(n, v)| (n.clone(), json!(v))).collect();
+    let ks: serde_json::Map<String, Value> = set
+        .rig
+        .tests
+        .iter()
+        .zip(&set.k_tests)
+        .map(|(p, k)| (p.id.clone(), json!(k)))
+        .collect();
+    let datums: serde_json::Map<String, Value> = set
+        .datums
+        .iter()
+        .map(|(n, v)| (n.clone(), json!(v)))
+        .collect();
     json!({
         "name": name(set),
         "seed": set.wish.seed,
@@ -137,6 +152,7 @@ fn truth(set: &DataSet) -> Value {
         "sigma_understated_by": set.wish.understate,
         "max_depth_um": deepest,
         "attempts": set.attempts,
+        "rivals": set.rivals.iter().map(|r| json!({"name": r.name, "form": r.form, "share": round(r.share), "left_chi2": round(r.left)})).collect::<Vec<_>>(),
         "noise_free": set.rows.iter().map(|r| round(r.free)).collect::<Vec<_>>(),
     })
 }

@@ -12,16 +12,12 @@ pub struct Conditions {
     pub pressure_viscosity: f64,
     pub roughness: f64,
     pub friction: f64,
-    /// Number of the test, for causes that differ between tests.
-    pub index: usize,
 }
 
 /// A contact cell of a tooth pair in passing.
 pub struct Seen<'a> {
-    pub member: usize,
     /// Path from the pitch point, mm; negative in approach.
     pub s: f64,
-    pub pitch: f64,
     pub load: f64,
     pub curvature: f64,
     pub p0: f64,
@@ -29,20 +25,16 @@ pub struct Seen<'a> {
     pub pressure: f64,
     /// Rolling speeds, m/s.
     pub u: [f64; 2],
-    pub cycles: f64,
     pub conditions: &'a Conditions,
     pub e_star: f64,
-    pub start: f64,
-    pub end: f64,
 }
 
 /// A place on a flank.
 pub struct Spot<'a> {
     pub member: usize,
     pub s: f64,
-    pub pitch: f64,
+    /// Where the path of contact starts.
     pub start: f64,
-    pub end: f64,
     /// um
     pub depth: f64,
     /// Largest pressure of the passage, MPa; 0 = not touched.
@@ -51,10 +43,7 @@ pub struct Spot<'a> {
     pub contacts_per_cycle: f64,
     /// Area worn from a pinion tooth and the gear teeth it met, mm^2.
     pub worn: f64,
-    pub module: f64,
     pub conditions: &'a Conditions,
-    /// Depth per cycle before this cause acts, um.
-    pub rate: f64,
 }
 
 pub trait Hidden: Send + Sync {

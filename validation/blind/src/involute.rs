@@ -60,7 +60,8 @@ impl Tooth {
     /// Half the angle that the tooth spans at radius `rad` (involute part).
     pub fn half_angle(&self, rad: f64) -> f64 {
         let a = (self.rb / rad).min(1.0).acos();
-        PI / (2.0 * self.z as f64) + 2.0 * self.x * self.alpha.tan() / self.z as f64
+        PI / (2.0 * self.z as f64)
+            + 2.0 * self.x * self.alpha.tan() / self.z as f64
             + inv(self.alpha)
             - inv(a)
     }
@@ -126,8 +127,6 @@ impl Tooth {
 pub struct Mating {
     pub pinion: Tooth,
     pub gear: Tooth,
-    pub centre: f64,
-    pub alpha_w: f64,
     pub pb: f64,
     /// Curvature radii at the pitch point.
     pub c1: f64,
@@ -155,8 +154,6 @@ impl Mating {
             end: pinion.rho_tip() - c1,
             pinion: pinion.clone(),
             gear: gear.clone(),
-            centre,
-            alpha_w,
             c1,
             c2,
         }
@@ -167,20 +164,19 @@ impl Mating {
     }
 
     pub fn teeth(&self, member: usize) -> &Tooth {
-        if member == 0 { &self.pinion } else { &self.gear }
+        if member == 0 {
+            &self.pinion
+        } else {
+            &self.gear
+        }
     }
 
     /// Curvature radius of `member` that meets at path coordinate s.
     pub fn rho(&self, member: usize, s: f64) -> f64 {
-        if member == 0 { self.c1 + s } else { self.c2 - s }
-    }
-
-    /// Path coordinate where a radius of the member's flank meets nominally.
-    pub fn path_of_radius(&self, member: usize, radius: f64) -> f64 {
         if member == 0 {
-            self.pinion.rho(radius) - self.c1
+            self.c1 + s
         } else {
-            self.c2 - self.gear.rho(radius)
+            self.c2 - s
         }
     }
 }

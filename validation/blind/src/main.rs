@@ -1,16 +1,19 @@
 //! Wear measurements with a hidden cause, made without anything of the solver that they judge, and the judging.
 
 mod banded;
+mod bench;
 mod checks;
 mod contact;
 mod detect;
 mod dice;
+mod draw;
 mod files;
 mod hidden;
 mod involute;
 mod laws;
 mod make;
 mod passage;
+mod rig;
 mod ring;
 mod score;
 mod wear;
@@ -69,6 +72,9 @@ enum Command {
         /// Divide the written sigma by this.
         #[arg(long, default_value_t = 1.0)]
         understate: f64,
+        /// Also look which known causes of other names could explain the data (in truth.json; some seconds more).
+        #[arg(long)]
+        rivals: bool,
     },
     /// Judge diagnosis.json files against the answers.
     Score {
@@ -102,6 +108,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             outlier,
             missing,
             understate,
+            rivals,
         } => {
             let law = law.map(|l| match l.split_once(':') {
                 Some((a, b)) => (a.to_string(), Some(b.to_string())),
@@ -123,17 +130,27 @@ fn main() -> Result<(), Box<dyn Error>> {
                     outlier,
                     missing,
                     understate,
+                    rivals,
                 };
                 let set = make::make(&wish);
                 files::write(&set, &folder)?;
-                let causes: Vec<String> = set.laws.iter().map(|l| format!("{}:{}", l.name, l.form)).collect();
+                let causes: Vec<String> = set
+                    .laws
+                    .iter()
+                    .map(|l| format!("{}:{}", l.name, l.form))
+                    .collect();
                 println!(
-                    "{} {} [{}] d {:.1} each {:.1?} noise {} gear {} k {:.2e} attempts {} rows {} ({:.1} s)",
+                    "{} {} [{}] d {:.1} each {:.1?} rivals {:?} noise {} gear {} k {:.2e} attempts {} rows {} ({:.1} s)",
                     files::name(&set),
                     set.kind.name(),
                     causes.join(" + "),
                     set.d,
                     set.d_each,
+                    set.rivals
+                        .iter()
+                        .take(2)
+                        .map(|r| format!("{} {:.2} leaves {:.1}", r.name, r.share, r.left))
+                        .collect::<Vec<_>>(),
                     set.noise,
                     if set.rig.paper { "paper" } else { "random" },
                     set.k,
@@ -143,7 +160,11 @@ fn main() -> Result<(), Box<dyn Error>> {
                 );
             }
         }
-        Command::Score { data, results, json } => {
+        Command::Score {
+            data,
+            results,
+            json,
+        } => {
             let (text, figures) = score::score(&data, &results)?;
             print!("{text}");
             if let Some(path) = json {
@@ -152,10 +173,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         Command::Check { what } => checks::print(&what),
         Command::Laws => {
-            for (name, form) in laws::CATALOGUE {
+            for (name, form) in draw::CATALOGUE {
                 println!("{name}: {form}");
             }
-            for name in laws::OUTSIDE {
+            for name in draw::OUTSIDE {
                 println!("{name}: outside the catalogue");
             }
         }

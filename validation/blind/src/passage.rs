@@ -59,15 +59,17 @@ impl Stations {
         values[k] * (1.0 - f) + values[k + 1] * f
     }
     pub fn width(&self, k: usize) -> f64 {
-        if k == 0 || k + 1 == self.count { 0.5 * self.step } else { self.step }
+        if k == 0 || k + 1 == self.count {
+            0.5 * self.step
+        } else {
+            self.step
+        }
     }
 }
 
 pub struct Passage {
     pub pair: Mating,
     pub cell: f64,
-    /// Path between two positions.
-    pub stride: f64,
     pub stations: [Stations; 2],
     pub positions: Vec<Position>,
     /// Deposit weights, `SPAN` per cell and member: depth per pressure, mm/MPa, for k = 1 and one contact.
@@ -79,6 +81,7 @@ pub const SPAN: usize = 12;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Fineness {
+    /// Per base pitch, at least.
     pub positions: usize,
     pub cells_per_half_width: f64,
     pub extent: f64,
@@ -108,7 +111,18 @@ impl Passage {
         let half_width = (4.0 * load * curvature / (std::f64::consts::PI * e_star)).sqrt();
         let dx = half_width / fine.cells_per_half_width;
         let reach = (fine.extent * fine.cells_per_half_width).ceil() as i64;
-        let stride = pair.pb / fine.positions as f64;
+        // Contact must not travel further between two positions than it is wide, nor over many stations: waves that no
+        // position sees would grow. Narrowest at the ends of the path, where a pair carries about two fifths.
+        let mut positions = fine.positions as f64;
+        for s in [pair.start, pair.end] {
+            let (a, b) = (pair.rho(0, s), pair.rho(1, s));
+            let narrow =
+                (4.0 * 0.4 * load * a * b / (a + b) / (std::f64::consts::PI * e_star)).sqrt();
+            let way = (a / pair.pinion.rb).max(b / pair.gear.rb) * pair.pb;
+            positions = positions.max(way / (0.6 * narrow).min(2.6 * dx));
+        }
+        let positions_per_pitch = (positions.ceil() as usize).min(320);
+        let stride = pair.pb / positions_per_pitch as f64;
         // Deflection of a pair, generously: 8 N/(mm um) for steel, scaled with E.
         let give = load / (8.0e3 * youngs / 2.1e5);
         let extension = 0.2 * pair.pb;
@@ -158,8 +172,8 @@ impl Passage {
         let rate = 1.0 / pair.pinion.rb + 1.0 / pair.gear.rb;
         let mut positions = Vec::new();
         let mut deposits = Vec::new();
-        for i in 0..fine.positions {
-            let theta = (i as f64 + 0.5) / fine.positions as f64;
+        for i in 0..positions_per_pitch {
+            let theta = (i as f64 + 0.5) / positions_per_pitch as f64;
             let mut slots = Vec::new();
             let mut cells = Vec::new();
             let mut weights = Vec::new();
@@ -266,7 +280,6 @@ impl Passage {
         Self {
             pair,
             cell: dx,
-            stride,
             stations,
             positions,
             deposits,

@@ -94,7 +94,12 @@ impl Sector {
         let marks: Vec<f64> = (0..=fillet_rows)
             .map(|k| 1.0 + (split - 1.0) * (k as f64 / fillet_rows as f64).powf(0.9))
             .collect();
-        profile.extend(refine(&marks, fine).iter().skip(1).map(|&t| polar(tooth.fillet(t))));
+        profile.extend(
+            refine(&marks, fine)
+                .iter()
+                .skip(1)
+                .map(|&t| polar(tooth.fillet(t))),
+        );
         // Columns across the tooth: fractions of the half angle, from +1 (right flank) to -1.
         let mut sizes = Vec::new();
         let mut h: f64 = 0.03;
@@ -135,7 +140,12 @@ impl Sector {
         let land: Vec<f64> = refine(&[PI / z, tooth.land_angle()], fine);
         let marks: Vec<f64> = (0..=5).map(|k| split * k as f64 / 5.0).collect();
         let mut top: Vec<(f64, f64)> = land.iter().map(|&a| (tooth.rf, a)).collect();
-        top.extend(refine(&marks, fine).iter().skip(1).map(|&t| polar(tooth.fillet(t))));
+        top.extend(
+            refine(&marks, fine)
+                .iter()
+                .skip(1)
+                .map(|&t| polar(tooth.fillet(t))),
+        );
         let side = top.len() - 1; // index of the chord's first node
         let (rad, ang) = profile[rows - 1];
         top.extend(across.iter().skip(1).map(|s| (rad, s * ang)));
@@ -271,7 +281,10 @@ impl Sector {
         let mut loads: Vec<Vec<f64>> = (0..self.stations.len())
             .map(|k| self.tent(k, &place, inner))
             .collect();
-        loads.par_iter_mut().chain(to_cut.par_iter_mut()).for_each(|v| a.forward(v));
+        loads
+            .par_iter_mut()
+            .chain(to_cut.par_iter_mut())
+            .for_each(|v| a.forward(v));
         let m = loads.len();
         let mut s = kbb;
         for i in 0..nb {
@@ -539,7 +552,11 @@ fn hat(st: &[f64], k: usize, x: f64) -> f64 {
 
 fn tent_area(st: &[f64], k: usize) -> f64 {
     let left = if k > 0 { st[k] - st[k - 1] } else { 0.0 };
-    let right = if k + 1 < st.len() { st[k + 1] - st[k] } else { 0.0 };
+    let right = if k + 1 < st.len() {
+        st[k + 1] - st[k]
+    } else {
+        0.0
+    };
     0.5 * (left + right)
 }
 
@@ -550,7 +567,13 @@ pub const PLANE: f64 = -2.0 * (1.0 - NU * NU) / PI;
 fn half_plane_means(st: &[f64]) -> Vec<f64> {
     let m = st.len();
     let i0 = |v: f64| if v == 0.0 { 0.0 } else { v * v.abs().ln() - v };
-    let i1 = |v: f64| if v == 0.0 { 0.0 } else { 0.5 * v * v * v.abs().ln() - 0.25 * v * v };
+    let i1 = |v: f64| {
+        if v == 0.0 {
+            0.0
+        } else {
+            0.5 * v * v * v.abs().ln() - 0.25 * v * v
+        }
+    };
     let potential = |k: usize, s: f64| {
         let mut sum = 0.0;
         let mut part = |a: f64, b: f64, fa: f64, fb: f64| {

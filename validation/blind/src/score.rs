@@ -25,6 +25,8 @@ pub struct Outcome {
     pub false_claim: f64,
     pub named: Vec<String>,
     pub name: String,
+    /// chi^2 that the best rival of another name leaves, and the part that it explains, when known.
+    pub rival: Option<(f64, f64)>,
 }
 
 pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
@@ -45,12 +47,22 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     let want = sorted(kinds.clone());
     let verdict = text(&found["verdict"]);
     let named = sorted(words(&found["effect"]));
-    let groups: Vec<Vec<String>> =
-        found["indistinguishable"].as_array().map(|a| a.iter().map(words).collect()).unwrap_or_default();
+    let groups: Vec<Vec<String>> = found["indistinguishable"]
+        .as_array()
+        .map(|a| a.iter().map(words).collect())
+        .unwrap_or_default();
     // Groups hold names or sets "a+b".
     let raw: Vec<Vec<String>> = found["indistinguishable"]
         .as_array()
-        .map(|a| a.iter().map(|g| g.as_array().map(|g| g.iter().map(text).collect()).unwrap_or_default()).collect())
+        .map(|a| {
+            a.iter()
+                .map(|g| {
+                    g.as_array()
+                        .map(|g| g.iter().map(text).collect())
+                        .unwrap_or_default()
+                })
+                .collect()
+        })
         .unwrap_or_default();
     let is_truth = |s: &str| sorted(s.split('+').map(str::to_string).collect()) == want;
     let right_in = |g: &Vec<String>| match class.as_str() {
@@ -61,14 +73,21 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     // Every true cause stands in a group with (or is) what was named.
     let covered = named.len() == want.len()
         && want.iter().all(|w| {
-            named.contains(w) || groups.iter().any(|g| g.contains(w) && named.iter().any(|n| g.contains(n)))
+            named.contains(w)
+                || groups
+                    .iter()
+                    .any(|g| g.contains(w) && named.iter().any(|n| g.contains(n)))
         });
     let result = match (class.as_str(), verdict.as_str()) {
         ("none", "nothing_missing") | ("outside", "unknown") => "exact",
         (_, "nothing_missing") => "nothing",
         (_, "unknown") => "unknown",
         (_, "ambiguous") => {
-            if raw.iter().any(right_in) { "group" } else { "ambiguous" }
+            if raw.iter().any(right_in) {
+                "group"
+            } else {
+                "ambiguous"
+            }
         }
         ("none" | "outside", _) => "wrong",
         _ => {
@@ -85,7 +104,11 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     };
     let probability: BTreeMap<String, f64> = found["probabilities"]
         .as_object()
-        .map(|o| o.iter().map(|(k, v)| (k.clone(), v.as_f64().unwrap_or(0.0))).collect())
+        .map(|o| {
+            o.iter()
+                .map(|(k, v)| (k.clone(), v.as_f64().unwrap_or(0.0)))
+                .collect()
+        })
         .unwrap_or_default();
     let right = |s: &str| match class.as_str() {
         "none" => s == "nothing_missing",
@@ -98,7 +121,10 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
         .filter(|(k, _)| !right(k) && *k != "nothing_missing" && *k != "unknown")
         .map(|(_, v)| *v)
         .fold(0.0, f64::max);
-    let drivers: Vec<String> = truth["effects"][0]["drivers"].as_array().map(|a| a.iter().map(text).collect()).unwrap_or_default();
+    let drivers: Vec<String> = truth["effects"][0]["drivers"]
+        .as_array()
+        .map(|a| a.iter().map(text).collect())
+        .unwrap_or_default();
     let driver = found["driver"]["name"].as_str();
     let d = match truth["d_each"].as_array() {
         Some(a) if class == "pair" => a.iter().filter_map(Value::as_f64).fold(f64::MAX, f64::min),
@@ -106,8 +132,12 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     };
     Outcome {
         name: name.to_string(),
+        rival: truth["rivals"][0]["left_chi2"]
+            .as_f64()
+            .zip(truth["rivals"][0]["share"].as_f64()),
         result,
-        driver_right: (class == "outside").then(|| driver.is_some_and(|n| drivers.iter().any(|x| x == n))),
+        driver_right: (class == "outside")
+            .then(|| driver.is_some_and(|n| drivers.iter().any(|x| x == n))),
         top: best.map_or(0.0, |b| *b.1),
         top_right: best.is_some_and(|b| right(b.0)),
         false_claim,
@@ -142,34 +172,68 @@ pub fn calibration(list: &[(f64, bool)]) -> f64 {
         b.1 += p;
         b.2 += f64::from(u8::from(*right));
     }
-    bins.iter().filter(|b| b.0 > 0.0).map(|b| (b.1 - b.2).abs()).sum::<f64>() / list.len().max(1) as f64
+    bins.iter()
+        .filter(|b| b.0 > 0.0)
+        .map(|b| (b.1 - b.2).abs())
+        .sum::<f64>()
+        / list.len().max(1) as f64
 }
 
 fn band(d: f64) -> &'static str {
-    if d < 3.0 { "<3" } else if d < 6.0 { "3-6" } else { ">=6" }
+    if d < 3.0 {
+        "<3"
+    } else if d < 6.0 {
+        "3-6"
+    } else {
+        ">=6"
+    }
 }
 
-const RESULTS: [&str; 7] = ["exact", "group", "half", "wrong", "ambiguous", "unknown", "nothing"];
+const RESULTS: [&str; 7] = [
+    "exact",
+    "group",
+    "half",
+    "wrong",
+    "ambiguous",
+    "unknown",
+    "nothing",
+];
 
 pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
     let mut list = Vec::new();
     let mut missing = Vec::new();
-    let mut names: Vec<_> = fs::read_dir(data)?.filter_map(Result::ok).map(|e| e.path()).filter(|p| p.join("truth.json").exists()).collect();
+    let mut names: Vec<_> = fs::read_dir(data)?
+        .filter_map(Result::ok)
+        .map(|e| e.path())
+        .filter(|p| p.join("truth.json").exists())
+        .collect();
     names.sort();
     for path in names {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
         let truth: Value = serde_json::from_str(&fs::read_to_string(path.join("truth.json"))?)?;
         match fs::read_to_string(results.join(&name).join("diagnosis.json")) {
             Ok(text) => list.push(judge(&name, &truth, &serde_json::from_str(&text)?)),
             Err(_) => missing.push(name),
         }
     }
-    let mut text = format!("{} data sets judged, {} without a result\n\n", list.len(), missing.len());
+    let mut text = format!(
+        "{} data sets judged, {} without a result\n\n",
+        list.len(),
+        missing.len()
+    );
     text.push_str("| class | noise | d | sets | exact | group | half | wrong | ambiguous | unknown | nothing | right (exact or group), 95 % | wrong, 95 % |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     let mut cells = Vec::new();
     for class in ["none", "single", "foreign", "outside", "pair"] {
         let mut keys: Vec<(String, String)> = Vec::new();
-        let bands: &[&str] = if class == "none" { &["all"] } else { &["<3", "3-6", ">=6"] };
+        let bands: &[&str] = if class == "none" {
+            &["all"]
+        } else {
+            &["<3", "3-6", ">=6"]
+        };
         for noise in ["all", "0.02", "0.05", "0.1"] {
             for b in bands {
                 keys.push((noise.into(), (*b).into()));
@@ -178,23 +242,43 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
         for (noise, b) in keys {
             let some: Vec<&Outcome> = list
                 .iter()
-                .filter(|o| o.class == class && (noise == "all" || format!("{}", o.noise) == noise) && (b == "all" || band(o.d) == b))
+                .filter(|o| {
+                    o.class == class
+                        && (noise == "all" || format!("{}", o.noise) == noise)
+                        && (b == "all" || band(o.d) == b)
+                })
                 .collect();
             if some.is_empty() {
                 continue;
             }
             let n = some.len();
-            let count: Vec<usize> = RESULTS.iter().map(|r| some.iter().filter(|o| o.result == *r).count()).collect();
+            let count: Vec<usize> = RESULTS
+                .iter()
+                .map(|r| some.iter().filter(|o| o.result == *r).count())
+                .collect();
             let right = count[0] + count[1];
             let (a, z) = wilson(right, n);
             let (wa, wz) = wilson(count[3], n);
             let pc = |v: f64| format!("{:.1}", 100.0 * v);
             text.push_str(&format!(
                 "| {class} | {noise} | {b} | {n} | {} | {} ({}–{}) % | {} ({}–{}) % |\n",
-                count.iter().map(usize::to_string).collect::<Vec<_>>().join(" | "),
-                pc(right as f64 / n as f64), pc(a), pc(z), pc(count[3] as f64 / n as f64), pc(wa), pc(wz)
+                count
+                    .iter()
+                    .map(usize::to_string)
+                    .collect::<Vec<_>>()
+                    .join(" | "),
+                pc(right as f64 / n as f64),
+                pc(a),
+                pc(z),
+                pc(count[3] as f64 / n as f64),
+                pc(wa),
+                pc(wz)
             ));
-            let counts: serde_json::Map<String, Value> = RESULTS.iter().zip(&count).map(|(r, c)| ((*r).to_string(), json!(c))).collect();
+            let counts: serde_json::Map<String, Value> = RESULTS
+                .iter()
+                .zip(&count)
+                .map(|(r, c)| ((*r).to_string(), json!(c)))
+                .collect();
             cells.push(json!({"class": class, "noise": noise, "d": b, "sets": n, "counts": counts,
                 "right": right as f64 / n as f64, "right_95": [a, z], "wrong": count[3] as f64 / n as f64, "wrong_95": [wa, wz]}));
         }
@@ -203,9 +287,17 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
     let alarms = none.iter().filter(|o| o.result != "exact").count();
     let sure = none.iter().filter(|o| o.false_claim > 0.95).count();
     let (fa, fz) = wilson(alarms, none.len());
-    let ece = calibration(&list.iter().map(|o| (o.top, o.top_right)).collect::<Vec<_>>());
+    let ece = calibration(
+        &list
+            .iter()
+            .map(|o| (o.top, o.top_right))
+            .collect::<Vec<_>>(),
+    );
     let outside: Vec<&Outcome> = list.iter().filter(|o| o.class == "outside").collect();
-    let driver = outside.iter().filter(|o| o.driver_right == Some(true)).count();
+    let driver = outside
+        .iter()
+        .filter(|o| o.driver_right == Some(true))
+        .count();
     let bold = outside.iter().filter(|o| o.false_claim > 0.9).count();
     let over = list.iter().filter(|o| o.false_claim > 0.95).count();
     let worst: Vec<Value> = list
@@ -217,15 +309,59 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
         "\nfalse alarms on nothing: {alarms} of {} ({:.1}–{:.1} %), with probability > 0.95: {sure}\nouter causes: driver named {driver} of {}, a wrong name above 0.9: {bold}\nfalse names above 0.95 in all: {over}\nexpected calibration error of the largest probability: {ece:.3}\n",
         none.len(), 100.0 * fa, 100.0 * fz, outside.len()
     ));
+    text.push_str("\n| among d >= 6, where rivals are known | sets | results |\n|---|---|---|\n");
+    let known = |o: &&Outcome| o.class == "single" || o.class == "foreign";
+    type Test<'a> = (&'a str, Box<dyn Fn(&&Outcome) -> bool>);
+    let splits: [Test; 4] = [
+        (
+            "known, the best other cause leaves chi^2 >= 16 (separable)",
+            Box::new(move |o| known(o) && o.rival.is_some_and(|r| r.0 >= 16.0)),
+        ),
+        (
+            "known, it leaves less (look-alikes)",
+            Box::new(move |o| known(o) && o.rival.is_some_and(|r| r.0 < 16.0)),
+        ),
+        (
+            "outer, the best known cause explains < 65 %",
+            Box::new(|o| o.class == "outside" && o.rival.is_some_and(|r| r.1 < 0.65)),
+        ),
+        (
+            "outer, it explains more",
+            Box::new(|o| o.class == "outside" && o.rival.is_some_and(|r| r.1 >= 0.65)),
+        ),
+    ];
+    let mut rivals = Vec::new();
+    for (name, test) in &splits {
+        let some: Vec<&Outcome> = list.iter().filter(|o| o.d >= 6.0 && test(o)).collect();
+        let row: Vec<String> = RESULTS
+            .iter()
+            .filter_map(|r| {
+                Some((r, some.iter().filter(|o| o.result == *r).count())).filter(|c| c.1 > 0)
+            })
+            .map(|(r, c)| format!("{r} {c}"))
+            .collect();
+        text.push_str(&format!(
+            "| {name} | {} | {} |\n",
+            some.len(),
+            row.join(", ")
+        ));
+        rivals.push(json!({"of": name, "sets": some.len(), "results": row}));
+    }
     let mut by: BTreeMap<(String, &str), usize> = BTreeMap::new();
-    for o in list.iter().filter(|o| o.class != "none" && o.class != "pair" && o.d >= 6.0) {
+    for o in list
+        .iter()
+        .filter(|o| o.class != "none" && o.class != "pair" && o.d >= 6.0)
+    {
         *by.entry((o.kinds.join("+"), o.result)).or_default() += 1;
     }
     text.push_str("\n| cause (d >= 6) | results |\n|---|---|\n");
     let mut kinds: Vec<&String> = by.keys().map(|k| &k.0).collect();
     kinds.dedup();
     for k in kinds {
-        let row: Vec<String> = RESULTS.iter().filter_map(|r| by.get(&(k.clone(), *r)).map(|c| format!("{r} {c}"))).collect();
+        let row: Vec<String> = RESULTS
+            .iter()
+            .filter_map(|r| by.get(&(k.clone(), *r)).map(|c| format!("{r} {c}")))
+            .collect();
         text.push_str(&format!("| {k} | {} |\n", row.join(", ")));
     }
     for w in &worst {
@@ -235,7 +371,7 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
     let json = json!({"sets": list.len(), "without_result": missing, "cells": cells,
         "false_alarms": {"sets": none.len(), "alarms": alarms, "interval": [fa, fz], "above_0.95": sure},
         "outside": {"sets": outside.len(), "driver_named": driver, "wrong_above_0.9": bold},
-        "false_names_above_0.95": over, "calibration_error": ece, "wrong": worst,
+        "false_names_above_0.95": over, "calibration_error": ece, "rivals": rivals, "wrong": worst,
         "verdicts": list.iter().map(|o| json!({"name": o.name, "verdict": o.verdict, "result": o.result})).collect::<Vec<_>>()});
     Ok((text, json))
 }
@@ -258,15 +394,39 @@ mod tests {
         let one = |t: &Value, f: &Value| judge("x", t, f).result;
         let t = truth("single", &["a"]);
         assert_eq!(one(&t, &found("effect", json!("a"), json!([]))), "exact");
-        assert_eq!(one(&t, &found("effect", json!("b"), json!([["b", "a"]]))), "group");
+        assert_eq!(
+            one(&t, &found("effect", json!("b"), json!([["b", "a"]]))),
+            "group"
+        );
         assert_eq!(one(&t, &found("effect", json!("b"), json!([]))), "wrong");
-        assert_eq!(one(&t, &found("ambiguous", Value::Null, json!([["a", "c"]]))), "group");
-        assert_eq!(one(&t, &found("ambiguous", Value::Null, json!([["b", "c"]]))), "ambiguous");
-        assert_eq!(one(&t, &found("nothing_missing", Value::Null, json!([]))), "nothing");
+        assert_eq!(
+            one(&t, &found("ambiguous", Value::Null, json!([["a", "c"]]))),
+            "group"
+        );
+        assert_eq!(
+            one(&t, &found("ambiguous", Value::Null, json!([["b", "c"]]))),
+            "ambiguous"
+        );
+        assert_eq!(
+            one(&t, &found("nothing_missing", Value::Null, json!([]))),
+            "nothing"
+        );
         let t = truth("pair", &["b", "a"]);
-        assert_eq!(one(&t, &found("effects", json!(["a", "b"]), json!([]))), "exact");
+        assert_eq!(
+            one(&t, &found("effects", json!(["a", "b"]), json!([]))),
+            "exact"
+        );
         assert_eq!(one(&t, &found("effect", json!("a"), json!([]))), "half");
-        assert_eq!(one(&truth("none", &[]), &found("effect", json!("a"), json!([]))), "wrong");
-        assert_eq!(one(&truth("outside", &["z"]), &found("unknown", Value::Null, json!([]))), "exact");
+        assert_eq!(
+            one(&truth("none", &[]), &found("effect", json!("a"), json!([]))),
+            "wrong"
+        );
+        assert_eq!(
+            one(
+                &truth("outside", &["z"]),
+                &found("unknown", Value::Null, json!([]))
+            ),
+            "exact"
+        );
     }
 }

@@ -139,20 +139,15 @@ impl Run {
                         let mut value = pressure * per[m];
                         if !plain {
                             let seen = Seen {
-                                member: m,
                                 s: slot.s,
-                                pitch: p.pair.pb,
                                 load: w,
                                 curvature: r,
                                 p0,
                                 half,
                                 pressure,
                                 u,
-                                cycles,
                                 conditions: &self.conditions,
                                 e_star: p.e_star,
-                                start: p.pair.start,
-                                end: p.pair.end,
                             };
                             for e in self.hidden.iter() {
                                 value *= e.factor(&seen);
@@ -187,21 +182,21 @@ impl Run {
                 };
                 for k in 0..st.count {
                     let rho = t.rho_of_arc(st.arc(k));
-                    let s = if m == 0 { rho - p.pair.c1 } else { p.pair.c2 - rho };
+                    let s = if m == 0 {
+                        rho - p.pair.c1
+                    } else {
+                        p.pair.c2 - rho
+                    };
                     let spot = Spot {
                         member: m,
                         s,
-                        pitch: p.pair.pb,
                         start: p.pair.start,
-                        end: p.pair.end,
                         depth: depth[m * n0 + k] * 1e3,
                         peak: smooth(k),
                         cycles,
                         contacts_per_cycle: if m == 0 { 1.0 } else { ratio },
                         worn: worn[0] + worn[1] / ratio,
-                        module: t.m,
                         conditions: &self.conditions,
-                        rate: out[m * n0 + k] * 1e3,
                     };
                     for e in self.hidden.iter() {
                         out[m * n0 + k] *= e.local(&spot);
@@ -237,7 +232,10 @@ impl Run {
         let mut out = Vec::new();
         for m in 0..2 {
             let t = p.pair.teeth(m);
-            let low = t.arc(p.pair.rho(m, if m == 0 { p.pair.start } else { p.pair.end })) + 0.1 * t.m;
+            let low = t.arc(
+                p.pair
+                    .rho(m, if m == 0 { p.pair.start } else { p.pair.end }),
+            ) + 0.1 * t.m;
             let high = t.arc(t.rho(t.ra - 0.12 * t.m));
             for k in 0..p.stations[m].count {
                 let inside = (low..high).contains(&p.stations[m].arc(k));
@@ -268,7 +266,9 @@ impl Run {
         let rms = |v: &[f64]| (v.iter().map(|x| x * x).sum::<f64>() / v.len() as f64).sqrt();
         let top = |v: &[f64]| v.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         // First step: a twentieth of a micrometre, or 1/200 of the run.
-        let mut step = (5e-5 / top(&fy).max(1e-30)).min(last / 200.0).max(last * 1e-5);
+        let mut step = (5e-5 / top(&fy).max(1e-30))
+            .min(last / 200.0)
+            .max(last * 1e-5);
         let weight = self.weights();
         let mut wave: Vec<f64> = (0..size)
             .map(|k| if k % 2 == 0 { 1.0 } else { -1.0 } + 0.3 * (k as f64 * 0.37).sin())
@@ -351,7 +351,11 @@ fn chebyshev(
         }
     };
     let mut before = y.to_vec();
-    let mut last: Vec<f64> = y.iter().zip(fy).map(|(a, b1)| a + b[1] * w1 * h * b1).collect();
+    let mut last: Vec<f64> = y
+        .iter()
+        .zip(fy)
+        .map(|(a, b1)| a + b[1] * w1 * h * b1)
+        .collect();
     for j in 2..=s {
         let mu = 2.0 * b[j] * w0 / b[j - 1];
         let nu = -b[j] / b[j - 2];
@@ -360,7 +364,11 @@ fn chebyshev(
         let fl = f(n + c(j - 1) * h, &last);
         let new: Vec<f64> = (0..y.len())
             .map(|k| {
-                (1.0 - mu - nu) * y[k] + mu * last[k] + nu * before[k] + mut_ * h * fl[k] + gam * h * fy[k]
+                (1.0 - mu - nu) * y[k]
+                    + mu * last[k]
+                    + nu * before[k]
+                    + mut_ * h * fl[k]
+                    + gam * h * fy[k]
             })
             .collect();
         before = last;

@@ -1,0 +1,56 @@
+//! `gearwear diagnose`: which physical effect the model lacks.
+
+use clap::Args;
+use serde_json::json;
+
+use super::args::StudyAndOutput;
+use super::folder;
+use super::{CliError, Context, Outcome};
+use crate::learn::Measured;
+use crate::learn::diagnose::diagnose;
+use crate::report::{self, atomic};
+use crate::simulate::forward::ContactKind;
+use crate::study::{self, Study};
+
+/// Arguments of `diagnose`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  gearwear diagnose study.toml\n  gearwear diagnose study.toml --fast\n  gearwear diagnose study.toml -o results/diagnosis --json"
+)]
+pub struct DiagnoseArgs {
+    #[command(flatten)]
+    paths: StudyAndOutput,
+    /// Decide by the analytic contact model alone: seconds instead of a minute, and 1 to 2 % model error that may look like an effect
+    #[arg(long)]
+    fast: bool,
+}
+
+/// Checks the input and the folder, diagnoses, writes.
+pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome, CliError> {
+    let study = Study::load(&args.paths.study)?;
+    let data = study.dataset()?;
+    let target = args
+        .paths
+        .output
+        .clone()
+        .unwrap_or_else(|| folder::default_path(&args.paths.study, "diagnose"));
+    atomic::check(&target)?;
+    let kind = if args.fast || study.contact == study::ContactKind::Hertz {
+        ContactKind::Hertz
+    } else {
+        ContactKind::Fem
+    };
+    let measured = Measured::new(&study, data);
+    let progress = context.progress("diagnose");
+    let diagnosis = diagnose(&measured, kind, &|done, what| progress.show(done, what))?;
+    drop(progress);
+    let document = json!(diagnosis);
+    let page = report::diagnosis::page(&study.title, &diagnosis);
+    let written = report::write_page(&page, "diagnosis.json", &document, &target)?;
+    let study_name = args.paths.study.display().to_string();
+    Ok(Outcome {
+        json: document,
+        text: report::diagnosis::summary(&study.title, &diagnosis, &study_name, &written.folder),
+        success: true,
+    })
+}

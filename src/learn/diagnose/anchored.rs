@@ -1,0 +1,80 @@
+//! The middle fidelity: the analytic model's changes on top of what finite elements gave at an anchor.
+//!
+//! ```text
+//! f(k, θ) = hertz(k, θ) + [fem(k₀, θ₀) − hertz(k₀, θ₀)]
+//! ```
+//! Exact at the anchor; away from it the analytic model's own error enters by its change only. A fit that takes its result as
+//! the next anchor, until nothing moves, ends on finite-element values with the analytic model's derivatives.
+
+use rayon::prelude::*;
+
+use super::candidate::Candidate;
+use super::ground::Ground;
+use crate::learn::bench::Bench;
+use crate::learn::gear_model::GearModel;
+use crate::learn::predictor::{PredictError, Predictor};
+use crate::learn::quadratic::State;
+
+/// The analytic model with an offset per test of the data set; none for a test without.
+pub(super) struct Anchored<'a> {
+    model: GearModel<'a>,
+    offset: Vec<Vec<f64>>,
+}
+
+impl<'a> Anchored<'a> {
+    pub(super) fn new(model: GearModel<'a>, offset: Vec<Vec<f64>>) -> Self {
+        Self { model, offset }
+    }
+}
+
+impl Predictor for Anchored<'_> {
+    fn predict(&self, test: usize, k: f64, parameters: &[f64]) -> Result<Vec<f64>, PredictError> {
+        let mut values = self.model.predict(test, k, parameters)?;
+        if let Some(offset) = self.offset.get(test) {
+            values.iter_mut().zip(offset).for_each(|(v, o)| *v += o);
+        }
+        Ok(values)
+    }
+}
+
+/// A candidate's model on a bench.
+pub(super) fn model<'b>(bench: &'b Bench<'b>, candidate: &'b Candidate) -> GearModel<'b> {
+    let names: Vec<&str> = candidate
+        .parameters
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    let effects = &candidate.version.effects;
+    GearModel::new(
+        bench,
+        Box::new(move |values| {
+            effects.build(&|name| {
+                let place = names.iter().position(|known| *known == name)?;
+                values.get(place).copied()
+            })
+        }),
+    )
+}
+
+/// Predictions of all tests of a ground at a state, by test of the ground.
+pub(super) fn predictions(
+    ground: &Ground<'_>,
+    predictor: &dyn Predictor,
+    candidate: &Candidate,
+    state: &State,
+) -> Result<Vec<Vec<f64>>, PredictError> {
+    let (k, theta) = ground.arguments(&candidate.parameters, state);
+    (0..ground.tests.len())
+        .into_par_iter()
+        .map(|i| predictor.predict(ground.tests[i], k[i], &theta))
+        .collect()
+}
+
+/// a − b per test of the data set, from values per test of the ground.
+pub(super) fn offset(ground: &Ground<'_>, a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut offset = vec![Vec::new(); ground.measured.data.tests.len()];
+    for (i, &test) in ground.tests.iter().enumerate() {
+        offset[test] = a[i].iter().zip(&b[i]).map(|(a, b)| a - b).collect();
+    }
+    offset
+}

@@ -1,0 +1,245 @@
+//! A flexible discrepancy: how much of a misfit anything smooth could explain, and on what that depends.
+//!
+//! ```text
+//! m(test, member, quantity; s, n) = Σ_p Σ_c a_pc cos(p π s) T_c(n)      one set of a per test, member and quantity
+//! ```
+//! s: position in shares of the measured range; T: Chebyshev's polynomials of the share of the test. The numbers of terms
+//! are those of the least Bayesian information criterion. Its attainable fall of χ² is counted after subtracting what
+//! as many terms gain on noise alone.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::ground::{Ground, whiten};
+use crate::learn::region::Map;
+
+/// Terms along the position and over the cycles that are tried.
+const TERMS: [(usize, usize); 5] = [(3, 1), (4, 2), (7, 3), (12, 3), (18, 4)];
+/// Prior precision of the whitened coefficients, so that terms the data do not hold stay finite.
+const RIDGE: f64 = 1e-6;
+/// Bins of a continuous driver.
+const BINS: usize = 10;
+
+/// What a flexible discrepancy found.
+#[derive(Debug, Clone)]
+pub(super) struct Flexible {
+    /// Fall of χ² beyond what its terms gain on noise.
+    pub(super) drop: f64,
+    /// Number of its terms.
+    pub(super) terms: usize,
+    /// Its values, model minus what is missing: to be added to the model, per row.
+    pub(super) values: Vec<f64>,
+}
+
+/// How much of a discrepancy one driver explains.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Driver {
+    /// position, member, cycles, depth, torque, speed, misalignment or trace.
+    pub name: String,
+    /// Share of the discrepancy's variance (in units of the noise) that depends on it alone.
+    pub variance_share: f64,
+}
+
+impl Flexible {
+    /// Of what a model leaves.
+    pub(super) fn of(ground: &Ground<'_>, model: &[f64]) -> Self {
+        let residual = ground.residual(model);
+        let white = DVector::from_vec(ground.covariance.whiten(&residual));
+        let groups = groups(ground);
+        let tried: Vec<(f64, Flexible)> = TERMS
+            .par_iter()
+            .map(|&terms| {
+                let mut values = vec![0.0; ground.len()];
+                let (mut fallen, mut count) = (0.0, 0);
+                for group in &groups {
+                    let columns = group.columns(ground, terms);
+                    let seen = whiten(&ground.covariance, &columns);
+                    let mut gram = seen.tr_mul(&seen);
+                    for i in 0..gram.nrows() {
+                        gram[(i, i)] += RIDGE * (1.0 + gram[(i, i)]);
+                    }
+                    let right = seen.tr_mul(&white);
+                    let Some(factor) = gram.cholesky() else {
+                        continue;
+                    };
+                    let found = factor.solve(&right);
+                    fallen += found.dot(&right);
+                    count += columns.ncols();
+                    let of_group = &columns * found;
+                    values
+                        .iter_mut()
+                        .zip(of_group.iter())
+                        .for_each(|(v, m)| *v += m);
+                }
+                let drop = fallen - count as f64;
+                let criterion = fallen - count as f64 * (ground.len() as f64).ln();
+                (
+                    criterion,
+                    Flexible {
+                        drop,
+                        terms: count,
+                        values,
+                    },
+                )
+            })
+            .collect();
+        let best = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        best.expect("some numbers of terms are tried").1
+    }
+
+    /// Whether it is far more than noise: five standard deviations.
+    pub(super) fn is_real(&self) -> bool {
+        self.drop > 5.0 * self.spread()
+    }
+
+    /// Standard deviation of `drop` on noise alone.
+    pub(super) fn spread(&self) -> f64 {
+        (2.0 * self.terms as f64).sqrt()
+    }
+
+    /// Shares of the variance by driver, the largest first.
+    ///
+    /// ```text
+    /// share = [Σ_bins (Σ m f/σ²)²/Σ f²/σ²]/Σ m²/σ²      f: the model's value, a factor on it; or 1, a constant added to it
+    /// ```
+    /// The larger of both; `m` is first freed of what a factor per test explains, since k is free.
+    pub(super) fn drivers(&self, ground: &Ground<'_>, model: &[f64]) -> Vec<Driver> {
+        let map = Map::new(ground.measured.study(), &ground.measured.data);
+        let m: Vec<f64> = self.values.clone();
+        let weight: Vec<f64> = (0..ground.len())
+            .map(|i| ground.observation(i).sigma.powi(-2))
+            .collect();
+        let total: f64 = m.iter().zip(&weight).map(|(m, w)| m * m * w).sum();
+        if total <= 0.0 {
+            return Vec::new();
+        }
+        let tests = &ground.measured.study().tests;
+        let conditions = |i: usize| &tests[ground.observation(i).test].conditions;
+        let by = |of: &dyn Fn(usize) -> Option<f64>| -> Vec<Option<f64>> {
+            (0..ground.len()).map(of).collect()
+        };
+        let place = |i: usize| {
+            let o = ground.observation(i);
+            map.path(o).or(o.position)
+        };
+        let all: [(&str, Vec<Option<f64>>); 7] = [
+            ("position", by(&place)),
+            (
+                "member",
+                by(&|i| Some(ground.observation(i).member as u8 as f64)),
+            ),
+            ("cycles", by(&|i| Some(ground.observation(i).cycles.ln()))),
+            ("depth", by(&|i| Some(model[i]))),
+            ("torque", by(&|i| Some(conditions(i).torque_nmm))),
+            ("speed", by(&|i| Some(conditions(i).speed_rpm))),
+            ("misalignment", by(&|i| Some(conditions(i).misalignment_mm))),
+        ];
+        let mut drivers: Vec<Driver> = all
+            .into_iter()
+            .map(|(name, of)| {
+                let bins = binned(&of);
+                let share = |f: &dyn Fn(usize) -> f64| {
+                    let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+                    for (i, bin) in bins.iter().enumerate() {
+                        let sum = sums.entry(*bin).or_default();
+                        sum[0] += m[i] * f(i) * weight[i];
+                        sum[1] += f(i) * f(i) * weight[i];
+                    }
+                    let explained = sums.values().filter(|s| s[1] > 0.0);
+                    explained.map(|s| s[0] * s[0] / s[1]).sum::<f64>() / total
+                };
+                Driver {
+                    name: name.to_owned(),
+                    variance_share: share(&|i| model[i]).max(share(&|_| 1.0)).min(1.0),
+                }
+            })
+            .collect();
+        drivers.sort_by(|a, b| b.variance_share.total_cmp(&a.variance_share));
+        drivers
+    }
+}
+
+/// Numbers of bins of about equal size; few different values are bins of their own.
+fn binned(values: &[Option<f64>]) -> Vec<usize> {
+    let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
+    sorted.sort_by(f64::total_cmp);
+    let mut distinct = sorted.clone();
+    distinct.dedup();
+    let edges = if distinct.len() <= BINS {
+        distinct
+    } else {
+        (0..BINS).map(|i| sorted[i * sorted.len() / BINS]).collect()
+    };
+    values
+        .iter()
+        .map(|v| v.map_or(0, |v| 1 + edges.iter().filter(|edge| **edge <= v).count()))
+        .collect()
+}
+
+/// Rows of one test, member and quantity.
+struct Group {
+    rows: Vec<usize>,
+    /// Position and time of each, 0 to 1.
+    places: Vec<(f64, f64)>,
+    distinct: (usize, usize),
+}
+
+impl Group {
+    /// The basis functions at the rows, 0 elsewhere.
+    fn columns(&self, ground: &Ground<'_>, terms: (usize, usize)) -> DMatrix<f64> {
+        let (along, over) = (terms.0.min(self.distinct.0), terms.1.min(self.distinct.1));
+        let mut columns = DMatrix::zeros(ground.len(), along * over);
+        for (&row, &(s, n)) in self.rows.iter().zip(&self.places) {
+            for p in 0..along {
+                for c in 0..over {
+                    let chebyshev = (c as f64 * (2.0 * n - 1.0).acos()).cos();
+                    columns[(row, p * over + c)] = (p as f64 * PI * s).cos() * chebyshev;
+                }
+            }
+        }
+        columns
+    }
+}
+
+fn groups(ground: &Ground<'_>) -> Vec<Group> {
+    let mut rows = BTreeMap::new();
+    for i in 0..ground.len() {
+        let o = ground.observation(i);
+        let of: &mut Vec<usize> = rows.entry((o.test, o.member, o.quantity)).or_default();
+        of.push(i);
+    }
+    let range = |values: &[f64]| {
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let width = if high > low { high - low } else { 1.0 };
+        let mut distinct: Vec<f64> = values.to_vec();
+        distinct.sort_by(f64::total_cmp);
+        distinct.dedup();
+        (low, width, distinct.len())
+    };
+    rows.into_values()
+        .map(|rows| {
+            let at: Vec<f64> = rows
+                .iter()
+                .map(|&i| ground.observation(i).position.unwrap_or(0.0))
+                .collect();
+            let when: Vec<f64> = rows.iter().map(|&i| ground.observation(i).cycles).collect();
+            let (a, b) = (range(&at), range(&when));
+            let share =
+                |v: f64, (low, width, _): (f64, f64, usize)| ((v - low) / width).clamp(0.0, 1.0);
+            let places = at
+                .iter()
+                .zip(&when)
+                .map(|(&s, &n)| (share(s, a), share(n, b)));
+            Group {
+                places: places.collect(),
+                distinct: (a.2, b.2),
+                rows,
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,281 @@
+//! Fits and evidence of candidates: screened by the middle fidelity, decided by finite elements.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::anchored::{Anchored, model, offset, predictions};
+use super::candidate::Candidate;
+use super::ground::{Ground, whiten};
+use crate::learn::bench::Bench;
+use crate::learn::predictor::PredictError;
+use crate::learn::quadratic::State;
+use crate::learn::search::{Effort, Found};
+
+/// A screening fit ends where a step promises less ln posterior than this.
+const SCREEN: Effort = Effort {
+    iterations: 7,
+    tolerance: 0.1,
+    floor: 0.3,
+    carry: 0.3,
+};
+/// A deciding fit between two anchors.
+const DECIDE: Effort = Effort {
+    iterations: 12,
+    tolerance: 0.02,
+    floor: 0.1,
+    carry: 0.2,
+};
+/// Taking stock of a state without leaving it.
+const STAY: Effort = Effort {
+    iterations: 0,
+    tolerance: 0.0,
+    floor: 0.0,
+    carry: 0.0,
+};
+/// Anchors of a deciding fit.
+const ANCHORS: usize = 5;
+/// Gain of ln posterior for which another anchor is worth its runs.
+const WORTH: f64 = 0.15;
+/// Second starts are followed if their linear gain is this share of the best one's.
+const SECOND_START: f64 = 0.6;
+
+/// The bench of each fidelity and the fitted base model.
+pub(super) struct Judge<'a> {
+    pub(super) ground: Ground<'a>,
+    pub(super) hertz: &'a Bench<'a>,
+    pub(super) fem: Option<&'a Bench<'a>>,
+}
+
+/// A fitted candidate.
+pub(super) struct Judged {
+    pub(super) candidate: Candidate,
+    pub(super) found: Found,
+    /// Finite elements minus analytic model at the fit, per test of the data set; empty without finite elements.
+    pub(super) offset: Vec<Vec<f64>>,
+    /// Log evidence, the effect's form taken as uncertain.
+    pub(super) log_evidence: f64,
+    /// Covariance of (ln k, θ).
+    pub(super) covariance: DMatrix<f64>,
+    /// What the added effects change of the fitted base model, per row.
+    pub(super) change: Vec<f64>,
+    /// χ² with the whole covariance.
+    pub(super) square: f64,
+    /// Whether finite elements were used.
+    pub(super) decided: bool,
+    pub(super) converged: bool,
+}
+
+/// The base model's fit with what the screening projects out.
+pub(super) struct Base {
+    pub(super) judged: Judged,
+    /// Orthonormal columns: whitened changes by which k and the base model's own parameters adjust.
+    pub(super) adjustable: DMatrix<f64>,
+    /// Whitened residual.
+    pub(super) residual: DVector<f64>,
+}
+
+impl<'a> Judge<'a> {
+    /// Fits the base model.
+    pub(super) fn base(&self, candidate: Candidate) -> Result<Base, PredictError> {
+        let start = self.ground.state(
+            &candidate.parameters,
+            &candidate
+                .parameters
+                .iter()
+                .map(|p| p.start)
+                .collect::<Vec<f64>>(),
+        );
+        let predictor = model(self.hertz, &candidate);
+        let found = self
+            .ground
+            .fit(&predictor, &candidate.parameters, start, &DECIDE)?;
+        let start = found.state;
+        let judged = self.decide(&candidate, start, None)?;
+        let mut adjustable = whiten(&self.ground.covariance, &judged.found.jacobian);
+        orthonormalise(&mut adjustable);
+        let residual = self.ground.residual(&judged.found.model);
+        Ok(Base {
+            residual: DVector::from_vec(self.ground.covariance.whiten(&residual)),
+            adjustable,
+            judged,
+        })
+    }
+
+    /// The part of a whitened change that k and the base model's own parameters cannot make, by row values.
+    pub(super) fn visible(&self, base: &Base, change: &[f64]) -> DVector<f64> {
+        let v = DVector::from_vec(self.ground.covariance.whiten(change));
+        let along = base.adjustable.tr_mul(&v);
+        v - &base.adjustable * along
+    }
+
+    /// Fits a candidate by the middle fidelity: what of its starts leads furthest in the linearised model, and a near second.
+    pub(super) fn screen(&self, base: &Base, candidate: &Candidate) -> Option<Judged> {
+        let predictor = Anchored::new(model(self.hertz, candidate), base.judged.offset.clone());
+        let mut starts: Vec<(f64, State)> = candidate
+            .starts
+            .iter()
+            .filter_map(|values| {
+                let state = self.added(base, candidate, values);
+                let values = predictions(&self.ground, &predictor, candidate, &state).ok()?;
+                let joined = self.ground.joined(&values);
+                let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
+                    .map(|(f, b)| f - b)
+                    .collect();
+                let seen = self.visible(base, &change);
+                Some((linear_gain(&seen, &base.residual), state))
+            })
+            .collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let best = starts.first()?.0;
+        let near = |(i, s): (usize, &(f64, State))| {
+            i == 0 || (i == 1 && s.0 > SECOND_START * best && s.0 > 1.0)
+        };
+        let found = starts
+            .iter()
+            .enumerate()
+            .filter(|(i, s)| near((*i, s)))
+            .filter_map(|(_, (_, state))| {
+                let parameters = &candidate.parameters;
+                self.ground
+                    .fit(&predictor, parameters, state.clone(), &SCREEN)
+                    .ok()
+            })
+            .min_by(|a, b| a.objective.total_cmp(&b.objective))?;
+        let offset = base.judged.offset.clone();
+        Some(self.judged(candidate.clone(), found, offset, Some(base), false))
+    }
+
+    /// Fits a candidate from a state by finite elements (by the analytic model where there are none).
+    pub(super) fn decide(
+        &self,
+        candidate: &Candidate,
+        start: State,
+        base: Option<&Base>,
+    ) -> Result<Judged, PredictError> {
+        let parameters = &candidate.parameters;
+        let Some(fem) = self.fem else {
+            let predictor = model(self.hertz, candidate);
+            let found = self.ground.fit(&predictor, parameters, start, &DECIDE)?;
+            return Ok(self.judged(candidate.clone(), found, Vec::new(), base, true));
+        };
+        let exact = model(fem, candidate);
+        let analytic = model(self.hertz, candidate);
+        let mut state = start;
+        let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
+        let mut converged = false;
+        for _ in 0..ANCHORS {
+            let at = predictions(&self.ground, &exact, candidate, &state)?;
+            let near = predictions(&self.ground, &analytic, candidate, &state)?;
+            let offset = offset(&self.ground, &at, &near);
+            let predictor = Anchored::new(model(self.hertz, candidate), offset.clone());
+            let here = self
+                .ground
+                .fit(&predictor, parameters, state.clone(), &STAY)?;
+            let next = self
+                .ground
+                .fit(&predictor, parameters, state.clone(), &DECIDE)?;
+            let promised = here.objective - next.objective;
+            let better = best
+                .as_ref()
+                .is_none_or(|(b, _)| here.objective < b.objective);
+            if better {
+                best = Some((here, offset));
+                state = next.state;
+                if promised < WORTH {
+                    converged = next.converged;
+                    break;
+                }
+            } else if let Some((b, _)) = &best {
+                // The analytic changes led too far: back half the way.
+                if b.objective - next.objective < WORTH {
+                    converged = true;
+                    break;
+                }
+                state = between(&b.state, &state);
+            }
+        }
+        let (mut found, offset) = best.expect("at least one anchor was taken");
+        found.converged = converged;
+        Ok(self.judged(candidate.clone(), found, offset, base, true))
+    }
+
+    /// The state of the base fit with an added effect's values.
+    pub(super) fn added(&self, base: &Base, candidate: &Candidate, values: &[f64]) -> State {
+        let known = &base.judged.found.state;
+        let own = &candidate.parameters[candidate.inherited..];
+        let added = own.iter().zip(values).map(|(p, &x)| p.natural_start(x));
+        State {
+            theta: known.theta.iter().copied().chain(added).collect(),
+            ..known.clone()
+        }
+    }
+
+    pub(super) fn judged(
+        &self,
+        candidate: Candidate,
+        found: Found,
+        offset: Vec<Vec<f64>>,
+        base: Option<&Base>,
+        decided: bool,
+    ) -> Judged {
+        let change: Vec<f64> = match base {
+            Some(base) => (found.model.iter().zip(&base.judged.found.model))
+                .map(|(f, b)| f - b)
+                .collect(),
+            None => Vec::new(),
+        };
+        let own = (!change.is_empty()).then_some(change.as_slice());
+        let (log_evidence, covariance) = self.ground.evidence(&found, &candidate.parameters, own);
+        Judged {
+            square: self.ground.square(&found.model),
+            converged: found.converged,
+            candidate,
+            offset,
+            log_evidence,
+            covariance,
+            change,
+            found,
+            decided,
+        }
+    }
+}
+
+/// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change.
+fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> f64 {
+    let length = seen.norm_squared();
+    if length < 1e-12 {
+        return 0.0;
+    }
+    let along = seen.dot(residual);
+    let amplitude = (along / length).clamp(0.0, 4.0);
+    amplitude * along - 0.5 * amplitude * amplitude * length
+}
+
+/// Gram and Schmidt's columns of length 1, twice for rounding; dependent ones become 0.
+fn orthonormalise(columns: &mut DMatrix<f64>) {
+    for i in 0..columns.ncols() {
+        let before = columns.column(i).norm();
+        for _ in 0..2 {
+            for j in 0..i {
+                let share = columns.column(i).dot(&columns.column(j));
+                let other = columns.column(j).into_owned();
+                columns.column_mut(i).axpy(-share, &other, 1.0);
+            }
+        }
+        let length = columns.column(i).norm();
+        let scale = if length > 1e-9 * before {
+            length.recip()
+        } else {
+            0.0
+        };
+        columns.column_mut(i).scale_mut(scale);
+    }
+}
+
+fn between(a: &State, b: &State) -> State {
+    let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect();
+    State {
+        log_k: 0.5 * (a.log_k + b.log_k),
+        theta: mean(&a.theta, &b.theta),
+        epsilon: mean(&a.epsilon, &b.epsilon),
+    }
+}

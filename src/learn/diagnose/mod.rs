@@ -1,0 +1,162 @@
+//! Which physical effect a model lacks: ranking by evidence, with doubt stated.
+//!
+//! ```text
+//! base fit (fem) -> every effect and form screened: fem(base) + [hertz(effect) − hertz(base)], refitted
+//!                -> leaders refitted by fem -> pairs -> nothing | effect | effects | ambiguous | unknown -> next experiment
+//! ```
+//! A candidate is compared fully refitted: k, k per test, datums and its own parameters are free in each. Evidence is the
+//! marginal likelihood with the noise of [`NoiseModel`], a correlated model error among it, and for each effect a tolerance for
+//! its own form (`OWN_FORM` in `ground`). Priors: nothing missing 0.5, unknown 0.1, single effects share 0.35, pairs 0.05.
+
+mod anchored;
+mod candidate;
+mod flexible;
+mod ground;
+mod judge;
+mod pairs;
+mod rank;
+mod verdict;
+mod words;
+
+use crate::learn::bench::Bench;
+use crate::learn::measured::Measured;
+use crate::learn::noise::{ModelError, NoiseModel};
+use crate::learn::predictor::PredictError;
+use crate::simulate::forward::{ContactKind, ForwardError};
+use crate::study::Role;
+
+pub use candidate::NotJudged;
+pub use flexible::Driver;
+pub use verdict::{Diagnosis, Named, NextExperiment, NextTest, ParameterValue, Ranked, Verdict};
+
+use candidate::Candidate;
+use flexible::Flexible;
+use ground::Ground;
+use judge::{Base, Judge, Judged};
+use rank::Ranking;
+use rayon::prelude::*;
+
+/// Name of the base model among the probabilities.
+pub const NOTHING: &str = "nothing_missing";
+/// Name of what the catalogue does not hold.
+pub const UNKNOWN: &str = "unknown";
+
+/// Why there is no diagnosis.
+#[derive(Debug, thiserror::Error)]
+pub enum DiagnoseError {
+    /// No test with role fit has a measurement.
+    #[error("no test with role \"fit\" has a measurement")]
+    NoObservations,
+    /// The gears cannot run.
+    #[error(transparent)]
+    Forward(#[from] ForwardError),
+    /// The base model has no answer.
+    #[error("the base model cannot be fitted: {0}")]
+    Base(#[from] PredictError),
+}
+
+/// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
+pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
+
+/// Log evidence behind the leader within which candidates are decided by finite elements.
+const WITHIN: f64 = 10.0;
+/// The same as a share of the leader's gain, for the middle fidelity's own error.
+const WITHIN_SHARE: f64 = 0.02;
+/// Least and most single candidates decided by finite elements.
+const DECIDED: [usize; 2] = [3, 9];
+
+/// Diagnoses a study's measurements: screened by the analytic model, decided by `kind`.
+///
+/// # Errors
+/// [`DiagnoseError`]
+pub fn diagnose(
+    measured: &Measured<'_>,
+    kind: ContactKind,
+    watch: Watch<'_>,
+) -> Result<Diagnosis, DiagnoseError> {
+    watch(0.0, "preparing the gears".to_owned());
+    let noise = NoiseModel {
+        model_error: Some(ModelError::default()),
+        ..NoiseModel::of(&measured.study().noise)
+    };
+    let ground = Ground::new(measured, noise, Role::Fit);
+    if ground.tests.is_empty() {
+        return Err(DiagnoseError::NoObservations);
+    }
+    let workshop = measured.workshop(ContactKind::Hertz)?;
+    let hertz = measured.bench(&workshop)?;
+    let elastic = match kind {
+        ContactKind::Fem => Some(measured.workshop(ContactKind::Fem)?),
+        ContactKind::Hertz => None,
+    };
+    let fem = elastic.as_ref().map(|w| measured.bench(w)).transpose()?;
+    with(measured, ground, &hertz, fem.as_ref(), watch)
+}
+
+/// The diagnosis on prepared benches.
+fn with(
+    measured: &Measured<'_>,
+    ground: Ground<'_>,
+    hertz: &Bench<'_>,
+    fem: Option<&Bench<'_>>,
+    watch: Watch<'_>,
+) -> Result<Diagnosis, DiagnoseError> {
+    let study = measured.study();
+    let judge = Judge { ground, hertz, fem };
+    watch(0.08, "fitting the base model".to_owned());
+    let base = judge.base(Candidate::base(study))?;
+    let (singles, not_judged) = Candidate::singles(study);
+    watch(0.2, format!("screening {} effects", singles.len()));
+    let screened: Vec<Judged> = singles
+        .par_iter()
+        .filter_map(|candidate| judge.screen(&base, candidate))
+        .collect();
+    watch(0.45, "what anything smooth could explain".to_owned());
+    let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
+    let judged = decide_leaders(&judge, &base, screened, &|done, what| {
+        watch(0.5 + 0.3 * done, what);
+    });
+    watch(0.8, "looking at pairs".to_owned());
+    let pairs = pairs::pairs(&judge, &base, &judged);
+    watch(0.93, "weighing".to_owned());
+    let ranking = Ranking::new(&judge.ground, &base.judged, judged, pairs, &flexible);
+    watch(0.95, "held-out tests and the next experiment".to_owned());
+    let diagnosis = verdict::diagnosis(&judge, &base, ranking, &flexible, not_judged);
+    watch(1.0, "done".to_owned());
+    Ok(diagnosis)
+}
+
+/// Finite elements for the leaders of the screening; the others stay as screened.
+fn decide_leaders(
+    judge: &Judge<'_>,
+    base: &Base,
+    mut screened: Vec<Judged>,
+    watch: &dyn Fn(f64, String),
+) -> Vec<Judged> {
+    screened.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    let before = base.judged.log_evidence;
+    let leader = screened
+        .first()
+        .map_or(before, |j| j.log_evidence.max(before));
+    let within = WITHIN + WITHIN_SHARE * (leader - before).max(0.0);
+    let chosen = screened
+        .iter()
+        .enumerate()
+        .take_while(|(i, j)| {
+            *i < DECIDED[0] || (*i < DECIDED[1] && j.log_evidence > leader - within)
+        })
+        .count();
+    let rest = screened.split_off(chosen);
+    let mut judged = Vec::with_capacity(screened.len() + rest.len());
+    for (i, candidate) in screened.into_iter().enumerate() {
+        watch(
+            i as f64 / chosen as f64,
+            format!("deciding: {}", candidate.candidate.name()),
+        );
+        let start = candidate.found.state.clone();
+        let decided = judge.decide(&candidate.candidate, start, Some(base));
+        judged.push(decided.unwrap_or(candidate));
+    }
+    judged.extend(rest);
+    judged
+}

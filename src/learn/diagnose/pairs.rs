@@ -1,0 +1,188 @@
+//! Two effects at once: those that hide each other are found jointly, not one after the other.
+//!
+//! ```text
+//! gain(a, b) = ½ rᵀP r       P onto the changes of a and b that k cannot make; amplitudes not negative
+//! ```
+//! The changes are those of the singly fitted effects. The most promising pairs are then fitted in full, by the middle fidelity,
+//! and the best of these by finite elements.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::anchored::{Anchored, model};
+use super::candidate::Candidate;
+use super::judge::{Base, Judge, Judged};
+use crate::learn::quadratic::State;
+use crate::learn::search::Effort;
+
+/// Log evidence by which a pair must promise to beat the best single effect to be looked at.
+const PROMISE: f64 = 6.0;
+/// Pairs fitted by the middle fidelity, and by finite elements.
+const FITTED: [usize; 2] = [8, 2];
+/// Pair fits.
+const EFFORT: Effort = Effort {
+    iterations: 7,
+    tolerance: 0.2,
+    floor: 0.3,
+    carry: 0.3,
+};
+
+/// The fitted pairs that promise more than the best single effect.
+pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<Judged> {
+    let Some(best) = singles
+        .iter()
+        .max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence))
+    else {
+        return Vec::new();
+    };
+    // What the best single effect leaves is all that a second one could explain.
+    let left = 0.5 * (best.square - judge.ground.len() as f64);
+    let spread = (0.5 * judge.ground.len() as f64).sqrt();
+    if left < PROMISE.min(spread) && best.log_evidence - base.judged.log_evidence < PROMISE {
+        return Vec::new();
+    }
+    let promising = promising(judge, base, singles, best);
+    let mut fitted: Vec<Judged> = promising
+        .par_iter()
+        .filter_map(|&(a, b)| fit(judge, base, &singles[a], &singles[b]))
+        .collect();
+    fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    let mut decided = Vec::with_capacity(fitted.len());
+    for (i, pair) in fitted.into_iter().enumerate() {
+        let better = pair.log_evidence > best.log_evidence;
+        if judge.fem.is_some() && i < FITTED[1] && better {
+            let start = pair.found.state.clone();
+            decided.push(
+                judge
+                    .decide(&pair.candidate, start, Some(base))
+                    .unwrap_or(pair),
+            );
+        } else {
+            decided.push(pair);
+        }
+    }
+    decided
+}
+
+/// Places of the pairs with the largest gain, one form each.
+fn promising(
+    judge: &Judge<'_>,
+    base: &Base,
+    singles: &[Judged],
+    best: &Judged,
+) -> Vec<(usize, usize)> {
+    let seen: Vec<DVector<f64>> = singles
+        .par_iter()
+        .map(|s| judge.visible(base, &s.change))
+        .collect();
+    let along: Vec<f64> = seen.iter().map(|v| v.dot(&base.residual)).collect();
+    let single = 0.5 * (base.judged.square - best.square);
+    let mut found: Vec<(f64, usize, usize)> = Vec::new();
+    for a in 0..singles.len() {
+        for b in a + 1..singles.len() {
+            if singles[a].candidate.names == singles[b].candidate.names {
+                continue;
+            }
+            let gain = joint_gain(&seen[a], &seen[b], along[a], along[b]);
+            // A linear gain counts the fitted effects' own gain at least.
+            let own = [a, b].map(|i| 0.5 * (base.judged.square - singles[i].square));
+            let gain = gain.max(own[0]).max(own[1]);
+            if gain > single + PROMISE {
+                found.push((gain, a, b));
+            }
+        }
+    }
+    // Second effects on top of the best one, as fitted: its change makes the residual smaller before the other is looked at.
+    let leader = singles
+        .iter()
+        .position(|s| std::ptr::eq(s, best))
+        .unwrap_or(0);
+    let left = judge.ground.residual(&best.found.model);
+    let left = DVector::from_vec(judge.ground.covariance.whiten(&left));
+    let direction = &seen[leader];
+    let length = direction.norm_squared();
+    for b in (0..singles.len()).filter(|&b| singles[b].candidate.names != best.candidate.names) {
+        let mut other = seen[b].clone();
+        if length > 0.0 {
+            let share = other.dot(direction) / length;
+            other.axpy(-share, direction, 1.0);
+        }
+        let square = other.norm_squared();
+        let gain = if square > 1e-9 {
+            0.5 * other.dot(&left).powi(2) / square
+        } else {
+            0.0
+        };
+        if gain > PROMISE {
+            found.push((single + gain, leader.min(b), leader.max(b)));
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut chosen: Vec<(usize, usize)> = Vec::new();
+    for (_, a, b) in found {
+        let names = |(a, b): (usize, usize)| {
+            let mut names = [&singles[a].candidate.names, &singles[b].candidate.names];
+            names.sort();
+            names
+        };
+        if chosen.iter().all(|&known| names(known) != names((a, b))) {
+            chosen.push((a, b));
+        }
+        if chosen.len() == FITTED[0] {
+            break;
+        }
+    }
+    chosen
+}
+
+/// ½ of the fall of χ² by two changes with amplitudes that are not negative.
+fn joint_gain(a: &DVector<f64>, b: &DVector<f64>, ra: f64, rb: f64) -> f64 {
+    let (aa, bb, ab) = (a.norm_squared(), b.norm_squared(), a.dot(b));
+    let alone = |r: f64, square: f64| {
+        if square > 1e-9 {
+            0.5 * r.max(0.0).powi(2) / square
+        } else {
+            0.0
+        }
+    };
+    let determinant = aa * bb - ab * ab;
+    if determinant > 1e-6 * aa * bb {
+        let x = (bb * ra - ab * rb) / determinant;
+        let y = (aa * rb - ab * ra) / determinant;
+        if x > 0.0 && y > 0.0 {
+            return 0.5 * (x * ra + y * rb);
+        }
+    }
+    alone(ra, aa).max(alone(rb, bb))
+}
+
+/// A pair fitted by the middle fidelity, from both single fits together.
+fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged> {
+    // The stronger effect's fit gives the state, the other's parameters join it.
+    let (first, second) = if a.square <= b.square { (a, b) } else { (b, a) };
+    let candidate: Candidate = first.candidate.with(&second.candidate);
+    let inherited = candidate.inherited;
+    let state = &first.found.state;
+    let added = &second.found.state.theta[inherited..];
+    let start = State {
+        theta: state.theta.iter().chain(added).copied().collect(),
+        ..state.clone()
+    };
+    let offset = if first.offset.is_empty() {
+        &base.judged.offset
+    } else {
+        &first.offset
+    };
+    let predictor = Anchored::new(model(judge.hertz, &candidate), offset.clone());
+    let found = judge
+        .ground
+        .fit(&predictor, &candidate.parameters, start, &EFFORT)
+        .ok()?;
+    Some(judge.judged(
+        candidate.clone(),
+        found,
+        offset.clone(),
+        Some(base),
+        judge.fem.is_none(),
+    ))
+}

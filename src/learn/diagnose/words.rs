@@ -1,0 +1,177 @@
+//! Sentences that a gear engineer can check.
+
+use super::judge::{Base, Judge, Judged};
+use super::rank::Ranking;
+use super::verdict::{Diagnosis, Verdict, parameters};
+use super::{NOTHING, UNKNOWN};
+use crate::effects::find;
+
+/// Writes the sentence, the reasons and the next step into a diagnosis.
+pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking: &Ranking) {
+    let chi2 = judge.ground.chi2_per_point(&base.judged.found.model);
+    let effects = ranking.effects();
+    let leader = effects
+        .first()
+        .and_then(|e| ranking.best_of(e.0))
+        .map(|i| &ranking.judged[i]);
+    let probability = |name: &str| d.probabilities.get(name).copied().unwrap_or(0.0);
+    let (nothing, unknown) = (probability(NOTHING), probability(UNKNOWN));
+    let after = |j: &Judged| judge.ground.chi2_per_point(&j.found.model);
+    match d.verdict {
+        Verdict::NothingMissing => {
+            d.sentence = format!(
+                "Nothing is missing that these data show: the base model stands at χ² {chi2:.2} per point (1 is the noise), probability {}.",
+                percent(nothing)
+            );
+            if let Some(j) = leader.filter(|_| nothing < 0.95) {
+                let name = j.candidate.name();
+                d.reasons.push(format!(
+                    "Next would be {name} ({}), which lowers χ² per point to {:.3}: too little against the chance of so many candidates.",
+                    percent(probability(&name)),
+                    after(j)
+                ));
+            }
+            d.next_step = "no effect need be added; a weak effect could still hide below the noise"
+                .to_owned();
+        }
+        Verdict::Unknown => {
+            d.sentence = format!(
+                "Something is missing that the catalogue does not hold (probability {}): the base model stands at χ² {chi2:.2} per point.",
+                percent(unknown)
+            );
+            if let (Some(j), Some(share)) = (leader, d.explained_share) {
+                d.reasons.push(format!(
+                    "The best of the catalogue, {}, explains only {} of what anything smooth could explain.",
+                    j.candidate.name(),
+                    percent(share.max(0.0))
+                ));
+            }
+            d.next_step = "write the suspected law as an [[effect]] with kind = \"formula\" and diagnose again".to_owned();
+        }
+        Verdict::Effect | Verdict::Effects => {
+            let Some(j) = leader else { return };
+            let name = j.candidate.names.join(" and ");
+            d.sentence = format!(
+                "{} missing: {name} (probability {}). With it χ² per point falls from {chi2:.2} to {:.2}; {}.",
+                if j.candidate.names.len() > 1 {
+                    "These effects are"
+                } else {
+                    "One effect is"
+                },
+                percent(probability(&j.candidate.name())),
+                after(j),
+                values(j)
+            );
+            d.reasons.extend(signatures(j));
+            let study = "STUDY";
+            d.next_step = (j.candidate.names.iter())
+                .map(|name| format!("gearwear add {study} {name}"))
+                .collect::<Vec<_>>()
+                .join(", then the same with the new study: ");
+        }
+        Verdict::Ambiguous => {
+            let group = d.indistinguishable.first().cloned().unwrap_or_default();
+            let list: Vec<String> = group
+                .iter()
+                .map(|name| format!("{name} ({})", percent(probability(name))))
+                .collect();
+            d.sentence = format!(
+                "The data cannot tell apart: {}. The base model stands at χ² {chi2:.2} per point.",
+                list.join(", ")
+            );
+            d.next_step = "make the proposed test before adding one of them".to_owned();
+        }
+    }
+    if let Some(driver) = &d.driver {
+        d.reasons.push(format!(
+            "The discrepancy depends most on {}: {} of its variance.",
+            driver.name,
+            percent(driver.variance_share)
+        ));
+    }
+    if let Some(j) = leader.filter(|_| matches!(d.verdict, Verdict::Effect | Verdict::Effects)) {
+        let runner = effects
+            .get(1)
+            .and_then(|e| ranking.best_of(e.0))
+            .map(|i| &ranking.judged[i]);
+        if let Some(other) = runner {
+            d.reasons.push(format!(
+                "Why not {}: fitted as well as it can be it leaves χ² {:.2} per point, {}.",
+                other.candidate.name(),
+                after(other),
+                against(j.log_evidence - other.log_evidence)
+            ));
+            let separated = other.candidate.names.first().and_then(|n| find(n).ok());
+            if let Some(card) = separated.filter(|_| j.log_evidence - other.log_evidence < 5.0) {
+                d.reasons.push(format!(
+                    "What tells {} from its look-alikes: {}.",
+                    card.name, card.separated_by
+                ));
+            }
+        }
+    }
+    for missing in &d.not_judged {
+        d.reasons.push(format!(
+            "Not judged: {}, which needs {} in the study.",
+            missing.effect,
+            missing.needs.join(" and ")
+        ));
+    }
+}
+
+/// `98 %`, never a certainty.
+pub(super) fn percent(p: f64) -> String {
+    if p > 0.999 {
+        "over 99.9 %".to_owned()
+    } else if p > 0.0 && p < 0.001 {
+        "under 0.1 %".to_owned()
+    } else {
+        let digits = usize::from(!(0.1..=0.9).contains(&p));
+        format!("{:.digits$} %", 100.0 * p)
+    }
+}
+
+fn against(log: f64) -> String {
+    if log > 14.0 {
+        "more than a million times less probable".to_owned()
+    } else {
+        format!(
+            "about {:.0} times less probable by the data",
+            log.max(0.0).exp()
+        )
+    }
+}
+
+/// `amplitude 1.81 ± 0.04, decay_cycles 1.27e5 ± 3e3 cycles`.
+fn values(j: &Judged) -> String {
+    let all: Vec<String> = parameters(j)
+        .iter()
+        .map(|p| {
+            let unit = if p.unit == "-" {
+                String::new()
+            } else {
+                format!(" {}", p.unit)
+            };
+            format!("{} {} ± {}{unit}", p.name, short(p.value), short(p.sigma))
+        })
+        .collect();
+    all.join(", ")
+}
+
+fn short(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-2..1e4).contains(&size) {
+        format!("{value:.2e}")
+    } else if size < 10.0 {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.1}")
+    }
+}
+
+fn signatures(j: &Judged) -> Vec<String> {
+    let cards = j.candidate.names.iter().filter_map(|name| find(name).ok());
+    cards
+        .map(|card| format!("How {} shows: {}.", card.name, card.signature))
+        .collect()
+}

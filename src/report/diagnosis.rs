@@ -1,0 +1,161 @@
+//! A diagnosis for people: the summary on the terminal and the page.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::html::{Cell, Page, Section, Table};
+use crate::learn::diagnose::{Diagnosis, Ranked};
+
+/// Entries of the ranking shown on the terminal.
+const SHOWN: usize = 6;
+
+/// Verdict, reasons, ranking, what to do next.
+pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -> String {
+    let mut text = String::new();
+    if !title.is_empty() {
+        let _ = writeln!(text, "{title}\n");
+    }
+    let _ = writeln!(text, "{}", diagnosis.sentence);
+    for reason in &diagnosis.reasons {
+        let _ = writeln!(text, "  {reason}");
+    }
+    let _ = writeln!(
+        text,
+        "\n  {:<34}{:>12}{:>12}{:>10}",
+        "", "probability", "χ²/point", "held out"
+    );
+    for entry in diagnosis.ranking.iter().take(SHOWN) {
+        let held = entry
+            .holdout_chi2_per_point
+            .map_or("-".to_owned(), |c| format!("{c:.2}"));
+        let _ = writeln!(
+            text,
+            "  {:<34}{:>12}{:>12.2}{:>10}",
+            name(entry),
+            share(entry.probability),
+            entry.fit_chi2_per_point,
+            held
+        );
+    }
+    let unknown = diagnosis
+        .probabilities
+        .get("unknown")
+        .copied()
+        .unwrap_or(0.0);
+    let _ = writeln!(text, "  {:<34}{:>12}", "unknown", share(unknown));
+    for warning in &diagnosis.warnings {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    if let Some(next) = &diagnosis.next_experiment {
+        let _ = writeln!(text, "\nnext experiment: {}", next.why);
+    }
+    let _ = writeln!(
+        text,
+        "\nnext: {}",
+        diagnosis.next_step.replace("STUDY", study)
+    );
+    let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
+    let _ = writeln!(text, "figures: {}", folder.join("diagnosis.json").display());
+    text
+}
+
+/// The same as a page, with the whole ranking.
+pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
+    let mut why = Section::new("Why");
+    for reason in &diagnosis.reasons {
+        why = why.paragraph(reason);
+    }
+    for warning in &diagnosis.warnings {
+        why = why.note(format!("Warning: {warning}."));
+    }
+    let head = [
+        "effect",
+        "probability",
+        "ln evidence over the base",
+        "χ² per point",
+        "held out",
+        "parameters",
+        "decided by",
+    ];
+    let mut table = Table::new("Ranking", head);
+    for entry in &diagnosis.ranking {
+        let held = entry
+            .holdout_chi2_per_point
+            .map_or("-".to_owned(), |c| format!("{c:.2}"));
+        table = table.row([
+            Cell::text(name(entry)),
+            Cell::number(share(entry.probability)),
+            Cell::number(format!("{:.1}", entry.evidence_gain)),
+            Cell::number(format!("{:.3}", entry.fit_chi2_per_point)),
+            Cell::number(held),
+            Cell::text(parameters(entry)),
+            Cell::text(entry.decided_by.clone()),
+        ]);
+    }
+    let mut sections = vec![why, Section::new("Ranking").table(table)];
+    if !diagnosis.drivers.is_empty() {
+        let mut table = Table::new("Shares of the discrepancy's variance", ["driver", "share"]);
+        for driver in &diagnosis.drivers {
+            table = table.row([
+                Cell::text(driver.name.clone()),
+                Cell::number(format!("{:.0} %", 100.0 * driver.variance_share)),
+            ]);
+        }
+        let text = "How much of a smooth discrepancy between the base model and the measurements follows each driver alone.";
+        sections.push(
+            Section::new("What the discrepancy depends on")
+                .paragraph(text)
+                .table(table),
+        );
+    }
+    let mut next = Section::new("What to do next").paragraph(diagnosis.next_step.clone());
+    if let Some(experiment) = &diagnosis.next_experiment {
+        next = next.paragraph(experiment.why.clone());
+    }
+    sections.push(next);
+    Page {
+        title: if title.is_empty() {
+            "Diagnosis".to_owned()
+        } else {
+            format!("Diagnosis: {title}")
+        },
+        kicker: String::new(),
+        conclusion: diagnosis.sentence.clone(),
+        sections,
+    }
+}
+
+fn name(entry: &Ranked) -> String {
+    if entry.form.is_empty() {
+        entry.effect.clone()
+    } else {
+        format!("{} ({})", entry.effect, entry.form)
+    }
+}
+
+fn share(p: f64) -> String {
+    if p > 0.999 {
+        ">99.9 %".to_owned()
+    } else if p < 0.001 {
+        "<0.1 %".to_owned()
+    } else {
+        format!("{:.1} %", 100.0 * p)
+    }
+}
+
+fn parameters(entry: &Ranked) -> String {
+    let all: Vec<String> = entry
+        .parameters
+        .iter()
+        .map(|p| {
+            format!(
+                "{} = {:.4e} ± {:.1e}{}",
+                p.name,
+                p.value,
+                p.sigma,
+                if p.at_bound { " (bound)" } else { "" }
+            )
+        })
+        .collect();
+    all.join(", ")
+}
