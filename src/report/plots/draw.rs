@@ -102,7 +102,7 @@ impl Plot {
             } else {
                 2 * self.names.len() + 1
             })
-            .y_labels(if short { 4 } else { 6 })
+            .y_labels(if short { 5 } else { 6 })
             .bold_line_style(GRID.stroke_width(FINE as u32))
             .light_line_style(TRANSPARENT)
             .axis_style(INK.stroke_width(FINE as u32))
