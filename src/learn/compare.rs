@@ -107,7 +107,7 @@ impl Measured<'_> {
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
         let noise = NoiseModel::of(&self.study().noise);
-        let effort = Effort::default();
+        let effort = Effort::for_simulations();
         let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
         let told = |histories| {
             watch(Doing::Fitting {

@@ -41,6 +41,19 @@ impl Default for Effort {
     }
 }
 
+impl Effort {
+    /// For predictions that are simulations: costly, and with a rounding of their own from step control (about 1e-4 of the
+    /// largest depth, which over thousands of points moves ln posterior by some tenths).
+    pub fn for_simulations() -> Self {
+        Self {
+            iterations: 15,
+            tolerance: 1e-2,
+            floor: 0.3,
+            carry: 0.3,
+        }
+    }
+}
+
 /// One problem of some tests.
 pub(super) struct Search<'s> {
     /// The tests, by their number in the data set.
