@@ -30,7 +30,7 @@ pub struct SynthesizeArgs {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Noise relative to the largest value of each trace; 0.02 µm are added to it
-    #[arg(long, value_name = "REL", default_value_t = 0.02, value_parser = noise)]
+    #[arg(long, value_name = "REL", default_value_t = 0.02, value_parser = noise, allow_negative_numbers = true)]
     noise: f64,
     /// Seed of the random numbers; the same seed gives the same measurements
     #[arg(long, value_name = "N", default_value_t = 1)]

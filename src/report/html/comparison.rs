@@ -152,7 +152,7 @@ fn places(c: &Comparison) -> Section {
             Cell::number(significant(cell.rms, 2)),
         ]);
     }
-    Section::new("Where it fails").table(table).note(format!(
+    Section::new("Where it is furthest off").table(table).note(format!(
         "The {} of {} places that exceed the noise most; share: of all that exceeds it. All places stand in \
          `comparison.json`, every row in `residuals.csv`.",
         worst.len().min(PLACES),

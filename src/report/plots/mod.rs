@@ -8,6 +8,7 @@ mod draw;
 mod ladder;
 mod models;
 mod run;
+mod style;
 
 pub use comparison::of_comparison;
 pub use ladder::of_ladder;
