@@ -188,6 +188,7 @@ mod contact {
         let before = worn(&mut forward, 20_000.0);
         let law = WearLaw {
             coefficient: CONDITIONS.coefficient,
+            acting: None,
             tolerance: numerics(fineness).step_tolerance,
         };
         forward.with_model(|model| {
