@@ -13,12 +13,13 @@ mod candidate;
 mod flexible;
 mod ground;
 mod judge;
+mod next;
 mod pairs;
 mod rank;
 mod verdict;
 mod words;
 
-use crate::learn::bench::Bench;
+use crate::learn::bench::Workshop;
 use crate::learn::measured::Measured;
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::predictor::PredictError;
@@ -90,19 +91,21 @@ pub fn diagnose(
         ContactKind::Hertz => None,
     };
     let fem = elastic.as_ref().map(|w| measured.bench(w)).transpose()?;
-    with(measured, ground, &hertz, fem.as_ref(), watch)
+    let judge = Judge {
+        ground,
+        hertz: &hertz,
+        fem: fem.as_ref(),
+    };
+    with(&judge, &workshop, watch)
 }
 
 /// The diagnosis on prepared benches.
 fn with(
-    measured: &Measured<'_>,
-    ground: Ground<'_>,
-    hertz: &Bench<'_>,
-    fem: Option<&Bench<'_>>,
+    judge: &Judge<'_>,
+    shop: &Workshop,
     watch: Watch<'_>,
 ) -> Result<Diagnosis, DiagnoseError> {
-    let study = measured.study();
-    let judge = Judge { ground, hertz, fem };
+    let study = judge.ground.measured.study();
     watch(0.08, "fitting the base model".to_owned());
     let base = judge.base(Candidate::base(study))?;
     let (singles, not_judged) = Candidate::singles(study);
@@ -113,15 +116,15 @@ fn with(
         .collect();
     watch(0.45, "what anything smooth could explain".to_owned());
     let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
-    let judged = decide_leaders(&judge, &base, screened, &|done, what| {
+    let judged = decide_leaders(judge, &base, screened, &|done, what| {
         watch(0.5 + 0.3 * done, what);
     });
     watch(0.8, "looking at pairs".to_owned());
-    let pairs = pairs::pairs(&judge, &base, &judged);
+    let pairs = pairs::pairs(judge, &base, &judged);
     watch(0.93, "weighing".to_owned());
     let ranking = Ranking::new(&judge.ground, &base.judged, judged, pairs, &flexible);
     watch(0.95, "held-out tests and the next experiment".to_owned());
-    let diagnosis = verdict::diagnosis(&judge, &base, ranking, &flexible, not_judged);
+    let diagnosis = verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged);
     watch(1.0, "done".to_owned());
     Ok(diagnosis)
 }

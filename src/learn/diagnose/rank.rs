@@ -30,8 +30,6 @@ pub(super) struct Ranking {
     pub(super) judged: Vec<Judged>,
     /// Share of the attainable fall of χ² that each of them explains.
     pub(super) shares: Vec<f64>,
-    /// Log evidence of the unknown.
-    pub(super) unknown: f64,
 }
 
 impl Ranking {
@@ -88,7 +86,6 @@ impl Ranking {
             probabilities,
             judged,
             shares,
-            unknown,
         }
     }
 
