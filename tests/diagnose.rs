@@ -41,7 +41,9 @@ const LAYOUT: &str = "validation/challenges/none_L2";
 
 /// The study of the independent data with effects added to its text.
 fn study(effects: &str) -> Study {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(LAYOUT).join("study.toml");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join(LAYOUT)
+        .join("study.toml");
     let text = std::fs::read_to_string(&path).unwrap();
     Study::parse(&format!("{text}\n{effects}"), &path.display().to_string()).unwrap()
 }
@@ -77,7 +79,8 @@ fn synthetic(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Dataset {
             o.value = values.next().unwrap();
         }
     }
-    let curve = |o: &gearwear::measure::Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
+    let curve =
+        |o: &gearwear::measure::Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
     let exact = data.observations.clone();
     for o in &mut data.observations {
         let own = exact.iter().filter(|e| curve(e) == curve(o));
@@ -99,7 +102,10 @@ fn diagnosed(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Diagnosis 
 }
 
 fn says(found: &Diagnosis) -> String {
-    format!("{:?} {:?}\n{}\n{:#?}", found.verdict, found.effect, found.sentence, found.reasons)
+    format!(
+        "{:?} {:?}\n{}\n{:#?}",
+        found.verdict, found.effect, found.sentence, found.reasons
+    )
 }
 
 /// Whether `name` is the answer or in the group that is.
@@ -116,7 +122,10 @@ fn nothing_is_missing_where_only_the_coefficient_scatters() {
     for seed in [1, 2] {
         let found = diagnosed("", 0.15, 0.03, seed);
         assert_eq!(found.verdict, Verdict::NothingMissing, "{}", says(&found));
-        let largest = found.ranking.iter().filter(|r| r.effect != "nothing_missing");
+        let largest = found
+            .ranking
+            .iter()
+            .filter(|r| r.effect != "nothing_missing");
         assert!(largest.map(|r| r.probability).fold(0.0, f64::max) < 0.5);
     }
 }
@@ -143,7 +152,12 @@ fn what_the_catalogue_lacks_is_called_unknown() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"band\"\nwear_factor = \"1 + 1.5*exp(-((radius - 27.9)/0.2)^2)\"\n";
     let found = diagnosed(hidden, 0.1, 0.02, 5);
     assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
-    assert_eq!(found.driver.as_ref().unwrap().name, "position", "{:?}", found.drivers);
+    assert_eq!(
+        found.driver.as_ref().unwrap().name,
+        "position",
+        "{:?}",
+        found.drivers
+    );
 }
 
 #[test]
@@ -159,11 +173,32 @@ fn two_effects_at_once_are_both_named() {
 fn one_test_at_one_time_is_said_to_be_too_little() {
     let base = study("");
     let mut data = synthetic("", 0.0, 0.05, 7);
-    let last = data.observations.iter().filter(|o| o.test == 0).map(|o| o.cycles).fold(0.0, f64::max);
-    data.observations.retain(|o| o.test == 0 && o.cycles == last);
+    let last = data
+        .observations
+        .iter()
+        .filter(|o| o.test == 0)
+        .map(|o| o.cycles)
+        .fold(0.0, f64::max);
+    data.observations
+        .retain(|o| o.test == 0 && o.cycles == last);
     let measured = Measured::new(&base, data);
     let found = diagnose(&measured, ContactKind::Hertz, &|_, _| {}).unwrap();
-    assert!(found.warnings.iter().any(|w| w.contains("one number of cycles")), "{:?}", found.warnings);
-    assert!(found.warnings.iter().any(|w| w.contains("one test only")), "{:?}", found.warnings);
-    assert!(matches!(found.verdict, Verdict::NothingMissing | Verdict::Ambiguous), "{}", says(&found));
+    assert!(
+        found
+            .warnings
+            .iter()
+            .any(|w| w.contains("one number of cycles")),
+        "{:?}",
+        found.warnings
+    );
+    assert!(
+        found.warnings.iter().any(|w| w.contains("one test only")),
+        "{:?}",
+        found.warnings
+    );
+    assert!(
+        matches!(found.verdict, Verdict::NothingMissing | Verdict::Ambiguous),
+        "{}",
+        says(&found)
+    );
 }

@@ -22,8 +22,12 @@ fn small(folder: &Path) -> PathBuf {
         ));
     }
     std::fs::write(folder.join("measurements.csv"), csv).unwrap();
-    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join(super::LAYOUT).join("study.toml");
-    let text = std::fs::read_to_string(source).unwrap().replace("\"fem\"", "\"hertz\"");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join(super::LAYOUT)
+        .join("study.toml");
+    let text = std::fs::read_to_string(source)
+        .unwrap()
+        .replace("\"fem\"", "\"hertz\"");
     let path = folder.join("study.toml");
     std::fs::write(&path, text).unwrap();
     path
@@ -43,20 +47,38 @@ fn it_writes_what_it_prints_and_threads_change_nothing() {
             .arg(&study)
             .output()
             .unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         output.stdout
     };
     let (one, two) = (run("1"), run("2"));
     assert_eq!(one, two, "the same bits for any number of threads");
     let document: Value = serde_json::from_slice(&one).unwrap();
     let target = folder.path().join("study.out/diagnose");
-    let written: Value = serde_json::from_slice(&std::fs::read(target.join("diagnosis.json")).unwrap()).unwrap();
+    let written: Value =
+        serde_json::from_slice(&std::fs::read(target.join("diagnosis.json")).unwrap()).unwrap();
     assert_eq!(document, written);
     assert!(target.join("report.html").is_file());
-    for key in ["verdict", "effect", "probabilities", "ranking", "indistinguishable", "driver", "next_experiment"] {
+    for key in [
+        "verdict",
+        "effect",
+        "probabilities",
+        "ranking",
+        "indistinguishable",
+        "driver",
+        "next_experiment",
+    ] {
         assert!(document.get(key).is_some(), "{key}");
     }
-    let total: f64 = document["probabilities"].as_object().unwrap().values().map(|p| p.as_f64().unwrap()).sum();
+    let total: f64 = document["probabilities"]
+        .as_object()
+        .unwrap()
+        .values()
+        .map(|p| p.as_f64().unwrap())
+        .sum();
     assert!((total - 1.0).abs() < 1e-9);
     assert!(document["effect"].is_null() || document["verdict"] == "effect");
 }
@@ -70,5 +92,8 @@ fn without_measurements_there_is_nothing_to_diagnose() {
     std::fs::write(&study, without).unwrap();
     let output = gearwear().arg("diagnose").arg(&study).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(!folder.path().join("study.out").exists(), "nothing is written");
+    assert!(
+        !folder.path().join("study.out").exists(),
+        "nothing is written"
+    );
 }

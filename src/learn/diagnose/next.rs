@@ -51,10 +51,22 @@ pub(super) fn experiment(
         .par_iter()
         .map(|(_, operation)| told(judge, shop, operation, a, b))
         .collect();
-    let repetition = found[count..].iter().flatten().map(|t| t.chi2).fold(0.0, f64::max);
-    let best = found[..count].iter().flatten().map(|t| t.chi2.min(ENOUGH)).fold(0.0, f64::max);
+    let repetition = found[count..]
+        .iter()
+        .flatten()
+        .map(|t| t.chi2)
+        .fold(0.0, f64::max);
+    let best = found[..count]
+        .iter()
+        .flatten()
+        .map(|t| t.chi2.min(ENOUGH))
+        .fold(0.0, f64::max);
     let chosen = (0..count)
-        .filter(|&i| found[i].as_ref().is_some_and(|t| t.chi2.min(ENOUGH) >= NEARLY * best))
+        .filter(|&i| {
+            found[i]
+                .as_ref()
+                .is_some_and(|t| t.chi2.min(ENOUGH) >= NEARLY * best)
+        })
         .min_by_key(|&i| tests[i].0)?;
     let (operation, told) = (&tests[chosen].1, found[chosen].as_ref()?);
     let names = [a.candidate.name(), b.candidate.name()];
@@ -102,8 +114,20 @@ fn grid(judge: &Judge<'_>) -> Vec<(usize, Operation)> {
             }
         }
     }
-    all.push((1, Operation { cycles: LONGER * longest, ..plain }));
-    all.push((1, Operation { reversed: !plain.reversed, ..plain }));
+    all.push((
+        1,
+        Operation {
+            cycles: LONGER * longest,
+            ..plain
+        },
+    ));
+    all.push((
+        1,
+        Operation {
+            reversed: !plain.reversed,
+            ..plain
+        },
+    ));
     all.sort_by_key(|(changes, _)| *changes);
     all
 }
@@ -159,9 +183,15 @@ fn told(
     );
     let along = all.tr_mul(&white);
     let inner = DMatrix::identity(all.ncols(), all.ncols()) + all.tr_mul(&all);
-    let absorbed = inner.cholesky().map_or(0.0, |f| along.dot(&f.solve(&along)));
+    let absorbed = inner
+        .cholesky()
+        .map_or(0.0, |f| along.dot(&f.solve(&along)));
     let depth = |i: &usize| data.observations[*i].quantity == Quantity::WearDepth;
-    let largest = rows.iter().copied().filter(depth).max_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs()));
+    let largest = rows
+        .iter()
+        .copied()
+        .filter(depth)
+        .max_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs()));
     let place = largest.map(|i| &data.observations[i]);
     Some(Told {
         chi2: (white.norm_squared() - absorbed).max(0.0),
@@ -172,12 +202,19 @@ fn told(
 }
 
 /// Predictions and the columns of what refitting can still move.
-fn columns(bench: &Bench<'_>, judged: &Judged) -> Result<(Vec<f64>, Vec<DVector<f64>>), PredictError> {
+fn columns(
+    bench: &Bench<'_>,
+    judged: &Judged,
+) -> Result<(Vec<f64>, Vec<DVector<f64>>), PredictError> {
     let predictor = model(bench, &judged.candidate);
     let parameters = &judged.candidate.parameters;
     let state = &judged.found.state;
     let values = |theta: &[f64]| -> Vec<f64> {
-        parameters.iter().zip(theta).map(|(p, &x)| p.value(x)).collect()
+        parameters
+            .iter()
+            .zip(theta)
+            .map(|(p, &x)| p.value(x))
+            .collect()
     };
     let k = state.log_k.exp();
     let at = predictor.predict(0, k, &values(&state.theta))?;
@@ -192,14 +229,19 @@ fn columns(bench: &Bench<'_>, judged: &Judged) -> Result<(Vec<f64>, Vec<DVector<
         }
     }
     let first = judged.covariance.nrows() - parameters.len();
-    let own = judged.covariance.view((first, first), (parameters.len(), parameters.len()));
+    let own = judged
+        .covariance
+        .view((first, first), (parameters.len(), parameters.len()));
     let eigen = own.into_owned().symmetric_eigen();
     let mut columns: Vec<DVector<f64>> = (0..parameters.len())
         .map(|i| &jacobian * eigen.eigenvectors.column(i) * eigen.eigenvalues[i].max(0.0).sqrt())
         .collect();
     // Worn depths are nearly proportional to k.
     let scatter = judged.found.scatter.max(LEAST_SCATTER);
-    columns.push(DVector::from_iterator(at.len(), at.iter().map(|f| f * scatter)));
+    columns.push(DVector::from_iterator(
+        at.len(),
+        at.iter().map(|f| f * scatter),
+    ));
     Ok((at, columns))
 }
 
@@ -209,18 +251,30 @@ fn layout(judge: &Judge<'_>, cycles: f64) -> Option<(Vec<Observation>, Vec<Trace
     let data = &judge.ground.measured.data;
     let study = judge.ground.measured.study();
     let most = judge.ground.tests.iter().copied().max_by_key(|&t| {
-        (data.observations.iter().filter(|o| o.test == t).count(), usize::MAX - t)
+        (
+            data.observations.iter().filter(|o| o.test == t).count(),
+            usize::MAX - t,
+        )
     })?;
     let stretch = cycles / study.tests[most].conditions.cycles;
-    let own: Vec<&Observation> = data.observations.iter().filter(|o| o.test == most).collect();
+    let own: Vec<&Observation> = data
+        .observations
+        .iter()
+        .filter(|o| o.test == most)
+        .collect();
     let relative = own
         .iter()
         .map(|o| {
             let curve = own.iter().filter(|p| {
-                (p.member, p.quantity, p.cycles.to_bits()) == (o.member, o.quantity, o.cycles.to_bits())
+                (p.member, p.quantity, p.cycles.to_bits())
+                    == (o.member, o.quantity, o.cycles.to_bits())
             });
             let largest = curve.map(|p| p.value.abs()).fold(0.0, f64::max);
-            if largest > 0.0 { o.sigma / largest } else { 1.0 }
+            if largest > 0.0 {
+                o.sigma / largest
+            } else {
+                1.0
+            }
         })
         .collect();
     let observations = own
@@ -271,7 +325,10 @@ fn sentence(
         changed.push("the drive reversed".to_owned());
     }
     if changed.is_empty() {
-        changed.push(format!("{:.2e} cycles at the study's operation", test.cycles));
+        changed.push(format!(
+            "{:.2e} cycles at the study's operation",
+            test.cycles
+        ));
     }
     let strength = if told.chi2 >= 20.0 {
         "enough to tell them apart"

@@ -10,10 +10,11 @@ use super::flexible::{Driver, Flexible};
 use super::ground::Ground;
 use super::judge::{Base, Judge, Judged};
 use super::rank::Ranking;
-use super::{next, words};
 use super::{NOTHING, UNKNOWN};
+use super::{next, words};
 use crate::learn::bench::Workshop;
 use crate::learn::search::Effort;
+use crate::simulate::forward::ContactKind;
 use crate::study::{Role, Scatter};
 
 /// Probability from which a single effect or set is named.
@@ -259,9 +260,16 @@ fn next_experiment(
     };
     let effects = ranking.effects();
     let names: Vec<&str> = match diagnosis.verdict {
-        Verdict::Ambiguous => diagnosis.indistinguishable.iter().flatten().map(String::as_str).collect(),
+        Verdict::Ambiguous => diagnosis
+            .indistinguishable
+            .iter()
+            .flatten()
+            .map(String::as_str)
+            .collect(),
         Verdict::Effect | Verdict::Effects => effects.iter().take(2).map(|e| e.0).collect(),
-        Verdict::NothingMissing => std::iter::once(NOTHING).chain(effects.first().map(|e| e.0)).collect(),
+        Verdict::NothingMissing => std::iter::once(NOTHING)
+            .chain(effects.first().map(|e| e.0))
+            .collect(),
         Verdict::Unknown => return None,
     };
     let mut left = names.into_iter().filter_map(of);
@@ -314,7 +322,7 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
                 } else {
                     None
                 },
-                decided_by: if judged.decided && judge.fem.is_some() {
+                decided_by: if judged.decided && judge.kind == ContactKind::Fem {
                     "fem"
                 } else {
                     "hertz"
@@ -356,7 +364,7 @@ pub(super) fn parameters(judged: &Judged) -> Vec<ParameterValue> {
 /// χ² per point of the held-out tests, all that is common to tests as fitted, their own k free.
 fn held_out(judge: &Judge<'_>, held: &Ground<'_>, judged: &Judged) -> Option<f64> {
     let candidate = &judged.candidate;
-    let bench = judge.fem.unwrap_or(judge.hertz);
+    let bench = judge.exact;
     let predictor = Anchored::new(model(bench, candidate), Vec::new());
     let state = crate::learn::quadratic::State {
         epsilon: vec![0.0; held.tests.len()],
