@@ -9,20 +9,32 @@ use crate::learn::bench::Bench;
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
+use crate::simulate::forward::ContactKind;
+use rayon::prelude::*;
 
-/// A screening fit ends where a step promises less ln posterior than this.
+/// The first look at a candidate: two steps with the derivatives of its start.
+const LOOK: Effort = Effort {
+    iterations: 2,
+    tolerance: 0.2,
+    floor: 0.3,
+    carry: 1.0,
+};
+/// The screening fit of those that the first look leaves in play.
 const SCREEN: Effort = Effort {
-    iterations: 7,
+    iterations: 6,
     tolerance: 0.1,
     floor: 0.3,
-    carry: 0.3,
+    carry: 0.4,
 };
+/// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.
+const IN_PLAY: usize = 8;
+const IN_PLAY_SHARE: f64 = 0.5;
 /// A deciding fit between two anchors.
 const DECIDE: Effort = Effort {
-    iterations: 12,
-    tolerance: 0.02,
-    floor: 0.1,
-    carry: 0.2,
+    iterations: 8,
+    tolerance: 0.05,
+    floor: 0.2,
+    carry: 0.4,
 };
 /// Taking stock of a state without leaving it.
 const STAY: Effort = Effort {
@@ -32,17 +44,22 @@ const STAY: Effort = Effort {
     carry: 0.0,
 };
 /// Anchors of a deciding fit.
-const ANCHORS: usize = 5;
+const ANCHORS: usize = 4;
 /// Gain of ln posterior for which another anchor is worth its runs.
 const WORTH: f64 = 0.15;
+/// Ln posterior behind the leader, and share of its gain, from which a candidate is not followed further.
+const HOPELESS: f64 = 15.0;
+const HOPELESS_SHARE: f64 = 0.05;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
 
-/// The bench of each fidelity and the fitted base model.
+/// What is judged on, and the benches: the coarse analytic one for changes, the exact one that decides.
 pub(super) struct Judge<'a> {
     pub(super) ground: Ground<'a>,
     pub(super) hertz: &'a Bench<'a>,
-    pub(super) fem: Option<&'a Bench<'a>>,
+    pub(super) exact: &'a Bench<'a>,
+    /// By which contact model `exact` computes.
+    pub(super) kind: ContactKind,
 }
 
 /// A fitted candidate.
@@ -89,7 +106,7 @@ impl<'a> Judge<'a> {
             .ground
             .fit(&predictor, &candidate.parameters, start, &DECIDE)?;
         let start = found.state;
-        let judged = self.decide(&candidate, start, None)?;
+        let judged = self.decide(&candidate, start, None, f64::INFINITY)?;
         let mut adjustable = whiten(&self.ground.covariance, &judged.found.jacobian);
         orthonormalise(&mut adjustable);
         let residual = self.ground.residual(&judged.found.model);
@@ -107,8 +124,44 @@ impl<'a> Judge<'a> {
         v - &base.adjustable * along
     }
 
-    /// Fits a candidate by the middle fidelity: what of its starts leads furthest in the linearised model, and a near second.
-    pub(super) fn screen(&self, base: &Base, candidate: &Candidate) -> Option<Judged> {
+    /// Fits all candidates by the middle fidelity: a first look at each, then in full those that the look leaves in play.
+    pub(super) fn screen(&self, base: &Base, candidates: &[Candidate]) -> Vec<Judged> {
+        let looks: Vec<Option<Found>> = (candidates.par_iter())
+            .map(|candidate| self.look(base, candidate))
+            .collect();
+        let mut objectives: Vec<f64> = looks
+            .iter()
+            .flatten()
+            .map(|found| found.objective)
+            .collect();
+        objectives.sort_by(f64::total_cmp);
+        let Some(&leader) = objectives.first() else {
+            return Vec::new();
+        };
+        let before = base.judged.found.objective;
+        let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
+        let bar = objectives[(IN_PLAY - 1).min(objectives.len() - 1)].max(share);
+        (candidates.par_iter().zip(looks))
+            .filter_map(|(candidate, found)| {
+                let mut found = found?;
+                let offset = base.judged.offset.clone();
+                if found.objective <= bar && !found.converged {
+                    let predictor = Anchored::new(model(self.hertz, candidate), offset.clone());
+                    let state = found.state.clone();
+                    if let Ok(further) =
+                        self.ground
+                            .fit(&predictor, &candidate.parameters, state, &SCREEN)
+                    {
+                        found = further;
+                    }
+                }
+                Some(self.judged(candidate.clone(), found, offset, Some(base), false))
+            })
+            .collect()
+    }
+
+    /// Two steps from that of a candidate's starts which leads furthest in the linearised model, and from a near second.
+    fn look(&self, base: &Base, candidate: &Candidate) -> Option<Found> {
         let predictor = Anchored::new(model(self.hertz, candidate), base.judged.offset.clone());
         let mut starts: Vec<(f64, State)> = candidate
             .starts
@@ -126,38 +179,33 @@ impl<'a> Judge<'a> {
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         let best = starts.first()?.0;
-        let near = |(i, s): (usize, &(f64, State))| {
-            i == 0 || (i == 1 && s.0 > SECOND_START * best && s.0 > 1.0)
+        let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
+        let count = if starts.get(1).is_some_and(|s| near(s.0)) {
+            2
+        } else {
+            1
         };
-        let found = starts
-            .iter()
-            .enumerate()
-            .filter(|(i, s)| near((*i, s)))
-            .filter_map(|(_, (_, state))| {
-                let parameters = &candidate.parameters;
+        starts
+            .into_iter()
+            .take(count)
+            .filter_map(|(_, state)| {
                 self.ground
-                    .fit(&predictor, parameters, state.clone(), &SCREEN)
+                    .fit(&predictor, &candidate.parameters, state, &LOOK)
                     .ok()
             })
-            .min_by(|a, b| a.objective.total_cmp(&b.objective))?;
-        let offset = base.judged.offset.clone();
-        Some(self.judged(candidate.clone(), found, offset, Some(base), false))
+            .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
 
-    /// Fits a candidate from a state by finite elements (by the analytic model where there are none).
+    /// Fits a candidate from a state on the exact bench, unless it turns out hopeless against the least objective so far.
     pub(super) fn decide(
         &self,
         candidate: &Candidate,
         start: State,
         base: Option<&Base>,
+        least: f64,
     ) -> Result<Judged, PredictError> {
         let parameters = &candidate.parameters;
-        let Some(fem) = self.fem else {
-            let predictor = model(self.hertz, candidate);
-            let found = self.ground.fit(&predictor, parameters, start, &DECIDE)?;
-            return Ok(self.judged(candidate.clone(), found, Vec::new(), base, true));
-        };
-        let exact = model(fem, candidate);
+        let exact = model(self.exact, candidate);
         let analytic = model(self.hertz, candidate);
         let mut state = start;
         let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
@@ -179,9 +227,13 @@ impl<'a> Judge<'a> {
                 .is_none_or(|(b, _)| here.objective < b.objective);
             if better {
                 best = Some((here, offset));
-                state = next.state;
+                state = next.state.clone();
                 if promised < WORTH {
                     converged = next.converged;
+                    break;
+                }
+                let gain = base.map_or(0.0, |b| (b.judged.found.objective - least).max(0.0));
+                if next.objective > least + HOPELESS + HOPELESS_SHARE * gain {
                     break;
                 }
             } else if let Some((b, _)) = &best {

@@ -13,16 +13,18 @@ mod candidate;
 mod flexible;
 mod ground;
 mod judge;
+mod next;
 mod pairs;
 mod rank;
 mod verdict;
 mod words;
 
-use crate::learn::bench::Bench;
+use crate::learn::bench::Workshop;
 use crate::learn::measured::Measured;
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::predictor::PredictError;
 use crate::simulate::forward::{ContactKind, ForwardError};
+use crate::simulate::numerics::Numerics;
 use crate::study::Role;
 
 pub use candidate::NotJudged;
@@ -34,7 +36,6 @@ use flexible::Flexible;
 use ground::Ground;
 use judge::{Base, Judge, Judged};
 use rank::Ranking;
-use rayon::prelude::*;
 
 /// Name of the base model among the probabilities.
 pub const NOTHING: &str = "nothing_missing";
@@ -58,12 +59,18 @@ pub enum DiagnoseError {
 /// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
 pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
 
+/// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 %.
+const HERTZ_ERROR: f64 = 0.01;
+/// Resolution of the screening, which only looks at changes: flank edges per half width, positions, error of a wear step.
+const COARSE_EDGES: f64 = 2.0;
+const COARSE_POSITIONS: usize = 48;
+const COARSE_STEP: f64 = 0.02;
 /// Log evidence behind the leader within which candidates are decided by finite elements.
 const WITHIN: f64 = 10.0;
 /// The same as a share of the leader's gain, for the middle fidelity's own error.
 const WITHIN_SHARE: f64 = 0.02;
 /// Least and most single candidates decided by finite elements.
-const DECIDED: [usize; 2] = [3, 9];
+const DECIDED: [usize; 2] = [3, 7];
 
 /// Diagnoses a study's measurements: screened by the analytic model, decided by `kind`.
 ///
@@ -75,53 +82,61 @@ pub fn diagnose(
     watch: Watch<'_>,
 ) -> Result<Diagnosis, DiagnoseError> {
     watch(0.0, "preparing the gears".to_owned());
+    let relative = match kind {
+        ContactKind::Fem => ModelError::default().relative,
+        ContactKind::Hertz => HERTZ_ERROR,
+    };
     let noise = NoiseModel {
-        model_error: Some(ModelError::default()),
+        model_error: Some(ModelError {
+            relative,
+            ..ModelError::default()
+        }),
         ..NoiseModel::of(&measured.study().noise)
     };
     let ground = Ground::new(measured, noise, Role::Fit);
     if ground.tests.is_empty() {
         return Err(DiagnoseError::NoObservations);
     }
-    let workshop = measured.workshop(ContactKind::Hertz)?;
-    let hertz = measured.bench(&workshop)?;
-    let elastic = match kind {
-        ContactKind::Fem => Some(measured.workshop(ContactKind::Fem)?),
-        ContactKind::Hertz => None,
+    let set = measured.study().gear_set();
+    let resolution = measured.study().resolution();
+    let coarse = Numerics {
+        elements_per_half_width: resolution.elements_per_half_width.min(COARSE_EDGES),
+        positions: resolution.positions.min(COARSE_POSITIONS),
+        step_tolerance: resolution.step_tolerance.max(COARSE_STEP),
+        ..resolution
     };
-    let fem = elastic.as_ref().map(|w| measured.bench(w)).transpose()?;
-    with(measured, ground, &hertz, fem.as_ref(), watch)
+    let workshop = Workshop::new(set, coarse, ContactKind::Hertz, measured.tests())?;
+    let hertz = measured.bench(&workshop)?;
+    let deciding = measured.workshop(kind)?;
+    let exact = measured.bench(&deciding)?;
+    let judge = Judge {
+        ground,
+        hertz: &hertz,
+        exact: &exact,
+        kind,
+    };
+    with(&judge, &workshop, watch)
 }
 
 /// The diagnosis on prepared benches.
-fn with(
-    measured: &Measured<'_>,
-    ground: Ground<'_>,
-    hertz: &Bench<'_>,
-    fem: Option<&Bench<'_>>,
-    watch: Watch<'_>,
-) -> Result<Diagnosis, DiagnoseError> {
-    let study = measured.study();
-    let judge = Judge { ground, hertz, fem };
+fn with(judge: &Judge<'_>, shop: &Workshop, watch: Watch<'_>) -> Result<Diagnosis, DiagnoseError> {
+    let study = judge.ground.measured.study();
     watch(0.08, "fitting the base model".to_owned());
     let base = judge.base(Candidate::base(study))?;
     let (singles, not_judged) = Candidate::singles(study);
     watch(0.2, format!("screening {} effects", singles.len()));
-    let screened: Vec<Judged> = singles
-        .par_iter()
-        .filter_map(|candidate| judge.screen(&base, candidate))
-        .collect();
+    let screened = judge.screen(&base, &singles);
     watch(0.45, "what anything smooth could explain".to_owned());
     let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
-    let judged = decide_leaders(&judge, &base, screened, &|done, what| {
+    let judged = decide_leaders(judge, &base, screened, &|done, what| {
         watch(0.5 + 0.3 * done, what);
     });
     watch(0.8, "looking at pairs".to_owned());
-    let pairs = pairs::pairs(&judge, &base, &judged);
+    let pairs = pairs::pairs(judge, &base, &judged);
     watch(0.93, "weighing".to_owned());
     let ranking = Ranking::new(&judge.ground, &base.judged, judged, pairs, &flexible);
     watch(0.95, "held-out tests and the next experiment".to_owned());
-    let diagnosis = verdict::diagnosis(&judge, &base, ranking, &flexible, not_judged);
+    let diagnosis = verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged);
     watch(1.0, "done".to_owned());
     Ok(diagnosis)
 }
@@ -147,15 +162,18 @@ fn decide_leaders(
         })
         .count();
     let rest = screened.split_off(chosen);
-    let mut judged = Vec::with_capacity(screened.len() + rest.len());
+    let mut judged: Vec<Judged> = Vec::with_capacity(screened.len() + rest.len());
+    let mut least = base.judged.found.objective;
     for (i, candidate) in screened.into_iter().enumerate() {
         watch(
             i as f64 / chosen as f64,
             format!("deciding: {}", candidate.candidate.name()),
         );
         let start = candidate.found.state.clone();
-        let decided = judge.decide(&candidate.candidate, start, Some(base));
-        judged.push(decided.unwrap_or(candidate));
+        let decided = judge.decide(&candidate.candidate, start, Some(base), least);
+        let decided = decided.unwrap_or(candidate);
+        least = least.min(decided.found.objective);
+        judged.push(decided);
     }
     judged.extend(rest);
     judged

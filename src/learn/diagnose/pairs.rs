@@ -18,13 +18,13 @@ use crate::learn::search::Effort;
 /// Log evidence by which a pair must promise to beat the best single effect to be looked at.
 const PROMISE: f64 = 6.0;
 /// Pairs fitted by the middle fidelity, and by finite elements.
-const FITTED: [usize; 2] = [8, 2];
+const FITTED: [usize; 2] = [5, 2];
 /// Pair fits.
 const EFFORT: Effort = Effort {
-    iterations: 7,
-    tolerance: 0.2,
+    iterations: 5,
+    tolerance: 0.3,
     floor: 0.3,
-    carry: 0.3,
+    carry: 0.7,
 };
 
 /// The fitted pairs that promise more than the best single effect.
@@ -50,11 +50,11 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
     let mut decided = Vec::with_capacity(fitted.len());
     for (i, pair) in fitted.into_iter().enumerate() {
         let better = pair.log_evidence > best.log_evidence;
-        if judge.fem.is_some() && i < FITTED[1] && better {
+        if i < FITTED[1] && better {
             let start = pair.found.state.clone();
             decided.push(
                 judge
-                    .decide(&pair.candidate, start, Some(base))
+                    .decide(&pair.candidate, start, Some(base), best.found.objective)
                     .unwrap_or(pair),
             );
         } else {
@@ -178,11 +178,5 @@ fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged>
         .ground
         .fit(&predictor, &candidate.parameters, start, &EFFORT)
         .ok()?;
-    Some(judge.judged(
-        candidate.clone(),
-        found,
-        offset.clone(),
-        Some(base),
-        judge.fem.is_none(),
-    ))
+    Some(judge.judged(candidate.clone(), found, offset.clone(), Some(base), false))
 }

@@ -30,8 +30,6 @@ pub(super) struct Ranking {
     pub(super) judged: Vec<Judged>,
     /// Share of the attainable fall of χ² that each of them explains.
     pub(super) shares: Vec<f64>,
-    /// Log evidence of the unknown.
-    pub(super) unknown: f64,
 }
 
 impl Ranking {
@@ -61,10 +59,9 @@ impl Ranking {
             }
         };
         let shares: Vec<f64> = judged.iter().map(share).collect();
-        let mut logs: Vec<(String, f64)> = vec![
-            (NOTHING.to_owned(), base.log_evidence + PRIOR_NOTHING.ln()),
-            (UNKNOWN.to_owned(), unknown + PRIOR_UNKNOWN.ln()),
-        ];
+        let mut logs = vec![(NOTHING.to_owned(), base.log_evidence + PRIOR_NOTHING.ln())];
+        let mut cap = f64::INFINITY;
+        let mut most = f64::NEG_INFINITY;
         for (j, &share) in judged.iter().zip(&shares) {
             let prior = match j.candidate.names.len() {
                 1 => PRIOR_SINGLES / count,
@@ -73,10 +70,19 @@ impl Ranking {
             let log = j.log_evidence + (prior / j.candidate.siblings as f64).ln();
             // The share's own uncertainty counts in the effect's favour.
             let upper = share + 2.0 * flexible.spread() / flexible.drop.max(1.0);
-            let named = 1.0 / (1.0 + ((SHARE - upper) / SHARE_WIDTH).exp());
-            logs.push((j.candidate.name(), log + named.ln()));
-            logs.push((UNKNOWN.to_owned(), log + (1.0 - named).max(1e-300).ln()));
+            // ln of (1 − named)/named, named the probability that such a share is the missing effect's own.
+            let odds = (SHARE - upper) / SHARE_WIDTH;
+            let soft = |x: f64| x.max(0.0) + (-x.abs()).exp().ln_1p();
+            logs.push((j.candidate.name(), log - soft(odds)));
+            logs.push((UNKNOWN.to_owned(), log - soft(-odds)));
+            if flexible.is_real() && log > most {
+                most = log;
+                cap = log + odds;
+            }
         }
+        // A free discrepancy follows what remains of an effect in another form too: it counts only as far as the leader's share
+        // leaves room for it.
+        logs.push((UNKNOWN.to_owned(), (unknown + PRIOR_UNKNOWN.ln()).min(cap)));
         let top = logs.iter().map(|l| l.1).fold(f64::NEG_INFINITY, f64::max);
         let mut probabilities: BTreeMap<String, f64> = BTreeMap::new();
         for (name, log) in logs {
@@ -88,7 +94,6 @@ impl Ranking {
             probabilities,
             judged,
             shares,
-            unknown,
         }
     }
 

@@ -10,9 +10,11 @@ use super::flexible::{Driver, Flexible};
 use super::ground::Ground;
 use super::judge::{Base, Judge, Judged};
 use super::rank::Ranking;
-use super::words;
 use super::{NOTHING, UNKNOWN};
+use super::{next, words};
+use crate::learn::bench::Workshop;
 use crate::learn::search::Effort;
+use crate::simulate::forward::ContactKind;
 use crate::study::{Role, Scatter};
 
 /// Probability from which a single effect or set is named.
@@ -21,6 +23,8 @@ const CLAIM: f64 = 0.8;
 const DOUBT: f64 = 0.2;
 /// Candidates this much less probable than the leader are no look-alikes.
 const ALIKE: f64 = 0.03;
+/// Log evidence between two candidates from which no experiment is needed to separate them.
+const SETTLED: f64 = 10.0;
 /// Entries of the ranking.
 const LISTED: usize = 12;
 /// Leaders whose held-out error is computed.
@@ -160,6 +164,7 @@ pub struct NextTest {
 /// Puts the answer together.
 pub(super) fn diagnosis(
     judge: &Judge<'_>,
+    shop: &Workshop,
     base: &Base,
     ranking: Ranking,
     flexible: &Flexible,
@@ -236,8 +241,44 @@ pub(super) fn diagnosis(
         warnings,
         probabilities: ranking.probabilities.clone(),
     };
+    diagnosis.next_experiment = next_experiment(judge, shop, base, &ranking, &diagnosis);
     words::explain(&mut diagnosis, judge, base, &ranking);
     diagnosis
+}
+
+/// The test that separates the two most probable of what is left; none where nothing is in doubt.
+fn next_experiment(
+    judge: &Judge<'_>,
+    shop: &Workshop,
+    base: &Base,
+    ranking: &Ranking,
+    diagnosis: &Diagnosis,
+) -> Option<NextExperiment> {
+    let of = |name: &str| match ranking.best_of(name) {
+        Some(place) => Some(&ranking.judged[place]),
+        None => (name == NOTHING).then_some(&base.judged),
+    };
+    let effects = ranking.effects();
+    let names: Vec<&str> = match diagnosis.verdict {
+        Verdict::Ambiguous => diagnosis
+            .indistinguishable
+            .iter()
+            .flatten()
+            .map(String::as_str)
+            .collect(),
+        Verdict::Effect | Verdict::Effects => effects.iter().take(2).map(|e| e.0).collect(),
+        Verdict::NothingMissing => std::iter::once(NOTHING)
+            .chain(effects.first().map(|e| e.0))
+            .collect(),
+        Verdict::Unknown => return None,
+    };
+    let mut left = names.into_iter().filter_map(of);
+    let (a, b) = (left.next()?, left.next()?);
+    let settled = (a.log_evidence - b.log_evidence).abs() > SETTLED;
+    if settled && diagnosis.verdict != Verdict::Ambiguous {
+        return None;
+    }
+    next::experiment(judge, shop, a, b)
 }
 
 fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
@@ -281,7 +322,7 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
                 } else {
                     None
                 },
-                decided_by: if judged.decided && judge.fem.is_some() {
+                decided_by: if judged.decided && judge.kind == ContactKind::Fem {
                     "fem"
                 } else {
                     "hertz"
@@ -323,7 +364,7 @@ pub(super) fn parameters(judged: &Judged) -> Vec<ParameterValue> {
 /// χ² per point of the held-out tests, all that is common to tests as fitted, their own k free.
 fn held_out(judge: &Judge<'_>, held: &Ground<'_>, judged: &Judged) -> Option<f64> {
     let candidate = &judged.candidate;
-    let bench = judge.fem.unwrap_or(judge.hertz);
+    let bench = judge.exact;
     let predictor = Anchored::new(model(bench, candidate), Vec::new());
     let state = crate::learn::quadratic::State {
         epsilon: vec![0.0; held.tests.len()],

@@ -41,7 +41,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
             );
             if let (Some(j), Some(share)) = (leader, d.explained_share) {
                 d.reasons.push(format!(
-                    "The best of the catalogue, {}, explains only {} of what anything smooth could explain.",
+                    "The best of the catalogue, {}, explains {} of what anything smooth could explain.",
                     j.candidate.name(),
                     percent(share.max(0.0))
                 ));

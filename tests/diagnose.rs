@@ -1,0 +1,204 @@
+//! Claim: `diagnose` names a hidden effect, says when nothing is missing, and says when the catalogue does not hold what is missing.
+//!
+//! Source: measurements made by the analytic contact model with a hidden law that is *not* the fitted formula (another decay, a band
+//! of soft material, two effects at once), on the layout of the independent program's data, with noise, datums and a wear coefficient that
+//! scatters between tests. Forward model and diagnosis share the contact model here, so these tests speak of the inference alone;
+//! that of data from another program is judged on `validation/challenges`.
+//! Tolerance: the verdict; probabilities sum to 1 within rounding.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use gearwear::learn::diagnose::{Diagnosis, Named, Verdict, diagnose};
+use gearwear::learn::{GearModel, Measured, Predictor};
+use gearwear::measure::{Dataset, Quantity};
+use gearwear::simulate::forward::ContactKind;
+use gearwear::study::Study;
+
+mod diagnosis {
+    pub(crate) mod command;
+}
+
+/// Random numbers: splitmix64 (Steele, Lea and Flood 2014) and Box and Muller's transform.
+struct Random(u64);
+
+impl Random {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn normal(&mut self) -> f64 {
+        let (u, v) = (1.0 - self.uniform(), self.uniform());
+        (-2.0 * u.ln()).sqrt() * (2.0 * PI * v).cos()
+    }
+}
+
+const LAYOUT: &str = "validation/challenges/none_L2";
+
+/// The study of the independent data with effects added to its text.
+fn study(effects: &str) -> Study {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join(LAYOUT)
+        .join("study.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    Study::parse(&format!("{text}\n{effects}"), &path.display().to_string()).unwrap()
+}
+
+/// Every third depth and every mass loss of the independent data.
+fn layout(study: &Study) -> Dataset {
+    let mut data = study.dataset().unwrap();
+    let mut number = 0;
+    data.observations.retain(|o| {
+        number += 1;
+        o.quantity != Quantity::WearDepth || number % 3 == 0
+    });
+    data
+}
+
+/// Measurements with hidden effects: k = 5e-10 mm²/N with `scatter` between tests, noise of `relative` of each curve's largest value
+/// and 0.05 µm, datums of 0.3 µm.
+fn synthetic(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Dataset {
+    let truth = study(hidden);
+    let mut data = layout(&truth);
+    let measured = Measured::new(&truth, data.clone());
+    let workshop = measured.workshop(ContactKind::Hertz).unwrap();
+    let bench = measured.bench(&workshop).unwrap();
+    let effects = truth.effect_model();
+    let model = GearModel::new(&bench, Box::new(move |_| effects.stated()));
+    let mut random = Random(seed);
+    let datums: Vec<f64> = data.traces.iter().map(|_| 0.3 * random.normal()).collect();
+    for test in 0..data.tests.len() {
+        let k = 5e-10 * (scatter * random.normal()).exp();
+        let values = model.predict(test, k, &[]).unwrap();
+        let mut values = values.into_iter();
+        for o in data.observations.iter_mut().filter(|o| o.test == test) {
+            o.value = values.next().unwrap();
+        }
+    }
+    let curve =
+        |o: &gearwear::measure::Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
+    let exact = data.observations.clone();
+    for o in &mut data.observations {
+        let own = exact.iter().filter(|e| curve(e) == curve(o));
+        let largest = own.map(|e| e.value.abs()).fold(0.0, f64::max);
+        o.sigma = relative * largest + 0.05;
+        o.value += o.sigma * random.normal() + o.trace.map_or(0.0, |t| datums[t]);
+    }
+    data
+}
+
+fn diagnosed(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Diagnosis {
+    let base = study("");
+    let data = synthetic(hidden, scatter, relative, seed);
+    let measured = Measured::new(&base, data);
+    let found = diagnose(&measured, ContactKind::Hertz, &|_, _| {}).unwrap();
+    let total: f64 = found.probabilities.values().sum();
+    assert!((total - 1.0).abs() < 1e-9, "{total}");
+    found
+}
+
+fn says(found: &Diagnosis) -> String {
+    format!(
+        "{:?} {:?}\n{}\n{:#?}",
+        found.verdict, found.effect, found.sentence, found.reasons
+    )
+}
+
+/// Whether `name` is the answer or in the group that is.
+fn names(found: &Diagnosis, name: &str) -> bool {
+    match (&found.verdict, &found.effect) {
+        (Verdict::Effect, Some(Named::One(effect))) => effect == name,
+        (Verdict::Ambiguous, _) => found.indistinguishable[0].iter().any(|n| n == name),
+        _ => false,
+    }
+}
+
+#[test]
+fn nothing_is_missing_where_only_the_coefficient_scatters() {
+    for seed in [1, 2] {
+        let found = diagnosed("", 0.15, 0.03, seed);
+        assert_eq!(found.verdict, Verdict::NothingMissing, "{}", says(&found));
+        let largest = found
+            .ranking
+            .iter()
+            .filter(|r| r.effect != "nothing_missing");
+        assert!(largest.map(|r| r.probability).fold(0.0, f64::max) < 0.5);
+    }
+}
+
+#[test]
+fn running_in_is_named_though_its_decay_is_of_another_form() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"hidden\"\nwear_factor = \"1 + 2.2/(1 + (cycles/1.2e5)^1.3)\"\n";
+    let found = diagnosed(hidden, 0.1, 0.03, 3);
+    assert_eq!(found.verdict, Verdict::Effect, "{}", says(&found));
+    assert!(names(&found, "running_in"), "{}", says(&found));
+    let best = &found.ranking[0];
+    assert!((0.8..1.3).contains(&best.fit_chi2_per_point), "{best:?}");
+}
+
+#[test]
+fn micropitting_is_named_though_its_law_is_of_another_form() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"hidden\"\nadded_depth = \"4e-6*(exp(p_max/350) - 1)/(exp(1000/350) - 1)\"\n";
+    let found = diagnosed(hidden, 0.1, 0.03, 4);
+    assert!(names(&found, "micropitting"), "{}", says(&found));
+}
+
+#[test]
+fn what_the_catalogue_lacks_is_called_unknown() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"band\"\nwear_factor = \"1 + 1.5*exp(-((radius - 27.9)/0.2)^2)\"\n";
+    let found = diagnosed(hidden, 0.1, 0.02, 5);
+    assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
+    assert_eq!(
+        found.driver.as_ref().unwrap().name,
+        "position",
+        "{:?}",
+        found.drivers
+    );
+}
+
+#[test]
+fn two_effects_at_once_are_both_named() {
+    let hidden = "[[effect]]\nkind = \"running_in\"\namplitude = 2.5\ndecay_cycles = 1.2e5\n\n[[effect]]\nkind = \"member_hardness\"\nlog_ratio = 0.4\n";
+    let found = diagnosed(hidden, 0.1, 0.03, 6);
+    assert_eq!(found.verdict, Verdict::Effects, "{}", says(&found));
+    let both = Named::Several(vec!["running_in".to_owned(), "member_hardness".to_owned()]);
+    assert_eq!(found.effect, Some(both), "{}", says(&found));
+}
+
+#[test]
+fn one_test_at_one_time_is_said_to_be_too_little() {
+    let base = study("");
+    let mut data = synthetic("", 0.0, 0.05, 7);
+    let last = data
+        .observations
+        .iter()
+        .filter(|o| o.test == 0)
+        .map(|o| o.cycles)
+        .fold(0.0, f64::max);
+    data.observations
+        .retain(|o| o.test == 0 && o.cycles == last);
+    let measured = Measured::new(&base, data);
+    let found = diagnose(&measured, ContactKind::Hertz, &|_, _| {}).unwrap();
+    assert!(
+        found
+            .warnings
+            .iter()
+            .any(|w| w.contains("one number of cycles")),
+        "{:?}",
+        found.warnings
+    );
+    assert!(
+        found.warnings.iter().any(|w| w.contains("one test only")),
+        "{:?}",
+        found.warnings
+    );
+    assert!(
+        matches!(found.verdict, Verdict::NothingMissing | Verdict::Ambiguous),
+        "{}",
+        says(&found)
+    );
+}
