@@ -243,11 +243,8 @@ impl<'a> Forward<'a> {
             Some(members) => members.spacing(),
             None => numerics.flank_spacing(&pair, set.modulus(), torque),
         };
-        // linear flanks carry half as many modes: pressures as fine as their edges would oscillate
-        let linear = members.is_some_and(|m| m.members.iter().any(|member| member.order() == 1));
-        let grid = if linear { 2.0 * spacing } else { spacing };
-        let spec = numerics.cycle(&pair, set.modulus(), torque, grid);
-        let stations = Stations::new(&pair, grid);
+        let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
+        let stations = Stations::new(&pair, spacing);
         let cycle = Cycle::new(&pair, &stations, spec);
         let compliance = match members {
             Some(members) => Some(CycleCompliance::new(
