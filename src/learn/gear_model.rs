@@ -1,10 +1,16 @@
-//! The gear pair as a fit sees it: a wear history of each test, read at the measured places.
+//! The gear pair as a fit sees it: a wear history of each test, read at the measured places and times.
+//!
+//! Histories are kept, so that a wear coefficient more costs nothing where it only stretches time ([`super::trajectory`]).
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::effects::Combined;
 use crate::learn::bench::Bench;
 use crate::learn::observe::Reading;
 use crate::learn::predictor::{PredictError, Predictor};
-use crate::simulate::forward::ForwardError;
+use crate::learn::trajectory::Trajectory;
+use crate::simulate::forward::{Forward, ForwardError};
 use crate::wear::acting::Acting;
 
 /// Builds the effects of a model from the values of its free parameters.
@@ -14,12 +20,53 @@ pub type EffectsOf<'a> = Box<dyn Fn(&[f64]) -> Combined + Send + Sync + 'a>;
 pub struct GearModel<'a> {
     bench: &'a Bench<'a>,
     effects: EffectsOf<'a>,
+    stretches: bool,
+    histories: Mutex<HashMap<Key, Arc<Trajectory>>>,
 }
+
+/// What a history belongs to: test, bits of the parameters, bits of the wear coefficient it was worn with.
+type Key = (usize, Vec<u64>, u64);
 
 impl<'a> GearModel<'a> {
     /// The model with `effects`, from parameter values in the order that callers of [`Predictor::predict`] use.
     pub fn new(bench: &'a Bench<'a>, effects: EffectsOf<'a>) -> Self {
-        Self { bench, effects }
+        Self {
+            bench,
+            effects,
+            stretches: false,
+            histories: Mutex::default(),
+        }
+    }
+
+    /// The same, where the wear coefficient only stretches time: every effect multiplies it and none has a clock.
+    pub fn stretching(mut self, stretches: bool) -> Self {
+        self.stretches = stretches;
+        self
+    }
+
+    /// The history of a test up to `cycles` at least.
+    ///
+    /// No lock is held while it wears: whoever else wants the same one meanwhile makes the same steps.
+    fn history(
+        &self,
+        forward: &mut Forward,
+        key: Key,
+        cycles: f64,
+    ) -> Result<Arc<Trajectory>, ForwardError> {
+        let kept = || {
+            self.histories
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
+        let known = kept().get(&key).cloned().unwrap_or_default();
+        if known.reaches(cycles) {
+            return Ok(known);
+        }
+        let mut longer = Trajectory::clone(&known);
+        longer.reach(forward, cycles)?;
+        let longer = Arc::new(longer);
+        kept().insert(key, Arc::clone(&longer));
+        Ok(longer)
     }
 
     fn run(
@@ -38,22 +85,28 @@ impl<'a> GearModel<'a> {
             reversed: measured.reversed,
             face_width: self.bench.set().face_width,
         });
-        let mut forward = self.bench.templates[test].again([coefficient; 2], acting.as_ref())?;
-        let mut values = vec![0.0; measured.observations.len()];
-        let mut order: Vec<usize> = (0..values.len()).collect();
-        order.sort_by(|&a, &b| {
-            let cycles = |i: usize| measured.observations[i].cycles;
-            cycles(a).total_cmp(&cycles(b)).then(a.cmp(&b))
-        });
-        let mut progress = None;
-        let alike = |a: &usize, b: &usize| {
-            measured.observations[*a].cycles == measured.observations[*b].cycles
+        // one history in a coefficient of the test's own serves all others
+        let worn_with = if self.stretches {
+            measured.conditions.coefficient[0]
+        } else {
+            coefficient
         };
-        for rows in order.chunk_by(alike) {
-            let cycles = measured.observations[rows[0]].cycles;
-            forward.wear_to(&mut progress, cycles, &mut |_, _| true)?;
-            let Some(progress) = &progress else { continue };
-            let reading = Reading::new(&forward, progress, self.bench.set());
+        let stretch = coefficient / worn_with;
+        let template = &self.bench.templates[test];
+        let mut forward = template.again([worn_with; 2], acting.as_ref())?;
+        let observed = |row: &usize| stretch * measured.observations[*row].cycles;
+        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
+        order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
+        let Some(last) = order.last() else {
+            return Ok(Vec::new());
+        };
+        let bits = parameters.iter().map(|p| p.to_bits()).collect();
+        let key = (test, bits, worn_with.to_bits());
+        let history = self.history(&mut forward, key, observed(last))?;
+        let mut values = vec![0.0; measured.observations.len()];
+        for rows in order.chunk_by(|a, b| observed(a) == observed(b)) {
+            let state = history.at(observed(&rows[0]));
+            let reading = Reading::new(&forward, &state, self.bench.set());
             for &row in rows {
                 values[row] = reading.of(&measured.observations[row])?;
             }

@@ -151,7 +151,8 @@ impl<'a> Measured<'a> {
                     values.get(place).copied()
                 })
             }),
-        );
+        )
+        .stretching(effects.stretches_time());
         let own: Vec<f64> = parameters.iter().map(|p| p.start).collect();
         let starts: Vec<Vec<f64>> = std::iter::once(own).chain(others.iter().cloned()).collect();
         let problem = Problem {

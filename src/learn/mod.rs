@@ -36,6 +36,7 @@ mod scatter;
 mod search;
 mod synthesize;
 mod tally;
+mod trajectory;
 mod uncertainty;
 mod versions;
 mod worst;

@@ -2,24 +2,26 @@
 
 use std::cell::OnceCell;
 
+use crate::contact::model::PositionContact;
 use crate::gear::Member;
+use crate::learn::trajectory::Node;
 use crate::measure::{Observation, Quantity, Subject};
 use crate::numeric::interpolate;
 use crate::simulate::forward::{Forward, ForwardError, GearSet};
-use crate::simulate::history::{Progress, WearState, worn_area};
+use crate::simulate::history::worn_area;
 use crate::wear::passage::{Moment, Passage};
 
 /// A worn state that can be read. Contacts are solved only when a quantity asks for them.
 pub(super) struct Reading<'a> {
     forward: &'a Forward<'a>,
-    progress: &'a Progress,
+    worn: &'a Node,
     set: &'a GearSet,
     meshing: OnceCell<Meshing>,
 }
 
 /// What follows from the contacts of a worn state.
 struct Meshing {
-    state: WearState,
+    contacts: Vec<PositionContact>,
     /// Order of a passage, and the largest pressures on both flanks.
     passage: Passage,
     moments: [Vec<Moment>; 2],
@@ -30,11 +32,11 @@ struct Meshing {
 }
 
 impl<'a> Reading<'a> {
-    /// Reads the state where `progress` stands.
-    pub(super) fn new(forward: &'a Forward<'a>, progress: &'a Progress, set: &'a GearSet) -> Self {
+    /// Reads a worn state.
+    pub(super) fn new(forward: &'a Forward<'a>, worn: &'a Node, set: &'a GearSet) -> Self {
         Self {
             forward,
-            progress,
+            worn,
             set,
             meshing: OnceCell::new(),
         }
@@ -62,7 +64,7 @@ impl<'a> Reading<'a> {
 
     fn depths(&self, member: Member) -> &[f64] {
         let arcs = &self.forward.cycle().stations.arc;
-        let (pinion, gear) = self.progress.stand.u.split_at(arcs[0].len());
+        let (pinion, gear) = self.worn.u.split_at(arcs[0].len());
         match member {
             Member::Pinion => pinion,
             Member::Gear => gear,
@@ -93,7 +95,7 @@ impl<'a> Reading<'a> {
     fn mass(&self, member: Member) -> f64 {
         let side = crate::wear::acting::side(member);
         let lost =
-            worn_area(self.stations(member), self.depths(member)) - self.progress.displaced()[side];
+            worn_area(self.stations(member), self.depths(member)) - self.worn.displaced[side];
         let teeth = self.forward.cycle().pair.member(member).spec.teeth;
         // mm³ · kg/m³ = µg
         1e-3 * lost * self.set.face_width * f64::from(teeth) * self.set.densities[side]
@@ -103,11 +105,11 @@ impl<'a> Reading<'a> {
         if let Some(known) = self.meshing.get() {
             return Ok(known);
         }
-        let state = self.forward.state(self.progress)?;
+        let contacts = self.forward.contacts_at(&self.worn.u)?;
         let cycle = self.forward.cycle();
         let passage = Passage::new(cycle);
-        let moments = [0, 1].map(|side| passage.moments(cycle, &state.contacts, side));
-        let mut turns: Vec<(f64, f64)> = (cycle.positions.iter().zip(&state.contacts))
+        let moments = [0, 1].map(|side| passage.moments(cycle, &contacts, side));
+        let mut turns: Vec<(f64, f64)> = (cycle.positions.iter().zip(&contacts))
             .map(|(position, contact)| (position.phase(), contact.approach))
             .collect();
         turns.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -116,7 +118,7 @@ impl<'a> Reading<'a> {
         turns.insert(0, (last.0 - 1.0, last.1));
         turns.push((first.0 + 1.0, first.1));
         let meshing = Meshing {
-            state,
+            contacts,
             passage,
             moments,
             turns: turns.into_iter().unzip(),
@@ -164,7 +166,7 @@ impl<'a> Reading<'a> {
         let rho = gear.rho_at_radius(radius);
         let (paths, shares): (Vec<f64>, Vec<f64>) = (meshing.passage.order.iter())
             .map(|&(q, index)| {
-                let moment = self.forward.moment(q, index, &meshing.state.contacts[q]);
+                let moment = self.forward.moment(q, index, &meshing.contacts[q]);
                 let path = cycle.positions[q].pairs[index].path;
                 (path, moment / self.forward.torque())
             })

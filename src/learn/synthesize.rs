@@ -57,7 +57,8 @@ pub fn synthesize(
     let workshop = measured.workshop(kind)?;
     watch(Doing::Tests);
     let bench = measured.bench(&workshop)?;
-    let model = GearModel::new(&bench, Box::new(|_| study.effect_model().stated()));
+    let model = GearModel::new(&bench, Box::new(|_| study.effect_model().stated()))
+        .stretching(study.effect_model().stretches_time());
     let mut synthetic = Synthetic {
         datums: vec![0.0; data.traces.len()],
         data,

@@ -13,7 +13,7 @@ use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
 use crate::simulate::history::{
-    Progress, StepReport, WearLaw, WearState, line_load, state_of, wear_until,
+    Progress, StepReport, WearLaw, WearState, contacts_at, line_load, state_of, wear_until,
 };
 use crate::simulate::members::{self, MemberError, Members};
 use crate::simulate::numerics::Numerics;
@@ -571,6 +571,14 @@ impl<'a> Forward<'a> {
     /// [`ForwardError`] if a contact cannot be solved.
     pub fn state(&self, progress: &Progress) -> Result<WearState, ForwardError> {
         Ok(self.with_model(|model| state_of(model, progress))?)
+    }
+
+    /// The contact of every position at the depths `u` (mm at the stations of pinion and gear).
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a contact cannot be solved.
+    pub fn contacts_at(&self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
+        Ok(self.with_model(|model| contacts_at(model, u))?)
     }
 
     /// How the contact is prepared at the moment.

@@ -203,15 +203,24 @@ pub fn state_of<M: ContactModel + ?Sized>(
         .stand
         .u
         .split_at(model.cycle().stations.arc[0].len());
-    let contacts = ArchardSystem::new(model, [0.0; 2])
-        .contacts(&progress.stand.u)?
-        .to_vec();
+    let contacts = contacts_at(model, &progress.stand.u)?;
     Ok(WearState {
         cycles: progress.stand.n,
         depth: [pinion.to_vec(), gear.to_vec()],
         contacts,
         displaced: progress.displaced,
     })
+}
+
+/// The contact of every position at the depths `u` (mm at the stations of pinion and gear).
+///
+/// # Errors
+/// [`ContactError`] of the first position that fails.
+pub fn contacts_at<M: ContactModel + ?Sized>(
+    model: &M,
+    u: &[f64],
+) -> Result<Vec<PositionContact>, ContactError> {
+    Ok(ArchardSystem::new(model, [0.0; 2]).contacts(u)?.to_vec())
 }
 
 /// ∫ h ds over one flank, mm².

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::free::FreeParameter;
 use crate::effects::formula::Formula;
-use crate::effects::{self, Card, Combined, EffectError, Param, Prior};
+use crate::effects::{self, Card, Combined, EffectError, Hook, Param, Prior};
 
 /// The effects of a model in their order. Formulas are read once; [`EffectModel::build`] only binds numbers, so a fit may call
 /// it as often as it likes.
@@ -58,6 +58,9 @@ pub struct Parameter {
     pub stated: bool,
 }
 
+/// Variables that tell the time.
+const CLOCKS: &[&str] = &["cycles", "contacts", "hours", "contact_hours"];
+
 impl EffectModel {
     /// Of effects in the order in which they act.
     pub fn new(specs: Vec<EffectSpec>) -> Self {
@@ -109,6 +112,21 @@ impl EffectModel {
     /// The effects bound to the study's values.
     pub fn stated(&self) -> Combined {
         self.build(&|_| None)
+    }
+
+    /// Whether the wear coefficient only stretches time: every effect multiplies the wear or the load and none has a clock.
+    pub fn stretches_time(&self) -> bool {
+        self.specs.iter().all(|spec| {
+            let (hook, expression) = match &spec.law {
+                Law::Card(card) => (card.hook, card.expression()),
+                Law::Formula {
+                    formula,
+                    expression,
+                } => (formula.hook(), expression.as_str()),
+            };
+            let mut words = expression.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+            hook != Hook::AddedDepth && !words.any(|word| CLOCKS.contains(&word))
+        })
     }
 
     /// The parameter of this name (`running_in.amplitude`).

@@ -54,6 +54,7 @@ pub(super) fn model<'b>(bench: &'b Bench<'b>, candidate: &'b Candidate) -> GearM
             })
         }),
     )
+    .stretching(effects.stretches_time())
 }
 
 /// Predictions of all tests of a ground at a state, by test of the ground.
