@@ -152,18 +152,40 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
             .map(|(f, &value)| mirror(f, value).clamp(f.lower, f.upper))
             .collect()
     };
+    // Effects far from the defaults act far from linearly: each end of a wide prior is tried too.
+    let ends = (0..fitted.len()).flat_map(|i| {
+        let medians = medians.clone();
+        far(&fitted[i]).into_iter().map(move |value| {
+            let mut values = medians.clone();
+            values[i] = value;
+            values
+        })
+    });
     let mut starts: Vec<Vec<f64>> = Vec::new();
-    for values in [
+    let plain = [
         defaults.clone(),
         mirrored(&defaults),
         medians.clone(),
         mirrored(&medians),
-    ] {
+    ];
+    for values in plain.into_iter().chain(ends) {
         if !starts.contains(&values) {
             starts.push(values);
         }
     }
     starts
+}
+
+/// Values one standard deviation from the middle of a parameter's prior.
+fn far(free: &FreeParameter) -> Vec<f64> {
+    let values = match free.prior {
+        Prior::Uniform { low, high } => [0.2, 0.8].map(|share| low + share * (high - low)),
+        Prior::LogNormal { median, spread } => [median / spread, median * spread],
+        Prior::Normal { .. } | Prior::HalfNormal { .. } => return Vec::new(),
+    };
+    values
+        .map(|value| value.clamp(free.lower, free.upper))
+        .to_vec()
 }
 
 /// The other side of the value without effect, for a parameter that can lie on both.

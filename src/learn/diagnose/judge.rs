@@ -36,6 +36,13 @@ const DECIDE: Effort = Effort {
     floor: 0.2,
     carry: 0.4,
 };
+/// The leader's last steps with derivatives of the exact model, if anchors did not bring it to rest.
+const POLISH: Effort = Effort {
+    iterations: 4,
+    tolerance: 0.1,
+    floor: 0.3,
+    carry: 1.0,
+};
 /// Taking stock of a state without leaving it.
 const STAY: Effort = Effort {
     iterations: 0,
@@ -248,6 +255,25 @@ impl<'a> Judge<'a> {
         let (mut found, offset) = best.expect("at least one anchor was taken");
         found.converged = converged;
         Ok(self.judged(candidate.clone(), found, offset, base, true))
+    }
+
+    /// A fit on the exact bench with its own derivatives; None if it finds nothing better.
+    pub(super) fn polish(&self, base: &Base, judged: &Judged) -> Option<Judged> {
+        let candidate = &judged.candidate;
+        let exact = model(self.exact, candidate);
+        let start = judged.found.state.clone();
+        let found = self
+            .ground
+            .fit(&exact, &candidate.parameters, start, &POLISH)
+            .ok()?;
+        if found.objective > judged.found.objective {
+            return None;
+        }
+        let at = predictions(&self.ground, &exact, candidate, &found.state).ok()?;
+        let analytic = model(self.hertz, candidate);
+        let near = predictions(&self.ground, &analytic, candidate, &found.state).ok()?;
+        let offset = offset(&self.ground, &at, &near);
+        Some(self.judged(candidate.clone(), found, offset, Some(base), true))
     }
 
     /// The state of the base fit with an added effect's values.

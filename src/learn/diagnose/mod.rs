@@ -29,7 +29,9 @@ use crate::study::Role;
 
 pub use candidate::NotJudged;
 pub use flexible::Driver;
-pub use verdict::{Diagnosis, Named, NextExperiment, NextTest, ParameterValue, Ranked, Verdict};
+pub use verdict::{
+    Diagnosis, Named, NextExperiment, NextTest, ParameterValue, Ranked, Screened, Verdict,
+};
 
 use candidate::Candidate;
 use flexible::Flexible;
@@ -60,7 +62,7 @@ pub enum DiagnoseError {
 pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
 
 /// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 %.
-const HERTZ_ERROR: f64 = 0.01;
+const HERTZ_ERROR: f64 = 0.02;
 /// Resolution of the screening, which only looks at changes: flank edges per half width, positions, error of a wear step.
 const COARSE_EDGES: f64 = 2.0;
 const COARSE_POSITIONS: usize = 48;
@@ -107,12 +109,15 @@ pub fn diagnose(
     };
     let workshop = Workshop::new(set, coarse, ContactKind::Hertz, measured.tests())?;
     let hertz = measured.bench(&workshop)?;
-    let deciding = measured.workshop(kind)?;
-    let exact = measured.bench(&deciding)?;
+    let elastic = match kind {
+        ContactKind::Fem => Some(measured.workshop(kind)?),
+        ContactKind::Hertz => None,
+    };
+    let fem = elastic.as_ref().map(|w| measured.bench(w)).transpose()?;
     let judge = Judge {
         ground,
         hertz: &hertz,
-        exact: &exact,
+        exact: fem.as_ref().unwrap_or(&hertz),
         kind,
     };
     with(&judge, &workshop, watch)
@@ -133,10 +138,11 @@ fn with(judge: &Judge<'_>, shop: &Workshop, watch: Watch<'_>) -> Result<Diagnosi
     });
     watch(0.8, "looking at pairs".to_owned());
     let pairs = pairs::pairs(judge, &base, &judged);
+    let failed = not_fitted(&singles, &judged);
     watch(0.93, "weighing".to_owned());
     let ranking = Ranking::new(&judge.ground, &base.judged, judged, pairs, &flexible);
     watch(0.95, "held-out tests and the next experiment".to_owned());
-    let diagnosis = verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged);
+    let diagnosis = verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged, failed);
     watch(1.0, "done".to_owned());
     Ok(diagnosis)
 }
@@ -175,6 +181,24 @@ fn decide_leaders(
         least = least.min(decided.found.objective);
         judged.push(decided);
     }
+    judged.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    if let Some(leader) = judged.first_mut().filter(|j| !j.converged) {
+        watch(1.0, format!("polishing: {}", leader.candidate.name()));
+        if let Some(better) = judge.polish(base, leader) {
+            *leader = better;
+        }
+    }
     judged.extend(rest);
     judged
+}
+
+/// Names of the effects of which no form could be fitted.
+fn not_fitted(candidates: &[Candidate], judged: &[Judged]) -> Vec<String> {
+    let mut names: Vec<String> = candidates
+        .iter()
+        .filter(|c| judged.iter().all(|j| j.candidate.names != c.names))
+        .map(Candidate::name)
+        .collect();
+    names.dedup();
+    names
 }

@@ -228,14 +228,16 @@ fn columns(
             jacobian[(i, p)] = (moved - at) / parameter.divisor(step);
         }
     }
-    let first = judged.covariance.nrows() - parameters.len();
-    let own = judged
-        .covariance
-        .view((first, first), (parameters.len(), parameters.len()));
-    let eigen = own.into_owned().symmetric_eigen();
-    let mut columns: Vec<DVector<f64>> = (0..parameters.len())
-        .map(|i| &jacobian * eigen.eigenvectors.column(i) * eigen.eigenvalues[i].max(0.0).sqrt())
-        .collect();
+    let mut columns: Vec<DVector<f64>> = Vec::new();
+    if !parameters.is_empty() {
+        let count = parameters.len();
+        let first = judged.covariance.nrows() - count;
+        let own = judged.covariance.view((first, first), (count, count));
+        let eigen = own.into_owned().symmetric_eigen();
+        columns.extend((0..count).map(|i| {
+            &jacobian * eigen.eigenvectors.column(i) * eigen.eigenvalues[i].max(0.0).sqrt()
+        }));
+    }
     // Worn depths are nearly proportional to k.
     let scatter = judged.found.scatter.max(LEAST_SCATTER);
     columns.push(DVector::from_iterator(

@@ -85,10 +85,29 @@ pub struct Diagnosis {
     pub attainable_drop: f64,
     /// The test that would best separate what is left.
     pub next_experiment: Option<NextExperiment>,
+    /// Everything fitted, by falling evidence.
+    pub screened: Vec<Screened>,
     /// Effects that could not be judged.
     pub not_judged: Vec<NotJudged>,
     /// What is doubtful.
     pub warnings: Vec<String>,
+}
+
+/// One form of one effect or set as fitted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Screened {
+    /// Effect or set.
+    pub effect: String,
+    /// Forms.
+    pub form: String,
+    /// Log evidence over the base model's.
+    pub evidence_gain: f64,
+    /// Fall of the whole χ² against the base model.
+    pub chi2_drop: f64,
+    /// Whether the deciding model was used.
+    pub decided: bool,
+    /// Fitted values in the order of its parameters.
+    pub values: Vec<f64>,
 }
 
 /// One entry of the ranking.
@@ -169,9 +188,16 @@ pub(super) fn diagnosis(
     ranking: Ranking,
     flexible: &Flexible,
     not_judged: Vec<NotJudged>,
+    failed: Vec<String>,
 ) -> Diagnosis {
     let ground = &judge.ground;
-    let warnings = warnings(ground, base, &ranking);
+    let mut warnings = warnings(ground, base, &ranking);
+    if !failed.is_empty() {
+        warnings.push(format!(
+            "could not be fitted and are not judged: {}",
+            failed.join(", ")
+        ));
+    }
     let probability = |name: &str| ranking.probabilities.get(name).copied().unwrap_or(0.0);
     let effects = ranking.effects();
     let (nothing, unknown) = (probability(NOTHING), probability(UNKNOWN));
@@ -237,6 +263,18 @@ pub(super) fn diagnosis(
             .map(|i| ranking.shares[i]),
         attainable_drop: flexible.drop.max(0.0),
         next_experiment: None,
+        screened: ranking
+            .judged
+            .iter()
+            .map(|j| Screened {
+                effect: j.candidate.name(),
+                form: form(j),
+                evidence_gain: j.log_evidence - base.judged.log_evidence,
+                chi2_drop: base.judged.square - j.square,
+                decided: j.decided,
+                values: parameters(j).iter().map(|p| p.value).collect(),
+            })
+            .collect(),
         not_judged,
         warnings,
         probabilities: ranking.probabilities.clone(),
@@ -286,7 +324,15 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
         .map(|(name, p)| (name.as_str(), *p))
         .filter(|(name, _)| *name != UNKNOWN)
         .collect();
-    names.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let evidence = |name: &str| {
+        ranking
+            .best_of(name)
+            .map_or(base.judged.log_evidence, |i| ranking.judged[i].log_evidence)
+    };
+    names.sort_by(|a, b| {
+        b.1.total_cmp(&a.1)
+            .then(evidence(b.0).total_cmp(&evidence(a.0)))
+    });
     let held = Ground::new(judge.ground.measured, judge.ground.noise, Role::Holdout);
     let mut listed: Vec<(&str, f64)> = names.iter().copied().take(LISTED).collect();
     if !listed.iter().any(|l| l.0 == NOTHING) {
@@ -304,14 +350,7 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
             let wanted = !held.tests.is_empty() && (i < JUDGED_ON_HOLDOUT || name == NOTHING);
             Some(Ranked {
                 effect: name.to_owned(),
-                form: judged
-                    .candidate
-                    .forms
-                    .iter()
-                    .copied()
-                    .filter(|f| !f.is_empty())
-                    .collect::<Vec<_>>()
-                    .join(", "),
+                form: form(judged),
                 probability,
                 evidence_gain: judged.log_evidence - base.judged.log_evidence,
                 parameters: parameters(judged),
@@ -332,6 +371,15 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
             })
         })
         .collect()
+}
+
+/// The other forms than the cards' own.
+fn form(judged: &Judged) -> String {
+    let forms = judged.candidate.forms.iter().copied();
+    forms
+        .filter(|f| !f.is_empty())
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Values and standard deviations of a candidate's own parameters.
