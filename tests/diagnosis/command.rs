@@ -7,7 +7,7 @@ use serde_json::Value;
 
 /// A small study (one test, two times, analytic contact) in a folder of its own; the values are 5e-10 mm²/N's to 5 %.
 fn small(folder: &Path) -> PathBuf {
-    let data = super::synthetic("", 0.0, 0.05, 11);
+    let data = crate::synthetic("", 0.0, 0.05, 11);
     let mut csv = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
     for o in data.observations.iter().filter(|o| o.test == 0) {
         let position = o.position.map_or(String::new(), |p| p.to_string());
@@ -23,7 +23,7 @@ fn small(folder: &Path) -> PathBuf {
     }
     std::fs::write(folder.join("measurements.csv"), csv).unwrap();
     let source = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join(super::LAYOUT)
+        .join(crate::LAYOUT)
         .join("study.toml");
     let text = std::fs::read_to_string(source)
         .unwrap()
