@@ -15,59 +15,21 @@ use crate::learn::gear_model::GearModel;
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::quadratic::State;
 
-/// Values below this share of a test's largest are not scaled.
-const LEAST_SHARE: f64 = 0.02;
-
 /// The analytic model with an offset per test of the data set; none for a test without.
 pub(super) struct Anchored<'a> {
     model: GearModel<'a>,
     offset: Vec<Vec<f64>>,
-    ratio: Vec<Vec<f64>>,
 }
 
 impl<'a> Anchored<'a> {
     pub(super) fn new(model: GearModel<'a>, offset: Vec<Vec<f64>>) -> Self {
-        Self {
-            model,
-            offset,
-            ratio: Vec::new(),
-        }
-    }
-
-    /// As [`Self::new`] with `f = c hertz(k, θ) + (fem₀ − c hertz₀)`, c = fem₀/hertz₀ between a half and two: right where an effect
-    /// multiplies what is there, at the ends of the path above all.
-    pub(super) fn scaled(model: GearModel<'a>, offset: &[Vec<f64>], analytic: &[Vec<f64>]) -> Self {
-        let mut scaled = offset.to_vec();
-        let mut ratio = vec![Vec::new(); offset.len()];
-        for (test, own) in scaled.iter_mut().enumerate() {
-            let Some(analytic) = analytic.get(test).filter(|a| a.len() == own.len()) else {
-                continue;
-            };
-            let largest = analytic.iter().fold(0.0, |l: f64, v| l.max(v.abs()));
-            for (own, at) in own.iter_mut().zip(analytic) {
-                let c = if at.abs() > LEAST_SHARE * largest {
-                    (1.0 + *own / at).clamp(0.5, 2.0)
-                } else {
-                    1.0
-                };
-                *own -= (c - 1.0) * at;
-                ratio[test].push(c);
-            }
-        }
-        Self {
-            model,
-            offset: scaled,
-            ratio,
-        }
+        Self { model, offset }
     }
 }
 
 impl Predictor for Anchored<'_> {
     fn predict(&self, test: usize, k: f64, parameters: &[f64]) -> Result<Vec<f64>, PredictError> {
         let mut values = self.model.predict(test, k, parameters)?;
-        if let Some(ratio) = self.ratio.get(test) {
-            values.iter_mut().zip(ratio).for_each(|(v, c)| *v *= c);
-        }
         if let Some(offset) = self.offset.get(test) {
             values.iter_mut().zip(offset).for_each(|(v, o)| *v += o);
         }

@@ -54,10 +54,9 @@ const STAY: Effort = Effort {
 const ANCHORS: usize = 4;
 /// Gain of ln posterior for which another anchor is worth its runs.
 const WORTH: f64 = 0.15;
-/// Ln posterior behind the leader, and share of its gain (at the first anchor and later), from which a candidate is not
-/// followed further.
+/// Ln posterior behind the leader, and share of its gain, from which a candidate is not followed further.
 const HOPELESS: f64 = 15.0;
-const HOPELESS_SHARE: [f64; 2] = [0.4, 0.1];
+const HOPELESS_SHARE: f64 = 0.05;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
 
@@ -96,8 +95,6 @@ pub(super) struct Base {
     pub(super) adjustable: DMatrix<f64>,
     /// Whitened residual.
     pub(super) residual: DVector<f64>,
-    /// The analytic model's values at the fit, per test of the data set.
-    pub(super) analytic: Vec<Vec<f64>>,
 }
 
 impl<'a> Judge<'a> {
@@ -120,15 +117,7 @@ impl<'a> Judge<'a> {
         let mut adjustable = whiten(&self.ground.covariance, &judged.found.jacobian);
         orthonormalise(&mut adjustable);
         let residual = self.ground.residual(&judged.found.model);
-        let candidate = judged.candidate.clone();
-        let predictor = model(self.hertz, &candidate);
-        let values = predictions(&self.ground, &predictor, &candidate, &judged.found.state)?;
-        let mut analytic = vec![Vec::new(); self.ground.measured.data.tests.len()];
-        for (&test, values) in self.ground.tests.iter().zip(values) {
-            analytic[test] = values;
-        }
         Ok(Base {
-            analytic,
             residual: DVector::from_vec(self.ground.covariance.whiten(&residual)),
             adjustable,
             judged,
@@ -144,22 +133,13 @@ impl<'a> Judge<'a> {
 
     /// Fits all candidates by the middle fidelity: a first look at each, then in full those that the look leaves in play.
     pub(super) fn screen(&self, base: &Base, candidates: &[Candidate]) -> Vec<Judged> {
-        let looks: Vec<Option<(Found, bool)>> = (candidates.par_iter())
-            .map(|candidate| {
-                let plain = self.look(base, candidate, false);
-                let scaled = match self.kind {
-                    ContactKind::Fem => self.look(base, candidate, true),
-                    ContactKind::Hertz => None,
-                };
-                let plain = plain.map(|found| (found, false));
-                let both = plain.into_iter().chain(scaled.map(|found| (found, true)));
-                both.min_by(|a, b| a.0.objective.total_cmp(&b.0.objective))
-            })
+        let looks: Vec<Option<Found>> = (candidates.par_iter())
+            .map(|candidate| self.look(base, candidate))
             .collect();
         let mut objectives: Vec<f64> = looks
             .iter()
             .flatten()
-            .map(|look| look.0.objective)
+            .map(|found| found.objective)
             .collect();
         objectives.sort_by(f64::total_cmp);
         let Some(&leader) = objectives.first() else {
@@ -170,10 +150,10 @@ impl<'a> Judge<'a> {
         let bar = objectives[(IN_PLAY - 1).min(objectives.len() - 1)].max(share);
         (candidates.par_iter().zip(looks))
             .filter_map(|(candidate, found)| {
-                let (mut found, scaled) = found?;
+                let mut found = found?;
                 let offset = base.judged.offset.clone();
                 if found.objective <= bar && !found.converged {
-                    let predictor = self.anchored(base, candidate, scaled);
+                    let predictor = Anchored::new(model(self.hertz, candidate), offset.clone());
                     let state = found.state.clone();
                     if let Ok(further) =
                         self.ground
@@ -187,19 +167,9 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// The middle fidelity about the base fit, its offset added or scaled.
-    fn anchored<'c>(&'c self, base: &Base, candidate: &'c Candidate, scaled: bool) -> Anchored<'c> {
-        let model = model(self.hertz, candidate);
-        if scaled {
-            Anchored::scaled(model, &base.judged.offset, &base.analytic)
-        } else {
-            Anchored::new(model, base.judged.offset.clone())
-        }
-    }
-
     /// Two steps from that of a candidate's starts which leads furthest in the linearised model, and from a near second.
-    fn look(&self, base: &Base, candidate: &Candidate, scaled: bool) -> Option<Found> {
-        let predictor = self.anchored(base, candidate, scaled);
+    fn look(&self, base: &Base, candidate: &Candidate) -> Option<Found> {
+        let predictor = Anchored::new(model(self.hertz, candidate), base.judged.offset.clone());
         let mut starts: Vec<(f64, State)> = candidate
             .starts
             .iter()
@@ -247,7 +217,7 @@ impl<'a> Judge<'a> {
         let mut state = start;
         let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
         let mut converged = false;
-        for anchor in 0..ANCHORS {
+        for _ in 0..ANCHORS {
             let at = predictions(&self.ground, &exact, candidate, &state)?;
             let near = predictions(&self.ground, &analytic, candidate, &state)?;
             let offset = offset(&self.ground, &at, &near);
@@ -270,7 +240,7 @@ impl<'a> Judge<'a> {
                     break;
                 }
                 let gain = base.map_or(0.0, |b| (b.judged.found.objective - least).max(0.0));
-                if next.objective > least + HOPELESS + HOPELESS_SHARE[anchor.min(1)] * gain {
+                if next.objective > least + HOPELESS + HOPELESS_SHARE * gain {
                     break;
                 }
             } else if let Some((b, _)) = &best {

@@ -70,9 +70,9 @@ const COARSE_STEP: f64 = 0.02;
 /// Log evidence behind the leader within which candidates are decided by finite elements.
 const WITHIN: f64 = 10.0;
 /// The same as a share of the leader's gain, for the middle fidelity's own error.
-const WITHIN_SHARE: f64 = 0.15;
+const WITHIN_SHARE: f64 = 0.02;
 /// Least and most single candidates decided by finite elements.
-const DECIDED: [usize; 2] = [4, 8];
+const DECIDED: [usize; 2] = [3, 7];
 
 /// Diagnoses a study's measurements: screened by the analytic model, decided by `kind`.
 ///
