@@ -31,7 +31,7 @@ pub enum Fault {
     NotAvailable,
 }
 
-/// One fault in a text file; [`fmt::Display`] writes the whole message without colour.
+/// One fault in a text file; its [`Display`](std::fmt::Display) writes the whole message without colour.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Kind of fault.
