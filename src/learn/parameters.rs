@@ -12,8 +12,8 @@ const COEFFICIENT_SPREAD: f64 = 10.0;
 /// How far a fit may take the wear coefficient from where it starts, as a factor.
 const COEFFICIENT_REACH: f64 = 1e6;
 /// Step of the forward differences, in prior standard deviations of the natural scale: large enough to stand out of the rounding of
-/// predictions that are themselves computed with adaptive steps.
-const DIFFERENCE: f64 = 0.05;
+/// predictions that are themselves computed with adaptive steps, small enough not to step over a narrow hill of a flat prior.
+const DIFFERENCE: f64 = 0.02;
 /// Distance to a bound, in the parameter's posterior standard deviations, that counts as lying on it.
 const AT_BOUND: f64 = 1e-3;
 
