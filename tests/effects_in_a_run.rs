@@ -14,9 +14,11 @@ use gearwear::wear::acting::Acting;
 
 const STUDY: &str = include_str!("../validation/paper/study.toml");
 
-/// Worn area by the law against geometry: most effects stay below 2e-3, a coating's jump within a wear step makes 1e-2
-/// (the law's side is a trapezoidal rule over steps).
-const BALANCE: f64 = 1.5e-2;
+/// Worn area by the law against geometry; the law's side is a trapezoidal rule over steps. Measured: 1.8e-3 at most.
+const BALANCE: f64 = 3e-3;
+
+/// The same for a coating, whose factor jumps within a wear step. Measured: 1.03e-2.
+const JUMPING_BALANCE: f64 = 1.5e-2;
 
 fn set() -> GearSet {
     Study::parse(STUDY, "study.toml").unwrap().gear_set()
@@ -72,6 +74,16 @@ fn worn(
     conditions: Conditions,
     acting: Option<&Acting>,
 ) -> WearState {
+    worn_within(BALANCE, set, members, conditions, acting)
+}
+
+fn worn_within(
+    limit: f64,
+    set: &GearSet,
+    members: Option<&Members>,
+    conditions: Conditions,
+    acting: Option<&Acting>,
+) -> WearState {
     let mut forward = Forward::with_effects(set, members, conditions, numerics(), acting).unwrap();
     let mut progress = None;
     forward
@@ -79,7 +91,7 @@ fn worn(
         .unwrap();
     let progress = progress.unwrap();
     assert!(
-        progress.balance.error() < BALANCE,
+        progress.balance.error() < limit,
         "law and geometry differ by {}",
         progress.balance.error()
     );
@@ -115,7 +127,11 @@ fn every_effect_acts_by_both_models() {
             };
             let values = card.values(stated).unwrap();
             let acting = acting(card, &values);
-            let with = worn(&set, model, conditions(2e4), Some(&acting));
+            let limit = match card.name {
+                "coating" => JUMPING_BALANCE,
+                _ => BALANCE,
+            };
+            let with = worn_within(limit, &set, model, conditions(2e4), Some(&acting));
             let change = base.depth.iter().flatten().zip(with.depth.iter().flatten());
             let largest = change.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             if largest < 1e-8 {

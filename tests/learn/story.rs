@@ -415,8 +415,6 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
         },
     ]);
     // 300 and 150 points: standard deviations of 0.08 and 0.115 about 0.93; four of them.
-    assert!(steps[2].fit_chi2_per_point.unwrap() < 1.25);
-    assert!(steps[2].holdout_chi2_per_point.unwrap() < 1.4);
     let [useless, useful] = [&steps[1], &steps[2]].map(|step| step.improvement.unwrap());
     assert!(useless.holdout_factor.unwrap() < 1.05, "{useless:?}");
     assert!(useful.holdout_factor.unwrap() > 3.0 && useful.log_evidence.unwrap() > 100.0);
@@ -431,5 +429,39 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
         "parameters",
     ] {
         assert!(!json[2][key].is_null(), "{key}");
+    }
+}
+
+/// The right model's errors over twelve draws: the limit is 1.15, and one draw of 150 held-out points scatters by 0.12.
+#[test]
+fn the_right_effect_is_at_the_noise_floor_in_the_mean() {
+    const DRAWS: u64 = 12;
+    let study = Study::parse(STUDY, "study.toml").unwrap();
+    let empty = wear_data(&[("A", 1e6), ("B", 8e5), ("H", 6e5)], 15, true);
+    let mut mean = [0.0; 2];
+    for seed in 1..=DRAWS {
+        let data = measured(
+            &empty,
+            running_in,
+            &[1.2e-10, 1.3e-10, 1.1e-10],
+            &[2.5, 2.5e5],
+            0.005,
+            0.3,
+            &mut Random(seed),
+        );
+        let right = Formula {
+            data: data.clone(),
+            formula: running_in,
+        };
+        let fit = problem(&data, &right, running_in_parameters())
+            .fit(&Effort::default())
+            .unwrap();
+        let compared = Comparison::new(&study, &data, &fit);
+        for (mean, share) in mean.iter_mut().zip([compared.fit, compared.holdout]) {
+            *mean += share.chi2_per_point.unwrap() / DRAWS as f64;
+        }
+    }
+    for chi2 in mean {
+        assert!((0.85..1.15).contains(&chi2), "{mean:?}");
     }
 }
