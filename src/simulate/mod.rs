@@ -4,6 +4,7 @@ pub mod checkpoint;
 pub mod fields;
 pub mod forward;
 pub mod gather;
+pub mod gear_set;
 pub mod history;
 pub mod members;
 pub mod models;

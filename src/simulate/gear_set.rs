@@ -1,0 +1,152 @@
+//! The gears before they are mounted, and the members that a set of conditions calls for.
+
+use crate::contact::cycle::Cycle;
+use crate::gear::{Gear, Pair, PairError};
+use crate::material::{Elastic, contact_modulus};
+use crate::mesh::Mesh;
+use crate::simulate::forward::ForwardError;
+use crate::simulate::members::{self, Members};
+use crate::simulate::numerics::Numerics;
+
+/// The gears as they are, before they are mounted.
+#[derive(Debug, Clone)]
+pub struct GearSet {
+    /// Pinion and gear.
+    pub gears: [Gear; 2],
+    /// Elastic constants of both.
+    pub materials: [Elastic; 2],
+    /// Densities of both, kg/m³.
+    pub densities: [f64; 2],
+    /// Nominal centre distance, mm.
+    pub centre_distance: f64,
+    /// Face width, mm.
+    pub face_width: f64,
+}
+
+/// Most unknowns on the flanks of one member: their compliance is a full matrix, of 2 GB then.
+pub(super) const MOST_UNKNOWNS: usize = 16_000;
+
+impl GearSet {
+    /// The pair mounted with a radial misalignment (mm).
+    ///
+    /// # Errors
+    /// [`PairError`] if the gears cannot run so.
+    pub fn mount(&self, misalignment: f64) -> Result<Pair, PairError> {
+        Pair::new(
+            self.gears[0].clone(),
+            self.gears[1].clone(),
+            self.centre_distance,
+            misalignment,
+        )
+    }
+
+    /// Contact modulus E*, MPa.
+    pub fn modulus(&self) -> f64 {
+        contact_modulus(self.materials[0], self.materials[1])
+    }
+
+    /// Elastic members fine enough for every pinion torque (N·mm) and radial misalignment (mm) given.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a pair cannot run or a member cannot be built.
+    pub fn members(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+    ) -> Result<Members, ForwardError> {
+        self.members_on(numerics, torques, misalignments, [None, None])
+    }
+
+    /// As [`GearSet::members`], on the user's `own` meshes where there are any.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a pair cannot run or a member cannot be built.
+    pub fn members_on(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+        own: [Option<Mesh>; 2],
+    ) -> Result<Members, ForwardError> {
+        let fineness = self.fineness(numerics, torques, misalignments)?;
+        Ok(Members::build(
+            &self.gears,
+            self.materials,
+            &fineness.teeth,
+            fineness.spacing,
+            numerics.order,
+            own,
+        )?)
+    }
+
+    /// The meshes of both members alone.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a pair cannot run or a member cannot be meshed.
+    pub fn meshes(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+        own: [Option<Mesh>; 2],
+    ) -> Result<[Mesh; 2], ForwardError> {
+        let fineness = self.fineness(numerics, torques, misalignments)?;
+        Ok(members::meshes(
+            &self.gears,
+            &fineness.teeth,
+            fineness.spacing,
+            numerics.order,
+            own,
+        )?)
+    }
+
+    fn fineness(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        misalignments: &[f64],
+    ) -> Result<Fineness, ForwardError> {
+        let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
+        let pairs = misalignments
+            .iter()
+            .map(|m| self.mount(*m))
+            .collect::<Result<Vec<Pair>, PairError>>()?;
+        let spacing = pairs
+            .iter()
+            .map(|p| numerics.flank_spacing(p, self.modulus(), least))
+            .fold(f64::INFINITY, f64::min);
+        let mut teeth = Vec::new();
+        for (pair, torque) in pairs
+            .iter()
+            .flat_map(|pair| torques.iter().map(move |t| (pair, t / self.face_width)))
+        {
+            teeth.extend(Cycle::teeth(
+                pair,
+                numerics.cycle(pair, self.modulus(), torque, spacing),
+            ));
+        }
+        teeth.sort_unstable();
+        teeth.dedup();
+        let longest = self
+            .gears
+            .iter()
+            .map(|g| g.arc(g.rho_tip) - g.arc(g.rho_form))
+            .fold(0.0, f64::max);
+        let edges = (longest / spacing).ceil() as usize;
+        let unknowns = 2 * teeth.len() * (numerics.order * edges + 1);
+        if unknowns > MOST_UNKNOWNS {
+            return Err(ForwardError::TooFine {
+                unknowns,
+                edge_um: 1e3 * spacing,
+            });
+        }
+        Ok(Fineness { teeth, spacing })
+    }
+}
+
+/// Which of the pinion's teeth are meshed finely, and how finely (mm).
+struct Fineness {
+    teeth: Vec<i32>,
+    spacing: f64,
+}
