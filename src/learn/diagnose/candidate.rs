@@ -33,6 +33,9 @@ pub struct NotJudged {
     pub needs: Vec<String>,
 }
 
+/// Effects whose rate grows with a power of the local pressure or sets in at one.
+const SHARP: [&str; 4] = ["pressure_exponent", "severe_transition", "micropitting", "plastic_deformation"];
+
 /// Name of the form with a card's own settings.
 const OWN: &str = "";
 
@@ -92,6 +95,11 @@ impl Candidate {
             version,
             starts: Vec::new(),
         }
+    }
+
+    /// Whether its rate is sharp in the local pressure, which the analytic model knows least.
+    pub(super) fn sharp(&self) -> bool {
+        self.names.iter().any(|name| SHARP.contains(name))
     }
 
     /// `a+b`, or `nothing_missing`.

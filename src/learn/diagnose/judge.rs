@@ -29,6 +29,11 @@ const SCREEN: Effort = Effort {
 /// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.
 const IN_PLAY: usize = 8;
 const IN_PLAY_SHARE: f64 = 0.5;
+/// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
+/// gain as much as this at all.
+const REFINED: usize = 8;
+const REFINED_SHARE: f64 = 0.5;
+const MEANT: f64 = -3.0;
 /// A deciding fit between two anchors.
 const DECIDE: Effort = Effort {
     iterations: 8,
@@ -64,6 +69,7 @@ const SECOND_START: f64 = 0.6;
 pub(super) struct Judge<'a> {
     pub(super) ground: Ground<'a>,
     pub(super) hertz: &'a Bench<'a>,
+    pub(super) middle: &'a Bench<'a>,
     pub(super) exact: &'a Bench<'a>,
     /// By which contact model `exact` computes.
     pub(super) kind: ContactKind,
@@ -95,6 +101,8 @@ pub(super) struct Base {
     pub(super) adjustable: DMatrix<f64>,
     /// Whitened residual.
     pub(super) residual: DVector<f64>,
+    /// Exact minus analytic model at the fit, per test of the data set.
+    pub(super) hertz_offset: Vec<Vec<f64>>,
 }
 
 impl<'a> Judge<'a> {
@@ -108,7 +116,7 @@ impl<'a> Judge<'a> {
                 .map(|p| p.start)
                 .collect::<Vec<f64>>(),
         );
-        let predictor = model(self.hertz, &candidate);
+        let predictor = model(self.middle, &candidate);
         let found = self
             .ground
             .fit(&predictor, &candidate.parameters, start, &DECIDE)?;
@@ -117,7 +125,13 @@ impl<'a> Judge<'a> {
         let mut adjustable = whiten(&self.ground.covariance, &judged.found.jacobian);
         orthonormalise(&mut adjustable);
         let residual = self.ground.residual(&judged.found.model);
+        let hertz_offset = {
+            let (candidate, state) = (&judged.candidate, &judged.found.state);
+            let of = |bench| predictions(&self.ground, &model(bench, candidate), candidate, state);
+            offset(&self.ground, &of(self.exact)?, &of(self.hertz)?)
+        };
         Ok(Base {
+            hertz_offset,
             residual: DVector::from_vec(self.ground.covariance.whiten(&residual)),
             adjustable,
             judged,
@@ -151,7 +165,7 @@ impl<'a> Judge<'a> {
         (candidates.par_iter().zip(looks))
             .filter_map(|(candidate, found)| {
                 let mut found = found?;
-                let offset = base.judged.offset.clone();
+                let offset = base.hertz_offset.clone();
                 if found.objective <= bar && !found.converged {
                     let predictor = Anchored::new(model(self.hertz, candidate), offset.clone());
                     let state = found.state.clone();
@@ -167,9 +181,41 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
+    /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
+    /// leaders, and all whose rate is sharp in the local pressure, of which the analytic model knows least.
+    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>) -> Vec<Judged> {
+        let before = base.judged.log_evidence;
+        let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
+        gains.sort_by(|a, b| b.total_cmp(a));
+        let bar = match gains.first() {
+            Some(best) => {
+                gains[(REFINED - 1).min(gains.len() - 1)].min(REFINED_SHARE * best).max(MEANT)
+            }
+            None => return screened,
+        };
+        let offset = &base.judged.offset;
+        (screened.into_par_iter())
+            .map(|judged| {
+                let candidate = judged.candidate.clone();
+                if judged.log_evidence - before < bar && !candidate.sharp() {
+                    return judged;
+                }
+                let predictor = Anchored::new(model(self.middle, &candidate), offset.clone());
+                let state = judged.found.state.clone();
+                let t = std::time::Instant::now();
+                let fit = self.ground.fit(&predictor, &candidate.parameters, state, &SCREEN);
+                if std::env::var("GW_V").is_ok() { eprintln!("middle {} {:?} {:.2} s {}", candidate.name(), candidate.forms, t.elapsed().as_secs_f64(), fit.as_ref().map_or(0, |f| f.iterations)); }
+                match fit {
+                    Ok(found) => self.judged(candidate.clone(), found, offset.clone(), Some(base), false),
+                    Err(_) => judged,
+                }
+            })
+            .collect()
+    }
+
     /// Two steps from that of a candidate's starts which leads furthest in the linearised model, and from a near second.
     fn look(&self, base: &Base, candidate: &Candidate) -> Option<Found> {
-        let predictor = Anchored::new(model(self.hertz, candidate), base.judged.offset.clone());
+        let predictor = Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone());
         let mut starts: Vec<(f64, State)> = candidate
             .starts
             .iter()
@@ -213,7 +259,7 @@ impl<'a> Judge<'a> {
     ) -> Result<Judged, PredictError> {
         let parameters = &candidate.parameters;
         let exact = model(self.exact, candidate);
-        let analytic = model(self.hertz, candidate);
+        let analytic = model(self.middle, candidate);
         let mut state = start;
         let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
         let mut converged = false;
@@ -221,7 +267,7 @@ impl<'a> Judge<'a> {
             let at = predictions(&self.ground, &exact, candidate, &state)?;
             let near = predictions(&self.ground, &analytic, candidate, &state)?;
             let offset = offset(&self.ground, &at, &near);
-            let predictor = Anchored::new(model(self.hertz, candidate), offset.clone());
+            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
             let here = self
                 .ground
                 .fit(&predictor, parameters, state.clone(), &STAY)?;
@@ -270,7 +316,7 @@ impl<'a> Judge<'a> {
             return None;
         }
         let at = predictions(&self.ground, &exact, candidate, &found.state).ok()?;
-        let analytic = model(self.hertz, candidate);
+        let analytic = model(self.middle, candidate);
         let near = predictions(&self.ground, &analytic, candidate, &found.state).ok()?;
         let offset = offset(&self.ground, &at, &near);
         Some(self.judged(candidate.clone(), found, offset, Some(base), true))

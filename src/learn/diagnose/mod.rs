@@ -107,20 +107,42 @@ pub fn diagnose(
         step_tolerance: resolution.step_tolerance.max(COARSE_STEP),
         ..resolution
     };
-    let workshop = Workshop::new(set, coarse, ContactKind::Hertz, measured.tests())?;
+    let workshop = Workshop::new(set.clone(), coarse, ContactKind::Hertz, measured.tests())?;
     let hertz = measured.bench(&workshop)?;
     let elastic = match kind {
-        ContactKind::Fem => Some(measured.workshop(kind)?),
+        ContactKind::Fem => {
+            let middle = Workshop::new(set.clone(), middle(resolution), kind, measured.tests())?;
+            Some((middle, measured.workshop(kind)?))
+        }
         ContactKind::Hertz => None,
     };
-    let fem = elastic.as_ref().map(|w| measured.bench(w)).transpose()?;
+    let benches = match &elastic {
+        Some((middle, fine)) => Some((measured.bench(middle)?, measured.bench(fine)?)),
+        None => None,
+    };
+    let (middle, exact) = match &benches {
+        Some((middle, fine)) => (middle, fine),
+        None => (&hertz, &hertz),
+    };
     let judge = Judge {
         ground,
         hertz: &hertz,
-        exact: fem.as_ref().unwrap_or(&hertz),
+        middle,
+        exact,
         kind,
     };
     with(&judge, &workshop, watch)
+}
+
+/// Resolution of the middle fidelity: finite elements coarse enough for thousands of histories.
+fn middle(fine: Numerics) -> Numerics {
+    let v = |n: &str, d: f64| std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d);
+    Numerics {
+        elements_per_half_width: v("GW_E", 2.5),
+        positions: v("GW_P", 50.0) as usize,
+        step_tolerance: v("GW_T", 5e-3),
+        ..fine
+    }
 }
 
 /// The diagnosis on prepared benches.
@@ -131,6 +153,10 @@ fn with(judge: &Judge<'_>, shop: &Workshop, watch: Watch<'_>) -> Result<Diagnosi
     let (singles, not_judged) = Candidate::singles(study);
     watch(0.2, format!("screening {} effects", singles.len()));
     let screened = judge.screen(&base, &singles);
+    let screened = match judge.kind {
+        ContactKind::Fem => judge.refine(&base, screened),
+        ContactKind::Hertz => screened,
+    };
     watch(0.45, "what anything smooth could explain".to_owned());
     let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
     let judged = decide_leaders(judge, &base, screened, &|done, what| {

@@ -173,7 +173,7 @@ fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged>
     } else {
         &first.offset
     };
-    let predictor = Anchored::new(model(judge.hertz, &candidate), offset.clone());
+    let predictor = Anchored::new(model(judge.middle, &candidate), offset.clone());
     let found = judge
         .ground
         .fit(&predictor, &candidate.parameters, start, &EFFORT)
