@@ -100,7 +100,22 @@ fn member(gears: &Table<'_>, member: Member, rack: BasicRack) -> Result<Gear> {
         tip_relief_length: zero("tip_relief_length", &q::RELIEF_LENGTH)?,
         tip_rounding: zero("tip_rounding", &q::TIP_ROUNDING)?,
     };
-    Gear::new(rack, spec).map_err(|error| impossible_gear(gears, &table, &error))
+    Gear::new(rack, spec).map_err(|error| {
+        // a tooth that thinning alone makes pointed
+        let full = ToothSpec {
+            thickness_reduction: 0.0,
+            ..spec
+        };
+        match &error {
+            GearError::PointedTooth { min, .. } if Gear::new(rack, full).is_ok() => inconsistent(
+                &table,
+                "thickness_reduction",
+                &error.to_string(),
+                format!("a tip thickness of at least {} mm", q::Short(*min)),
+            ),
+            _ => impossible_gear(gears, &table, &error),
+        }
+    })
 }
 
 /// Sends an impossible gear to the key that can mend it.
@@ -111,6 +126,9 @@ fn impossible_gear(gears: &Table<'_>, member: &Table<'_>, error: &GearError) -> 
     let (table, key, allowed) = match error {
         GearError::Module { .. } => (gears, "module", q::MODULE.to_string()),
         GearError::PressureAngle { .. } => (gears, "pressure_angle", q::PRESSURE_ANGLE.to_string()),
+        GearError::FilletRadius { max: 0.0, .. } => {
+            (gears, "dedendum", "a rack whose tip is not pointed: less dedendum, pressure_angle or thickness_reduction".to_owned())
+        }
         GearError::FilletRadius { max, .. } => (gears, "fillet_radius", up_to(0.0, *max, "modules")),
         GearError::Bore { max, .. } => (member, "bore_diameter", up_to(0.1, *max, "mm")),
         GearError::TipReliefAmount { max, .. } => (member, "tip_relief_amount", up_to(0.0, max * 1e3, "um")),
