@@ -18,6 +18,8 @@ use crate::simulate::paper_run;
 use crate::simulate::result::Run;
 use crate::simulate::run::{Event, Observer, Plan, RunError, run};
 use crate::study::{ContactKind, Operation, Study, Test};
+use crate::wear::archard::WearError;
+use crate::wear::integrator::StepError;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -121,22 +123,18 @@ fn refused(study: &Study, torque: &str, error: RunError) -> CliError {
     let torque = |allowed: &str, hint: &str| {
         CliError::Study(study.refuse(torque, &error.to_string(), allowed, hint))
     };
-    match &error {
-        RunError::Forward(ForwardError::TooFine { .. }) => {
-            return torque(
-                "a torque whose contact the flanks' elements can resolve",
-                "numerics.elements_per_half_width sets how finely",
-            );
-        }
-        RunError::Forward(ForwardError::Contact(
-            ContactError::TooSoft { .. } | ContactError::OutOfReach { .. },
-        )) => {
-            return torque(
-                "a torque under which the gears deform little",
-                "stiffer gears also help: a larger youngs_modulus or face_width, a wider bore",
-            );
-        }
-        _ => {}
+    if let RunError::Forward(ForwardError::TooFine { .. }) = &error {
+        return torque(
+            "a torque whose contact the flanks' elements can resolve",
+            "numerics.elements_per_half_width sets how finely",
+        );
+    }
+    if let Some(ContactError::TooSoft { .. } | ContactError::OutOfReach { .. }) = of_contact(&error)
+    {
+        return torque(
+            "a torque under which the gears deform little",
+            "stiffer gears also help: a larger youngs_modulus or face_width, a wider bore",
+        );
     }
     if let RunError::Forward(ForwardError::Contact(ContactError::NoFlank { side, .. })) = &error
         && let (member, Some(path)) = study.own_meshes()[*side]
@@ -145,6 +143,18 @@ fn refused(study: &Study, torque: &str, error: RunError) -> CliError {
         return super::mesh::refusal(study, member, &message);
     }
     error.into()
+}
+
+/// The contact problem that stopped a run before any wear.
+fn of_contact(error: &RunError) -> Option<&ContactError> {
+    match error {
+        RunError::Forward(ForwardError::Contact(error)) => Some(error),
+        RunError::Forward(ForwardError::Step(StepError::System {
+            source: WearError::Contact(error),
+            ..
+        })) => Some(error),
+        _ => None,
+    }
 }
 
 /// The members on the user's own meshes, if the study names any.

@@ -78,9 +78,9 @@ pub enum ContactError {
         /// Its distance before loading, mm.
         separation: f64,
     },
-    /// The gears give way too far under the load.
+    /// The flanks give way too far: the gears are too soft for the load, or worn too far.
     #[error(
-        "at mesh position {theta:.4} the flanks give way by {closing:.4} mm, at most {limit:.4} mm (a quarter of a module) keep to small deformation"
+        "at mesh position {theta:.4} the pinion turns until its flanks have closed by {closing:.4} mm under load and wear; beyond {limit:.4} mm (a quarter of a module) neither is small any more"
     )]
     TooSoft {
         /// Pinion rotation, base pitches.

@@ -566,8 +566,8 @@ pub struct Preparation {
     pub condensed_at: Option<Vec<f64>>,
 }
 
-/// Corners farther apart than this are never looked at, in modules: wear of a tenth of a module ends the model's validity.
-const MOST_REACH: f64 = 0.1;
+/// Corners farther apart than this are never looked at, in modules: flanks that close farther are refused.
+const MOST_REACH: f64 = 0.25;
 
 impl Preparation {
     fn is_stale(&self, u: &[f64], condense_after: f64) -> bool {
