@@ -17,7 +17,9 @@ use crate::simulate::members::Members;
 use crate::simulate::paper_run;
 use crate::simulate::result::Run;
 use crate::simulate::run::{Event, Observer, Plan, RunError, run};
-use crate::study::{ContactKind, Operation, Study};
+use crate::study::{ContactKind, Operation, Study, Test};
+use crate::wear::archard::WearError;
+use crate::wear::integrator::StepError;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -99,19 +101,40 @@ fn simulate(
     }
     let own = own_members(study, &plan)?;
     let mut watcher = Watcher { keeper, progress };
-    run(&plan, own.as_ref(), start, &mut watcher).map_err(|error| refused(study, error))
+    let refused = |error| refused(study, &torque_key(study, test), error);
+    run(&plan, own.as_ref(), start, &mut watcher).map_err(refused)
+}
+
+/// The key that states the torque of `test`, or of the study's operation.
+fn torque_key(study: &Study, test: Option<&str>) -> String {
+    let own = |t: &Test| t.conditions.torque_nmm != study.operation.torque_nmm;
+    let place = study
+        .tests
+        .iter()
+        .position(|t| Some(t.id.as_str()) == test && own(t));
+    place.map_or("operation.torque".to_owned(), |i| {
+        format!("test[{i}].torque")
+    })
 }
 
 /// Errors of a run that are unusable input: a user's own mesh that lacks the fine flank of a tooth which can touch, and a
-/// torque so small that its contact cannot be resolved.
-fn refused(study: &Study, error: RunError) -> CliError {
+/// torque so small that its contact cannot be resolved, or so large that the new gears give way too far.
+fn refused(study: &Study, torque: &str, error: RunError) -> CliError {
+    let torque = |allowed: &str, hint: &str| {
+        CliError::Study(study.refuse(torque, &error.to_string(), allowed, hint))
+    };
     if let RunError::Forward(ForwardError::TooFine { .. }) = &error {
-        return CliError::Study(study.refuse(
-            "operation.torque",
-            &error.to_string(),
+        return torque(
             "a torque whose contact the flanks' elements can resolve",
             "numerics.elements_per_half_width sets how finely",
-        ));
+        );
+    }
+    if let Some(ContactError::TooSoft { .. } | ContactError::OutOfReach { .. }) = of_contact(&error)
+    {
+        return torque(
+            "a torque under which the gears deform little",
+            "stiffer gears also help: a larger youngs_modulus or face_width, a wider bore",
+        );
     }
     if let RunError::Forward(ForwardError::Contact(ContactError::NoFlank { side, .. })) = &error
         && let (member, Some(path)) = study.own_meshes()[*side]
@@ -120,6 +143,18 @@ fn refused(study: &Study, error: RunError) -> CliError {
         return super::mesh::refusal(study, member, &message);
     }
     error.into()
+}
+
+/// The contact problem that stopped a run before any wear.
+fn of_contact(error: &RunError) -> Option<&ContactError> {
+    match error {
+        RunError::Forward(ForwardError::Contact(error)) => Some(error),
+        RunError::Forward(ForwardError::Step(StepError::System {
+            source: WearError::Contact(error),
+            ..
+        })) => Some(error),
+        _ => None,
+    }
 }
 
 /// The members on the user's own meshes, if the study names any.

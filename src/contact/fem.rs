@@ -25,6 +25,10 @@ pub struct ToothFlank {
     pub order: usize,
 }
 
+/// Flanks that close by more than this, in modules, have left their path of contact: the turn under load is then no
+/// longer small against the tooth, and gaps taken at the unloaded position no longer hold.
+const MOST_CLOSING: f64 = 0.25;
+
 /// Condensed compliance of one member's candidate flanks.
 #[derive(Debug, Clone)]
 pub struct ElasticFlanks {
@@ -352,10 +356,19 @@ impl<'a> FemContact<'a> {
                 source,
             })?;
         // a rigid turn closes a corner by r_b times it; the tooth's own wear would only open it
-        if solution.approach * self.cycle.pair.pinion.base_radius > position.left_out {
+        let closing = solution.approach * self.cycle.pair.pinion.base_radius;
+        if closing > position.left_out {
             return Err(ContactError::OutOfReach {
                 theta: position.theta,
                 separation: position.left_out,
+            });
+        }
+        let limit = MOST_CLOSING * self.cycle.pair.pinion.rack.module;
+        if closing > limit {
+            return Err(ContactError::TooSoft {
+                theta: position.theta,
+                closing,
+                limit,
             });
         }
         for pair in &position.pairs {

@@ -70,13 +70,25 @@ pub enum ContactError {
     },
     /// A tooth pair that was not looked at would touch.
     #[error(
-        "at mesh position {theta:.4} a tooth pair {separation:.4} mm apart comes into contact, beyond the teeth prepared for this load; such wear is outside the model"
+        "at mesh position {theta:.4} a tooth pair {separation:.4} mm apart comes into contact, beyond the teeth prepared for this load; such loads and such wear are outside the model"
     )]
     OutOfReach {
         /// Pinion rotation, base pitches.
         theta: f64,
         /// Its distance before loading, mm.
         separation: f64,
+    },
+    /// The flanks give way too far: the gears are too soft for the load, or worn too far.
+    #[error(
+        "at mesh position {theta:.4} the pinion turns until its flanks have closed by {closing:.4} mm under load and wear; beyond {limit:.4} mm (a quarter of a module) neither is small any more"
+    )]
+    TooSoft {
+        /// Pinion rotation, base pitches.
+        theta: f64,
+        /// Turn of the pinion under load times its base radius, mm.
+        closing: f64,
+        /// Largest that is computed with, mm.
+        limit: f64,
     },
     /// A tooth that can touch is not finely meshed.
     #[error("tooth {tooth} of the {} can touch but has no fine flank in the mesh", ["pinion", "gear"][*side])]

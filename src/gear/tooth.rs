@@ -146,7 +146,8 @@ impl Gear {
         }
         gear.join_fillet()?;
         let max_bore = 2.0 * (root_radius - 0.5 * m);
-        if spec.bore_diameter >= max_bore {
+        // up to it, whatever rounding makes of the limit
+        if spec.bore_diameter > max_bore + 1e-9 * m {
             return Err(GearError::Bore {
                 diameter: spec.bore_diameter,
                 max: max_bore,

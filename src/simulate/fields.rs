@@ -4,6 +4,7 @@ use crate::contact::cycle::Position;
 use crate::contact::fem::{CycleCompliance, member_tooth, member_turns};
 use crate::contact::model::PositionContact;
 use crate::fem::{FemError, Stress};
+use crate::mesh::{BoundaryEdge, boundary_edges};
 use crate::numeric::{Vec2, rotate};
 use crate::simulate::forward::{Forward, ForwardError};
 use crate::simulate::members::Member;
@@ -19,8 +20,8 @@ pub struct MemberFields {
     pub stress: Vec<Stress>,
     /// Contact force on the node per face width, N/mm.
     pub force: Vec<Vec2>,
-    /// Contact pressure on flank nodes, MPa: consistent force over the node's share of the flank, so that its integral
-    /// over the flank's edges is the load.
+    /// Contact pressure on flank nodes, MPa: consistent force over the node's share of the outline, so that its integral
+    /// over the outline's edges is the load.
     pub pressure: Vec<f64>,
 }
 
@@ -109,6 +110,7 @@ impl<'a> Loads<'a> {
         turn: f64,
         member: &Member,
     ) {
+        let outline = boundary_edges(&member.mesh);
         for (pair, coupling) in position.pairs.iter().zip(compliance.couplings(q)) {
             let tooth = member_tooth(pair, side);
             let Some(chain) = member.mesh.flanks.iter().find(|f| f.tooth == tooth) else {
@@ -120,19 +122,35 @@ impl<'a> Loads<'a> {
             }
             let sign = if side == 0 { -1.0 } else { 1.0 };
             let traction = rotate(compliance.traction(pair), -turn) * sign;
-            let share = chain_shares(
-                &chain
-                    .nodes
-                    .iter()
-                    .map(|&i| self.points[i as usize])
-                    .collect::<Vec<_>>(),
-                member.order(),
-            );
+            let share = self.shares(&chain.nodes, &outline, member.order());
             for ((&node, amount), share) in chain.nodes.iter().zip(&amount).zip(&share) {
                 self.force[node as usize] += traction * *amount;
                 self.pressure[node as usize] = amount / share;
             }
         }
+    }
+
+    /// ∫ φ_i ds of each of a flank's `nodes` over the whole outline, mm: the first and the last node also have a share of the
+    /// fillet's and of the tip land's edge beside them.
+    fn shares(&self, nodes: &[u32], outline: &[BoundaryEdge], order: usize) -> Vec<f64> {
+        let at = |node: &u32| self.points[*node as usize];
+        let mut share = chain_shares(&nodes.iter().map(at).collect::<Vec<_>>(), order);
+        let last = nodes.len() - 1;
+        for edge in outline {
+            let beside = [(edge.start, edge.end, 0), (edge.end, edge.start, order)];
+            for (own, other, place) in beside {
+                let of_flank = |node| nodes.contains(&node);
+                let Some(end) = [0, last].into_iter().find(|i| nodes[*i] == own) else {
+                    continue;
+                };
+                if !of_flank(other) {
+                    let edge = [Some(edge.start), edge.mid, Some(edge.end)];
+                    let edge: Vec<Vec2> = edge.iter().flatten().map(at).collect();
+                    share[end] += chain_shares(&edge, order)[place];
+                }
+            }
+        }
+        share
     }
 
     fn solve(self, member: &Member, turn: f64) -> Result<MemberFields, FemError> {

@@ -288,6 +288,9 @@ impl<'a> Forward<'a> {
     /// Calls `work` with the contact model.
     pub fn with_model<R>(&self, work: impl FnOnce(&dyn ContactModel) -> R) -> R {
         match (self.compliance(), self.kind) {
+            (None, ContactKind::Fem) => {
+                unreachable!("a run whose preparation failed is given up")
+            }
             (Some(compliance), ContactKind::Fem) => {
                 let model = FemContact::new(&self.cycle, compliance, self.torque());
                 match &self.altered {
@@ -295,7 +298,7 @@ impl<'a> Forward<'a> {
                     None => work(&model),
                 }
             }
-            _ => {
+            (_, ContactKind::Hertz) => {
                 let [pinion, gear] = &self.set.gears;
                 let teeth = iso6336::ToothPair {
                     teeth: [pinion, gear].map(|g| f64::from(g.spec.teeth)),
@@ -450,7 +453,7 @@ impl<'a> Forward<'a> {
     /// Prepares the contact as `preparation` says, as an interrupted run had it.
     ///
     /// # Errors
-    /// [`ForwardError`] if a worn member cannot be factored.
+    /// [`ForwardError`] if a worn member cannot be factored; the run is then without a contact model and must be given up.
     pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
         if *preparation == self.preparation() {
             return Ok(());
@@ -463,11 +466,17 @@ impl<'a> Forward<'a> {
         if spec != self.cycle.spec {
             self.cycle = Arc::new(Cycle::new(&self.cycle.pair, &self.cycle.stations, spec));
         }
+        // what the new preparation replaces is let go first: it is as large as what takes its place
+        (self.compliance, self.altered) = (None, None);
         let more_teeth = self.extend_members()?;
-        let Some(fresh) = self.members() else {
+        if self.members().is_none() {
             return self.project();
-        };
+        }
         if more_teeth || preparation.condensed_at != self.condensed_at {
+            (self.worn, self.condensed_at) = (None, None);
+            let Some(fresh) = self.members() else {
+                return self.project();
+            };
             let worn = match &preparation.condensed_at {
                 Some(u) => {
                     let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
@@ -502,6 +511,7 @@ impl<'a> Forward<'a> {
         teeth.sort_unstable();
         teeth.dedup();
         let (spacing, order) = (members.spacing(), self.numerics.order);
+        (self.worn, self.condensed_at, self.extended) = (None, None, None);
         let built = Members::build(
             &self.set.gears,
             self.set.materials,
@@ -556,8 +566,8 @@ pub struct Preparation {
     pub condensed_at: Option<Vec<f64>>,
 }
 
-/// Corners farther apart than this are never looked at, in modules: wear of a tenth of a module ends the model's validity.
-const MOST_REACH: f64 = 0.1;
+/// Corners farther apart than this are never looked at, in modules: flanks that close farther are refused.
+const MOST_REACH: f64 = 0.25;
 
 impl Preparation {
     fn is_stale(&self, u: &[f64], condense_after: f64) -> bool {

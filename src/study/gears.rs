@@ -100,7 +100,22 @@ fn member(gears: &Table<'_>, member: Member, rack: BasicRack) -> Result<Gear> {
         tip_relief_length: zero("tip_relief_length", &q::RELIEF_LENGTH)?,
         tip_rounding: zero("tip_rounding", &q::TIP_ROUNDING)?,
     };
-    Gear::new(rack, spec).map_err(|error| impossible_gear(gears, &table, &error))
+    Gear::new(rack, spec).map_err(|error| {
+        // a tooth that thinning alone makes pointed
+        let full = ToothSpec {
+            thickness_reduction: 0.0,
+            ..spec
+        };
+        match &error {
+            GearError::PointedTooth { min, .. } if Gear::new(rack, full).is_ok() => inconsistent(
+                &table,
+                "thickness_reduction",
+                &error.to_string(),
+                format!("a tip thickness of at least {} mm", q::Short(*min)),
+            ),
+            _ => impossible_gear(gears, &table, &error),
+        }
+    })
 }
 
 /// Sends an impossible gear to the key that can mend it.
@@ -111,6 +126,9 @@ fn impossible_gear(gears: &Table<'_>, member: &Table<'_>, error: &GearError) -> 
     let (table, key, allowed) = match error {
         GearError::Module { .. } => (gears, "module", q::MODULE.to_string()),
         GearError::PressureAngle { .. } => (gears, "pressure_angle", q::PRESSURE_ANGLE.to_string()),
+        GearError::FilletRadius { max: 0.0, .. } => {
+            (gears, "dedendum", "a rack whose tip is not pointed: less dedendum, pressure_angle or thickness_reduction".to_owned())
+        }
         GearError::FilletRadius { max, .. } => (gears, "fillet_radius", up_to(0.0, *max, "modules")),
         GearError::Bore { max, .. } => (member, "bore_diameter", up_to(0.1, *max, "mm")),
         GearError::TipReliefAmount { max, .. } => (member, "tip_relief_amount", up_to(0.0, max * 1e3, "um")),
@@ -266,6 +284,33 @@ fn inconsistent(table: &Table<'_>, key: &str, error: &str, allowed: String) -> B
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn diagnosed(rack: &str, member: &str) -> Option<(String, String)> {
+        let text = format!(
+            "[gears]\nmodule = 2.0\nface_width = 20.0\n{rack}\n[gears.pinion]\nteeth = 27\n{member}\n\
+             [gears.gear]\nteeth = 53\nbore_diameter = 40.0\n[material]\nyoungs_modulus = 2.1e5\npoisson_ratio = 0.3\n\
+             density = 7850.0\n[operation]\ntorque = 100.0\nspeed = 2000.0\n[wear]\ncoefficient = 6e-10\ncycles = 1e4\n"
+        );
+        let error = crate::study::Study::parse(&text, "study.toml").err()?;
+        let found = error.diagnostic();
+        Some((found.key.clone(), found.allowed.clone()))
+    }
+
+    /// A refusal points at the key that can mend the gear, and what it says to be allowed is.
+    #[test]
+    fn impossible_gears_are_sent_to_the_key_that_mends_them() {
+        let plain = "pressure_angle = 20.0";
+        let key = |rack, member| diagnosed(rack, member).unwrap().0;
+        let thin = "thickness_reduction = 2.5\nbore_diameter = 25.0";
+        assert_eq!(key(plain, thin), "gears.pinion.thickness_reduction");
+        // half the rack's tooth is π/4 modules at the reference line, 1.25 tan 35° less at its tip: less than nothing
+        let steep = "pressure_angle = 35.0";
+        assert_eq!(key(steep, "bore_diameter = 25.0"), "gears.dedendum");
+        // the root circle of 49 mm less a module
+        let wide = diagnosed(plain, "bore_diameter = 47.01").unwrap();
+        assert_eq!(wide.1, "0.1 to 47 mm for this gear");
+        assert_eq!(diagnosed(plain, "bore_diameter = 47.0"), None);
+    }
 
     /// The 27/53 pair of module 2 at 80 mm: free of backlash there (0 is the least misalignment), and the contact ratio is
     /// 1 where T1T2 = rho_end1 + rho_end2 − p_b, by the closed form.

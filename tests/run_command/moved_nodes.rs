@@ -181,6 +181,60 @@ fn the_area_that_the_meshes_lose_is_the_worn_area() {
     }
 }
 
+/// Five times the load bends tip corners into contact in every picture: their pressure counts over the tip land's edge too.
+///
+/// Source: the line load of the contact solution. Tolerance: 1e-6, rounding of both integrals.
+#[test]
+fn the_pressure_over_the_outline_is_the_load_at_corners_too() {
+    let home = Home::with(&[("order", "2"), ("torque", "500.0"), ("fields", "3")]);
+    home.succeed("run study.toml -o run --quiet");
+    let loads = std::fs::read(home.result("run").0.join("fields/loads.json")).unwrap();
+    let loads: serde_json::Value = serde_json::from_slice(&loads).unwrap();
+    let files = loads["files"].as_array().unwrap();
+    assert_eq!(files.len(), 5);
+    for file in files {
+        let name = file["file"].as_str().unwrap();
+        let pressure = array(&grid(&home, name), "contact_pressure");
+        let drawn = drawn(&home, name);
+        let mut outline = BTreeMap::new();
+        for t in &drawn.triangles {
+            for [a, mid, b] in [[t[0], t[3], t[1]], [t[1], t[4], t[2]], [t[2], t[5], t[0]]] {
+                *outline.entry((a.min(b), mid, a.max(b))).or_insert(0) += 1;
+            }
+        }
+        let mut load = [0.0; 2];
+        for ((a, mid, b), _) in outline.into_iter().filter(|(_, cells)| *cells == 1) {
+            let at = [a, mid, b].map(|i| (drawn.points[i], pressure[i]));
+            let of_gear = usize::from(drawn.members[1].nodes[0] <= a);
+            load[of_gear] += pressure_over(at);
+        }
+        for found in load {
+            let wanted = file["line_load"].as_f64().unwrap();
+            assert!(
+                (found / wanted - 1.0).abs() < 1e-6,
+                "{name}: {found} N/mm, {wanted} applied"
+            );
+        }
+    }
+}
+
+/// ∫ p ds over a parabola through three points with their pressures, by three Gauss points.
+fn pressure_over(edge: [([f64; 2], f64); 3]) -> f64 {
+    let point = |t: f64| {
+        let shape = [
+            (1.0 - t) * (1.0 - 2.0 * t),
+            4.0 * t * (1.0 - t),
+            t * (2.0 * t - 1.0),
+        ];
+        let slope = [4.0 * t - 3.0, 4.0 - 8.0 * t, 4.0 * t - 1.0];
+        let sum = |of: &dyn Fn(usize) -> f64| (0..3).map(of).sum::<f64>();
+        let along = [0, 1].map(|a| sum(&|i| slope[i] * edge[i].0[a]));
+        sum(&|i| shape[i] * edge[i].1) * along[0].hypot(along[1])
+    };
+    let far = 0.15f64.sqrt();
+    (5.0 * (point(0.5 - far) + point(0.5 + far)) + 8.0 * point(0.5)) / 18.0
+}
+
 /// Of 150 µm, a sixth of what is left of the tooth's thickness at the tip, with the torque and the balance of worn area as they
 /// should be; tolerance: 0.5 % for the area, as for mild wear.
 #[test]

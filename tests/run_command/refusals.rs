@@ -10,6 +10,9 @@ fn unusable_input_is_refused_and_nothing_is_written() {
         ("torque", "-100.0", "torque"),
         // its contact would be half a micrometre wide, and the flanks' compliance larger than the memory
         ("torque", "1e-3", "unknowns"),
+        // a shaft of a tenth of a millimetre turns by a radian, and so much load bends teeth beyond any small deformation
+        ("bore_diameter", "0.1", "operation.torque: "),
+        ("torque", "10000", "operation.torque: "),
         ("module", "inf", "module"),
         ("misalignment", "5.0", "misalignment"),
         ("coefficient", "\"6e-10\"", "coefficient"),

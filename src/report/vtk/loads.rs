@@ -7,7 +7,7 @@ use crate::simulate::result::{FieldFrame, Member, MemberField};
 
 /// For each field file the counts, the areas of the meshes, and the load as the contact solution has it.
 ///
-/// `line_load` N/mm is the integral of `contact_pressure` over either member's flanks; `torque_per_width` N is the moment of
+/// `line_load` N/mm is the integral of `contact_pressure` over either member's outline; `torque_per_width` N is the moment of
 /// the pinion's `contact_force` about its centre; the forces of both members cancel. `area` mm² is that of the worn mesh.
 pub fn loads<'a>(frames: impl IntoIterator<Item = (&'a FieldFile, &'a FieldFrame)>) -> Value {
     let files: Vec<Value> = frames
