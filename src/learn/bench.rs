@@ -56,7 +56,7 @@ impl Workshop {
     ) -> Result<Self, ForwardError> {
         let numerics = Numerics {
             step_tolerance: numerics.step_tolerance.max(STEP_TOLERANCE),
-            condense_after: CONDENSE_AFTER,
+            condense_after: numerics.condense_after.max(CONDENSE_AFTER),
             room: ROOM,
             ..numerics
         };

@@ -1,6 +1,7 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::analytic::iso6336;
 use crate::contact::alteration::Alteration;
@@ -97,10 +98,27 @@ pub struct Forward<'a> {
     condensed_at: Option<Vec<f64>>,
     worn: Option<Box<Members>>,
     /// Members with more fine teeth than those given, once wear has brought these into reach.
-    extended: Option<Box<Members>>,
+    extended: Option<Arc<Members>>,
+    /// What runs of the same gears at the same mounting have prepared so far; a run that comes to need the same takes it.
+    prepared: Shelf,
+    /// Whether this is one of several such runs; a single one has no use for what it leaves behind.
+    shares: bool,
     factorisations: usize,
     acting: Option<&'a Acting>,
     altered: Option<Altered>,
+}
+
+/// Preparations on unworn members, by the bits of window and reach.
+///
+/// A run goes through the same preparations whether they lie here or are made anew: results do not depend on it.
+type Shelf = Arc<Mutex<HashMap<[u64; 2], Prepared>>>;
+
+/// A mesh cycle with what belongs to it.
+#[derive(Clone)]
+struct Prepared {
+    cycle: Arc<Cycle>,
+    compliance: Option<Arc<CycleCompliance>>,
+    extended: Option<Arc<Members>>,
 }
 
 /// The contact as effects change it.
@@ -165,6 +183,8 @@ impl<'a> Forward<'a> {
             condensed_at: None,
             worn: None,
             extended: None,
+            prepared: Shelf::default(),
+            shares: false,
             factorisations: if members.is_some() { 2 } else { 0 },
             acting,
             altered: None,
@@ -235,12 +255,14 @@ impl<'a> Forward<'a> {
             conditions,
             numerics: self.numerics,
             kind: self.kind,
-            members: self.members(),
+            members: self.members,
             cycle: Arc::clone(&self.cycle),
             compliance: self.compliance.clone(),
             condensed_at: None,
             worn: None,
-            extended: None,
+            extended: self.extended.clone(),
+            prepared: Arc::clone(&self.prepared),
+            shares: true,
             factorisations: 0,
             acting,
             altered: None,
@@ -463,6 +485,33 @@ impl<'a> Forward<'a> {
             reach: preparation.reach,
             ..self.cycle.spec
         };
+        let shelved = self.shares && self.worn.is_none() && preparation.condensed_at.is_none();
+        let key = [preparation.window, preparation.reach].map(f64::to_bits);
+        let shelf = Arc::clone(&self.prepared);
+        let shelf = || shelf.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = shelved.then(|| shelf().get(&key).cloned()).flatten();
+        if let Some(known) = known {
+            (self.cycle, self.compliance) = (known.cycle, known.compliance);
+            self.extended = known.extended;
+            return self.alter();
+        }
+        self.prepare_anew(preparation, spec)?;
+        if shelved {
+            let prepared = Prepared {
+                cycle: Arc::clone(&self.cycle),
+                compliance: self.compliance.clone(),
+                extended: self.extended.clone(),
+            };
+            shelf().insert(key, prepared);
+        }
+        Ok(())
+    }
+
+    fn prepare_anew(
+        &mut self,
+        preparation: &Preparation,
+        spec: CycleSpec,
+    ) -> Result<(), ForwardError> {
         if spec != self.cycle.spec {
             self.cycle = Arc::new(Cycle::new(&self.cycle.pair, &self.cycle.stations, spec));
         }
@@ -521,7 +570,7 @@ impl<'a> Forward<'a> {
             [None, None],
         )?;
         self.factorisations += 2;
-        self.extended = Some(Box::new(built));
+        self.extended = Some(Arc::new(built));
         Ok(true)
     }
 

@@ -34,7 +34,12 @@ pub struct NotJudged {
 }
 
 /// Effects whose rate grows with a power of the local pressure or sets in at one.
-const SHARP: [&str; 4] = ["pressure_exponent", "severe_transition", "micropitting", "plastic_deformation"];
+const SHARP: [&str; 4] = [
+    "pressure_exponent",
+    "severe_transition",
+    "micropitting",
+    "plastic_deformation",
+];
 
 /// Name of the form with a card's own settings.
 const OWN: &str = "";

@@ -188,9 +188,9 @@ impl<'a> Judge<'a> {
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
         let bar = match gains.first() {
-            Some(best) => {
-                gains[(REFINED - 1).min(gains.len() - 1)].min(REFINED_SHARE * best).max(MEANT)
-            }
+            Some(best) => gains[(REFINED - 1).min(gains.len() - 1)]
+                .min(REFINED_SHARE * best)
+                .max(MEANT),
             None => return screened,
         };
         let offset = &base.judged.offset;
@@ -203,10 +203,22 @@ impl<'a> Judge<'a> {
                 let predictor = Anchored::new(model(self.middle, &candidate), offset.clone());
                 let state = judged.found.state.clone();
                 let t = std::time::Instant::now();
-                let fit = self.ground.fit(&predictor, &candidate.parameters, state, &SCREEN);
-                if std::env::var("GW_V").is_ok() { eprintln!("middle {} {:?} {:.2} s {}", candidate.name(), candidate.forms, t.elapsed().as_secs_f64(), fit.as_ref().map_or(0, |f| f.iterations)); }
+                let fit = self
+                    .ground
+                    .fit(&predictor, &candidate.parameters, state, &SCREEN);
+                if std::env::var("GW_V").is_ok() {
+                    eprintln!(
+                        "middle {} {:?} {:.2} s {}",
+                        candidate.name(),
+                        candidate.forms,
+                        t.elapsed().as_secs_f64(),
+                        fit.as_ref().map_or(0, |f| f.iterations)
+                    );
+                }
                 match fit {
-                    Ok(found) => self.judged(candidate.clone(), found, offset.clone(), Some(base), false),
+                    Ok(found) => {
+                        self.judged(candidate.clone(), found, offset.clone(), Some(base), false)
+                    }
                     Err(_) => judged,
                 }
             })

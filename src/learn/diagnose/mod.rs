@@ -136,11 +136,17 @@ pub fn diagnose(
 
 /// Resolution of the middle fidelity: finite elements coarse enough for thousands of histories.
 fn middle(fine: Numerics) -> Numerics {
-    let v = |n: &str, d: f64| std::env::var(n).ok().and_then(|v| v.parse().ok()).unwrap_or(d);
+    let v = |n: &str, d: f64| {
+        std::env::var(n)
+            .ok()
+            .and_then(|v| v.parse().ok())
+            .unwrap_or(d)
+    };
     Numerics {
         elements_per_half_width: v("GW_E", 2.5),
         positions: v("GW_P", 50.0) as usize,
         step_tolerance: v("GW_T", 5e-3),
+        condense_after: f64::INFINITY,
         ..fine
     }
 }
