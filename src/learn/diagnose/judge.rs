@@ -59,6 +59,8 @@ const STAY: Effort = Effort {
 const ANCHORS: usize = 4;
 /// Gain of ln posterior for which another anchor is worth its runs.
 const WORTH: f64 = 0.15;
+/// The same as a share of what the candidate gains: the contact's own rounding in sharp laws grows with it.
+const WORTH_SHARE: f64 = 0.003;
 /// Ln posterior behind the leader, and share of its gain, from which a candidate is not followed further.
 const HOPELESS: f64 = 15.0;
 const HOPELESS_SHARE: f64 = 0.05;
@@ -202,19 +204,9 @@ impl<'a> Judge<'a> {
                 }
                 let predictor = Anchored::new(model(self.middle, &candidate), offset.clone());
                 let state = judged.found.state.clone();
-                let t = std::time::Instant::now();
                 let fit = self
                     .ground
                     .fit(&predictor, &candidate.parameters, state, &SCREEN);
-                if std::env::var("GW_V").is_ok() {
-                    eprintln!(
-                        "middle {} {:?} {:.2} s {}",
-                        candidate.name(),
-                        candidate.forms,
-                        t.elapsed().as_secs_f64(),
-                        fit.as_ref().map_or(0, |f| f.iterations)
-                    );
-                }
                 match fit {
                     Ok(found) => {
                         self.judged(candidate.clone(), found, offset.clone(), Some(base), false)
@@ -290,10 +282,12 @@ impl<'a> Judge<'a> {
             let better = best
                 .as_ref()
                 .is_none_or(|(b, _)| here.objective < b.objective);
+            let own = base.map_or(0.0, |b| b.judged.found.objective - here.objective);
+            let worth = WORTH.max(WORTH_SHARE * own);
             if better {
                 best = Some((here, offset));
                 state = next.state.clone();
-                if promised < WORTH {
+                if promised < worth {
                     converged = next.converged;
                     break;
                 }
@@ -303,7 +297,7 @@ impl<'a> Judge<'a> {
                 }
             } else if let Some((b, _)) = &best {
                 // The analytic changes led too far: back half the way.
-                if b.objective - next.objective < WORTH {
+                if b.objective - next.objective < worth {
                     converged = true;
                     break;
                 }

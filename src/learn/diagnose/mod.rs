@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! base fit (fem) -> every effect and form screened: fem(base) + [hertz(effect) − hertz(base)], refitted
+//!                -> leaders and laws sharp in pressure refitted by coarse fem anchored at fem(base)
 //!                -> leaders refitted by fem -> pairs -> nothing | effect | effects | ambiguous | unknown -> next experiment
 //! ```
 //! A candidate is compared fully refitted: k, k per test, datums and its own parameters are free in each. Evidence is the
@@ -134,6 +135,11 @@ pub fn diagnose(
     with(&judge, &workshop, watch)
 }
 
+/// Resolution of the middle fidelity: flank edges per half width, positions, error of a wear step.
+const MIDDLE_EDGES: f64 = 2.5;
+const MIDDLE_POSITIONS: usize = 50;
+const MIDDLE_STEP: f64 = 5e-3;
+
 /// Resolution of the middle fidelity: finite elements coarse enough for thousands of histories.
 fn middle(fine: Numerics) -> Numerics {
     let v = |n: &str, d: f64| {
@@ -143,9 +149,9 @@ fn middle(fine: Numerics) -> Numerics {
             .unwrap_or(d)
     };
     Numerics {
-        elements_per_half_width: v("GW_E", 2.5),
-        positions: v("GW_P", 50.0) as usize,
-        step_tolerance: v("GW_T", 5e-3),
+        elements_per_half_width: MIDDLE_EDGES,
+        positions: MIDDLE_POSITIONS,
+        step_tolerance: MIDDLE_STEP,
         condense_after: f64::INFINITY,
         ..fine
     }
