@@ -59,10 +59,22 @@ pub enum CompareError {
 /// The contact model that measurements of a study are compared with.
 ///
 /// # Errors
-/// A [`StudyError`] for the published model: it is a printed table for one pair, with the pinion's wear alone.
+/// A [`StudyError`] for the published model: it is a printed table for one pair, with the pinion's wear alone. And for meshes
+/// of the user's own: they are fine for one load and mounting, the tests of a study and the parameters of a fit ask for many.
 pub fn contact_of(study: &Study) -> Result<forward::ContactKind, StudyError> {
     match study.contact {
-        ContactKind::Fem => Ok(forward::ContactKind::Fem),
+        ContactKind::Fem => {
+            let own = study.own_meshes();
+            match own.into_iter().find(|(_, mesh)| mesh.is_some()) {
+                Some((member, _)) => Err(study.refuse(
+                    &format!("numerics.mesh_{}", member.name()),
+                    "meshes of one's own are not compared with measurements",
+                    "no such key, or [model] contact = \"hertz\"",
+                    "without it the members are meshed finely enough for every test; `gearwear run` uses the mesh",
+                )),
+                None => Ok(forward::ContactKind::Fem),
+            }
+        }
         ContactKind::Hertz => Ok(forward::ContactKind::Hertz),
         ContactKind::Paper => Err(study.refuse(
             "model.contact",
@@ -128,14 +140,7 @@ impl Measured<'_> {
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
                 .unwrap_or(first)
         };
-        let mut comparison = Comparison::new(self.study(), &self.data, &fit);
-        let own = self.study().own_meshes();
-        if self.study().contact == ContactKind::Fem && own.iter().any(|(_, mesh)| mesh.is_some()) {
-            comparison.warnings.push(
-                "the meshes that [numerics] names are not used: fits mesh the members themselves"
-                    .to_owned(),
-            );
-        }
+        let comparison = Comparison::new(self.study(), &self.data, &fit);
         Ok(Compared { fit, comparison })
     }
 }
