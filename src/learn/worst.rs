@@ -263,3 +263,56 @@ fn short(x: f64) -> String {
     let digits = (1 - x.log10().floor() as i32).clamp(0, 9) as usize;
     format!("{x:.digits$}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::Region;
+
+    fn cell(quantity: Quantity, points: usize, chi2_per_point: f64) -> Cell {
+        Cell {
+            test: "A".to_owned(),
+            role: "fit".to_owned(),
+            member: "pinion".to_owned(),
+            quantity: quantity.name().to_owned(),
+            region: "all".to_owned(),
+            cycles: [0.0, 1e5],
+            points,
+            chi2_per_point,
+            bias: -1.0,
+            bias_sigma: 0.1,
+            rms: 1.0,
+            unit: quantity.unit().to_owned(),
+            bias_um: None,
+            rms_um: None,
+        }
+    }
+
+    /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.
+    #[test]
+    fn a_single_mass_does_not_come_before_a_trace_that_carries_more() {
+        let mut cells = BTreeMap::new();
+        let mass = (0, Subject::Pinion, Quantity::MassLoss, None, 0);
+        cells.insert(mass, cell(Quantity::MassLoss, 1, 500.0));
+        for interval in 0..5 {
+            let trace = (
+                0,
+                Subject::Pinion,
+                Quantity::WearDepth,
+                Some(Region::LowerDouble),
+                interval,
+            );
+            let chi2 = if interval == 3 { 25.0 } else { 20.0 };
+            cells.insert(trace, cell(Quantity::WearDepth, 12, chi2));
+        }
+        let order: Vec<(String, f64)> = worst_first(cells.clone())
+            .into_iter()
+            .map(|cell| (cell.quantity, cell.chi2_per_point))
+            .collect();
+        assert_eq!(order[0], ("wear_depth".to_owned(), 25.0));
+        assert_eq!(order[5], ("mass_loss".to_owned(), 500.0));
+        // two of the weaker cells carry 456
+        cells.retain(|key, _| key.4 < 2);
+        assert_eq!(worst_first(cells)[0].quantity, "mass_loss");
+    }
+}
