@@ -108,7 +108,8 @@ pub fn compare(
 impl Measured<'_> {
     /// Fits a version of the model on a bench that is ready, and judges it.
     ///
-    /// Once more from the priors' medians, if the fit from the study's values does not converge or ends on a bound.
+    /// Once more from the priors' medians, if the fit from the study's values does not converge or ends on a bound. With three or
+    /// more effect parameters other places of the priors are looked at first.
     ///
     /// # Errors
     /// [`FitError`].
@@ -128,7 +129,14 @@ impl Measured<'_> {
             });
         };
         told(0);
-        let first = self.fit_watched(bench, version, noise, &[], &effort, &told)?;
+        let free = version.free.iter();
+        let many = free.filter(|free| free.name != WEAR_COEFFICIENT).count() >= MANY;
+        let others = if many {
+            self.other_starts(bench, version, noise, PLACES, &told)
+        } else {
+            Vec::new()
+        };
+        let first = self.fit_watched(bench, version, noise, &others, &effort, &told)?;
         let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
         let fit = if settled || version.effects.is_empty() {
             first
@@ -144,6 +152,12 @@ impl Measured<'_> {
         Ok(Compared { fit, comparison })
     }
 }
+
+/// From so many free effect parameters on, a fit looks for other places to start from.
+const MANY: usize = 3;
+
+/// How many places of the priors are looked at, and from how many of them a fit starts at most.
+const PLACES: [usize; 2] = [24, 2];
 
 /// Wear histories of one test that a fit of one parameter takes, from experience.
 const HISTORIES_PER_TEST: usize = 6;
