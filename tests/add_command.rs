@@ -1,7 +1,10 @@
 //! Claim: adding an effect changes a study at the places concerned and nowhere else (comments, order, blanks, line ends stay),
-//! relative paths go on naming the same files, values read back exactly, and nothing is overwritten unasked.
+//! relative paths go on naming the same files, values read back exactly, and nothing is overwritten unasked. And the five commands
+//! that the README shows find the hidden effect.
 //!
-//! Source: the study format and the command table. Tolerance: none; texts are compared byte by byte.
+//! Source: the study format and the command table; the README. Tolerance: none; texts are compared byte by byte. Of the five commands
+//! the README's promise is asked: the error falls to the noise floor (χ² per point 1.15 on 2280 noisy points, whose own scatter is
+//! 0.03; 0.2 on the held-out ones, which carry no noise).
 
 use std::fs;
 
@@ -268,6 +271,43 @@ fn gearwear(home: &TempDir, arguments: &[&str]) -> (i32, String, String) {
         text(&output.stdout),
         text(&output.stderr),
     )
+}
+
+#[test]
+fn the_five_commands_of_the_readme_find_what_is_hidden() {
+    let readme = include_str!("../README.md");
+    let (_, after) = readme.split_once("Five commands").unwrap();
+    let block = after.split("```").nth(1).unwrap();
+    let commands: Vec<&str> = (block.lines())
+        .filter_map(|line| line.strip_prefix("gearwear "))
+        .map(|line| line.split('#').next().unwrap().trim())
+        .collect();
+    assert_eq!(commands.len(), 5, "{block}");
+    let home = tempfile::tempdir().unwrap();
+    let mut documents = Vec::new();
+    for command in commands {
+        let mut arguments: Vec<&str> = command.split_whitespace().collect();
+        arguments.push("--json");
+        let (code, out, err) = gearwear(&home, &arguments);
+        assert_eq!(code, 0, "{command}: {err}");
+        documents.push(serde_json::from_str::<serde_json::Value>(&out).unwrap());
+    }
+    let [_, compared, diagnosed, added, ladder] = &documents[..] else {
+        unreachable!("five were counted")
+    };
+    assert!(compared["fit"]["chi2_per_point"].as_f64().unwrap() > 5.0);
+    assert_eq!(diagnosed["verdict"], "effect");
+    assert_eq!(diagnosed["effect"], "running_in");
+    assert_eq!(added["fit"]["converged"], true);
+    let step = &ladder[1];
+    assert!(
+        step["fit_chi2_per_point"].as_f64().unwrap() < 1.15,
+        "{step}"
+    );
+    assert!(
+        step["holdout_chi2_per_point"].as_f64().unwrap() < 0.2,
+        "{step}"
+    );
 }
 
 /// A folder with the example of a hidden effect.

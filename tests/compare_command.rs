@@ -338,6 +338,12 @@ fn unusable_input_writes_nothing() {
     write("bare.toml", BASE);
     write("gone.toml", &format!("{BASE}{FILE}"));
     write("paper.toml", &BASE.replace("\"hertz\"", "\"paper\""));
+    write("gear.vtu", "");
+    let own = "[numerics]\nmesh_gear = \"gear.vtu\"\n";
+    write(
+        "own.toml",
+        &format!("{}{own}{FILE}", BASE.replace("\"hertz\"", "\"fem\"")),
+    );
     write(
         "a.toml",
         &format!("{BASE}[measurements]\nfile = \"m.csv\"\n"),
@@ -368,6 +374,13 @@ fn unusable_input_writes_nothing() {
         ("synthesize bare.toml -o new --noise -0.1", "--noise"),
         ("synthesize bare.toml -o new --noise nan", "--noise"),
         ("synthesize paper.toml -o new", "model.contact"),
+        ("compare own.toml", "not compared with measurements"),
+        ("add own.toml running_in", "not compared with measurements"),
+        ("ladder own.toml", "not compared with measurements"),
+        (
+            "synthesize own.toml -o new",
+            "not compared with measurements",
+        ),
     ] {
         let (code, out, err) = gearwear(&home, line);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{line}: {err}");

@@ -19,7 +19,7 @@ pub struct Local {
     pub rolling: [f64; 2],
     /// Contact pressure here and now, MPa.
     pub pressure: f64,
-    /// Largest pressure this point sees in the passage, MPa.
+    /// Largest pressure this point sees in the passage, averaged over 30 µm of flank, MPa.
     pub peak_pressure: f64,
     /// Load of this tooth pair per face width, N/mm.
     pub line_load: f64,

@@ -59,10 +59,22 @@ pub enum CompareError {
 /// The contact model that measurements of a study are compared with.
 ///
 /// # Errors
-/// A [`StudyError`] for the published model: it is a printed table for one pair, with the pinion's wear alone.
+/// A [`StudyError`] for the published model: it is a printed table for one pair, with the pinion's wear alone. And for meshes
+/// of the user's own: they are fine for one load and mounting, the tests of a study and the parameters of a fit ask for many.
 pub fn contact_of(study: &Study) -> Result<forward::ContactKind, StudyError> {
     match study.contact {
-        ContactKind::Fem => Ok(forward::ContactKind::Fem),
+        ContactKind::Fem => {
+            let own = study.own_meshes();
+            match own.into_iter().find(|(_, mesh)| mesh.is_some()) {
+                Some((member, _)) => Err(study.refuse(
+                    &format!("numerics.mesh_{}", member.name()),
+                    "meshes of one's own are not compared with measurements",
+                    "no such key, or [model] contact = \"hertz\"",
+                    "without it the members are meshed finely enough for every test; `gearwear run` uses the mesh",
+                )),
+                None => Ok(forward::ContactKind::Fem),
+            }
+        }
         ContactKind::Hertz => Ok(forward::ContactKind::Hertz),
         ContactKind::Paper => Err(study.refuse(
             "model.contact",
@@ -96,7 +108,8 @@ pub fn compare(
 impl Measured<'_> {
     /// Fits a version of the model on a bench that is ready, and judges it.
     ///
-    /// Once more from the priors' medians, if the fit from the study's values does not converge or ends on a bound.
+    /// Once more from the priors' medians, if the fit from the study's values does not converge or ends on a bound. With three or
+    /// more effect parameters other places of the priors are looked at first.
     ///
     /// # Errors
     /// [`FitError`].
@@ -116,7 +129,14 @@ impl Measured<'_> {
             });
         };
         told(0);
-        let first = self.fit_watched(bench, version, noise, &[], &effort, &told)?;
+        let free = version.free.iter();
+        let many = free.filter(|free| free.name != WEAR_COEFFICIENT).count() >= MANY;
+        let others = if many {
+            self.other_starts(bench, version, noise, PLACES, &told)
+        } else {
+            Vec::new()
+        };
+        let first = self.fit_watched(bench, version, noise, &others, &effort, &told)?;
         let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
         let fit = if settled || version.effects.is_empty() {
             first
@@ -128,17 +148,16 @@ impl Measured<'_> {
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
                 .unwrap_or(first)
         };
-        let mut comparison = Comparison::new(self.study(), &self.data, &fit);
-        let own = self.study().own_meshes();
-        if self.study().contact == ContactKind::Fem && own.iter().any(|(_, mesh)| mesh.is_some()) {
-            comparison.warnings.push(
-                "the meshes that [numerics] names are not used: fits mesh the members themselves"
-                    .to_owned(),
-            );
-        }
+        let comparison = Comparison::new(self.study(), &self.data, &fit);
         Ok(Compared { fit, comparison })
     }
 }
+
+/// From so many free effect parameters on, a fit looks for other places to start from.
+const MANY: usize = 3;
+
+/// How many places of the priors are looked at, and from how many of them a fit starts at most.
+const PLACES: [usize; 2] = [24, 2];
 
 /// Wear histories of one test that a fit of one parameter takes, from experience.
 const HISTORIES_PER_TEST: usize = 6;

@@ -8,7 +8,7 @@ use super::ratio::{Ratio, ratios};
 use super::region::Map;
 use super::tally::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
 use super::uncertainty::{Validation, validate};
-use super::worst::sentence;
+use super::worst::{sentence, worst_first};
 use crate::measure::{Dataset, Quantity};
 use crate::study::{Role, Study};
 
@@ -139,8 +139,7 @@ impl Comparison {
         let cells = cells(study, &rows, &map);
         let ratios = ratios(study, &rows);
         let worst = sentence(&cells, &ratios, &map, all.chi2_per_point);
-        let mut places: Vec<Cell> = cells.into_values().collect();
-        places.sort_by(|a, b| b.chi2_per_point.total_cmp(&a.chi2_per_point));
+        let places = worst_first(cells);
         let life = |o: &crate::measure::Observation| {
             let share = o.cycles / study.tests[o.test].conditions.cycles;
             Some(((4.0 * share).ceil() as usize).clamp(1, 4))

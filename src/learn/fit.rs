@@ -136,6 +136,20 @@ pub enum FitError {
     NoObservations,
 }
 
+/// Bases of the sequence of places, one for each parameter.
+const PRIMES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
+/// The number `i` in `base` with its digits mirrored at the point: fills 0 to 1 ever more evenly (J.H. Halton, Numer. Math. 2, 1960).
+fn halton(mut i: usize, base: usize) -> f64 {
+    let (mut value, mut digit) = (0.0, 1.0);
+    while i > 0 {
+        digit /= base as f64;
+        value += digit * (i % base) as f64;
+        i /= base;
+    }
+    value
+}
+
 impl Problem<'_> {
     /// The fit from the parameters' starts.
     ///
@@ -177,6 +191,35 @@ impl Problem<'_> {
             (None, None) => return Err(FitError::NoObservations),
         };
         self.finish(&fit, found, &mut evaluator, effort)
+    }
+
+    /// Of other places in the priors, those from which a search is worth while: up to `keep` at which the model is nearest to the
+    /// measurements, with k scaled to fit, and nearer than at the parameters' starts. `count` places are looked at.
+    ///
+    /// A search goes downhill. Phases, wave numbers and resonances have several valleys.
+    pub fn other_starts(&self, count: usize, keep: usize) -> Vec<Vec<f64>> {
+        let search = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
+        let mut evaluator = self.evaluator();
+        let mut misfit = |start: &[f64]| {
+            let state = self.state(start, search.tests.len());
+            search.misfit(&mut evaluator, state).ok()
+        };
+        let own: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
+        let most = misfit(&own).unwrap_or(f64::INFINITY);
+        let place = |i: usize| -> Vec<f64> {
+            let bases = PRIMES.iter().cycle();
+            let each = self.parameters.iter().zip(bases);
+            each.map(|(p, &base)| p.quantile(halton(i + 1, base)))
+                .collect()
+        };
+        let mut found: Vec<(f64, Vec<f64>)> = (0..count)
+            .map(place)
+            .filter_map(|start| Some((misfit(&start)?, start)))
+            .filter(|(misfit, _)| *misfit < most)
+            .collect();
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.truncate(keep);
+        found.into_iter().map(|(_, start)| start).collect()
     }
 
     /// Adds the held-out tests to what was found and puts it all together.

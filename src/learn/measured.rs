@@ -133,6 +133,37 @@ impl<'a> Measured<'a> {
         effort: &Effort,
         watch: &(dyn Fn(usize) + Sync),
     ) -> Result<Fit, FitError> {
+        let starts = |problem: &Problem<'_>| -> Vec<Vec<f64>> {
+            let own = problem.parameters.iter().map(|p| p.start).collect();
+            std::iter::once(own).chain(others.iter().cloned()).collect()
+        };
+        self.with_problem(bench, version, noise, watch, |problem| {
+            problem.fit_from(&starts(problem), effort)
+        })
+    }
+
+    /// Where else than at the parameters' values a fit of this version is worth starting ([`Problem::other_starts`]).
+    pub fn other_starts(
+        &self,
+        bench: &Bench,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        [count, keep]: [usize; 2],
+        watch: &(dyn Fn(usize) + Sync),
+    ) -> Vec<Vec<f64>> {
+        self.with_problem(bench, version, noise, watch, |problem| {
+            problem.other_starts(count, keep)
+        })
+    }
+
+    fn with_problem<T>(
+        &self,
+        bench: &Bench,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        watch: &(dyn Fn(usize) + Sync),
+        act: impl FnOnce(&Problem<'_>) -> T,
+    ) -> T {
         let is_k = |free: &&FreeParameter| free.name == WEAR_COEFFICIENT;
         let coefficient = match version.free.iter().find(is_k) {
             Some(free) => Coefficient::Free(parameter(free)),
@@ -153,8 +184,6 @@ impl<'a> Measured<'a> {
             }),
         )
         .stretching(effects.stretches_time());
-        let own: Vec<f64> = parameters.iter().map(|p| p.start).collect();
-        let starts: Vec<Vec<f64>> = std::iter::once(own).chain(others.iter().cloned()).collect();
         let problem = Problem {
             data: &self.data,
             roles: &self.roles,
@@ -167,7 +196,7 @@ impl<'a> Measured<'a> {
             parameters,
             noise,
         };
-        problem.fit_from(&starts, effort)
+        act(&problem)
     }
 }
 

@@ -163,6 +163,17 @@ impl Parameter {
         }
     }
 
+    /// The value below which a share `p` of the prior lies.
+    pub(super) fn quantile(&self, p: f64) -> f64 {
+        let prior = self.natural_prior();
+        let natural = if prior.precision > 0.0 {
+            quantile(p, prior.mean, prior.scale(), prior.lower, prior.upper)
+        } else {
+            prior.lower + p * (prior.upper - prior.lower)
+        };
+        self.value(natural)
+    }
+
     /// The step of a forward difference on the natural scale at `natural`, away from a near bound.
     pub(super) fn difference(&self, natural: f64) -> f64 {
         let prior = self.natural_prior();

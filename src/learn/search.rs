@@ -152,6 +152,16 @@ impl Search<'_> {
         })
     }
 
+    /// Sum of the squared whitened residuals at `state`, with k (if free) scaled to the measured size.
+    pub(super) fn misfit(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: State,
+    ) -> Result<f64, PredictError> {
+        let (_, values) = self.scaled_start(evaluator, state)?;
+        Ok(squared(&self.covariance.whiten(&self.residual(&values))))
+    }
+
     /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none.
     fn improve(
         &self,

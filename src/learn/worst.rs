@@ -1,4 +1,7 @@
-//! A sentence on where the model fails worst and what that looks like, made from the cells' figures.
+//! Where the model fails worst, and a sentence on what that looks like, made from the cells' figures.
+//!
+//! What counts is by how much a cell's χ² exceeds its number of points. Quantities come in the order of what all their cells carry
+//! together: a flank's trace is cut into many cells and a mass is one point, which would come first wherever both are off.
 
 use std::collections::BTreeMap;
 
@@ -11,6 +14,31 @@ use crate::measure::{Quantity, Subject};
 /// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
 const SIGNIFICANT: f64 = 5.0;
 
+/// By how much the sum of the squared standardised residuals exceeds what noise alone gives.
+fn excess(cell: &Cell) -> f64 {
+    (cell.chi2_per_point - 1.0) * cell.points as f64
+}
+
+/// What the cells of each quantity that fail carry together.
+fn carried<'c>(cells: impl Iterator<Item = (&'c CellKey, &'c Cell)>) -> BTreeMap<Quantity, f64> {
+    let mut carried = BTreeMap::new();
+    for (key, cell) in cells {
+        *carried.entry(key.2).or_default() += excess(cell).max(0.0);
+    }
+    carried
+}
+
+/// The cells, worst first: by what all cells of their quantity carry, then by what they carry themselves.
+pub(super) fn worst_first(cells: BTreeMap<CellKey, Cell>) -> Vec<Cell> {
+    let carried = carried(cells.iter());
+    let mut sorted: Vec<(CellKey, Cell)> = cells.into_iter().collect();
+    sorted.sort_by(|(a, first), (b, second)| {
+        let of_quantity = carried[&b.2].total_cmp(&carried[&a.2]);
+        of_quantity.then(excess(second).total_cmp(&excess(first)))
+    });
+    sorted.into_iter().map(|(_, cell)| cell).collect()
+}
+
 /// Where the model fails worst, in plain words.
 pub(super) fn sentence(
     cells: &BTreeMap<CellKey, Cell>,
@@ -18,12 +46,13 @@ pub(super) fn sentence(
     map: &Map,
     chi2: Option<f64>,
 ) -> String {
-    let excess = |cell: &Cell| (cell.chi2_per_point - 1.0) * cell.points as f64;
     let significance = |cell: &Cell| excess(cell) / (2.0 * cell.points as f64).sqrt();
-    let worst = cells
-        .iter()
-        .max_by(|a, b| excess(a.1).total_cmp(&excess(b.1)));
-    let worst = worst.filter(|(_, cell)| significance(cell) > SIGNIFICANT);
+    let failing = || (cells.iter()).filter(|(_, cell)| significance(cell) > SIGNIFICANT);
+    let carried = carried(failing());
+    let worst = failing().max_by(|(a, first), (b, second)| {
+        let of_quantity = carried[&a.2].total_cmp(&carried[&b.2]);
+        of_quantity.then(excess(first).total_cmp(&excess(second)))
+    });
     let Some((key, cell)) = worst else {
         let chi2 = chi2.map_or_else(String::new, |chi2| format!(": χ² per point is {chi2:.2}"));
         return format!(
@@ -233,4 +262,57 @@ fn short(x: f64) -> String {
     }
     let digits = (1 - x.log10().floor() as i32).clamp(0, 9) as usize;
     format!("{x:.digits$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::Region;
+
+    fn cell(quantity: Quantity, points: usize, chi2_per_point: f64) -> Cell {
+        Cell {
+            test: "A".to_owned(),
+            role: "fit".to_owned(),
+            member: "pinion".to_owned(),
+            quantity: quantity.name().to_owned(),
+            region: "all".to_owned(),
+            cycles: [0.0, 1e5],
+            points,
+            chi2_per_point,
+            bias: -1.0,
+            bias_sigma: 0.1,
+            rms: 1.0,
+            unit: quantity.unit().to_owned(),
+            bias_um: None,
+            rms_um: None,
+        }
+    }
+
+    /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.
+    #[test]
+    fn a_single_mass_does_not_come_before_a_trace_that_carries_more() {
+        let mut cells = BTreeMap::new();
+        let mass = (0, Subject::Pinion, Quantity::MassLoss, None, 0);
+        cells.insert(mass, cell(Quantity::MassLoss, 1, 500.0));
+        for interval in 0..5 {
+            let trace = (
+                0,
+                Subject::Pinion,
+                Quantity::WearDepth,
+                Some(Region::LowerDouble),
+                interval,
+            );
+            let chi2 = if interval == 3 { 25.0 } else { 20.0 };
+            cells.insert(trace, cell(Quantity::WearDepth, 12, chi2));
+        }
+        let order: Vec<(String, f64)> = worst_first(cells.clone())
+            .into_iter()
+            .map(|cell| (cell.quantity, cell.chi2_per_point))
+            .collect();
+        assert_eq!(order[0], ("wear_depth".to_owned(), 25.0));
+        assert_eq!(order[5], ("mass_loss".to_owned(), 500.0));
+        // two of the weaker cells carry 456
+        cells.retain(|key, _| key.4 < 2);
+        assert_eq!(worst_first(cells)[0].quantity, "mass_loss");
+    }
 }

@@ -25,6 +25,9 @@ use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::integrator::WearSystem;
 use crate::wear::passage::Passage;
 
+/// Length over which the largest pressure that effects are told is averaged, mm: about that of a micropit, and a third of a contact.
+const PEAK_LENGTH: f64 = 0.03;
+
 /// Why wear has no rate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum WearError {
@@ -77,7 +80,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         self.acting = acting;
         self.passage = acting
             .filter(|acting| acting.acts(Hook::AddedDepth))
-            .map(|_| Passage::new(self.model.cycle()));
+            .map(|_| Passage::averaged(self.model.cycle(), PEAK_LENGTH));
         self
     }
 
@@ -251,7 +254,11 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         for member in Member::BOTH {
             let side = side(member);
             let per_cycle = 1e-3 / [1.0, cycle.pair.speed_ratio][side];
-            for (station, moment) in passage.moments(cycle, contacts, side).iter().enumerate() {
+            for (station, moment) in passage
+                .moments(cycle, contacts, side)
+                .into_iter()
+                .enumerate()
+            {
                 let mut local = locals[moment.pair];
                 local.peak_pressure = moment.pressure;
                 let arc = cycle.stations.arc[side][station];
@@ -297,7 +304,7 @@ struct Added {
     /// Change of both with the largest pressure, mm per MPa.
     slope: f64,
     /// The unknowns that pressure is read from.
-    read: [(u32, u32, f64); 4],
+    read: Vec<(u32, u32, f64)>,
 }
 
 /// Pinion and gear part of the joint depth vector.

@@ -6,6 +6,11 @@
 //! ```text
 //! p(s, t) = (1 − t) p_m(s − c(t) + c_m) + t p_{m+1}(s − c(t) + c_{m+1}),   c(t) = (1 − t) c_m + t c_{m+1}
 //! ```
+//! A law that takes the largest of it to a high power has no limit on finer grids: the largest pressure sees the crests of waves
+//! and not their troughs, and waves shorter than the sliding during a passage grow. What such a law is told is therefore the
+//! pressure averaged over a given length.
+
+use std::borrow::Cow;
 
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::PositionContact;
@@ -14,32 +19,55 @@ use crate::contact::model::PositionContact;
 const INSTANTS: usize = 4;
 
 /// The moment at which a flank point sees its largest pressure.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
     /// Largest pressure, MPa; 0 if nothing touches the point.
     pub pressure: f64,
     /// Number of the tooth pair in the passage: the nearer one of the two around the moment.
     pub pair: usize,
     /// Where the pressure is read: unknowns as (position, unknown of the position, weight).
-    pub read: [(u32, u32, f64); 4],
+    pub read: Vec<(u32, u32, f64)>,
 }
 
 /// The order in which a tooth pair runs through the positions of a mesh cycle: (position, pair).
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
     /// By ascending path.
     pub order: Vec<(usize, usize)>,
+    /// In that order, for pinion and gear: weights of the pair's unknowns in the average at each of them. Empty: no average.
+    averages: Vec<[Vec<Average>; 2]>,
 }
 
+/// Unknowns of a pair and their weights in an average.
+type Average = Vec<(usize, f64)>;
+
 impl Passage {
-    /// The passage of `cycle`.
+    /// The passage of `cycle`, with the pressure at points.
     pub fn new(cycle: &Cycle) -> Self {
         let mut order: Vec<(usize, usize)> = (cycle.positions.iter().enumerate())
             .flat_map(|(q, position)| (0..position.pairs.len()).map(move |i| (q, i)))
             .collect();
         let path = |&(q, i): &(usize, usize)| cycle.positions[q].pairs[i].path;
         order.sort_by(|a, b| path(a).total_cmp(&path(b)));
-        Self { order }
+        Self {
+            order,
+            averages: Vec::new(),
+        }
+    }
+
+    /// The passage of `cycle`, with the pressure averaged over `length` (mm of arc) around each point.
+    pub fn averaged(cycle: &Cycle, length: f64) -> Self {
+        let mut passage = Self::new(cycle);
+        let weights = |arc: &[f64]| -> Vec<Average> {
+            let around = |k: usize| averaging(arc, arc[k] - 0.5 * length, arc[k] + 0.5 * length);
+            (0..arc.len()).map(around).collect()
+        };
+        let of_pair = |&(q, i): &(usize, usize)| {
+            let arc = &cycle.positions[q].pairs[i].arc;
+            [weights(&arc[0]), weights(&arc[1])]
+        };
+        passage.averages = passage.order.iter().map(of_pair).collect();
+        passage
     }
 
     /// The pair number `m` of the passage.
@@ -54,12 +82,23 @@ impl Passage {
         let nothing = Moment {
             pressure: 0.0,
             pair: 0,
-            read: [(0, 0, 0.0); 4],
+            read: Vec::new(),
         };
         let mut moments = vec![nothing; stations.len()];
-        let views: Vec<View> = (self.order.iter())
-            .map(|&(q, i)| View::new(q, &cycle.positions[q].pairs[i], &contacts[q], side))
+        let views: Vec<View> = (self.order.iter().enumerate())
+            .map(|(m, &(q, i))| {
+                let averages = self.averages.get(m).map(|both| both[side].as_slice());
+                View::new(
+                    q,
+                    &cycle.positions[q].pairs[i],
+                    &contacts[q],
+                    side,
+                    averages,
+                )
+            })
             .collect();
+        // where each station's largest pressure is read: window, instant
+        let mut found = vec![None; stations.len()];
         for (m, window) in views.windows(2).enumerate() {
             let [from, to] = window else { continue };
             if from.is_empty() && to.is_empty() {
@@ -74,25 +113,22 @@ impl Passage {
                 let first = stations.partition_point(|&s| s < centre + low);
                 let last = stations.partition_point(|&s| s <= centre + high);
                 for i in first..last {
-                    let offset = stations[i] - centre;
-                    let parts = [(from, 1.0 - t), (to, t)];
-                    let mut read = [(0, 0, 0.0); 4];
-                    let mut pressure = 0.0;
-                    for (part, (view, weight)) in parts.into_iter().enumerate() {
-                        for (slot, (k, share)) in view.at(offset).into_iter().enumerate() {
-                            pressure += weight * share * view.pressure[k];
-                            read[2 * part + slot] =
-                                (view.position, view.first + k as u32, weight * share);
-                        }
-                    }
+                    let pressure = read(from, to, t, stations[i] - centre)
+                        .map(|(view, k, weight)| weight * view.pressure[k])
+                        .sum();
                     if pressure > moments[i].pressure {
-                        moments[i] = Moment {
-                            pressure,
-                            pair: if t < 0.5 { m } else { m + 1 },
-                            read,
-                        };
+                        moments[i].pressure = pressure;
+                        moments[i].pair = if t < 0.5 { m } else { m + 1 };
+                        found[i] = Some((m, t, centre));
                     }
                 }
+            }
+        }
+        for (i, found) in found.into_iter().enumerate() {
+            if let Some((m, t, centre)) = found {
+                moments[i].read = read(&views[m], &views[m + 1], t, stations[i] - centre)
+                    .flat_map(|(view, k, weight)| view.unknowns(k, weight))
+                    .collect();
             }
         }
         for (moment, arc) in moments.iter_mut().zip(stations) {
@@ -119,20 +155,69 @@ fn middle(pair: &PairContact, side: usize) -> f64 {
     crate::numeric::interpolate(&pair.xi, &pair.arc[side], 0.0)
 }
 
+/// Weights of values at the nodes `arc` (ascending or descending) in the average over [from, to] of the straight lines through
+/// them; outside the nodes there is nothing.
+fn averaging(arc: &[f64], from: f64, to: f64) -> Average {
+    let mut weights: Average = Vec::new();
+    for k in 1..arc.len() {
+        let (a, b) = (arc[k - 1], arc[k]);
+        let (low, high) = (a.min(b).max(from), a.max(b).min(to));
+        if low >= high {
+            continue;
+        }
+        // a straight line's mean is its value in the middle
+        let share = (high - low) / (to - from);
+        let t = (0.5 * (low + high) - a) / (b - a);
+        for (node, weight) in [(k - 1, share * (1.0 - t)), (k, share * t)] {
+            match weights.last_mut().filter(|last| last.0 == node) {
+                Some(last) => last.1 += weight,
+                None => weights.push((node, weight)),
+            }
+        }
+    }
+    weights
+}
+
+/// What the pressure `offset` (mm of arc) from the middle is read from, the share `t` of the way from one view to the next.
+fn read<'v, 'a>(
+    from: &'v View<'a>,
+    to: &'v View<'a>,
+    t: f64,
+    offset: f64,
+) -> impl Iterator<Item = (&'v View<'a>, usize, f64)> {
+    [(from, 1.0 - t), (to, t)]
+        .into_iter()
+        .flat_map(move |(view, weight)| {
+            view.at(offset)
+                .map(move |(k, share)| (view, k, weight * share))
+        })
+}
+
 /// The pressure of one tooth pair over arc from its middle.
 struct View<'a> {
     position: u32,
     first: u32,
     centre: f64,
     arc: &'a [f64],
-    pressure: &'a [f64],
+    pressure: Cow<'a, [f64]>,
+    averages: Option<&'a [Average]>,
     /// Arc from the middle between which there is pressure, mm.
     loaded: Option<(f64, f64)>,
 }
 
 impl<'a> View<'a> {
-    fn new(q: usize, pair: &'a PairContact, contact: &'a PositionContact, side: usize) -> Self {
-        let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
+    fn new(
+        q: usize,
+        pair: &'a PairContact,
+        contact: &'a PositionContact,
+        side: usize,
+        averages: Option<&'a [Average]>,
+    ) -> Self {
+        let own = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
+        let pressure: Cow<'a, [f64]> = averages.map_or(Cow::Borrowed(own), |averages| {
+            let mean = |average: &Average| average.iter().map(|&(k, weight)| weight * own[k]).sum();
+            averages.iter().map(mean).collect()
+        });
         let arc = &pair.arc[side];
         let centre = middle(pair, side);
         let loaded = |k: &usize| pressure[*k] > 0.0;
@@ -150,7 +235,18 @@ impl<'a> View<'a> {
             centre,
             arc,
             pressure,
+            averages,
             loaded,
+        }
+    }
+
+    /// The unknowns behind the value at node `k`, with their weights times `weight`.
+    fn unknowns(&self, k: usize, weight: f64) -> Vec<(u32, u32, f64)> {
+        let unknown =
+            |(k, share): (usize, f64)| (self.position, self.first + k as u32, weight * share);
+        match self.averages {
+            Some(averages) => averages[k].iter().copied().map(unknown).collect(),
+            None => vec![unknown((k, 1.0))],
         }
     }
 
@@ -174,5 +270,26 @@ impl<'a> View<'a> {
         }
         let t = (s - self.arc[after - 1]) / (self.arc[after] - self.arc[after - 1]);
         [(after - 1, 1.0 - t), (after, t)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::averaging;
+
+    /// The mean of 2 + 3 s over [0.9, 1.8] is its value in the middle, on nodes that ascend or descend; over half of nothing, half.
+    #[test]
+    fn averages_of_straight_lines_are_exact() {
+        let mut arc = vec![0.0, 0.4, 1.0, 1.1, 1.7, 2.5];
+        for _ in 0..2 {
+            let mean: f64 = averaging(&arc, 0.9, 1.8)
+                .iter()
+                .map(|&(k, weight)| weight * (2.0 + 3.0 * arc[k]))
+                .sum();
+            assert!((mean - (2.0 + 3.0 * 1.35)).abs() < 1e-14, "{mean}");
+            let half: f64 = averaging(&arc, 2.0, 3.0).iter().map(|w| w.1).sum();
+            assert!((half - 0.5).abs() < 1e-14, "{half}");
+            arc.reverse();
+        }
     }
 }
