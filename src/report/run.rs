@@ -1,12 +1,14 @@
 //! Whole result folders.
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::json;
 
 use super::error::OutputError;
 use super::html::{self, Case, Page};
-use super::{Staging, comparison, csv, json as documents, ladder, models, plots, vtk};
+use super::{Staging, bitmap, comparison, csv, json as documents, ladder, models, vtk};
+use crate::gear::Pair;
 use crate::simulate::models::Comparison;
 use crate::simulate::result::Run;
 
@@ -20,13 +22,20 @@ pub struct Written {
 }
 
 /// Writes the result of `run`.
+///
+/// # Errors
+/// [`OutputError`]; then nothing stands under the folder's name.
 pub fn write_run(run: &Run, folder: &Path) -> Result<Written, OutputError> {
-    write_run_with(run, &[], folder)
+    write_run_with(run, None, &[], folder)
 }
 
-/// Writes the result of `run` with further files (name, content), such as what it was made from.
+/// Writes the result of `run`, its gears drawn from `pair`, with further files (name, content), such as what it was made from.
+///
+/// # Errors
+/// [`OutputError`]; then nothing stands under the folder's name.
 pub fn write_run_with(
     run: &Run,
+    pair: Option<&Pair>,
     further: &[(&str, &[u8])],
     folder: &Path,
 ) -> Result<Written, OutputError> {
@@ -41,13 +50,34 @@ pub fn write_run_with(
     staging.write("wear.csv", &csv::wear(run)?)?;
     staging.write("contact.csv", &csv::contact(run)?)?;
     staging.write("transmission_error.csv", &csv::transmission_error(run)?)?;
-    for plot in plots::of_run(run) {
-        staging.write(&format!("plots/{}.svg", plot.name), plot.svg()?.as_bytes())?;
-    }
+    let mut page = html::run(run, pair)?;
+    write_pictures(&page, &mut staging)?;
     write_fields(run, &mut staging)?;
-    let page = html::run(run, staging.written())?;
-    staging.write("report.html", page.as_bytes())?;
+    page.sections
+        .push(html::files_of_run(run, staging.written()));
+    staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
+}
+
+/// Every plot and drawing of a page as SVG and as PNG.
+fn write_pictures(page: &Page, staging: &mut Staging) -> Result<(), OutputError> {
+    let plots: Vec<_> = page.plots().collect();
+    let drawn: Result<Vec<(&str, String)>, OutputError> = plots
+        .par_iter()
+        .map(|plot| Ok((plot.name.as_str(), plot.svg()?)))
+        .collect();
+    let mut drawn = drawn?;
+    let drawings = page.drawings().filter(|drawing| !drawing.name.is_empty());
+    drawn.extend(drawings.map(|drawing| (drawing.name.as_str(), drawing.svg())));
+    let bitmaps: Result<Vec<Vec<u8>>, OutputError> = drawn
+        .par_iter()
+        .map(|(name, svg)| bitmap::of_svg(name, svg))
+        .collect();
+    for ((name, svg), bitmap) in drawn.iter().zip(bitmaps?) {
+        staging.write(&format!("plots/{name}.svg"), svg.as_bytes())?;
+        staging.write(&format!("plots/{name}.png"), &bitmap)?;
+    }
+    Ok(())
 }
 
 /// Writes `models.json`, its page and its plots; `title` is the study's own.
@@ -118,9 +148,7 @@ fn write_page_with(
     for (name, content) in further {
         staging.write(name, content)?;
     }
-    for plot in page.sections.iter().flat_map(|section| &section.plots) {
-        staging.write(&format!("plots/{}.svg", plot.name), plot.svg()?.as_bytes())?;
-    }
+    write_pictures(page, &mut staging)?;
     staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
 }
