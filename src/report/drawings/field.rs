@@ -12,9 +12,9 @@ use crate::simulate::result::{FieldFrame, MemberField, Run};
 /// Size of a picture, pixels.
 const SIZE: [usize; 2] = [880, 560];
 /// Pictures at most.
-const MOST: usize = 6;
+const MOST: usize = 5;
 /// Share of the loaded region's pixels that may lie above the scale: stresses under tip corners have no bound.
-const ABOVE: f64 = 0.001;
+const ABOVE: f64 = 0.0005;
 /// Strongest mesh line, of 255.
 const LINE: f64 = 150.0;
 /// Length from which an edge has its full strength, pixels.
@@ -44,18 +44,12 @@ pub fn stresses(run: &Run) -> Result<Option<Drawing>, OutputError> {
     let view = View::new(run);
     let highest = highest(frames[0], &view);
     let colors = palette();
-    let mut opacity = vec![255; 256];
-    opacity[0] = 0;
-    let line_colors = [[0, 0, 0]; 256];
-    let line_opacity: Vec<u8> = (0..=255).collect();
     let pictures: Result<Vec<[String; 2]>, OutputError> = frames
         .par_iter()
         .map(|frame| {
-            let [field, lines] = view.drawn(frame, highest);
-            Ok([
-                base64::encoded(&field.png(&colors, &opacity)?),
-                base64::encoded(&lines.png(&line_colors, &line_opacity)?),
-            ])
+            let field = view.stress(frame, highest).png(&colors)?;
+            let lines = view.lines(frame).shade()?;
+            Ok([base64::encoded(&field), base64::encoded(&lines)])
         })
         .collect();
     let named: Vec<String> = frames.iter().map(|frame| name(frame)).collect();
@@ -107,36 +101,43 @@ impl View {
         }
     }
 
-    /// Levels 1 to 255 of the stress, and the mesh's lines.
-    fn drawn(&self, frame: &FieldFrame, highest: f64) -> [Raster; 2] {
-        let [width, height] = SIZE;
-        let mut field = Raster::new(width, height);
-        let mut lines = Raster::new(width, height);
+    /// Levels 1 to 255 of the stress.
+    fn stress(&self, frame: &FieldFrame, highest: f64) -> Raster {
+        let mut field = Raster::new(SIZE[0], SIZE[1]);
+        let level = |v: f64| 1 + (254.0 * (v / highest).clamp(0.0, 1.0)).round() as u8;
         for member in [&frame.pinion, &frame.gear] {
             let nodes = self.nodes(member);
-            let level = |v: f64| 1 + (254.0 * (v / highest).clamp(0.0, 1.0)).round() as u8;
             self.each(member, &nodes, |element| {
-                let corner = |i: usize| nodes[element[i] as usize];
-                match *element {
-                    [_, _, _] => field.triangle([corner(0), corner(1), corner(2)], level),
-                    _ => {
-                        for part in [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]] {
-                            field.triangle(part.map(corner), level);
-                        }
-                    }
+                let parts: &[[usize; 3]] = match element.len() {
+                    3 => &[[0, 1, 2]],
+                    _ => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+                };
+                for part in parts {
+                    field.triangle(part.map(|i| nodes[element[i] as usize]), level);
                 }
+            });
+        }
+        field
+    }
+
+    /// The elements' edges, fainter where they are short.
+    fn lines(&self, frame: &FieldFrame) -> Raster {
+        let mut lines = Raster::new(SIZE[0], SIZE[1]);
+        for member in [&frame.pinion, &frame.gear] {
+            let nodes = self.nodes(member);
+            self.each(member, &nodes, |element| {
                 for side in 0..3 {
-                    let ends = [corner(side), corner((side + 1) % 3)];
-                    let [from, to] = ends.map(|[x, y, _]| [x, y]);
+                    let ends = [element[side], element[(side + 1) % 3]];
+                    let [from, to] = ends.map(|i| nodes[i as usize]).map(|[x, y, _]| [x, y]);
                     let length = (to[0] - from[0]).hypot(to[1] - from[1]);
                     let strength = LINE * (length / CLEAR).min(1.0);
-                    if strength > 8.0 {
+                    if strength > 32.0 {
                         lines.line(from, to, strength);
                     }
                 }
             });
         }
-        [field, lines]
+        lines
     }
 
     /// Pixels and stress of every node, under load.
@@ -181,7 +182,7 @@ fn highest(frame: &FieldFrame, view: &View) -> f64 {
     // levels of a two hundred and fifty-fourth each of the largest value: fine enough for two digits after a second look
     let mut top = largest.max(1e-9);
     for _ in 0..2 {
-        let [field, _] = view.drawn(frame, top);
+        let field = view.stress(frame, top);
         let mut levels = [0usize; 256];
         for &pixel in &field.pixels {
             levels[usize::from(pixel)] += 1;

@@ -68,8 +68,29 @@ impl Raster {
         }
     }
 
-    /// As PNG with a palette of colours and opacities.
-    pub(super) fn png(&self, colors: &[[u8; 3]], opacity: &[u8]) -> Result<Vec<u8>, OutputError> {
+    /// As PNG with a palette of 256 colours, the first transparent.
+    pub(super) fn png(&self, colors: &[[u8; 3]]) -> Result<Vec<u8>, OutputError> {
+        self.encoded(colors, &[0], png::BitDepth::Eight, &self.pixels)
+    }
+
+    /// As PNG in black, the pixels' upper three bits as opacity.
+    pub(super) fn shade(&self) -> Result<Vec<u8>, OutputError> {
+        let rows = self.pixels.chunks(self.width);
+        let packed: Vec<u8> = rows
+            .flat_map(|row| row.chunks(2))
+            .map(|two| (two[0] >> 5) << 4 | two.get(1).map_or(0, |second| second >> 5))
+            .collect();
+        let opacity: Vec<u8> = (0..8).map(|level| 36 * level).collect();
+        self.encoded(&[[0; 3]; 8], &opacity, png::BitDepth::Four, &packed)
+    }
+
+    fn encoded(
+        &self,
+        colors: &[[u8; 3]],
+        opacity: &[u8],
+        depth: png::BitDepth,
+        packed: &[u8],
+    ) -> Result<Vec<u8>, OutputError> {
         let said = |error: png::EncodingError| OutputError::Plot {
             title: "stresses".to_owned(),
             message: error.to_string(),
@@ -77,13 +98,13 @@ impl Raster {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
         encoder.set_color(png::ColorType::Indexed);
-        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_depth(depth);
         encoder.set_palette(colors.concat());
         encoder.set_trns(opacity.to_vec());
         encoder.set_compression(png::Compression::Balanced);
         encoder.set_filter(png::Filter::NoFilter);
         let mut writer = encoder.write_header().map_err(said)?;
-        writer.write_image_data(&self.pixels).map_err(said)?;
+        writer.write_image_data(packed).map_err(said)?;
         writer.finish().map_err(said)?;
         Ok(bytes)
     }

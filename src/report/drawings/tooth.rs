@@ -10,7 +10,7 @@ use crate::simulate::result::{Member, Run};
 
 const SIZE: [f64; 2] = [440.0, 400.0];
 /// Height of the largest depth in the drawing, modules.
-const SEEN: f64 = 0.22;
+const SEEN: f64 = 0.3;
 /// Pixels per module.
 const MODULE: f64 = 108.0;
 
@@ -56,10 +56,10 @@ pub fn worn_teeth(run: &Run, pair: &Pair) -> Option<Worn> {
     })
 }
 
-/// 1, 2 or 5 times a power of ten, at most `times`.
+/// 1, 2, 3 or 5 times a power of ten, at most `times`.
 fn magnification(times: f64) -> f64 {
     let power = 10f64.powf(times.log10().floor());
-    let lead = [5.0, 2.0, 1.0].into_iter().find(|l| l * power <= times);
+    let lead = [5.0, 3.0, 2.0, 1.0].into_iter().find(|l| l * power <= times);
     lead.unwrap_or(1.0) * power
 }
 

@@ -60,13 +60,23 @@ fn chart(plot: &Plot, above: Option<&Plot>) -> Value {
         curves.push(Value::Object(curve));
     }
     let lower = plot.lower.as_ref().map(|lower| chart(lower, Some(plot)));
-    // the name before the unit is enough beside a value
-    let short = plot.x_label.split(" from ").next().unwrap_or_default();
+    let (short, brief) = names(&plot.x_label);
     json!({
-        "name": plot.name, "title": plot.title, "x": plot.x_label, "y": plot.y_label, "short": short,
+        "name": plot.name, "title": plot.title, "x": plot.x_label, "y": plot.y_label, "short": short, "brief": brief,
         "zero": plot.from_zero, "log": plot.logarithmic, "residuals": plot.residuals, "history": plot.history,
         "names": plot.names, "marks": plot.marks, "xs": xs, "curves": curves, "lower": lower,
     })
+}
+
+/// The horizontal axis beside a value, and below a narrow chart.
+fn names(label: &str) -> (&str, &str) {
+    if label.starts_with("distance along the path") {
+        ("path, mm", "path from the pitch point, mm")
+    } else if label.starts_with("pinion rotation") {
+        ("rotation", "pinion rotation, base pitches")
+    } else {
+        (label, label)
+    }
 }
 
 fn drawn(plot: &Plot, curve: &Curve, label: &str, xs: &mut Vec<Vec<f64>>) -> Map<String, Value> {

@@ -38,7 +38,7 @@ pub struct Section {
     pub slider: bool,
     /// Tables.
     pub tables: Vec<Table>,
-    /// Drawings that are no plots, before the plots.
+    /// Drawings that are no plots, after the plots.
     pub drawings: Vec<Drawing>,
     /// Plots, two beside each other where there is room.
     pub plots: Vec<Plot>,
@@ -137,6 +137,9 @@ impl Page {
             }
             out.push_str("</nav>\n");
         }
+        if !plots.is_empty() {
+            out.push_str(HINT);
+        }
         let mut chart = 0;
         for (number, section) in self.sections.iter().enumerate() {
             out.push_str(&format!(
@@ -210,9 +213,6 @@ impl Section {
         }
         if !self.plots.is_empty() || !self.drawings.is_empty() {
             out.push_str("<div class=\"figures\">\n");
-            for drawing in &self.drawings {
-                out.push_str(&drawing.figure());
-            }
             for (plot, svg) in self.plots.iter().zip(pictures) {
                 let caption = escape(&plot.title);
                 // The declaration of a stand-alone SVG file does not belong inside a page.
@@ -222,11 +222,18 @@ impl Section {
                 ));
                 *chart += 1;
             }
+            for drawing in &self.drawings {
+                out.push_str(&drawing.figure());
+            }
             out.push_str("</div>\n");
         }
         paragraphs(out, &self.notes);
     }
 }
+
+/// How charts are used.
+const HINT: &str = "<p class=\"hint scripts\" hidden>Charts show values under the pointer. Drag across to zoom, double click to go \
+                    back, click a name to hide its curve.</p>\n";
 
 /// Moves all pictures of a page through its states; hidden until scripts are there to do so.
 fn slider(states: &[String]) -> String {

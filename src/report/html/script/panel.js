@@ -41,10 +41,11 @@ function spanX(panel) {
   return widened(Math.min(...all), Math.max(...all), 0);
 }
 
-function spanY(panel) {
+// Of all states, so that the axis stands still while the slider moves; of curves that are not switched off.
+function spanY(panel, shown) {
   let low = Infinity, high = -Infinity;
   const take = (v) => { if (isFinite(v) && (!panel.log || v > 0)) { low = Math.min(low, v); high = Math.max(high, v); } };
-  for (const curve of panel.curves) curve.y.forEach((y, i) => { const e = curve.e ? curve.e[i] : 0; take(y - e); take(y + e); });
+  for (const curve of panel.curves.filter(shown)) curve.y.forEach((y, i) => { const e = curve.e ? curve.e[i] : 0; take(y - e); take(y + e); });
   if (panel.residuals || (panel.zero && low > 0)) take(0);
   if (panel.log) return [low / 1.4, high * 1.4];
   const [a, b] = widened(low, high, 0.06);
@@ -100,20 +101,23 @@ function makePanel(panel, place) {
   const plot = new uPlot({
     width: place.width,
     height: place.height,
-    padding: [panel.marks.some((mark) => mark[1]) ? 20 : 8, 14, 0, 0],
+    padding: [panel.marks.some((mark) => mark[1]) ? 20 : 8, place.x[1] >= 1e4 ? 30 : 14, 0, 0],
     scales: {
       x: { time: false, range: () => place.x },
-      y: { distr: panel.log ? 3 : 1, range: () => spanY(panel) },
+      y: { distr: panel.log ? 3 : 1, range: (u) => spanY(panel, (curve) => {
+        const series = u.series[1 + slots.findIndex((slot) => slot.curves.includes(curve))];
+        return !series || series.show;
+      }) },
     },
     axes: [
-      { ...axis, show: place.last, label: panel.x, labelSize: 22, size: 30,
+      { ...axis, show: place.last, label: place.width < 440 ? panel.brief : panel.x, labelSize: 22, size: 30,
         splits: named ? () => panel.names.map((_, i) => i + 1) : undefined,
         values: named ? (u, splits) => splits.map((v) => panel.names[v - 1] || "") : values },
       { ...axis, label: panel.y, labelSize: 20, size: 52,
         values: panel.log ? (u, splits) => splits.map((v) => (v === null ? "" : significant(v, 1))) : values },
     ],
     series: [
-      { label: named ? "version" : panel.short || "x", value: (u, v) => (named ? panel.names[v - 1] || "" : significant(v, 4)) },
+      { label: named ? "version" : panel.short, value: (u, v) => (named ? panel.names[v - 1] || "" : significant(v, 4)) },
       ...slots.map((slot) => seriesOf(slot.curves[slot.curves.length - 1], panel)),
     ],
     cursor: {

@@ -7,12 +7,31 @@ function selftest() {
     for (let i = 3; i < bytes.length; i += 4) if (bytes[i] > 0) count += 1;
     return count;
   };
+  // what the legend says with the pointer in the middle, and at each twentieth until something is there
+  const hovered = (plot) => {
+    for (let i = 1; i < 20; i++) {
+      plot.setCursor({ left: plot.over.clientWidth * ((i + 9) % 20) / 20, top: 40 });
+      const said = [...plot.root.querySelectorAll(".u-series:not(:first-child) .u-value")].map((node) => node.textContent);
+      if (said.some((text) => /\d/.test(text))) return said.join("; ");
+    }
+    return "";
+  };
+  const pointed = () => [...document.querySelectorAll("figure[data-field]")].map((figure) => {
+    const picture = figure.querySelector(".picture:not([hidden])"), box = picture.getBoundingClientRect();
+    for (let i = 1; i < 40; i++) {
+      const clientX = box.left + box.width * i / 40, clientY = box.top + box.height / 2;
+      picture.dispatchEvent(new PointerEvent("pointermove", { clientX, clientY }));
+      const said = figure.querySelector("output").textContent;
+      if (said) return said;
+    }
+    return "";
+  });
   const values = (plot) => JSON.stringify(plot.data.slice(1));
   const points = (plot) => plot.data.slice(1).flat().filter((v) => v !== null && v !== undefined).length;
   const report = charts.map(({ spec, chart }) => ({
     name: spec.name, title: spec.title,
     points: chart.plots().map(points), inked: chart.plots().map(inked),
-    width: chart.plots().map((plot) => plot.width),
+    width: chart.plots().map((plot) => plot.width), hovered: chart.plots().map(hovered),
   }));
   const worn = () => [...document.querySelectorAll("path[data-worn]")].map((path) => path.getAttribute("d")).join();
   const last = given.states.length - 1;
@@ -31,5 +50,5 @@ function selftest() {
   }
   const node = element("pre", "", document.body);
   node.id = "selftest-result";
-  node.textContent = JSON.stringify({ faults, states: given.states.length, overflow: document.documentElement.scrollWidth - innerWidth, charts: report });
+  node.textContent = JSON.stringify({ faults, pointed: pointed(), states: given.states.length, overflow: document.documentElement.scrollWidth - innerWidth, charts: report });
 }

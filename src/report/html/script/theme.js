@@ -39,8 +39,9 @@ function significant(value, digits) {
 
 function tick(value, step) {
   if (Math.abs(value) >= 1e7) return significant(value, 2);
-  const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
-  const text = value.toFixed(Math.min(digits, 9));
+  let digits = 0;
+  while (digits < 9 && Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) > 1e-6 * step * 10 ** digits) digits += 1;
+  const text = value.toFixed(digits);
   return grouped(Number(text) === 0 ? "0" : text);
 }
 
