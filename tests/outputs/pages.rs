@@ -46,7 +46,13 @@ fn the_report_is_self_contained_and_complete() {
             && !page.contains("<link")
     );
     // the scripts ask no one for anything
-    for word in ["fetch(", "XMLHttpRequest", "WebSocket", "import(", "sendBeacon"] {
+    for word in [
+        "fetch(",
+        "XMLHttpRequest",
+        "WebSocket",
+        "import(",
+        "sendBeacon",
+    ] {
         assert!(!page.contains(word), "{word}");
     }
     assert!(

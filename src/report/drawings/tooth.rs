@@ -59,7 +59,9 @@ pub fn worn_teeth(run: &Run, pair: &Pair) -> Option<Worn> {
 /// 1, 2, 3 or 5 times a power of ten, at most `times`.
 fn magnification(times: f64) -> f64 {
     let power = 10f64.powf(times.log10().floor());
-    let lead = [5.0, 3.0, 2.0, 1.0].into_iter().find(|l| l * power <= times);
+    let lead = [5.0, 3.0, 2.0, 1.0]
+        .into_iter()
+        .find(|l| l * power <= times);
     lead.unwrap_or(1.0) * power
 }
 

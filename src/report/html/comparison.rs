@@ -137,6 +137,7 @@ fn places(result: &Result<'_>) -> Section {
     let total: f64 = c.places.iter().map(|cell| excess(cell).max(0.0)).sum();
     let mut worst: Vec<&Place> = c.places.iter().filter(|cell| excess(cell) > 0.0).collect();
     worst.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+    let largest = worst.first().map_or(1.0, |cell| excess(cell));
     let mut table = Table::new(
         "",
         [
@@ -162,7 +163,7 @@ fn places(result: &Result<'_>) -> Section {
             Cell::number(format!("{} to {}", count(from), count(to))),
             Cell::number(whole(cell.points)),
             Cell::number(significant(cell.chi2_per_point, 3)),
-            Cell::Bar(excess(cell) / total, percent(excess(cell) / total, 2)),
+            Cell::Bar(excess(cell) / largest, percent(excess(cell) / total, 2)),
             Cell::number(with_unit(
                 format!(
                     "{} ± {}",

@@ -20,18 +20,40 @@ function shownAt(slot, panel, state) {
   return slot.curves.find((curve) => curve.state === state) || null;
 }
 
+// One axis for all curves: [xs, ys, sigmas] of each; a curve may have several points at one place.
+function join(tables) {
+  const times = new Map();
+  for (const [xs] of tables) {
+    const own = new Map();
+    for (const x of xs) own.set(x, (own.get(x) || 0) + 1);
+    own.forEach((n, x) => times.set(x, Math.max(n, times.get(x) || 0)));
+  }
+  const all = [], first = new Map();
+  for (const x of [...times.keys()].sort((a, b) => a - b)) {
+    first.set(x, all.length);
+    for (let i = 0; i < times.get(x); i++) all.push(x);
+  }
+  const columns = tables.map(([xs, ...values]) => {
+    const filled = values.map(() => new Array(all.length).fill(null)), used = new Map();
+    xs.forEach((x, i) => {
+      const n = used.get(x) || 0;
+      used.set(x, n + 1);
+      values.forEach((column, c) => { filled[c][first.get(x) + n] = column[i]; });
+    });
+    return filled;
+  });
+  return { all, columns };
+}
+
 function joined(panel, slots, state) {
   const tables = slots.map((slot) => {
     const curve = shownAt(slot, panel, state) || { x: null };
     const xs = curve.x === null ? [] : panel.xs[curve.x], ys = curve.x === null ? [] : curve.y;
     return [xs, ys, curve.e || ys.map(() => null)];
   });
-  const table = uPlot.join(tables);
-  const data = [table[0]], sigmas = [null];
-  tables.forEach((t, i) => {
-    data.push(table[1 + 2 * i]);
-    sigmas.push(t[2].some((e) => e > 0) ? table[2 + 2 * i] : null);
-  });
+  const { all, columns } = join(tables);
+  const data = [all, ...columns.map(([ys]) => ys)];
+  const sigmas = [null, ...columns.map(([, es]) => (es.some((e) => e > 0) ? es : null))];
   return { data, sigmas };
 }
 

@@ -19,6 +19,8 @@ document.querySelectorAll("figure[data-chart]").forEach((figure) => {
 document.querySelectorAll("figure[data-tooth]").forEach((figure) => movable.push(makeTooth(figure, given)));
 document.querySelectorAll("figure[data-field]").forEach(makeField);
 const sliders = makeSliders(given.states, (state) => movable.forEach((part) => part.show(state)));
+// paper shows the last state, as the plots that need no script do
+addEventListener("beforeprint", () => { if (given.states.length) sliders.set(given.states.length - 1); });
 document.querySelectorAll(".scripts").forEach((node) => { node.hidden = false; });
 dark.addEventListener("change", () => charts.forEach(({ chart }) => chart.build()));
 if (location.hash === "#selftest") setTimeout(selftest, 50);
