@@ -37,7 +37,7 @@ speed = 2000.0
 coefficient = 2e-10
 cycles = 1e6
 "#;
-const FEM: &str = "[model]\ncontact = \"fem\"\n[numerics]\nelements_per_half_width = 3\npositions = 24\nstep_tolerance = 1e-2\n";
+const FEM: &str = "[model]\ncontact = \"fem\"\n[numerics]\nelements_per_half_width = 2\npositions = 16\nstep_tolerance = 2e-2\n";
 const HERTZ: &str = "[model]\ncontact = \"hertz\"\n[numerics]\npositions = 40\n";
 const TESTS: &str = "[[test]]\nid = \"A\"\n[[test]]\nid = \"B\"\ntorque = 170.0\ncycles = 6e5\n[[test]]\nid = \"H\"\nrole = \
                      \"holdout\"\ntorque = 130.0\ncycles = 4e5\n";

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::format::{count, plain, significant};
+use super::format::{count, plain, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
 
@@ -80,7 +80,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
         "parameters",
         "decided by",
     ];
-    let mut table = Table::new("Ranking", head);
+    let mut table = Table::new("", head);
     for entry in &diagnosis.ranking {
         let held = entry
             .holdout_chi2_per_point
@@ -156,6 +156,8 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     }
     let head = ["effect", "fall of χ²", "ln evidence over the base", "by"];
     let mut table = Table::new("", head);
+    let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
+    let largest = drops.fold(attainable, f64::max);
     for entry in diagnosis.screened.iter().take(FITTED) {
         let named = if entry.form.is_empty() {
             entry.effect.clone()
@@ -164,20 +166,17 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         };
         table = table.row([
             Cell::text(named),
-            Cell::Bar(
-                entry.chi2_drop / attainable,
-                format!("{:.0}", entry.chi2_drop),
-            ),
+            Cell::Bar(entry.chi2_drop / largest, format!("{:.0}", entry.chi2_drop)),
             Cell::number(format!("{:.1}", entry.evidence_gain)),
             Cell::text(if entry.decided {
-                "finite elements"
+                "the deciding model"
             } else {
                 "screening"
             }),
         ]);
     }
     let text = format!(
-        "Anything smooth could bring χ² down by {attainable:.0}: that is a full bar. The {} best of {} fits.",
+        "Anything smooth could bring χ² down by about {attainable:.0}. The {} best of {} fits.",
         diagnosis.screened.len().min(FITTED),
         diagnosis.screened.len()
     );
@@ -241,10 +240,9 @@ fn parameters(entry: &Ranked) -> String {
         .iter()
         .map(|p| {
             format!(
-                "{} = {:.4e} ± {:.1e}{}",
+                "{} = {}{}",
                 p.name,
-                p.value,
-                p.sigma,
+                uncertain(p.value, p.sigma),
                 if p.at_bound { " (bound)" } else { "" }
             )
         })

@@ -50,32 +50,56 @@ pub fn write_run_with(
     staging.write("wear.csv", &csv::wear(run)?)?;
     staging.write("contact.csv", &csv::contact(run)?)?;
     staging.write("transmission_error.csv", &csv::transmission_error(run)?)?;
-    let mut page = html::run(run, pair)?;
-    write_pictures(&page, &mut staging)?;
-    write_fields(run, &mut staging)?;
+    // drawing takes a core, writing fields mostly waits
+    let (written, drawn) = rayon::join(
+        || write_fields(run, &mut staging),
+        || html::run(run, pair).and_then(|page| Ok((pictures(&page)?, page))),
+    );
+    written?;
+    let (pictures, mut page) = drawn?;
+    write_pictures(&pictures, &mut staging)?;
     page.sections
         .push(html::files_of_run(run, staging.written()));
     staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
 }
 
-/// Every plot and drawing of a page as SVG and as PNG.
-fn write_pictures(page: &Page, staging: &mut Staging) -> Result<(), OutputError> {
+/// A picture as files have it.
+struct Picture {
+    name: String,
+    svg: String,
+    png: Vec<u8>,
+}
+
+/// Every plot and drawing of a page.
+fn pictures(page: &Page) -> Result<Vec<Picture>, OutputError> {
+    let picture = |name: &str, svg: String| {
+        let png = bitmap::of_svg(name, &svg)?;
+        Ok(Picture {
+            name: name.to_owned(),
+            svg,
+            png,
+        })
+    };
     let plots: Vec<_> = page.plots().collect();
-    let drawn: Result<Vec<(&str, String)>, OutputError> = plots
+    let plots: Result<Vec<Picture>, OutputError> = plots
         .par_iter()
-        .map(|plot| Ok((plot.name.as_str(), plot.svg()?)))
+        .map(|plot| picture(&plot.name, plot.svg()?))
         .collect();
-    let mut drawn = drawn?;
-    let drawings = page.drawings().filter(|drawing| !drawing.name.is_empty());
-    drawn.extend(drawings.map(|drawing| (drawing.name.as_str(), drawing.svg())));
-    let bitmaps: Result<Vec<Vec<u8>>, OutputError> = drawn
+    let drawings: Vec<_> = page.drawings().filter(|d| !d.name.is_empty()).collect();
+    let drawings: Result<Vec<Picture>, OutputError> = drawings
         .par_iter()
-        .map(|(name, svg)| bitmap::of_svg(name, svg))
+        .map(|drawing| picture(&drawing.name, drawing.svg()))
         .collect();
-    for ((name, svg), bitmap) in drawn.iter().zip(bitmaps?) {
+    let mut all = plots?;
+    all.extend(drawings?);
+    Ok(all)
+}
+
+fn write_pictures(pictures: &[Picture], staging: &mut Staging) -> Result<(), OutputError> {
+    for Picture { name, svg, png } in pictures {
         staging.write(&format!("plots/{name}.svg"), svg.as_bytes())?;
-        staging.write(&format!("plots/{name}.png"), &bitmap)?;
+        staging.write(&format!("plots/{name}.png"), png)?;
     }
     Ok(())
 }
@@ -148,7 +172,7 @@ fn write_page_with(
     for (name, content) in further {
         staging.write(name, content)?;
     }
-    write_pictures(page, &mut staging)?;
+    write_pictures(&pictures(page)?, &mut staging)?;
     staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
 }

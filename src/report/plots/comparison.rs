@@ -41,8 +41,8 @@ pub fn of_comparison(result: &Result<'_>) -> Vec<Vec<Plot>> {
 /// Errors of all tests over the path of contact in units of their sigmas, one plot for each member and quantity on a flank.
 pub fn errors_by_place(result: &Result<'_>) -> Vec<Plot> {
     let all = curves(result.study, result.data, result.fit);
-    let mut groups: BTreeMap<(Quantity, Subject), BTreeMap<usize, Vec<(f64, f64)>>> =
-        BTreeMap::new();
+    type ByTest = BTreeMap<usize, Vec<(f64, f64)>>;
+    let mut groups: BTreeMap<(Quantity, Subject), ByTest> = BTreeMap::new();
     for curve in &all {
         let points = curve.points.iter();
         let placed = points.filter_map(|p| Some((p.path?, p.residual / p.sigma)));
