@@ -167,6 +167,15 @@ fn photographed(home: &TempDir, page: &Path, folder: &str, width: usize) {
     );
 }
 
+/// Plots of a report, by its files.
+fn pictures(home: &TempDir, folder: &str) -> usize {
+    let files = fs::read_dir(home.path().join(folder).join("plots")).unwrap();
+    let paths = files.map(|file| file.unwrap().path());
+    paths
+        .filter(|path| path.extension().is_some_and(|end| end == "svg"))
+        .count()
+}
+
 fn moved(found: &Value, name: &str) -> bool {
     let charts = found["charts"].as_array().unwrap();
     let chart = charts.iter().find(|chart| chart["name"] == name);
@@ -204,7 +213,11 @@ fn reports_work_in_a_browser() {
     assert!(pointed.ends_with("MPa"), "{pointed}");
 
     gearwear(&home, "models study.toml -q");
-    opened(&home, "study.out/models", 5);
+    opened(
+        &home,
+        "study.out/models",
+        pictures(&home, "study.out/models"),
+    );
 
     write("truth.toml", format!("{STUDY}{HERTZ}{TESTS}{EFFECT}"));
     gearwear(&home, "synthesize truth.toml -o data --seed 5 -q");
@@ -216,12 +229,11 @@ fn reports_work_in_a_browser() {
         format!("{STUDY}{HERTZ}{TESTS}{EFFECT}{FREE}{FILE}"),
     );
     gearwear(&home, "compare base.toml -q");
-    let charts = fs::read_dir(home.path().join("base.out/compare/plots")).unwrap();
-    let pictures = charts.filter(|file| {
-        let path = file.as_ref().unwrap().path();
-        path.extension().is_some_and(|end| end == "svg")
-    });
-    opened(&home, "base.out/compare", pictures.count());
+    opened(
+        &home,
+        "base.out/compare",
+        pictures(&home, "base.out/compare"),
+    );
     gearwear(&home, "ladder base.toml right.toml -q");
     opened(&home, "base.out/ladder", 2);
     gearwear(&home, "diagnose base.toml --fast -q");
