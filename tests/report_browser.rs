@@ -1,6 +1,6 @@
 //! Claim: in a browser every report opens without an error, its charts hold data and are painted, values are told under the
-//! pointer, the slider moves the wear curves and the worn profile and brings them back, nothing is wider than a phone's or a
-//! desktop's window, and without scripts conclusion, tables and pictures are there.
+//! pointer, the slider moves the wear curves and the worn profile and brings them back, and nothing is wider than a phone's or a
+//! desktop's window.
 //!
 //! Source: Chromium as it is installed (`CHROMIUM` names another program); the page tests itself when its address ends with
 //! `#selftest`. Where there is no such browser nothing is claimed. Tolerance: none; blank is what has no painted pixel.
