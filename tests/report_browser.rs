@@ -182,6 +182,7 @@ fn moved(found: &Value, name: &str) -> bool {
     chart.unwrap_or_else(|| panic!("{name}"))["moved"] == true
 }
 
+#[expect(clippy::print_stderr, reason = "a skipped test must say so")]
 #[test]
 fn reports_work_in_a_browser() {
     if BROWSER.is_none() {
