@@ -535,7 +535,7 @@ fn the_document_has_its_keys_and_no_gaps() {
 
     let page = std::fs::read_to_string(done.folder.join("report.html")).unwrap();
     assert!(page.contains("Pair &lt;27/53&gt;") && !page.contains("<27/53>"));
-    assert_eq!(page.matches("<figure>").count(), 12);
+    assert_eq!(page.matches("<figure ").count(), 12);
     assert_eq!(
         done.files.iter().filter(|f| f.ends_with(".svg")).count(),
         12

@@ -60,7 +60,8 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
         &keeper,
         &context.progress("wear"),
     )?;
-    let written = report::write_run_with(&result, &keeper.inputs(&study), &target)?;
+    let pair = study.gears.pair(conditions.misalignment_mm).ok();
+    let written = report::write_run_with(&result, pair.as_ref(), &keeper.inputs(&study), &target)?;
     keeper.discard();
     let json = report::json::summary(&result)?;
     Ok(Outcome {

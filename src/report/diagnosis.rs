@@ -3,11 +3,14 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use super::format::{count, plain, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
-use crate::learn::diagnose::{Diagnosis, Ranked};
+use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
+/// Fits listed on the page.
+const FITTED: usize = 20;
 
 /// Verdict, reasons, ranking, what to do next.
 pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -> String {
@@ -77,14 +80,14 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
         "parameters",
         "decided by",
     ];
-    let mut table = Table::new("Ranking", head);
+    let mut table = Table::new("", head);
     for entry in &diagnosis.ranking {
         let held = entry
             .holdout_chi2_per_point
             .map_or("-".to_owned(), |c| format!("{c:.2}"));
         table = table.row([
             Cell::text(name(entry)),
-            Cell::number(share(entry.probability)),
+            Cell::Bar(entry.probability, share(entry.probability)),
             Cell::number(format!("{:.1}", entry.evidence_gain)),
             Cell::number(format!("{:.3}", entry.fit_chi2_per_point)),
             Cell::number(held),
@@ -92,13 +95,30 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
             Cell::text(entry.decided_by.clone()),
         ]);
     }
-    let mut sections = vec![why, Section::new("Ranking").table(table)];
+    if let Some(&unknown) = diagnosis.probabilities.get("unknown") {
+        let dash = || Cell::number("–");
+        let none = [dash(), dash(), dash(), Cell::text(""), Cell::text("")];
+        let first = [
+            Cell::text("unknown: none of the catalogue"),
+            Cell::Bar(unknown, share(unknown)),
+        ];
+        table = table.row(first.into_iter().chain(none));
+    }
+    let ranking = Section::new("Ranking").table(table).note(
+        "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
+         its free parameters counted against it.",
+    );
+    let mut sections = vec![why, ranking];
+    sections.extend(fitted(diagnosis));
     if !diagnosis.drivers.is_empty() {
         let mut table = Table::new("Shares of the discrepancy's variance", ["driver", "share"]);
         for driver in &diagnosis.drivers {
             table = table.row([
                 Cell::text(driver.name.clone()),
-                Cell::number(format!("{:.0} %", 100.0 * driver.variance_share)),
+                Cell::Bar(
+                    driver.variance_share,
+                    format!("{:.0} %", 100.0 * driver.variance_share),
+                ),
             ]);
         }
         let text = "How much of a smooth discrepancy between the base model and the measurements follows each driver alone.";
@@ -110,7 +130,9 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
     }
     let mut next = Section::new("What to do next").paragraph(diagnosis.next_step.clone());
     if let Some(experiment) = &diagnosis.next_experiment {
-        next = next.paragraph(experiment.why.clone());
+        next = next
+            .paragraph(experiment.why.clone())
+            .table(conditions(experiment));
     }
     sections.push(next);
     Page {
@@ -122,7 +144,76 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
         kicker: String::new(),
         conclusion: diagnosis.sentence.clone(),
         sections,
+        ..Page::default()
     }
+}
+
+/// Everything that was fitted, as bars of what each explains.
+fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
+    let attainable = diagnosis.attainable_drop;
+    if diagnosis.screened.is_empty() || attainable <= 0.0 {
+        return None;
+    }
+    let head = ["effect", "fall of χ²", "ln evidence over the base", "by"];
+    let mut table = Table::new("", head);
+    let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
+    let largest = drops.fold(attainable, f64::max);
+    for entry in diagnosis.screened.iter().take(FITTED) {
+        let named = if entry.form.is_empty() {
+            entry.effect.clone()
+        } else {
+            format!("{} ({})", entry.effect, entry.form)
+        };
+        table = table.row([
+            Cell::text(named),
+            Cell::Bar(entry.chi2_drop / largest, format!("{:.0}", entry.chi2_drop)),
+            Cell::number(format!("{:.1}", entry.evidence_gain)),
+            Cell::text(if entry.decided {
+                "the deciding model"
+            } else {
+                "screening"
+            }),
+        ]);
+    }
+    let text = format!(
+        "Anything smooth could bring χ² down by about {attainable:.0}. The {} best of {} fits.",
+        diagnosis.screened.len().min(FITTED),
+        diagnosis.screened.len()
+    );
+    Some(
+        Section::new("What each effect explains")
+            .paragraph(text)
+            .table(table),
+    )
+}
+
+/// The next test as a person would set it up.
+fn conditions(experiment: &NextExperiment) -> Table {
+    let test = &experiment.test;
+    let direction = if test.reversed {
+        "reversed"
+    } else {
+        "as before"
+    };
+    Table::of_values(
+        "Conditions of the next test",
+        [
+            ("separates", experiment.separates.join(", ")),
+            ("torque", format!("{} N·m", plain(test.torque))),
+            ("speed", format!("{} rpm", plain(test.speed))),
+            ("misalignment", format!("{} mm", plain(test.misalignment))),
+            ("pinion revolutions", count(test.cycles)),
+            ("direction", direction.to_owned()),
+            (
+                "expected difference in χ²",
+                format!(
+                    "{} (a repetition of the best test so far: {})",
+                    significant(experiment.expected_chi2, 3),
+                    significant(experiment.repetition_chi2, 3)
+                ),
+            ),
+        ],
+    )
 }
 
 fn name(entry: &Ranked) -> String {
@@ -149,10 +240,9 @@ fn parameters(entry: &Ranked) -> String {
         .iter()
         .map(|p| {
             format!(
-                "{} = {:.4e} ± {:.1e}{}",
+                "{} = {}{}",
                 p.name,
-                p.value,
-                p.sigma,
+                uncertain(p.value, p.sigma),
                 if p.at_bound { " (bound)" } else { "" }
             )
         })

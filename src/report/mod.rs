@@ -2,13 +2,15 @@
 //!
 //! ```text
 //! Run ─► write_run ─► summary.json report.html wear.csv contact.csv transmission_error.csv
-//!                     plots/*.svg fields/*.vtu fields/*.pvd fields/loads.json        all of them or none (atomic)
+//!                     plots/*.svg,png fields/*.vtu fields/*.pvd fields/loads.json        all of them or none (atomic)
 //! ```
 //! Every command that writes a folder does so through [`Staging`], every single file through [`write_file`].
 pub mod atomic;
+mod bitmap;
 pub mod comparison;
 pub mod csv;
 pub mod diagnosis;
+pub mod drawings;
 mod error;
 pub mod format;
 pub mod html;

@@ -1,12 +1,14 @@
 //! Whole result folders.
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::json;
 
 use super::error::OutputError;
 use super::html::{self, Case, Page};
-use super::{Staging, comparison, csv, json as documents, ladder, models, plots, vtk};
+use super::{Staging, bitmap, comparison, csv, json as documents, ladder, models, vtk};
+use crate::gear::Pair;
 use crate::simulate::models::Comparison;
 use crate::simulate::result::Run;
 
@@ -20,13 +22,20 @@ pub struct Written {
 }
 
 /// Writes the result of `run`.
+///
+/// # Errors
+/// [`OutputError`]; then nothing stands under the folder's name.
 pub fn write_run(run: &Run, folder: &Path) -> Result<Written, OutputError> {
-    write_run_with(run, &[], folder)
+    write_run_with(run, None, &[], folder)
 }
 
-/// Writes the result of `run` with further files (name, content), such as what it was made from.
+/// Writes the result of `run`, its gears drawn from `pair`, with further files (name, content), such as what it was made from.
+///
+/// # Errors
+/// [`OutputError`]; then nothing stands under the folder's name.
 pub fn write_run_with(
     run: &Run,
+    pair: Option<&Pair>,
     further: &[(&str, &[u8])],
     folder: &Path,
 ) -> Result<Written, OutputError> {
@@ -41,13 +50,58 @@ pub fn write_run_with(
     staging.write("wear.csv", &csv::wear(run)?)?;
     staging.write("contact.csv", &csv::contact(run)?)?;
     staging.write("transmission_error.csv", &csv::transmission_error(run)?)?;
-    for plot in plots::of_run(run) {
-        staging.write(&format!("plots/{}.svg", plot.name), plot.svg()?.as_bytes())?;
-    }
-    write_fields(run, &mut staging)?;
-    let page = html::run(run, staging.written())?;
-    staging.write("report.html", page.as_bytes())?;
+    // drawing takes a core, writing fields mostly waits
+    let (written, drawn) = rayon::join(
+        || write_fields(run, &mut staging),
+        || html::run(run, pair).and_then(|page| Ok((pictures(&page)?, page))),
+    );
+    written?;
+    let (pictures, mut page) = drawn?;
+    write_pictures(&pictures, &mut staging)?;
+    page.sections
+        .push(html::files_of_run(run, staging.written()));
+    staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
+}
+
+/// A picture as files have it.
+struct Picture {
+    name: String,
+    svg: String,
+    png: Vec<u8>,
+}
+
+/// Every plot and drawing of a page.
+fn pictures(page: &Page) -> Result<Vec<Picture>, OutputError> {
+    let picture = |name: &str, svg: String| {
+        let png = bitmap::of_svg(name, &svg)?;
+        Ok(Picture {
+            name: name.to_owned(),
+            svg,
+            png,
+        })
+    };
+    let plots: Vec<_> = page.plots().collect();
+    let plots: Result<Vec<Picture>, OutputError> = plots
+        .par_iter()
+        .map(|plot| picture(&plot.name, plot.svg()?))
+        .collect();
+    let drawings: Vec<_> = page.drawings().filter(|d| !d.name.is_empty()).collect();
+    let drawings: Result<Vec<Picture>, OutputError> = drawings
+        .par_iter()
+        .map(|drawing| picture(&drawing.name, drawing.svg()))
+        .collect();
+    let mut all = plots?;
+    all.extend(drawings?);
+    Ok(all)
+}
+
+fn write_pictures(pictures: &[Picture], staging: &mut Staging) -> Result<(), OutputError> {
+    for Picture { name, svg, png } in pictures {
+        staging.write(&format!("plots/{name}.svg"), svg.as_bytes())?;
+        staging.write(&format!("plots/{name}.png"), png)?;
+    }
+    Ok(())
 }
 
 /// Writes `models.json`, its page and its plots; `title` is the study's own.
@@ -118,9 +172,7 @@ fn write_page_with(
     for (name, content) in further {
         staging.write(name, content)?;
     }
-    for plot in page.sections.iter().flat_map(|section| &section.plots) {
-        staging.write(&format!("plots/{}.svg", plot.name), plot.svg()?.as_bytes())?;
-    }
+    write_pictures(&pictures(page)?, &mut staging)?;
     staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
 }

@@ -15,7 +15,7 @@ const OUTLIERS: usize = 12;
 
 /// The page of a comparison.
 pub fn comparison(result: &Result<'_>) -> Page {
-    let mut sections = vec![figures(result), places(result.comparison)];
+    let mut sections = vec![figures(result), places(result)];
     let tests = result.study.tests.iter();
     for (test, plots) in tests.zip(plots::of_comparison(result)) {
         let record = result.comparison.tests.iter().find(|r| r.test == test.id);
@@ -38,6 +38,7 @@ pub fn comparison(result: &Result<'_>) -> Page {
         ),
         conclusion: comparison::conclusion(result.comparison),
         sections,
+        ..Page::default()
     }
 }
 
@@ -99,10 +100,30 @@ fn figures(result: &Result<'_>) -> Section {
         percent(high, 2),
         whole(c.evaluations)
     ));
+    section.key_figures = key_figures(c);
     for warning in &c.warnings {
         section = section.paragraph(format!("Warning: {warning}."));
     }
     section
+}
+
+fn key_figures(c: &Comparison) -> Vec<(String, String)> {
+    let depth = |v: f64| format!("{} µm", significant(v, 3));
+    let chi2 = |v: f64| significant(v, 3);
+    let all = [
+        ("χ² per point, fit tests", c.fit.chi2_per_point.map(chi2)),
+        (
+            "χ² per point, held-out tests",
+            c.holdout.chi2_per_point.map(chi2),
+        ),
+        ("rms error of the depth", c.rms_um.map(depth)),
+        ("rms of the noise", c.noise_rms_um.map(depth)),
+        ("measured points", Some(whole(c.points))),
+    ];
+    let known = all
+        .into_iter()
+        .filter_map(|(name, value)| Some((name.to_owned(), value?)));
+    known.collect()
 }
 
 fn role(role: &str) -> &str {
@@ -110,11 +131,13 @@ fn role(role: &str) -> &str {
 }
 
 /// The cells of test, member, region and cycles that exceed the noise most: χ² less one for each point.
-fn places(c: &Comparison) -> Section {
+fn places(result: &Result<'_>) -> Section {
+    let c = result.comparison;
     let excess = |cell: &Place| (cell.chi2_per_point - 1.0) * cell.points as f64;
     let total: f64 = c.places.iter().map(|cell| excess(cell).max(0.0)).sum();
     let mut worst: Vec<&Place> = c.places.iter().filter(|cell| excess(cell) > 0.0).collect();
     worst.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+    let largest = worst.first().map_or(1.0, |cell| excess(cell));
     let mut table = Table::new(
         "",
         [
@@ -140,7 +163,7 @@ fn places(c: &Comparison) -> Section {
             Cell::number(format!("{} to {}", count(from), count(to))),
             Cell::number(whole(cell.points)),
             Cell::number(significant(cell.chi2_per_point, 3)),
-            Cell::number(percent(excess(cell) / total, 2)),
+            Cell::Bar(excess(cell) / largest, percent(excess(cell) / total, 2)),
             Cell::number(with_unit(
                 format!(
                     "{} ± {}",
@@ -152,7 +175,8 @@ fn places(c: &Comparison) -> Section {
             Cell::number(significant(cell.rms, 2)),
         ]);
     }
-    Section::new("Where it is furthest off").table(table).note(format!(
+    let section = Section::new("Where it is furthest off").table(table);
+    section.plots(plots::errors_by_place(result)).note(format!(
         "The {} of {} places that exceed the noise most; share: of all that exceeds it. All places stand in \
          `comparison.json`, every row in `residuals.csv`.",
         worst.len().min(PLACES),
@@ -196,11 +220,16 @@ fn groups(c: &Comparison) -> Section {
         ["what", "points", "χ² per point", "bias, µm", "rms, µm"],
     );
     let all: [&[Group]; 4] = [&c.by_quantity, &c.by_member, &c.by_region, &c.by_life];
-    for group in all.into_iter().flatten() {
+    let groups = || all.into_iter().flatten();
+    let largest = groups().map(|g| g.chi2_per_point).fold(1.0, f64::max);
+    for group in groups() {
         table = table.row([
             Cell::text(group.name.replace('_', " ")),
             Cell::number(whole(group.points)),
-            Cell::number(significant(group.chi2_per_point, 3)),
+            Cell::Bar(
+                group.chi2_per_point / largest,
+                significant(group.chi2_per_point, 3),
+            ),
             depth(group.bias_um),
             depth(group.rms_um),
         ]);

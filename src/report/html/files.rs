@@ -17,8 +17,11 @@ pub(super) fn table(files: &[String]) -> Table {
     }
     let plots = files.iter().filter(|name| name.ends_with(".svg")).count();
     if plots > 0 {
-        let what = format!("the {plots} plots of this page as single files");
-        table = table.row([Cell::Code("plots/*.svg".to_owned()), Cell::text(what)]);
+        let what = format!("the {plots} pictures of this page as single files");
+        table = table.row([
+            Cell::Code("plots/*.svg, *.png".to_owned()),
+            Cell::text(what),
+        ]);
     }
     table
 }

@@ -21,6 +21,7 @@ pub fn ladder(result: &Result<'_>) -> Page {
         ),
         conclusion: conclusion(result),
         sections: vec![errors(result), parameters(result), notes(result)],
+        ..Page::default()
     }
 }
 

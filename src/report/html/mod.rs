@@ -1,9 +1,13 @@
-//! Self-contained HTML pages: no scripts, no network, light and dark, fit for print.
+//! Self-contained HTML pages: no network, light and dark, fit for print.
+//!
+//! Every picture is in the page as SVG; where scripts may run, charts take its place, with values under the pointer (uPlot, in
+//! `vendor`, and the scripts in `script`).
 //!
 //! A [`Page`] is a conclusion, then sections of text, tables and plots. The same page can be had as Markdown.
 mod comparison;
 mod files;
 mod ladder;
+mod live;
 mod models;
 mod page;
 mod run;
@@ -14,7 +18,7 @@ pub use comparison::comparison;
 pub use ladder::ladder;
 pub use models::models;
 pub use page::{Page, Section};
-pub use run::run;
+pub use run::{files_of_run, run};
 pub use table::{Cell, Table};
 pub use validation::{Case, Verdict, validation};
 

@@ -31,6 +31,7 @@ pub fn models(title: &str, comparison: &Comparison) -> Page {
         ),
         conclusion: unbroken(&conclusions(comparison).join(" ")),
         sections,
+        ..Page::default()
     }
 }
 

@@ -1,6 +1,10 @@
 //! A page: title, conclusion, sections.
-use super::escape;
+use rayon::prelude::*;
+use serde_json::Value;
+
 use super::table::Table;
+use super::{escape, live};
+use crate::report::drawings::Drawing;
 use crate::report::error::OutputError;
 use crate::report::plots::Plot;
 
@@ -15,6 +19,10 @@ pub struct Page {
     pub conclusion: String,
     /// The rest.
     pub sections: Vec<Section>,
+    /// Names of the states that sliders move through.
+    pub states: Vec<String>,
+    /// What scripts need to redraw the worn profile.
+    pub tooth: Option<Value>,
 }
 
 /// One section.
@@ -24,8 +32,14 @@ pub struct Section {
     pub heading: String,
     /// Paragraphs before the tables and plots; text between backquotes is set as code.
     pub text: Vec<String>,
+    /// Figures that matter most, large: name, value with unit.
+    pub key_figures: Vec<(String, String)>,
+    /// True for a slider over the page's states above the pictures.
+    pub slider: bool,
     /// Tables.
     pub tables: Vec<Table>,
+    /// Drawings that are no plots, after the plots.
+    pub drawings: Vec<Drawing>,
     /// Plots, two beside each other where there is room.
     pub plots: Vec<Plot>,
     /// Paragraphs at the end.
@@ -53,6 +67,18 @@ impl Section {
         self
     }
 
+    /// Adds a drawing.
+    pub fn drawings(mut self, drawings: impl IntoIterator<Item = Drawing>) -> Self {
+        self.drawings.extend(drawings);
+        self
+    }
+
+    /// Puts a slider over the page's states above the pictures.
+    pub fn with_slider(mut self) -> Self {
+        self.slider = true;
+        self
+    }
+
     /// Adds plots.
     pub fn plots(mut self, plots: impl IntoIterator<Item = Plot>) -> Self {
         self.plots.extend(plots);
@@ -67,15 +93,29 @@ impl Section {
 }
 
 impl Page {
+    /// All plots, in the order of the page.
+    pub fn plots(&self) -> impl Iterator<Item = &Plot> {
+        self.sections.iter().flat_map(|section| &section.plots)
+    }
+
+    /// All drawings, in the order of the page.
+    pub fn drawings(&self) -> impl Iterator<Item = &Drawing> {
+        self.sections.iter().flat_map(|section| &section.drawings)
+    }
+
     /// The page as one HTML file.
     pub fn html(&self) -> Result<String, OutputError> {
+        let plots: Vec<&Plot> = self.plots().collect();
+        let pictures: Result<Vec<String>, OutputError> =
+            plots.par_iter().map(|plot| plot.svg()).collect();
+        let mut pictures = pictures?.into_iter();
+        let title = escape(&self.title);
         let mut out = format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{}</title>\n<style>\n{}</style>\n\
-             </head>\n<body>\n<h1>{}</h1>\n",
-            escape(&self.title),
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+             <style>\n{}\n{}</style>\n</head>\n<body>\n<h1>{title}</h1>\n",
+            live::STYLE,
             include_str!("style.css"),
-            escape(&self.title)
         );
         if !self.kicker.is_empty() {
             out.push_str(&format!(
@@ -97,30 +137,20 @@ impl Page {
             }
             out.push_str("</nav>\n");
         }
+        if !plots.is_empty() {
+            out.push_str(HINT);
+        }
+        let mut chart = 0;
         for (number, section) in self.sections.iter().enumerate() {
             out.push_str(&format!(
                 "<section>\n<h2 id=\"s{number}\">{}</h2>\n",
                 escape(&section.heading)
             ));
-            paragraphs(&mut out, &section.text);
-            for table in &section.tables {
-                out.push_str(&table.html());
-            }
-            if !section.plots.is_empty() {
-                out.push_str("<div class=\"figures\">\n");
-                for plot in &section.plots {
-                    let svg = plot.svg()?;
-                    let caption = escape(&plot.title);
-                    // The declaration of a stand-alone SVG file does not belong inside a page.
-                    let svg = svg.find("<svg").map_or(svg.as_str(), |at| &svg[at..]);
-                    out.push_str(&format!(
-                        "<figure><figcaption>{caption}</figcaption>\n{svg}</figure>\n"
-                    ));
-                }
-                out.push_str("</div>\n");
-            }
-            paragraphs(&mut out, &section.notes);
+            section.body(&mut out, &self.states, &mut chart, &mut pictures);
             out.push_str("</section>\n");
+        }
+        if !plots.is_empty() || self.drawings().next().is_some() {
+            out.push_str(&live::scripts(&plots, &self.states, self.tooth.as_ref()));
         }
         out.push_str("</body>\n</html>\n");
         Ok(out)
@@ -152,6 +182,67 @@ impl Page {
         out.push('\n');
         out
     }
+}
+
+impl Section {
+    /// What stands below the heading; `pictures` are the plots' own, `chart` counts them over the page.
+    fn body(
+        &self,
+        out: &mut String,
+        states: &[String],
+        chart: &mut usize,
+        pictures: &mut impl Iterator<Item = String>,
+    ) {
+        paragraphs(out, &self.text);
+        if !self.key_figures.is_empty() {
+            out.push_str("<dl class=\"key\">\n");
+            for (name, value) in &self.key_figures {
+                out.push_str(&format!(
+                    "<div><dt>{}</dt><dd>{}</dd></div>\n",
+                    escape(name),
+                    escape(value)
+                ));
+            }
+            out.push_str("</dl>\n");
+        }
+        for table in &self.tables {
+            out.push_str(&table.html());
+        }
+        if self.slider && states.len() > 1 {
+            out.push_str(&slider(states));
+        }
+        if !self.plots.is_empty() || !self.drawings.is_empty() {
+            out.push_str("<div class=\"figures\">\n");
+            for (plot, svg) in self.plots.iter().zip(pictures) {
+                let caption = escape(&plot.title);
+                // The declaration of a stand-alone SVG file does not belong inside a page.
+                let svg = svg.find("<svg").map_or(svg.as_str(), |at| &svg[at..]);
+                out.push_str(&format!(
+                    "<figure data-chart=\"{chart}\"><figcaption>{caption}</figcaption>\n<div class=\"still\">{svg}</div></figure>\n"
+                ));
+                *chart += 1;
+            }
+            for drawing in &self.drawings {
+                out.push_str(&drawing.figure());
+            }
+            out.push_str("</div>\n");
+        }
+        paragraphs(out, &self.notes);
+    }
+}
+
+/// How charts are used.
+const HINT: &str = "<p class=\"hint scripts\" hidden>Charts show values under the pointer. Drag across to zoom, double click to go \
+                    back, click a name to hide its curve.</p>\n";
+
+/// Moves all pictures of a page through its states; hidden until scripts are there to do so.
+fn slider(states: &[String]) -> String {
+    let last = states.len() - 1;
+    let name = escape(&states[last]);
+    format!(
+        "<div class=\"slider scripts\" hidden><label>Pinion revolutions <input type=\"range\" min=\"0\" max=\"{last}\" step=\"1\" \
+         value=\"{last}\" aria-valuetext=\"{name}\"></label> <output>{name}</output> <button type=\"button\">play</button></div>\n"
+    )
 }
 
 fn paragraphs(out: &mut String, texts: &[String]) {

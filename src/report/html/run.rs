@@ -2,15 +2,31 @@
 use super::files;
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
+use crate::gear::Pair;
+use crate::report::drawings;
 use crate::report::error::OutputError;
 use crate::report::format::{count, duration, percent, plain, significant, whole};
 use crate::report::plots;
 use crate::report::text;
-use crate::simulate::result::{Member, Run, WheelGeometry};
+use crate::simulate::result::{Member, Run, State, WheelGeometry};
 
-/// The page; `files` are the names in the result folder.
-pub fn run(run: &Run, files: &[String]) -> Result<String, OutputError> {
-    let mut page = Page {
+/// The page without its list of files; with `pair` the gears are drawn.
+///
+/// # Errors
+/// [`OutputError`] if a picture cannot be encoded.
+pub fn run(run: &Run, pair: Option<&Pair>) -> Result<Page, OutputError> {
+    let worn = pair.and_then(|pair| drawings::worn_teeth(run, pair));
+    let (worn, tooth) = worn.map_or((Vec::new(), None), |w| (w.drawings, Some(w.data)));
+    let mut sections = vec![key_figures(run)];
+    sections.extend(pair.map(|pair| Section::new("The gears").drawings(drawings::of_pair(pair))));
+    sections.push(wear(run).drawings(worn));
+    sections.push(contact(run));
+    let stresses = drawings::stresses(run)?;
+    sections.extend(stresses.map(|drawing| stress(run).drawings([drawing])));
+    sections.extend([inputs(run), geometry(run), mesh_and_cost(run)]);
+    sections.extend([checks(run), states(run)]);
+    let live = plots::live_states(run).into_iter();
+    Ok(Page {
         title: if run.title.is_empty() {
             "Gear wear run".to_owned()
         } else {
@@ -18,24 +34,79 @@ pub fn run(run: &Run, files: &[String]) -> Result<String, OutputError> {
         },
         kicker: text::asked_for(run),
         conclusion: text::conclusion(run),
-        sections: vec![
-            outcome(run),
-            inputs(run),
-            geometry(run),
-            mesh_and_cost(run),
-            checks(run),
-            states(run),
-        ],
-    };
-    page.sections.push(files_section(run, files));
-    page.html()
+        sections,
+        states: live.map(|i| count(run.states[i].cycles)).collect(),
+        tooth,
+    })
 }
 
-fn outcome(run: &Run) -> Section {
-    Section::new("Results").plots(plots::of_run(run)).note(
+fn key_figures(run: &Run) -> Section {
+    let mut section = Section::new("Results");
+    let mut say = |name: String, value: String| section.key_figures.push((name, value));
+    for member in Member::BOTH {
+        let flank = run.last().profile(member);
+        let value = format!("{} µm", significant(flank.max_depth(), 4));
+        say(format!("largest depth, {}", member.name()), value);
+        let value = format!("{} mg", significant(flank.mass_loss_mg, 4));
+        say(format!("mass lost, {}", member.name()), value);
+    }
+    let from_to = |of: &dyn Fn(&State) -> Option<f64>, unit: &str| {
+        let (first, last) = (of(run.first())?, of(run.last())?);
+        let [first, last] = [first, last].map(|v| significant(v, 4));
+        Some(if run.states.len() > 1 {
+            format!("{first} → {last} {unit}")
+        } else {
+            format!("{first} {unit}")
+        })
+    };
+    for (name, value) in [
+        (
+            "peak pressure on the flanks, new → worn",
+            from_to(&|s| s.peak_pressure().map(|p| p.0), "MPa"),
+        ),
+        (
+            "transmission error peak to peak, new → worn",
+            from_to(&|s| s.te_peak_to_peak_urad(), "µrad"),
+        ),
+    ] {
+        if let Some(value) = value {
+            say(name.to_owned(), value);
+        }
+    }
+    let passed = run.checks.iter().filter(|check| check.passed()).count();
+    if !run.checks.is_empty() {
+        say(
+            "checks passed".to_owned(),
+            format!("{passed} of {}", run.checks.len()),
+        );
+    }
+    say(
+        "worn area: geometry against law".to_owned(),
+        percent(run.balance_error, 2),
+    );
+    section
+}
+
+fn wear(run: &Run) -> Section {
+    Section::new("Wear").with_slider().plots(plots::wear_of_run(run)).note(
         "A and E are the ends of the nominal path of contact, B and D the ends of single contact, C is the pitch point; \
          negative distances lie in the pinion's dedendum. Lines join neighbouring points only.",
     )
+}
+
+fn contact(run: &Run) -> Section {
+    Section::new("Contact over the mesh cycle").with_slider().plots(plots::contact_of_run(run)).note(
+        "Load shares and pressures of every tooth pair as it passes along the path of contact; crosses: pairs that touch with a \
+         tip corner, whose pressure grows with the mesh's fineness.",
+    )
+}
+
+fn stress(run: &Run) -> Section {
+    Section::new("Mesh and stress").note(format!(
+        "Deformed as computed, not magnified. Fine elements along the flanks are too small to be told apart here; the {} stored \
+         fields hold displacement, stress tensor, contact pressure and worn depth for ParaView.",
+        run.fields.len()
+    ))
 }
 
 fn inputs(run: &Run) -> Section {
@@ -280,7 +351,8 @@ fn states(run: &Run) -> Section {
         .table(table)
 }
 
-fn files_section(run: &Run, names: &[String]) -> Section {
+/// The files of the result folder, the last section of the page.
+pub fn files_of_run(run: &Run, names: &[String]) -> Section {
     let section = Section::new("Files").table(files::table(names));
     if run.fields.is_empty() {
         return section;

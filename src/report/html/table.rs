@@ -23,6 +23,8 @@ pub enum Cell {
     Code(String),
     /// A link to a file beside the page: relative path.
     Link(String),
+    /// A share from 0 to 1 as a bar, with its words.
+    Bar(f64, String),
     /// A verdict: style class (`pass`, `fail`, `skipped`, `theory`) and its word.
     Badge(&'static str, String),
 }
@@ -143,6 +145,11 @@ impl Cell {
                 "<td><a href=\"{0}\"><code>{0}</code></a></td>",
                 escape(path)
             ),
+            Cell::Bar(share, words) => format!(
+                "<td><span class=\"bar\" style=\"--share:{:.1}%\">{}</span></td>",
+                100.0 * share.clamp(0.0, 1.0),
+                escape(words)
+            ),
             Cell::Badge(class, word) => format!(
                 "<td><span class=\"badge {class}\">{}</span></td>",
                 escape(word)
@@ -152,7 +159,7 @@ impl Cell {
 
     fn plain(&self) -> String {
         match self {
-            Cell::Text(text) | Cell::Number(text) => text.clone(),
+            Cell::Text(text) | Cell::Number(text) | Cell::Bar(_, text) => text.clone(),
             Cell::Code(text) => format!("`{text}`"),
             Cell::Link(path) => format!("[`{path}`]({path})"),
             Cell::Badge(_, word) => format!("**{word}**"),

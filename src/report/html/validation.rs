@@ -106,6 +106,7 @@ pub fn validation(cases: &[Case]) -> Page {
         kicker: "Written by `gearwear validate`".to_owned(),
         conclusion: format!("{}.", said.join(", ")),
         sections: sections.collect(),
+        ..Page::default()
     }
 }
 

@@ -38,6 +38,54 @@ pub fn of_comparison(result: &Result<'_>) -> Vec<Vec<Plot>> {
     plots
 }
 
+/// Errors of all tests over the path of contact in units of their sigmas, one plot for each member and quantity on a flank.
+pub fn errors_by_place(result: &Result<'_>) -> Vec<Plot> {
+    let all = curves(result.study, result.data, result.fit);
+    type ByTest = BTreeMap<usize, Vec<(f64, f64)>>;
+    let mut groups: BTreeMap<(Quantity, Subject), ByTest> = BTreeMap::new();
+    for curve in &all {
+        let points = curve.points.iter();
+        let placed = points.filter_map(|p| Some((p.path?, p.residual / p.sigma)));
+        groups
+            .entry((curve.quantity, curve.member))
+            .or_default()
+            .entry(curve.test)
+            .or_default()
+            .extend(placed);
+    }
+    let mut plots = Vec::new();
+    for ((quantity, member), tests) in groups {
+        let (name, _) = words(quantity);
+        let mut plot = Plot::new(
+            &format!("errors_{}_{}", quantity.name(), member.name()),
+            &format!("All tests, {}: error of the {name}", member.name()),
+            FLANK,
+            "(model − measured) / sigma",
+        );
+        plot.residuals = true;
+        let letters = tests.keys().next().and_then(|&test| marks(result, test));
+        plot = plot.with_marks(letters.into_iter().flatten());
+        for (kind, (test, mut points)) in tests.into_iter().enumerate() {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let label = format!("test {}", result.study.tests[test].id);
+            plot = plot.curve(&label, Style::Measured(kind), points);
+        }
+        plots.push(plot);
+    }
+    plots.retain(|plot| !plot.is_empty());
+    plots
+}
+
+const FLANK: &str = "distance along the path of contact from the pitch point, mm";
+
+/// A to E of a test's pair.
+fn marks(result: &Result<'_>, test: usize) -> Option<[(f64, String); 5]> {
+    let misalignment = result.study.tests[test].conditions.misalignment_mm;
+    let points = result.study.gears.pair(misalignment).ok()?.path_points();
+    let letters = ["A", "B", "C", "D", "E"];
+    Some(std::array::from_fn(|i| (points[i], letters[i].to_owned())))
+}
+
 /// A quantity's name and unit.
 fn words(quantity: Quantity) -> (&'static str, &'static str) {
     match quantity {
@@ -74,7 +122,7 @@ fn by_position(
 ) -> Plot {
     let flank = quantity.place() == Place::Flank;
     let x_label = if flank {
-        "distance along the path of contact from the pitch point, mm"
+        FLANK
     } else {
         "pinion rotation from the pitch point, base pitches"
     };

@@ -1,19 +1,22 @@
 //! Line plots as SVG text.
 //!
 //! [`Plot`] is the description (curves, axes with units, vertical marks), [`Plot::svg`] draws it with plotters' SVG backend,
-//! which needs no fonts. Colours are told apart by colour-blind readers (Okabe and Ito 2008 for members and models, a dark to
+//! which needs no fonts; pages with scripts draw the same description again, with values under the pointer. Colours are told apart by colour-blind readers (Okabe and Ito 2008 for members and models, a dark to
 //! light ramp for states in time), and never carry the meaning alone: each curve also has its own marker and a legend entry.
 mod comparison;
 mod draw;
 mod ladder;
 mod models;
 mod run;
+mod sliding;
 mod style;
 
-pub use comparison::of_comparison;
+pub use comparison::{errors_by_place, of_comparison};
 pub use ladder::of_ladder;
 pub use models::of_models;
-pub use run::of_run;
+pub(in crate::report) use run::depths;
+pub use run::{contact_of_run, live_states, of_run, wear_of_run};
+pub(in crate::report) use style::Hue;
 
 /// A line plot.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +43,19 @@ pub struct Plot {
     pub lower: Option<Box<Plot>>,
     /// True if the plot shows residuals: 0 is on the vertical axis, with a line.
     pub residuals: bool,
+    /// What a page with scripts shows in place of `curves`; empty where it is the same.
+    pub live: Vec<Live>,
+    /// True if the live curves of earlier states stay in sight.
+    pub history: bool,
+}
+
+/// A curve of a page with scripts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Live {
+    /// The curve.
+    pub curve: Curve,
+    /// At which stored state, and in whose place: of curves in one place one is seen at a time. None is always seen.
+    pub at: Option<(usize, &'static str)>,
 }
 
 /// One curve.
@@ -104,6 +120,8 @@ impl Plot {
             names: Vec::new(),
             lower: None,
             residuals: false,
+            live: Vec::new(),
+            history: false,
         }
     }
 
@@ -132,6 +150,26 @@ impl Plot {
         self = self.curve(label, style, points);
         if let Some(added) = self.curves.get_mut(before) {
             added.errors = errors;
+        }
+        self
+    }
+
+    /// Adds a curve to what a page with scripts shows, if it has a finite point.
+    pub fn live(
+        mut self,
+        at: Option<(usize, &'static str)>,
+        label: &str,
+        style: Style,
+        points: Vec<(f64, f64)>,
+    ) -> Self {
+        if points.iter().any(finite) {
+            let curve = Curve {
+                label: label.to_owned(),
+                points,
+                errors: Vec::new(),
+                style,
+            };
+            self.live.push(Live { curve, at });
         }
         self
     }

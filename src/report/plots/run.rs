@@ -1,21 +1,41 @@
 //! The plots of one run.
-use super::{Plot, Style};
+use super::{Plot, Style, sliding};
 use crate::report::format::count;
 use crate::simulate::result::{Member, PairState, Run, State};
 
-/// Wear along both flanks, load share, peak pressure, transmission error, growth of the depth; those without data left out.
+/// Wear and contact; those without data left out.
 pub fn of_run(run: &Run) -> Vec<Plot> {
-    let mut plots = vec![
+    let mut plots = wear_of_run(run);
+    plots.extend(contact_of_run(run));
+    plots
+}
+
+/// Wear along both flanks, growth of the depth.
+pub fn wear_of_run(run: &Run) -> Vec<Plot> {
+    let plots = [
         wear(run, Member::Pinion),
         wear(run, Member::Gear),
         growth(run),
     ];
-    plots.extend([load_share(run), peak_pressure(run), transmission_error(run)]);
-    plots.retain(|plot| !plot.is_empty());
-    plots
+    plots.into_iter().filter(|plot| !plot.is_empty()).collect()
 }
 
-const PATH: &str = "distance along the path of contact from the pitch point, mm";
+/// Peak pressure, load share, transmission error and sliding over the mesh cycle.
+pub fn contact_of_run(run: &Run) -> Vec<Plot> {
+    let mut plots = vec![peak_pressure(run), load_share(run), transmission_error(run)];
+    plots.extend(sliding::of_run(run));
+    if run.states.iter().any(|s| s.pairs().any(|p| p.at_corner)) {
+        plots.push(corner_pressure(run));
+    }
+    plots.into_iter().filter(|plot| !plot.is_empty()).collect()
+}
+
+/// The states that a page with scripts can be moved through: at most 40, the first and the last among them.
+pub fn live_states(run: &Run) -> Vec<usize> {
+    chosen(run.states.len(), 40)
+}
+
+pub(super) const PATH: &str = "distance along the path of contact from the pitch point, mm";
 
 fn wear(run: &Run, member: Member) -> Plot {
     let name = member.name();
@@ -39,26 +59,38 @@ fn wear(run: &Run, member: Member) -> Plot {
         worn
     };
     let shown = chosen(states.len(), 6);
+    let style = |index, count| Style::Time { index, count };
     for (index, &state) in shown.iter().enumerate() {
-        let state = states[state];
-        let flank = state.profile(member);
-        let mut points: Vec<(f64, f64)> = flank
-            .path
-            .iter()
-            .copied()
-            .zip(flank.depth.iter().copied())
-            .collect();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        plot = plot.curve(
+        let label = cycles_label(states[state]);
+        let points = depths(states[state], member);
+        plot = plot.curve(&label, style(index, shown.len()), points);
+    }
+    let live = live_states(run);
+    for (index, &number) in live.iter().enumerate() {
+        let state = &run.states[number];
+        // each state in a place of its own: the earlier ones stay in sight
+        plot = plot.live(
+            Some((index, "")),
             &cycles_label(state),
-            Style::Time {
-                index,
-                count: shown.len(),
-            },
-            points,
+            style(index, live.len()),
+            depths(state, member),
         );
     }
+    plot.history = true;
     plot
+}
+
+/// Depth over path, path ascending.
+pub(in crate::report) fn depths(state: &State, member: Member) -> Vec<(f64, f64)> {
+    let flank = state.profile(member);
+    let mut points: Vec<(f64, f64)> = flank
+        .path
+        .iter()
+        .copied()
+        .zip(flank.depth.iter().copied())
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
 }
 
 fn growth(run: &Run) -> Plot {
@@ -93,10 +125,22 @@ fn load_share(run: &Run) -> Plot {
     along_path(plot, run, |pair| pair.load_share)
 }
 
+/// Pressures under sharp corners have no bound and would leave the flanks' no room: they stand in a plot of their own.
 fn peak_pressure(run: &Run) -> Plot {
+    let mut plot = corner_pressure(run);
+    plot.name = "peak_pressure".to_owned();
+    plot.title = "Largest contact pressure of one tooth pair, away from tip corners".to_owned();
+    plot.curves
+        .retain(|curve| !matches!(curve.style, Style::Points(_)));
+    plot.live
+        .retain(|live| !matches!(live.curve.style, Style::Points(_)));
+    plot
+}
+
+fn corner_pressure(run: &Run) -> Plot {
     let plot = Plot::new(
-        "peak_pressure",
-        "Largest contact pressure of one tooth pair",
+        "corner_pressure",
+        "Largest contact pressure of one tooth pair, tip corners included",
         PATH,
         "peak pressure, MPa",
     );
@@ -106,21 +150,42 @@ fn peak_pressure(run: &Run) -> Plot {
 /// First and last state; the pairs that touch with a tip corner as crosses of the same colour.
 fn along_path(plot: Plot, run: &Run, value: impl Fn(&PairState) -> f64) -> Plot {
     let mut plot = plot.with_marks(letters(run)).starting_at_zero();
+    let gather = |state: &State, at_corner: bool| {
+        let mut points: Vec<(f64, f64)> = state
+            .pairs()
+            .filter(|pair| pair.line_load > 0.0 && pair.at_corner == at_corner)
+            .map(|pair| (pair.path, value(pair)))
+            .collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points
+    };
     for (kind, state) in ends(run).into_iter().enumerate() {
-        let gather = |at_corner: bool| {
-            let mut points: Vec<(f64, f64)> = state
-                .pairs()
-                .filter(|pair| pair.line_load > 0.0 && pair.at_corner == at_corner)
-                .map(|pair| (pair.path, value(pair)))
-                .collect();
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            points
-        };
-        plot = plot.curve(&cycles_label(state), Style::Kind(kind), gather(false));
-        let label = format!("{}, tip corner", cycles_label(state));
-        plot = plot.curve(&label, Style::Points(kind), gather(true));
+        let (label, at_corner) = (cycles_label(state), corner_label(state));
+        plot = plot.curve(&label, Style::Kind(kind), gather(state, false));
+        plot = plot.curve(&at_corner, Style::Points(kind), gather(state, true));
     }
-    plot
+    over_states(plot, run, |plot, kind, at, state| {
+        let (label, at_corner) = (cycles_label(state), corner_label(state));
+        let [inside, corner] = [at.map(|i| (i, "flank")), at.map(|i| (i, "corner"))];
+        plot.live(inside, &label, Style::Kind(kind), gather(state, false))
+            .live(corner, &at_corner, Style::Points(kind), gather(state, true))
+    })
+}
+
+/// Live curves: the first state for good, and in a place of its own whichever state is asked for.
+fn over_states<'r>(
+    plot: Plot,
+    run: &'r Run,
+    add: impl Fn(Plot, usize, Option<usize>, &'r State) -> Plot,
+) -> Plot {
+    if run.states.len() < 2 {
+        return plot;
+    }
+    let plot = add(plot, 0, None, run.first());
+    let states = live_states(run).into_iter().enumerate().skip(1);
+    states.fold(plot, |plot, (index, number)| {
+        add(plot, 1, Some(index), &run.states[number])
+    })
 }
 
 fn transmission_error(run: &Run) -> Plot {
@@ -130,15 +195,17 @@ fn transmission_error(run: &Run) -> Plot {
         "pinion rotation from the pitch point, base pitches",
         "lag seen at the pinion, µrad",
     );
+    let angles = |state: &State| -> Vec<(f64, f64)> {
+        let cycle = state.cycle.iter();
+        cycle.map(|p| (p.position, p.angle_urad)).collect()
+    };
     for (kind, state) in ends(run).into_iter().enumerate() {
-        let points = state
-            .cycle
-            .iter()
-            .map(|p| (p.position, p.angle_urad))
-            .collect();
-        plot = plot.curve(&cycles_label(state), Style::Kind(kind), points);
+        plot = plot.curve(&cycles_label(state), Style::Kind(kind), angles(state));
     }
-    plot
+    over_states(plot, run, |plot, kind, at, state| {
+        let at = at.map(|i| (i, "angle"));
+        plot.live(at, &cycles_label(state), Style::Kind(kind), angles(state))
+    })
 }
 
 /// The first and the last state, or the only one.
@@ -151,7 +218,7 @@ fn ends(run: &Run) -> Vec<&State> {
 }
 
 /// A, B, C, D, E at the ends of contact, of single contact, and at the pitch point.
-fn letters(run: &Run) -> Vec<(f64, String)> {
+pub(super) fn letters(run: &Run) -> Vec<(f64, String)> {
     let [a, b, d, e] = run.geometry.path_limits;
     [(a, "A"), (b, "B"), (0.0, "C"), (d, "D"), (e, "E")]
         .map(|(at, letter)| (at, letter.to_owned()))
@@ -170,4 +237,8 @@ fn chosen(count: usize, most: usize) -> Vec<usize> {
 
 fn cycles_label(state: &State) -> String {
     format!("{} cycles", count(state.cycles))
+}
+
+fn corner_label(state: &State) -> String {
+    format!("{}, tip corner", cycles_label(state))
 }

@@ -25,6 +25,15 @@ const RAMP: [RGBColor; 6] = [
     RGBColor(68, 1, 84),
 ];
 
+/// A colour by number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::report) enum Hue {
+    /// Of a kind.
+    Kind(usize),
+    /// Of a state in time, 0 to 1.
+    Time(f64),
+}
+
 impl Style {
     pub(super) fn color(self) -> RGBColor {
         match self {
@@ -35,6 +44,25 @@ impl Style {
             | Style::TimeMeasured { index, count }
             | Style::TimeLine { index, count } => RAMP[ramp_place(index, count)],
         }
+    }
+
+    /// The colour by number, as scripts choose it.
+    pub(in crate::report) fn hue(self) -> Hue {
+        match self {
+            Style::Kind(kind) | Style::Points(kind) | Style::Line(kind) | Style::Measured(kind) => {
+                Hue::Kind(kind)
+            }
+            Style::Time { index, count }
+            | Style::TimeMeasured { index, count }
+            | Style::TimeLine { index, count } => {
+                Hue::Time(index as f64 / (count.max(2) - 1) as f64)
+            }
+        }
+    }
+
+    /// The marker's number; none for a bare line.
+    pub(in crate::report) fn shape(self) -> Option<usize> {
+        Some(self.marker()).filter(|&marker| marker < NOTHING)
     }
 
     fn marker(self) -> usize {
@@ -49,7 +77,7 @@ impl Style {
     }
 
     /// Width of its line, if it has one.
-    pub(super) fn line(self) -> Option<f64> {
+    pub(in crate::report) fn line(self) -> Option<f64> {
         match self {
             Style::Kind(_) | Style::Time { .. } => Some(2.0),
             Style::Line(_) | Style::TimeLine { .. } => Some(1.5),

@@ -1,0 +1,49 @@
+//! PNG beside SVG, the same on every machine: the font is in the program.
+use std::sync::{Arc, LazyLock};
+
+use resvg::tiny_skia::{Color, Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+use super::error::OutputError;
+
+/// Pixels for one of the SVG file.
+const SCALE: f32 = 2.0;
+/// DejaVu Sans 2.37: Latin, Greek, Cyrillic and what formulas need; its licence stands beside it.
+const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
+
+static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
+    let mut fonts = fontdb::Database::new();
+    fonts.load_font_data(FONT.to_vec());
+    fonts.set_sans_serif_family("DejaVu Sans");
+    Arc::new(fonts)
+});
+
+/// The drawing on white.
+///
+/// # Errors
+/// [`OutputError::Plot`] if it is no SVG document.
+pub(super) fn of_svg(name: &str, svg: &str) -> Result<Vec<u8>, OutputError> {
+    let failed = |message: String| OutputError::Plot {
+        title: name.to_owned(),
+        message,
+    };
+    let options = Options {
+        font_family: "DejaVu Sans".to_owned(),
+        fontdb: FONTS.clone(),
+        ..Options::default()
+    };
+    let tree = Tree::from_str(svg, &options).map_err(|error| failed(error.to_string()))?;
+    let size = tree.size().to_int_size();
+    let pixels = |length: u32| (length as f32 * SCALE) as u32;
+    let mut picture = Pixmap::new(pixels(size.width()), pixels(size.height()))
+        .ok_or_else(|| failed("it has no size".to_owned()))?;
+    picture.fill(Color::WHITE);
+    resvg::render(
+        &tree,
+        Transform::from_scale(SCALE, SCALE),
+        &mut picture.as_mut(),
+    );
+    picture
+        .encode_png()
+        .map_err(|error| failed(error.to_string()))
+}

@@ -1,0 +1,39 @@
+// The stress pictures: which one is seen, and the value under the pointer, read from its palette.
+function makeField(figure) {
+  const pictures = [...figure.querySelectorAll(".picture")];
+  const choice = figure.querySelector("select"), said = figure.querySelector("output");
+  const lines = figure.querySelector("input[type=checkbox]");
+  const palette = new Map(JSON.parse(figure.dataset.palette).map((rgb, i) => [rgb, i]));
+  const highest = Number(figure.dataset.highest);
+  let pixels = null;
+
+  function read() {
+    const image = pictures[Number(choice.value)].querySelector("img");
+    const canvas = document.createElement("canvas");
+    canvas.width = image.naturalWidth;
+    canvas.height = image.naturalHeight;
+    if (!canvas.width) return;
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    context.drawImage(image, 0, 0);
+    pixels = context.getImageData(0, 0, canvas.width, canvas.height);
+  }
+
+  choice.addEventListener("change", () => {
+    pictures.forEach((picture, i) => { picture.hidden = i !== Number(choice.value); });
+    pixels = null;
+  });
+  if (lines) lines.addEventListener("change", () => figure.classList.toggle("bare", !lines.checked));
+  for (const picture of pictures) {
+    picture.addEventListener("pointermove", (event) => {
+      if (!pixels) read();
+      if (!pixels) return;
+      const box = picture.getBoundingClientRect();
+      const x = Math.floor((event.clientX - box.left) / box.width * pixels.width);
+      const y = Math.floor((event.clientY - box.top) / box.height * pixels.height);
+      const at = 4 * (y * pixels.width + x), [r, g, b] = pixels.data.slice(at, at + 3);
+      const level = palette.get((r << 16) | (g << 8) | b);
+      said.textContent = level === undefined || pixels.data[at + 3] === 0 ? "" : `${level === 255 ? "\u2265 " : ""}${significant(level / 255 * highest, 3)} MPa`;
+    });
+    picture.addEventListener("pointerleave", () => { said.textContent = ""; });
+  }
+}
