@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::{
-    CliError, Context, Outcome, add, compare, diagnose, effects, init, ladder, mesh, models, run,
+    CliError, Context, Outcome, add, compare, diagnose, effects, export, init, ladder, mesh, models, run,
     synthesize, validate,
 };
 
@@ -66,6 +66,8 @@ pub enum Command {
     Models(models::ModelsArgs),
     /// Mesh both members, report the quality and write the meshes
     Mesh(mesh::MeshArgs),
+    /// Write one mesh position as an input deck, for another finite-element program to solve again
+    Export(export::ExportArgs),
     /// Fit what is free to the measurements and show how wrong the model is, and where
     Compare(compare::CompareArgs),
     /// Find the physical effect that the model lacks: ranks the catalogue, says how sure that is and what to measure next
@@ -90,6 +92,7 @@ impl Command {
             Command::Run(args) => run::execute(args, context),
             Command::Models(args) => models::execute(args, context),
             Command::Mesh(args) => mesh::execute(args, context),
+            Command::Export(args) => export::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
             Command::Diagnose(args) => diagnose::execute(args, context),
             Command::Add(args) => add::execute(args, context),

@@ -14,6 +14,7 @@ mod compare;
 mod diagnose;
 mod effects;
 mod error;
+mod export;
 mod fitting;
 mod folder;
 mod init;
