@@ -23,6 +23,7 @@ mod reader;
 mod relative;
 mod settings;
 mod setup;
+mod units;
 mod values;
 
 use std::cell::RefCell;
