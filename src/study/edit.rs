@@ -177,6 +177,8 @@ impl Edit<'_> {
         let study = self.study;
         let numerics = &study.numerics;
         let paths = [
+            (super::PROFILE_KEYS[0], &study.profiles[0]),
+            (super::PROFILE_KEYS[1], &study.profiles[1]),
             ("measurements.file", &study.measurements),
             ("numerics.mesh_pinion", &numerics.mesh_pinion),
             ("numerics.mesh_gear", &numerics.mesh_gear),
