@@ -5,8 +5,10 @@
 //! gear:    bore held
 //! pinion:  bore turns as one,  u_x = −θ y,  u_y = θ x  at every bore node;  θ is the displacement 1 of a node of its own,
 //!          and the torque per width the force 1 on it
+//! step 1:  θ is held at gearwear's own answer, so that the flanks meet: before, nothing would hold the pinion
+//! step 2:  θ is free under the torque; what it comes to is the other program's answer
 //! contact: surface to surface, the fine flank of the gear's tooth −j on that of the pinion's tooth j, no friction,
-//!          p = K · overlap  with  K = 200 p₀ / (a²/2R):  the overlap is 0.5 % of the depth that Hertz contact flattens
+//!          p = K · overlap  with  K = 100 p₀ / (a²/2R):  the overlap is 1 % of the depth that Hertz contact flattens
 //! ```
 
 use std::collections::BTreeMap;
@@ -20,7 +22,7 @@ use crate::simulate::members::Members;
 use crate::simulate::one_position::OnePosition;
 
 /// Depth of the flattened strip over the largest overlap that the contact's stiffness allows.
-const STIFFNESS: f64 = 200.0;
+const STIFFNESS: f64 = 100.0;
 
 /// The deck of a solved position; lines of `title` become comments at its head.
 ///
@@ -79,11 +81,15 @@ pub fn deck(
         ));
     }
     deck.contact(set, solved, &meshes, &starts);
-    deck.line(format_args!("*BOUNDARY"));
-    for node in &meshes[1].0.bore {
-        deck.line(format_args!("{}, 1, 2", starts[1].0 + *node as usize + 1));
-    }
-    deck.line(format_args!("{reference}, 2, 3\n*EQUATION"));
+    let held: Vec<String> = meshes[1]
+        .0
+        .bore
+        .iter()
+        .map(|node| format!("{}, 1, 2", starts[1].0 + *node as usize + 1))
+        .chain([format!("{reference}, 2, 3")])
+        .collect();
+    let held = held.join("\n");
+    deck.line(format_args!("*BOUNDARY\n{held}\n*EQUATION"));
     for &node in &meshes[0].0.bore {
         let x = meshes[0].1[node as usize];
         let number = node as usize + 1;
@@ -93,8 +99,13 @@ pub fn deck(
         ));
     }
     deck.line(format_args!(
-        "*STEP, INC=100\n*STATIC\n1., 1.\n*CLOAD\n{reference}, 1, {:.12e}\n*NODE PRINT, NSET=TURN\nU\n*CONTACT PRINT\nCSTR\n\
-         *NODE FILE\nU\n*EL FILE\nS\n*END STEP",
+        "** step 1: the pinion turned to where the flanks meet\n*STEP, INC=100\n*STATIC\n1., 1.\n*BOUNDARY\n{reference}, 1, 1, {:.12e}\n\
+         *NODE PRINT, NSET=TURN\nU, RF\n*END STEP",
+        solved.contact.approach
+    ));
+    deck.line(format_args!(
+        "** step 2: the pinion free to turn under the torque\n*STEP, INC=100\n*STATIC\n1., 1.\n*BOUNDARY, OP=NEW\n{held}\n*CLOAD\n\
+         {reference}, 1, {:.12e}\n*NODE PRINT, NSET=TURN\nU\n*CONTACT PRINT\nCSTR\n*NODE FILE\nU\n*EL FILE\nS\n*END STEP",
         solved.torque
     ));
     Ok(deck.text)

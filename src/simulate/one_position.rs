@@ -60,11 +60,8 @@ impl OnePosition {
             positions: vec![position],
         };
         let compliance = CycleCompliance::new(&cycle, members.flanks(), 0.0)?;
-        let contact = FemContact::new(&cycle, &compliance, torque).solve(
-            0,
-            [&fresh[0], &fresh[1]],
-            &[],
-        )?;
+        let contact =
+            FemContact::new(&cycle, &compliance, torque).solve(0, [&fresh[0], &fresh[1]], &[])?;
         Ok(Self {
             cycle,
             contact,

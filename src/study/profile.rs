@@ -104,7 +104,9 @@ fn rows(source: &Source, gear: &Gear) -> Result<Vec<[f64; 2]>> {
             .with_values("", "at least two rows")
             .into());
     }
-    let largest = out.iter().fold(0.0, |m: f64, row| m.max(1e3 * row[1].abs()));
+    let largest = out
+        .iter()
+        .fold(0.0, |m: f64, row| m.max(1e3 * row[1].abs()));
     if largest > 0.0 && largest < LEAST_UM {
         let message = format!(
             "the largest deviation is {} um: these look like millimetres",
@@ -179,26 +181,17 @@ fn columns(text: &str, header: Range<usize>) -> Result<[usize; 2]> {
             (found, _) => {
                 let often = found.map_or("is missing", |_| "stands twice");
                 let message = format!("the column {name} {often}");
-                Err(
-                    Box::new(
-                        fault(Fault::MissingKey, name, message, header.clone()).with_values(
-                            format!("`{}`", &text[header.clone()]),
-                            COLUMNS.join(","),
-                        ),
-                    ),
-                )
+                Err(Box::new(
+                    fault(Fault::MissingKey, name, message, header.clone())
+                        .with_values(format!("`{}`", &text[header.clone()]), COLUMNS.join(",")),
+                ))
             }
         }
     };
     Ok([place(COLUMNS[0])?, place(COLUMNS[1])?])
 }
 
-fn fault(
-    fault: Fault,
-    column: &str,
-    message: impl Into<String>,
-    span: Range<usize>,
-) -> Diagnostic {
+fn fault(fault: Fault, column: &str, message: impl Into<String>, span: Range<usize>) -> Diagnostic {
     Diagnostic::new(fault, column, message).with_span(span)
 }
 

@@ -88,7 +88,10 @@ impl<'a> Table<'a> {
         let allowed = if units.is_empty() {
             format!("a number without unit, {quantity}")
         } else {
-            format!("{quantity}; a plain number, or a text with one of the units {}", units.join(", "))
+            format!(
+                "{quantity}; a plain number, or a text with one of the units {}",
+                units.join(", ")
+            )
         };
         let (message, found, hint) = match fault {
             UnitFault::NoUnit => {
@@ -96,7 +99,10 @@ impl<'a> Table<'a> {
                     .wrong_type(key, value, span, &format!("a number, {quantity}"))
                     .into();
             }
-            UnitFault::Unknown { written: unit, near } => (
+            UnitFault::Unknown {
+                written: unit,
+                near,
+            } => (
                 format!("{path} = {written} has a unit that is not known"),
                 format!("the unit `{unit}`"),
                 if near.is_empty() {
@@ -105,7 +111,10 @@ impl<'a> Table<'a> {
                     format!("the nearest unit is `{near}`")
                 },
             ),
-            UnitFault::Other { written: unit, says } => (
+            UnitFault::Other {
+                written: unit,
+                says,
+            } => (
                 format!("{path} = {written} {says}"),
                 format!("the unit `{unit}`"),
                 String::new(),
@@ -119,12 +128,7 @@ impl<'a> Table<'a> {
     }
 
     /// Any number but NaN that must be there; `inf` is one. `unit` is what a text with a unit is converted to.
-    pub(super) fn required_any(
-        &self,
-        key: &str,
-        allowed: &str,
-        unit: &'static str,
-    ) -> Result<f64> {
+    pub(super) fn required_any(&self, key: &str, allowed: &str, unit: &'static str) -> Result<f64> {
         let Some((value, span)) = self.get(key) else {
             return Err(self.missing(key, allowed).into());
         };

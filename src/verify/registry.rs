@@ -5,7 +5,8 @@ use crate::paper::reference::ReferenceError;
 use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
 use crate::verify::{
-    CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, gears, paper_rows, runner::Row,
+    CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, gears, paper_rows,
+    runner::Row,
 };
 
 /// Cases that belong together, as the runner takes them.

@@ -116,7 +116,9 @@ fn run_entry(entry: &Entry, effort: Effort) -> Vec<Row> {
             .map(measured)
             .map_err(|e| e.to_string()),
         Work::External(run, absent) => match run(effort) {
-            Ok(none) if none.is_empty() => Ok(vec![not_run(entry, Verdict::Skipped, absent.to_owned())]),
+            Ok(none) if none.is_empty() => {
+                Ok(vec![not_run(entry, Verdict::Skipped, absent.to_owned())])
+            }
             other => other.map(measured).map_err(|e| e.to_string()),
         },
         Work::Rows(run) => run().map_err(|e| e.to_string()),
@@ -170,11 +172,7 @@ fn judged(entry: &Entry, measured: Measured) -> Row {
 }
 
 fn failed(entry: &Entry, message: &str) -> Row {
-    not_run(
-        entry,
-        Verdict::Fail,
-        format!("could not be run: {message}"),
-    )
+    not_run(entry, Verdict::Fail, format!("could not be run: {message}"))
 }
 
 fn not_run(entry: &Entry, verdict: Verdict, reason: String) -> Row {

@@ -9,11 +9,13 @@ mod ladder;
 mod models;
 mod run;
 mod style;
+mod sweep;
 
 pub use comparison::of_comparison;
 pub use ladder::of_ladder;
 pub use models::of_models;
 pub use run::of_run;
+pub use sweep::{SweepCurve, sweep_picture};
 
 /// A line plot.
 #[derive(Debug, Clone, PartialEq)]
