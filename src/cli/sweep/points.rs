@@ -107,8 +107,8 @@ fn check_key(study: &Study, key: &str) -> std::result::Result<(), CliError> {
         return Ok(());
     }
     let last = key.rsplit('.').next().unwrap_or(key);
-    let same_end = all().find(|name| name.rsplit('.').next() == Some(last));
-    let near = match nearest(key, all()).or(same_end) {
+    let same_end = all().find(|name| !key.contains('.') && name.rsplit('.').next() == Some(last));
+    let near = match same_end.or_else(|| nearest(key, all())) {
         Some(near) => format!("; the nearest valid key is `{near}`"),
         None => format!(
             "; valid are the keys of the tables [{}] and the parameters of the study's effects, such as operation.torque",
