@@ -110,8 +110,14 @@ refusals! {
         => MissingKey "wear" at 17:15, "nothing", "coefficient, cycles", "the table [wear] is missing";
     text_for_a_number: with("module = 2.0", "module = \"2.0\"")
         => WrongType "gears.module" at 2:10, "the text \"2.0\"", "a number, 0.05 to 100 mm", "without quotes";
-    text_with_unit: with("module = 2.0", "module = \"2 mm\"")
-        => WrongType "gears.module" at 2:10, "\"2 mm\"", "a number", "without quotes and unit";
+    text_with_a_unit_of_another_kind: with("module = 2.0", "module = \"2 deg\"")
+        => BadValue "gears.module" at 2:10, "the unit `deg`", "0.05 to 100 mm; a plain number, or a text with one of the units nm, um, mm", "has the unit deg, an angle, where a length is asked for";
+    text_with_an_unknown_unit: with("module = 2.0", "module = \"2 mn\"")
+        => BadValue "gears.module" at 2:10, "the unit `mn`", "0.05 to 100 mm", "has a unit that is not known";
+    text_with_a_unit_out_of_range: with("module = 2.0", "module = \"2 m\"")
+        => BadValue "gears.module" at 2:10, "\"2 m\", 2000 mm", "0.05 to 100 mm", "is out of range";
+    text_with_a_unit_for_a_plain_number: with("torque = 100.0", "torque = \"1 MPa\"")
+        => BadValue "operation.torque" at 16:10, "the unit `MPa`", "N m, kN m, N mm", "a stress, where a torque is asked for";
     list_for_a_number: with("module = 2.0", "module = [2.0]")
         => WrongType "gears.module" at 2:10, "a list", "a number", "gears.module is a list";
     number_for_a_table: format!("lubricant = 3\n{SHORT}")

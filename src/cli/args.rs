@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::{
-    CliError, Context, Outcome, add, compare, diagnose, effects, init, ladder, mesh, models, run,
-    synthesize, validate,
+    CliError, Context, Outcome, add, compare, completions, diagnose, effects, export, init, ladder,
+    mesh, models, run, sweep, synthesize, validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -62,10 +62,14 @@ pub enum Command {
     Init(init::InitArgs),
     /// Mesh, contact and wear history at the study's operation or a test's conditions: fields, tables, plots, report
     Run(run::RunArgs),
+    /// Run the study over a grid of values: one table, one picture
+    Sweep(sweep::SweepArgs),
     /// Compare the finite-element, Hertz and published models, and say which assumption makes each difference
     Models(models::ModelsArgs),
     /// Mesh both members, report the quality and write the meshes
     Mesh(mesh::MeshArgs),
+    /// Write one mesh position as an input deck, for another finite-element program to solve again
+    Export(export::ExportArgs),
     /// Fit what is free to the measurements and show how wrong the model is, and where
     Compare(compare::CompareArgs),
     /// Find the physical effect that the model lacks: ranks the catalogue, says how sure that is and what to measure next
@@ -80,6 +84,8 @@ pub enum Command {
     Effects(effects::EffectsArgs),
     /// Run the verification and validation cases; exit code 1 if one fails
     Validate(validate::ValidateArgs),
+    /// Print the script that completes commands and options in a shell
+    Completions(completions::CompletionsArgs),
 }
 
 impl Command {
@@ -90,6 +96,8 @@ impl Command {
             Command::Run(args) => run::execute(args, context),
             Command::Models(args) => models::execute(args, context),
             Command::Mesh(args) => mesh::execute(args, context),
+            Command::Export(args) => export::execute(args, context),
+            Command::Sweep(args) => sweep::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
             Command::Diagnose(args) => diagnose::execute(args, context),
             Command::Add(args) => add::execute(args, context),
@@ -97,6 +105,7 @@ impl Command {
             Command::Synthesize(args) => synthesize::execute(args, context),
             Command::Effects(args) => effects::execute(args),
             Command::Validate(args) => validate::execute(args, context),
+            Command::Completions(args) => completions::execute(args),
         }
     }
 }

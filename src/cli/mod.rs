@@ -11,9 +11,11 @@
 mod add;
 pub mod args;
 mod compare;
+mod completions;
 mod diagnose;
 mod effects;
 mod error;
+mod export;
 mod fitting;
 mod folder;
 mod init;
@@ -22,6 +24,7 @@ mod mesh;
 mod models;
 mod progress;
 mod run;
+mod sweep;
 mod synthesize;
 mod validate;
 
@@ -98,7 +101,9 @@ fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
     } else {
         outcome.text
     };
-    if general.quiet && !general.json {
+    // a script for the shell is a result, not a summary
+    let result = matches!(arguments.command, args::Command::Completions(_));
+    if general.quiet && !general.json && !result {
         text.clear();
     }
     match io::stdout()

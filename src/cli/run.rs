@@ -191,7 +191,7 @@ struct Keeper {
 }
 
 impl Keeper {
-    /// All that the results depend on counts: the study's text, the test, the user's own meshes.
+    /// All that the results depend on counts: the study's text, the test, the user's own meshes and measured profiles.
     fn new(study: &Study, args: &RunArgs, target: &Path) -> Result<Self, CliError> {
         let test = args.test.as_deref().unwrap_or("");
         let mut parts = vec![study.text().as_bytes().to_vec(), test.as_bytes().to_vec()];
@@ -203,6 +203,11 @@ impl Keeper {
                 })
             })?;
             parts.push(mesh);
+        }
+        for gear in [&study.gears.pinion, &study.gears.gear] {
+            if !gear.profile.is_empty() {
+                parts.push(format!("{:?}", gear.profile).into_bytes());
+            }
         }
         let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
         let identity = fingerprint(&parts);

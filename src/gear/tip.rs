@@ -39,13 +39,39 @@ impl TipRounding {
 }
 
 impl Gear {
+    /// Material missing normal to the flank at curvature radius `rho`, mm: the stated tip relief and the measured profile.
+    /// The nominal involute leaves both out.
+    pub fn relief(&self, rho: f64) -> f64 {
+        self.tip_relief(rho) + self.measured(rho)
+    }
+
+    /// Takes a measured profile: rows of ascending radius and missing material, mm, in place of one it had.
+    pub fn set_profile(&mut self, rows: &[[f64; 2]]) {
+        self.profile = rows
+            .iter()
+            .map(|[radius, missing]| [self.rho_at_radius(*radius), *missing])
+            .collect();
+    }
+
+    /// The measured profile at `rho`: linear between the rows, constant beyond the ends; 0 without one.
+    fn measured(&self, rho: f64) -> f64 {
+        let rows = &self.profile;
+        let next = rows.partition_point(|row| row[0] <= rho);
+        match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {
+            (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (rho - a[0]) / (b[0] - a[0]),
+            (Some(end), None) => end[1],
+            (None, Some(end)) => end[1],
+            (None, None) => 0.0,
+        }
+    }
+
     /// Material removed normal to the flank by the stated tip relief at curvature radius `rho`, mm.
     ///
     /// ```text
     /// C(rho) = C_a (rho − rho_tip + L) / L     above rho_tip − L, 0 below
     /// ```
-    /// Measured from the sharp tip corner, also if the corner is rounded. The nominal involute leaves it out.
-    pub fn relief(&self, rho: f64) -> f64 {
+    /// Measured from the sharp tip corner, also if the corner is rounded.
+    fn tip_relief(&self, rho: f64) -> f64 {
         let (amount, length) = (self.spec.tip_relief_amount, self.spec.tip_relief_length);
         if amount <= 0.0 {
             return 0.0;

@@ -78,6 +78,8 @@ pub struct Gear {
     pub base_half_angle: f64,
     /// The fillet in the frame of the tooth space.
     pub trochoid: Trochoid,
+    /// Measured profile: ascending curvature radii and the material missing there against the involute, mm; empty = none.
+    pub profile: Vec<[f64; 2]>,
 }
 
 impl Gear {
@@ -135,6 +137,7 @@ impl Gear {
                 rounding,
                 beta_end: rack.pressure_angle,
             },
+            profile: Vec::new(),
         };
         gear.rho_tip = gear.rho_at_radius(tip_radius);
         let tip_thickness = 2.0 * tip_radius * gear.half_angle(tip_radius);

@@ -1,6 +1,7 @@
 //! Floor 6: the forward model, from a gear pair and its conditions to a wear history.
 
 pub mod checkpoint;
+pub mod deck;
 pub mod fields;
 pub mod forward;
 pub mod gather;
@@ -9,6 +10,7 @@ pub mod history;
 pub mod members;
 pub mod models;
 pub mod numerics;
+pub mod one_position;
 pub mod paper_run;
 pub mod result;
 pub mod run;

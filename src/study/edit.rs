@@ -96,6 +96,41 @@ impl Edit<'_> {
         }
     }
 
+    /// Sets any key by its path (`operation.misalignment`, not of an effect or a test) to `value` as TOML writes it. A key that
+    /// the study does not state is written behind its table's header, a missing table at the end. False, and nothing is changed,
+    /// if the table is written in another form.
+    pub fn put(&mut self, path: &str, value: &str) -> bool {
+        if let Some(span) = self.span(path) {
+            self.changes.push((span, value.to_owned()));
+            return true;
+        }
+        let Some((table, key)) = path.rsplit_once('.') else {
+            return false;
+        };
+        let line = format!("{key} = {value}");
+        match self.span(table) {
+            Some(span) if self.text(&span).starts_with('{') => {
+                let at = span.start + 1;
+                self.changes.push((at..at, format!(" {line},")));
+            }
+            Some(span) if self.text(&span).starts_with('[') => {
+                let at = self.line_end(span.start);
+                let text = format!("{}{line}", self.line_break());
+                self.changes.push((at..at, text));
+            }
+            Some(_) => return false,
+            None => match self
+                .tables
+                .iter_mut()
+                .find(|t| t[0] == format!("[{table}]"))
+            {
+                Some(added) => added.push(line),
+                None => self.tables.push(vec![format!("[{table}]"), line]),
+            },
+        }
+        true
+    }
+
     fn set_in(&mut self, place: usize, spec: &EffectSpec, short: &str, number: String) {
         let inside = match spec.law {
             Law::Card(_) => "",
@@ -177,6 +212,8 @@ impl Edit<'_> {
         let study = self.study;
         let numerics = &study.numerics;
         let paths = [
+            (super::PROFILE_KEYS[0], &study.profiles[0]),
+            (super::PROFILE_KEYS[1], &study.profiles[1]),
             ("measurements.file", &study.measurements),
             ("numerics.mesh_pinion", &numerics.mesh_pinion),
             ("numerics.mesh_gear", &numerics.mesh_gear),

@@ -119,17 +119,18 @@ pub(super) fn stated(
     param: Option<&Param>,
 ) -> Result<(f64, [Option<f64>; 2])> {
     let any = "a number";
+    let unit = param.map_or("-", |param| param.unit);
     if !table.holds_table(name) {
-        let value = table.required_any(name, any)?;
+        let value = table.required_any(name, any, unit)?;
         check_value(table, name, value, param)?;
         return Ok((value, [None; 2]));
     }
     let inner = table.required_table(name, VALUE_KEYS)?;
-    let value = inner.required_any("value", any)?;
+    let value = inner.required_any("value", any, unit)?;
     check_value(&inner, "value", value, param)?;
     let (lower, upper) = (
-        inner.number("lower", &q::ANY)?,
-        inner.number("upper", &q::ANY)?,
+        inner.number("lower", &q::Quantity { unit, ..q::ANY })?,
+        inner.number("upper", &q::Quantity { unit, ..q::ANY })?,
     );
     for (key, bound) in [("lower", lower), ("upper", upper)] {
         let (Some(bound), Some(param)) = (bound, param) else {

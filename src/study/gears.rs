@@ -1,5 +1,7 @@
 //! `[gears]`: basic rack, two members, centre distance; and the checks that need all of them.
 
+use std::path::{Path, PathBuf};
+
 use super::quantity::{self as q, span_of_numbers};
 use super::reader::Table;
 use crate::gear::{BasicRack, Gear, GearError, MIN_TEETH, Member, Pair, PairError, ToothSpec};
@@ -24,6 +26,7 @@ pub(super) const MEMBER_KEYS: &[&str] = &[
     "tip_relief_amount",
     "tip_relief_length",
     "tip_rounding",
+    "profile_file",
 ];
 
 /// The gear set: two members cut by one rack, their nominal centre distance and their width.
@@ -116,6 +119,17 @@ fn member(gears: &Table<'_>, member: Member, rack: BasicRack) -> Result<Gear> {
             _ => impossible_gear(gears, &table, &error),
         }
     })
+}
+
+/// The files that hold measured profiles of pinion and gear, relative ones from the study's folder.
+pub(super) fn profile_files(root: &Table<'_>, folder: &Path) -> Result<[Option<PathBuf>; 2]> {
+    let gears = root.required_table("gears", KEYS)?;
+    let file = |member: Member| -> Result<Option<PathBuf>> {
+        let table = gears.required_table(member.name(), MEMBER_KEYS)?;
+        let file = table.name("profile_file", "relative to the study file")?;
+        Ok(file.map(|file| folder.join(file)))
+    };
+    Ok([file(Member::Pinion)?, file(Member::Gear)?])
 }
 
 /// Sends an impossible gear to the key that can mend it.

@@ -18,11 +18,13 @@ mod gears;
 mod materials;
 mod numerics;
 mod operation;
+mod profile;
 mod quantity;
 mod reader;
 mod relative;
 mod settings;
 mod setup;
+mod units;
 mod values;
 
 use std::cell::RefCell;
@@ -61,6 +63,9 @@ const ROOT_KEYS: &[&str] = &[
     "measurements",
     "numerics",
 ];
+
+/// The keys that name measured profiles, pinion and gear.
+const PROFILE_KEYS: [&str; 2] = ["gears.pinion.profile_file", "gears.gear.profile_file"];
 
 /// Every table with its keys, in the order of the contract.
 pub const KEYS: &[(&str, &[&str])] = &[
@@ -107,6 +112,8 @@ pub struct Study {
     pub measurements: Option<PathBuf>,
     /// `[numerics]`.
     pub numerics: Numerics,
+    /// Files of the measured profiles of pinion and gear; what they hold is in `gears`.
+    pub profiles: [Option<PathBuf>; 2],
     free: Vec<FreeParameter>,
     effects: EffectModel,
     source: Source,
@@ -255,13 +262,38 @@ impl Study {
 
     fn read(source: Source, folder: &Path) -> std::result::Result<Study, StudyError> {
         match Study::sections(&source, folder) {
-            Ok((study, spans)) => Ok(Study {
+            Ok((study, spans)) => Study {
                 source,
                 spans,
                 ..study
-            }),
+            }
+            .with_profiles(),
             Err(diagnostic) => Err(StudyError::new(*diagnostic, source)),
         }
+    }
+
+    /// The study with the measured profiles on its flanks.
+    fn with_profiles(mut self) -> std::result::Result<Study, StudyError> {
+        for (side, key) in PROFILE_KEYS.into_iter().enumerate() {
+            let Some(path) = &self.profiles[side] else {
+                continue;
+            };
+            if !path.is_file() {
+                return Err(self.refuse(
+                    key,
+                    &format!("there is no file {}", path.display()),
+                    "the path of a profile file, relative to the study file",
+                    "",
+                ));
+            }
+            let gear = [&mut self.gears.pinion, &mut self.gears.gear]
+                .into_iter()
+                .nth(side);
+            if let Some(gear) = gear {
+                gear.set_profile(&profile::load(path, gear)?);
+            }
+        }
+        Ok(self)
     }
 
     fn sections(source: &Source, folder: &Path) -> Result<(Study, Spans)> {
@@ -299,6 +331,7 @@ impl Study {
             tests,
             measurements: settings::read_measurements(&root, folder)?,
             numerics: numerics::read(&root, folder, lubricant)?,
+            profiles: gears::profile_files(&root, folder)?,
             gears,
             source: Source {
                 name: String::new(),

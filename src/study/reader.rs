@@ -307,8 +307,7 @@ impl<'a> Table<'a> {
             if text.trim().parse::<f64>().is_ok() {
                 diagnostic = diagnostic.with_hint("write the number without quotes");
             } else if text.trim_start().starts_with(|c: char| c.is_ascii_digit()) {
-                diagnostic =
-                    diagnostic.with_hint("write the number alone, without quotes and unit");
+                diagnostic = diagnostic.with_hint("a number and its unit look like \"2 mm\"");
             }
         }
         diagnostic

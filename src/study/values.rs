@@ -5,8 +5,9 @@ use std::ops::{Range, RangeInclusive};
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::quantity::Quantity;
+use super::quantity::{ANY, Quantity, Short};
 use super::reader::{Result, Table, shown};
+use super::units::{self, UnitFault};
 use crate::source_text::{Diagnostic, Fault, nearest};
 
 /// A text and where it stands.
@@ -23,6 +24,12 @@ impl<'a> Table<'a> {
             DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
                 .ok()
                 .map(|i| i as f64),
+            DeValue::String(text) if text.trim().parse::<f64>().is_err() => {
+                match units::value(text, quantity) {
+                    Ok(number) => Some(number),
+                    Err(fault) => return Err(self.wrong_unit(key, value, span, quantity, fault)),
+                }
+            }
             _ => {
                 return Err(self
                     .wrong_type(key, value, span, &format!("a number, {quantity}"))
@@ -39,6 +46,12 @@ impl<'a> Table<'a> {
                     format!(" {}", quantity.unit)
                 };
                 let written = self.written(&span);
+                let with_unit = matches!(value, DeValue::String(_));
+                let (unit, found) = if with_unit {
+                    (String::new(), format!("{written}, {}{unit}", Short(number)))
+                } else {
+                    (unit, written.clone())
+                };
                 let why = if number.is_finite() {
                     "is out of range"
                 } else {
@@ -47,8 +60,11 @@ impl<'a> Table<'a> {
                 let message = format!("{} = {written}{unit} {why}", shown(&self.path_of(key)));
                 Err(
                     Diagnostic::new(Fault::BadValue, shown(&self.path_of(key)), message)
-                        .with_values(written, quantity.to_string())
-                        .with_hint(quantity.slip(number).unwrap_or_default())
+                        .with_values(found, quantity.to_string())
+                        .with_hint(match quantity.slip(number) {
+                            Some(slip) if !with_unit => slip,
+                            _ => "",
+                        })
                         .with_hint(quantity.reason)
                         .with_span(span)
                         .into(),
@@ -57,8 +73,62 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Any number but NaN that must be there; `inf` is one.
-    pub(super) fn required_any(&self, key: &str, allowed: &str) -> Result<f64> {
+    /// Refuses a text that is no number with a fitting unit.
+    fn wrong_unit(
+        &self,
+        key: &str,
+        value: &DeValue<'_>,
+        span: Range<usize>,
+        quantity: &Quantity,
+        fault: UnitFault,
+    ) -> Box<Diagnostic> {
+        let path = shown(&self.path_of(key));
+        let written = self.written(&span);
+        let units: Vec<&str> = units::known(quantity).collect();
+        let allowed = if units.is_empty() {
+            format!("a number without unit, {quantity}")
+        } else {
+            format!(
+                "{quantity}; a plain number, or a text with one of the units {}",
+                units.join(", ")
+            )
+        };
+        let (message, found, hint) = match fault {
+            UnitFault::NoUnit => {
+                return self
+                    .wrong_type(key, value, span, &format!("a number, {quantity}"))
+                    .into();
+            }
+            UnitFault::Unknown {
+                written: unit,
+                near,
+            } => (
+                format!("{path} = {written} has a unit that is not known"),
+                format!("the unit `{unit}`"),
+                if near.is_empty() {
+                    near
+                } else {
+                    format!("the nearest unit is `{near}`")
+                },
+            ),
+            UnitFault::Other {
+                written: unit,
+                says,
+            } => (
+                format!("{path} = {written} {says}"),
+                format!("the unit `{unit}`"),
+                String::new(),
+            ),
+        };
+        Diagnostic::new(Fault::BadValue, path, message)
+            .with_values(found, allowed)
+            .with_hint(hint)
+            .with_span(span)
+            .into()
+    }
+
+    /// Any number but NaN that must be there; `inf` is one. `unit` is what a text with a unit is converted to.
+    pub(super) fn required_any(&self, key: &str, allowed: &str, unit: &'static str) -> Result<f64> {
         let Some((value, span)) = self.get(key) else {
             return Err(self.missing(key, allowed).into());
         };
@@ -78,7 +148,7 @@ impl<'a> Table<'a> {
                     f64::INFINITY
                 })
             }
-            _ => self.required_number(key, &super::quantity::ANY),
+            _ => self.required_number(key, &Quantity { unit, ..ANY }),
         }
     }
 

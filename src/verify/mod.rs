@@ -3,6 +3,7 @@
 //! Each function runs one family of cases and returns what it measured beside its target and tolerance; `Measured::passed`
 //! is the verdict. Small cases are also tests; the large ones run in the validation only.
 
+pub mod calculix;
 pub mod challenge;
 pub mod contact_and_wear;
 pub mod convergence;

@@ -5,7 +5,8 @@ use crate::paper::reference::ReferenceError;
 use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
 use crate::verify::{
-    CaseError, Measured, SKIPPED, Skipped, challenge, elasticity, gears, paper_rows, runner::Row,
+    CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, gears, paper_rows,
+    runner::Row,
 };
 
 /// Cases that belong together, as the runner takes them.
@@ -36,6 +37,9 @@ pub enum Work {
     Histories(fn() -> Result<Vec<Measured>, ConvergenceError>),
     /// Wear that an independent program computed, by the challenge's name.
     Challenge(&'static str),
+    /// A family that another program on this machine is needed for; it measures nothing where that is absent, and is then skipped
+    /// for the reason given.
+    External(fn(Effort) -> Result<Vec<Measured>, CaseError>, &'static str),
     /// Rows that judge themselves.
     Rows(fn() -> Result<Vec<Row>, ReferenceError>),
 }
@@ -65,6 +69,14 @@ pub fn entries() -> Vec<Entry> {
         reason: challenge::REASON,
         work: Work::Challenge(name),
     }));
+    all.push(Entry {
+        ids: vec![calculix::ID.to_owned()],
+        group: "Gear contact",
+        title: "mesh positions solved again by CalculiX",
+        source: calculix::SOURCE,
+        reason: calculix::REASON,
+        work: Work::External(calculix::all, calculix::ABSENT),
+    });
     all.push(Entry {
         ids: convergence::IDS.map(str::to_owned).to_vec(),
         group: "Numerical error",

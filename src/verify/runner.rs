@@ -115,6 +115,12 @@ fn run_entry(entry: &Entry, effort: Effort) -> Vec<Row> {
         Work::Challenge(name) => challenge::judge(name)
             .map(measured)
             .map_err(|e| e.to_string()),
+        Work::External(run, absent) => match run(effort) {
+            Ok(none) if none.is_empty() => {
+                Ok(vec![not_run(entry, Verdict::Skipped, absent.to_owned())])
+            }
+            other => other.map(measured).map_err(|e| e.to_string()),
+        },
         Work::Rows(run) => run().map_err(|e| e.to_string()),
     };
     let mut rows = match result {
@@ -166,6 +172,10 @@ fn judged(entry: &Entry, measured: Measured) -> Row {
 }
 
 fn failed(entry: &Entry, message: &str) -> Row {
+    not_run(entry, Verdict::Fail, format!("could not be run: {message}"))
+}
+
+fn not_run(entry: &Entry, verdict: Verdict, reason: String) -> Row {
     Row {
         id: entry.ids.first().cloned().unwrap_or_default(),
         group: entry.group,
@@ -176,8 +186,8 @@ fn failed(entry: &Entry, message: &str) -> Row {
         error: None,
         tolerance: None,
         relative: false,
-        verdict: Verdict::Fail,
-        reason: format!("could not be run: {message}"),
+        verdict,
+        reason,
         seconds: 0.0,
     }
 }

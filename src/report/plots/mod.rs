@@ -10,6 +10,7 @@ mod models;
 mod run;
 mod sliding;
 mod style;
+mod sweep;
 
 pub use comparison::{errors_by_place, of_comparison};
 pub use ladder::of_ladder;
@@ -17,6 +18,7 @@ pub use models::of_models;
 pub(in crate::report) use run::depths;
 pub use run::{contact_of_run, live_states, of_run, wear_of_run};
 pub(in crate::report) use style::Hue;
+pub use sweep::{SweepCurve, sweep_picture};
 
 /// A line plot.
 #[derive(Debug, Clone, PartialEq)]
