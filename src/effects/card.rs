@@ -61,6 +61,8 @@ pub struct Form {
     pub name: &'static str,
     /// The parameters that differ from their defaults.
     pub settings: &'static [(&'static str, f64)],
+    /// Parameters that a fit adjusts in this form although the card fixes them.
+    pub frees: &'static [&'static str],
 }
 
 impl Param {

@@ -55,7 +55,8 @@ pub(super) const CARD: Card = Card {
     ],
     forms: &[Form {
         name: "saturating",
-        settings: &[("saturation_volume", 100.0)],
+        settings: &[("saturation_volume", 30.0)],
+        frees: &["saturation_volume"],
     }],
     build: |p| {
         Box::new(DebrisAbrasion {

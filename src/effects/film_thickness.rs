@@ -48,6 +48,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "near the piecewise linear law",
         settings: &[("lambda0", 2.2), ("exponent", 3.0)],
+        frees: &[],
     }],
     build: |p| {
         Box::new(FilmThickness {

@@ -68,6 +68,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "softening",
         settings: &[("shape", 1.0)],
+        frees: &[],
     }],
     build: |p| {
         Box::new(FlashTemperature {

@@ -63,10 +63,12 @@ pub(super) const CARD: Card = Card {
         Form {
             name: "hyperbolic",
             settings: &[("shape", 1.0)],
+            frees: &[],
         },
         Form {
             name: "steep hyperbolic",
             settings: &[("shape", 2.0)],
+            frees: &[],
         },
     ],
     build: |p| {

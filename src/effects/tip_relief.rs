@@ -55,6 +55,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "parabolic",
         settings: &[("exponent", 2.0)],
+        frees: &[],
     }],
     build: |p| {
         Box::new(TipRelief {

@@ -109,6 +109,7 @@ fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
         law: Law::Card(card),
         parameters,
         span: table.header(),
+        freed: &[],
     })
 }
 

@@ -27,6 +27,8 @@ pub struct EffectSpec {
     pub parameters: Vec<Parameter>,
     /// Where the entry stands, bytes of the study's text; empty for an effect that stands in no study.
     pub span: Range<usize>,
+    /// Short names of parameters that a fit adjusts although their card fixes them.
+    pub freed: &'static [&'static str],
 }
 
 /// What an effect computes.
@@ -190,6 +192,7 @@ impl EffectSpec {
             law: Law::Card(card),
             parameters: parameters.collect(),
             span: 0..0,
+            freed: &[],
         })
     }
 
@@ -197,7 +200,9 @@ impl EffectSpec {
     pub fn fitted(&self) -> Vec<FreeParameter> {
         self.parameters
             .iter()
-            .filter(|parameter| parameter.card.is_none_or(|card| card.fitted))
+            .filter(|parameter| {
+                (parameter.card).is_none_or(|card| card.fitted || self.freed.contains(&card.name))
+            })
             .map(Parameter::free)
             .collect()
     }

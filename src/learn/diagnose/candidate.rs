@@ -125,13 +125,16 @@ fn place(name: &str) -> usize {
 
 /// The card's effect in its own form and every other accepted one.
 fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
-    let own = std::iter::once((OWN, [].as_slice()));
-    let others = card.forms.iter().map(|form| (form.name, form.settings));
+    let own = std::iter::once((OWN, [].as_slice(), [].as_slice()));
+    let others = (card.forms.iter()).map(|form| (form.name, form.settings, form.frees));
     let all: Vec<Candidate> = own
         .chain(others)
-        .filter_map(|(form, settings)| {
+        .filter_map(|(form, settings, frees)| {
             // A form's settings lie in the ranges of its card: tests walk the catalogue.
-            let spec = EffectSpec::of_card(card, settings).ok()?;
+            let spec = EffectSpec {
+                freed: frees,
+                ..EffectSpec::of_card(card, settings).ok()?
+            };
             let fitted = spec.fitted();
             let version = base.version.with(spec);
             Some(Candidate {

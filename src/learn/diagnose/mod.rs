@@ -142,12 +142,6 @@ const MIDDLE_STEP: f64 = 5e-3;
 
 /// Resolution of the middle fidelity: finite elements coarse enough for thousands of histories.
 fn middle(fine: Numerics) -> Numerics {
-    let v = |n: &str, d: f64| {
-        std::env::var(n)
-            .ok()
-            .and_then(|v| v.parse().ok())
-            .unwrap_or(d)
-    };
     Numerics {
         elements_per_half_width: MIDDLE_EDGES,
         positions: MIDDLE_POSITIONS,

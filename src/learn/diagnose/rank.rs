@@ -19,8 +19,15 @@ const PRIOR_PAIRS: f64 = 0.05;
 ///
 /// Ideal diagnosers' single effects explained at most 45 % of discrepancies that the catalogue lacks; the catalogue's own, in
 /// other forms, nearly always more than 70 %.
-const SHARE: f64 = 0.65;
+const SHARE: f64 = 0.75;
 const SHARE_WIDTH: f64 = 0.04;
+/// The same for two effects together: with twice the freedom they come nearer to anything; pairs that were really there explained
+/// all of it.
+const PAIR_SHARE: f64 = 0.95;
+/// Fall of χ² by the weaker effect of a pair over that by the stronger one alone, below which it is thought to mend the form of the
+/// stronger one and not to be an effect, and how sharply: an effect in a form of its own left up to 8 %.
+const SECOND: f64 = 0.10;
+const SECOND_WIDTH: f64 = 0.012;
 
 /// Everything judged with its probability.
 pub(super) struct Ranking {
@@ -69,11 +76,20 @@ impl Ranking {
             };
             let log = j.log_evidence + (prior / j.candidate.siblings as f64).ln();
             // The share's own uncertainty counts in the effect's favour.
-            let upper = share + 2.0 * flexible.spread() / flexible.drop.max(1.0);
+            let spread = flexible.spread() / flexible.drop.max(1.0);
             // ln of (1 − named)/named, named the probability that such a share is the missing effect's own.
-            let odds = (SHARE - upper) / SHARE_WIDTH;
-            let soft = |x: f64| x.max(0.0) + (-x.abs()).exp().ln_1p();
-            logs.push((j.candidate.name(), log - soft(odds)));
+            let odds = match j.candidate.names.len() {
+                1 => (SHARE - share - 2.0 * spread) / SHARE_WIDTH,
+                _ => (PAIR_SHARE - share - spread) / SHARE_WIDTH,
+            };
+            match stronger_alone(base, &judged, j) {
+                Some((name, second)) => {
+                    let mends = (SECOND - second) / SECOND_WIDTH;
+                    logs.push((j.candidate.name(), log - soft(odds) - soft(mends)));
+                    logs.push((name, log - soft(odds) - soft(-mends)));
+                }
+                None => logs.push((j.candidate.name(), log - soft(odds))),
+            }
             logs.push((UNKNOWN.to_owned(), log - soft(-odds)));
             if flexible.is_real() && log > most {
                 most = log;
@@ -113,6 +129,26 @@ impl Ranking {
         all.sort_by(|a, b| b.1.total_cmp(&a.1));
         all
     }
+}
+
+/// ln(1 + eˣ).
+fn soft(x: f64) -> f64 {
+    x.max(0.0) + (-x.abs()).exp().ln_1p()
+}
+
+/// Name of the stronger effect of a pair, and the fall of χ² that the other one adds to what it explains alone; None for single
+/// effects.
+fn stronger_alone(base: &Judged, judged: &[Judged], pair: &Judged) -> Option<(String, f64)> {
+    if pair.candidate.names.len() < 2 {
+        return None;
+    }
+    let part = |j: &&Judged| {
+        j.candidate.names.len() == 1 && pair.candidate.names.contains(&j.candidate.names[0])
+    };
+    let stronger = (judged.iter().filter(part)).min_by(|a, b| a.square.total_cmp(&b.square))?;
+    let alone = base.square - stronger.square;
+    let added = stronger.square - pair.square;
+    (alone > 0.0).then(|| (stronger.candidate.name(), added / alone))
 }
 
 /// Log evidence of the base model with a smooth discrepancy of unknown size and lengths (Kennedy and O'Hagan 2001): the mean

@@ -18,7 +18,7 @@ use crate::simulate::forward::ContactKind;
 use crate::study::{Role, Scatter};
 
 /// Probability from which a single effect or set is named.
-const CLAIM: f64 = 0.8;
+const CLAIM: f64 = 0.9;
 /// Probability of nothing missing from which an effect is not claimed, and above which it is the answer.
 const DOUBT: f64 = 0.2;
 /// Candidates this much less probable than the leader are no look-alikes.
@@ -209,7 +209,7 @@ pub(super) fn diagnosis(
         .map(|e| e.0.to_owned())
         .collect();
     let verdict = if nothing >= unknown && nothing >= all
-        || nothing >= 1.0 - CLAIM && unknown < all && nothing > leader.1
+        || nothing >= DOUBT && unknown < all && nothing > leader.1
     {
         Verdict::NothingMissing
     } else if unknown >= all && unknown >= nothing {
