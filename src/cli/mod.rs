@@ -20,6 +20,7 @@ mod init;
 mod ladder;
 mod mesh;
 mod models;
+mod plan;
 mod progress;
 mod run;
 mod synthesize;
