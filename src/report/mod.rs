@@ -9,6 +9,7 @@ pub mod atomic;
 pub mod comparison;
 pub mod csv;
 pub mod diagnosis;
+pub mod discrepancy;
 mod error;
 pub mod format;
 pub mod html;

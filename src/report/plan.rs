@@ -79,9 +79,9 @@ pub fn page(title: &str, plan: &Plan) -> Page {
         } else {
             format!("Plan: {title}")
         },
-        kicker: String::new(),
         conclusion: sentence(plan).to_owned(),
         sections,
+        ..Page::default()
     }
 }
 

@@ -35,7 +35,7 @@ use crate::simulate::numerics::Numerics;
 use crate::study::Role;
 
 pub use candidate::NotJudged;
-pub use flexible::Driver;
+pub use flexible::{Driver, MapPoint};
 pub use plan::{
     AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
     plan_after, plan_first,
