@@ -17,6 +17,7 @@ use gearwear::study::Study;
 
 mod diagnosis {
     pub(crate) mod command;
+    pub(crate) mod plan;
 }
 
 /// Random numbers: splitmix64 (Steele, Lea and Flood 2014) and Box and Muller's transform.

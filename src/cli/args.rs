@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::{
     CliError, Context, Outcome, add, compare, completions, diagnose, effects, export, init, ladder,
-    mesh, models, run, sweep, synthesize, validate,
+    mesh, models, plan, run, sweep, synthesize, validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -74,6 +74,8 @@ pub enum Command {
     Compare(compare::CompareArgs),
     /// Find the physical effect that the model lacks: ranks the catalogue, says how sure that is and what to measure next
     Diagnose(diagnose::DiagnoseArgs),
+    /// Say what to measure next: tests that separate what the measurements leave, or a first campaign without any
+    Plan(plan::PlanArgs),
     /// Add a physical effect to a study, its parameters and the wear coefficient fitted to the measurements unless set
     Add(add::AddArgs),
     /// Put versions of a model side by side: the error of each on fitted and on held-out tests
@@ -100,6 +102,7 @@ impl Command {
             Command::Sweep(args) => sweep::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
             Command::Diagnose(args) => diagnose::execute(args, context),
+            Command::Plan(args) => plan::execute(args, context),
             Command::Add(args) => add::execute(args, context),
             Command::Ladder(args) => ladder::execute(args, context),
             Command::Synthesize(args) => synthesize::execute(args, context),

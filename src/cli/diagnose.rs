@@ -46,7 +46,9 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
     drop(progress);
     let document = json!(diagnosis);
     let page = report::diagnosis::page(&study.title, &diagnosis);
-    let written = report::write_page(&page, "diagnosis.json", &document, &target)?;
+    let map = report::discrepancy::csv(&diagnosis.discrepancy)?;
+    let further = [("discrepancy.csv", map)];
+    let written = report::write_page_with(&page, "diagnosis.json", &document, &further, &target)?;
     let study_name = args.paths.study.display().to_string();
     Ok(Outcome {
         json: document,

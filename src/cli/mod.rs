@@ -22,6 +22,7 @@ mod init;
 mod ladder;
 mod mesh;
 mod models;
+mod plan;
 mod progress;
 mod run;
 mod sweep;

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::format::{count, plain, significant, uncertain};
+use super::discrepancy;
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
 
@@ -11,6 +12,9 @@ use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
 const SHOWN: usize = 6;
 /// Fits listed on the page.
 const FITTED: usize = 20;
+
+/// What the pictures of the discrepancy show.
+const MAP: &str = "The pictures show it for wear depths: the smooth part of measured minus model, in standard deviations of a measured value. All of it stands in `discrepancy.csv`.";
 
 /// Verdict, reasons, ranking, what to do next.
 pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -> String {
@@ -125,7 +129,9 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
         sections.push(
             Section::new("What the discrepancy depends on")
                 .paragraph(text)
-                .table(table),
+                .paragraph(MAP)
+                .table(table)
+                .plots(discrepancy::plots(&diagnosis.discrepancy)),
         );
     }
     let mut next = Section::new("What to do next").paragraph(diagnosis.next_step.clone());

@@ -11,12 +11,14 @@ pub mod comparison;
 pub mod csv;
 pub mod diagnosis;
 pub mod drawings;
+pub mod discrepancy;
 mod error;
 pub mod format;
 pub mod html;
 pub mod json;
 pub mod ladder;
 pub mod models;
+pub mod plan;
 pub mod plots;
 mod run;
 pub mod text;
@@ -25,6 +27,6 @@ pub mod vtk;
 pub use atomic::{Staging, write_file};
 pub use error::OutputError;
 pub use run::{
-    Written, write_comparison, write_ladder, write_models, write_page, write_run, write_run_with,
-    write_validation,
+    Written, write_comparison, write_ladder, write_models, write_page, write_page_with, write_run,
+    write_run_with, write_validation,
 };

@@ -160,7 +160,7 @@ pub fn write_page(
 }
 
 /// The same with further files (name, content).
-fn write_page_with(
+pub fn write_page_with(
     page: &Page,
     name: &str,
     document: &impl Serialize,

@@ -6,7 +6,7 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 /// A small study (one test, two times, analytic contact) in a folder of its own; the values are 5e-10 mm²/N's to 5 %.
-fn small(folder: &Path) -> PathBuf {
+pub(crate) fn small(folder: &Path) -> PathBuf {
     let data = crate::synthetic("", 0.0, 0.05, 11);
     let mut csv = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
     for o in data.observations.iter().filter(|o| o.test == 0) {
@@ -33,7 +33,7 @@ fn small(folder: &Path) -> PathBuf {
     path
 }
 
-fn gearwear() -> Command {
+pub(crate) fn gearwear() -> Command {
     Command::new(env!("CARGO_BIN_EXE_gearwear"))
 }
 
@@ -62,6 +62,8 @@ fn it_writes_what_it_prints_and_threads_change_nothing() {
         serde_json::from_slice(&std::fs::read(target.join("diagnosis.json")).unwrap()).unwrap();
     assert_eq!(document, written);
     assert!(target.join("report.html").is_file());
+    let map = std::fs::read_to_string(target.join("discrepancy.csv")).unwrap();
+    assert!(map.starts_with("test,member,quantity,cycles,position,value\n"));
     for key in [
         "verdict",
         "effect",

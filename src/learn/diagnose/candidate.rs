@@ -107,6 +107,20 @@ impl Candidate {
         self.names.iter().any(|name| SHARP.contains(name))
     }
 
+    /// Whether every added effect has its card's own form.
+    pub(super) fn is_own_form(&self) -> bool {
+        self.forms.iter().all(|form| *form == OWN)
+    }
+
+    /// Values of its parameters: the base model's own as they are, the added ones' prior medians.
+    pub(super) fn medians(&self) -> Vec<f64> {
+        let free = self.version.free.iter();
+        let free: Vec<&FreeParameter> = free.filter(|f| f.name != WEAR_COEFFICIENT).collect();
+        let (own, added) = free.split_at(self.inherited);
+        let added = added.iter().map(|f| median(f));
+        own.iter().map(|f| f.value).chain(added).collect()
+    }
+
     /// `a+b`, or `nothing_missing`.
     pub(super) fn name(&self) -> String {
         if self.names.is_empty() {
@@ -154,13 +168,7 @@ fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
 /// The defaults, the priors' medians, and the mirror image of each where both signs are possible.
 fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
     let defaults: Vec<f64> = fitted.iter().map(|f| f.value).collect();
-    let medians: Vec<f64> = fitted
-        .iter()
-        .map(|f| match f.prior {
-            Prior::Normal { mean, sd } if f.neutral.is_some() => mean + sd,
-            prior => prior.median().clamp(f.lower, f.upper),
-        })
-        .collect();
+    let medians: Vec<f64> = fitted.iter().map(median).collect();
     let mirrored = |values: &[f64]| -> Vec<f64> {
         fitted
             .iter()
@@ -190,6 +198,14 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
         }
     }
     starts
+}
+
+/// The prior's median; one standard deviation up where the median is no effect.
+fn median(free: &FreeParameter) -> f64 {
+    match free.prior {
+        Prior::Normal { mean, sd } if free.neutral.is_some() => mean + sd,
+        prior => prior.median().clamp(free.lower, free.upper),
+    }
 }
 
 /// Values one standard deviation from the middle of a parameter's prior.

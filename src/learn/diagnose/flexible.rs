@@ -23,6 +23,8 @@ const TERMS: [(usize, usize); 5] = [(3, 1), (4, 2), (7, 3), (12, 3), (18, 4)];
 const RIDGE: f64 = 1e-6;
 /// Bins of a continuous driver.
 const BINS: usize = 10;
+/// Share by which traces must explain more than test, member and cycles do to count as a driver of their own.
+const CLEARLY: f64 = 0.1;
 
 /// What a flexible discrepancy found.
 #[derive(Debug, Clone)]
@@ -42,6 +44,23 @@ pub struct Driver {
     pub name: String,
     /// Share of the discrepancy's variance (in units of the noise) that depends on it alone.
     pub variance_share: f64,
+}
+
+/// One place of the map of a smooth discrepancy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapPoint {
+    /// Id of the test.
+    pub test: String,
+    /// `pinion`, `gear` or `pair`.
+    pub member: &'static str,
+    /// What is measured.
+    pub quantity: &'static str,
+    /// Pinion revolutions.
+    pub cycles: f64,
+    /// mm of radius or base pitches of rotation; None for a whole member.
+    pub position: Option<f64>,
+    /// Smooth part of measured minus base model, in sigmas of the row.
+    pub value: f64,
 }
 
 impl Flexible {
@@ -101,6 +120,22 @@ impl Flexible {
         (2.0 * self.terms as f64).sqrt()
     }
 
+    /// The discrepancy at every row of the ground.
+    pub(super) fn map(&self, ground: &Ground<'_>) -> Vec<MapPoint> {
+        let of = |(i, value): (usize, &f64)| {
+            let o = ground.observation(i);
+            MapPoint {
+                test: ground.measured.data.tests[o.test].clone(),
+                member: o.member.name(),
+                quantity: o.quantity.name(),
+                cycles: o.cycles,
+                position: o.position,
+                value: value / o.sigma,
+            }
+        };
+        self.values.iter().enumerate().map(of).collect()
+    }
+
     /// Shares of the variance by driver, the largest first.
     ///
     /// ```text
@@ -138,28 +173,79 @@ impl Flexible {
             ("speed", by(&|i| Some(conditions(i).speed_rpm))),
             ("misalignment", by(&|i| Some(conditions(i).misalignment_mm))),
         ];
+        let explained = |bins: &[usize]| {
+            let share = |f: &dyn Fn(usize) -> f64| explained(&m, &weight, bins, f) / total;
+            share(&|i| model[i]).max(share(&|_| 1.0)).min(1.0)
+        };
         let mut drivers: Vec<Driver> = all
             .into_iter()
-            .map(|(name, of)| {
-                let bins = binned(&of);
-                let share = |f: &dyn Fn(usize) -> f64| {
-                    let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
-                    for (i, bin) in bins.iter().enumerate() {
-                        let sum = sums.entry(*bin).or_default();
-                        sum[0] += m[i] * f(i) * weight[i];
-                        sum[1] += f(i) * f(i) * weight[i];
-                    }
-                    let explained = sums.values().filter(|s| s[1] > 0.0);
-                    explained.map(|s| s[0] * s[0] / s[1]).sum::<f64>() / total
-                };
-                Driver {
-                    name: name.to_owned(),
-                    variance_share: share(&|i| model[i]).max(share(&|_| 1.0)).min(1.0),
-                }
+            .map(|(name, of)| Driver {
+                name: name.to_owned(),
+                variance_share: explained(&binned(&of)),
             })
             .collect();
+        let cells: Vec<[u64; 3]> = (0..ground.len())
+            .map(|i| ground.observation(i))
+            .map(|o| [o.test as u64, o.member as u64, o.cycles.to_bits()])
+            .collect();
+        let traces: Vec<Option<usize>> = (0..ground.len())
+            .map(|i| ground.observation(i).trace)
+            .collect();
+        drivers.push(Driver {
+            name: "trace".to_owned(),
+            variance_share: of_trace(&traces, &cells, &explained),
+        });
         drivers.sort_by(|a, b| b.variance_share.total_cmp(&a.variance_share));
         drivers
+    }
+}
+
+/// Σ over bins of (Σ m f/σ²)²/Σ f²/σ².
+fn explained(m: &[f64], weight: &[f64], bins: &[usize], f: &dyn Fn(usize) -> f64) -> f64 {
+    let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    for (i, bin) in bins.iter().enumerate() {
+        let sum = sums.entry(*bin).or_default();
+        sum[0] += m[i] * f(i) * weight[i];
+        sum[1] += f(i) * f(i) * weight[i];
+    }
+    let seen = sums.values().filter(|s| s[1] > 0.0);
+    seen.map(|s| s[0] * s[0] / s[1]).sum()
+}
+
+/// Share that the traces explain: all of it where they explain clearly more than test, member and cycles, alone or together, do
+/// with no more bins; else only what they explain beyond those. One trace for each test, member and time so explains nothing.
+fn of_trace(
+    traces: &[Option<usize>],
+    cells: &[[u64; 3]],
+    explained: &dyn Fn(&[usize]) -> f64,
+) -> f64 {
+    let bins: Vec<usize> = traces.iter().map(|t| t.map_or(0, |t| 1 + t)).collect();
+    let count = |bins: &[usize]| {
+        let distinct: std::collections::BTreeSet<usize> = bins.iter().copied().collect();
+        distinct.len()
+    };
+    let (own, most) = (explained(&bins), count(&bins));
+    if most < 2 {
+        return 0.0;
+    }
+    // Every set of test, member and cycles by the bits of its number; what is not in the set is made alike.
+    let others = (1..8).filter_map(|set| {
+        let mut numbers: BTreeMap<[u64; 3], usize> = BTreeMap::new();
+        let bins: Vec<usize> = cells
+            .iter()
+            .map(|cell| {
+                let key = [0, 1, 2].map(|i| if set >> i & 1 == 1 { cell[i] } else { 0 });
+                let next = numbers.len();
+                *numbers.entry(key).or_insert(next)
+            })
+            .collect();
+        (numbers.len() <= most).then(|| explained(&bins))
+    });
+    let beyond = own - others.fold(0.0, f64::max);
+    if beyond > CLEARLY {
+        own
+    } else {
+        beyond.max(0.0)
     }
 }
 
@@ -242,4 +328,47 @@ fn groups(ground: &Ground<'_>) -> Vec<Group> {
             }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two tests, two members, four times, three places each, with one trace for each of them all.
+    fn cells() -> Vec<[u64; 3]> {
+        (0..48).map(|i| [i / 24, i / 12 % 2, i / 3 % 4]).collect()
+    }
+
+    fn share(m: &[f64], traces: &[Option<usize>]) -> f64 {
+        let weight = vec![1.0; m.len()];
+        let total: f64 = m.iter().map(|m| m * m).sum();
+        of_trace(traces, &cells(), &|bins| {
+            explained(m, &weight, bins, &|_| 1.0) / total
+        })
+    }
+
+    #[test]
+    fn a_trace_for_each_test_member_and_time_explains_nothing_of_its_own() {
+        let traces: Vec<Option<usize>> = (0..48).map(|i| Some(i / 3)).collect();
+        let m: Vec<f64> = (0..48).map(|i| ((i / 3 * 7) % 16) as f64).collect();
+        // every trace has another constant, but so has every cell
+        assert!(share(&m, &traces) < 1e-12);
+        // the same with a trace for each test and member
+        let traces: Vec<Option<usize>> = (0..48).map(|i| Some(i / 12)).collect();
+        let m: Vec<f64> = (0..48).map(|i| (1 + i / 12) as f64).collect();
+        assert!(share(&m, &traces) < 1e-12);
+    }
+
+    #[test]
+    fn traces_that_cut_across_tests_and_times_are_a_driver() {
+        // two instruments that take turns, the other way round in the second test: no test, member or time explains them
+        let label = |c: &[u64; 3]| (c[0] + c[2]) % 2;
+        let traces: Vec<Option<usize>> = cells().iter().map(|c| Some(label(c) as usize)).collect();
+        let m: Vec<f64> = cells()
+            .iter()
+            .map(|c| 2.0 * label(c) as f64 - 1.0)
+            .collect();
+        assert!((share(&m, &traces) - 1.0).abs() < 1e-12);
+        assert_eq!(share(&m, &vec![None; 48]), 0.0);
+    }
 }

@@ -10,13 +10,19 @@
 //! its own form (`OWN_FORM` in `ground`). Priors: nothing missing 0.5, unknown 0.1, single effects share 0.35, pairs 0.05.
 
 mod anchored;
+mod campaign;
 mod candidate;
+mod feasible;
 mod flexible;
 mod ground;
 mod judge;
+mod layout;
 mod next;
 mod pairs;
+mod plan;
 mod rank;
+mod table;
+mod telling;
 mod verdict;
 mod words;
 
@@ -29,7 +35,11 @@ use crate::simulate::numerics::Numerics;
 use crate::study::Role;
 
 pub use candidate::NotJudged;
-pub use flexible::Driver;
+pub use flexible::{Driver, MapPoint};
+pub use plan::{
+    AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
+    plan_after, plan_first,
+};
 pub use verdict::{
     Diagnosis, Named, NextExperiment, NextTest, ParameterValue, Ranked, Screened, Verdict,
 };
@@ -102,12 +112,7 @@ pub fn diagnose(
     }
     let set = measured.study().gear_set();
     let resolution = measured.study().resolution();
-    let coarse = Numerics {
-        elements_per_half_width: resolution.elements_per_half_width.min(COARSE_EDGES),
-        positions: resolution.positions.min(COARSE_POSITIONS),
-        step_tolerance: resolution.step_tolerance.max(COARSE_STEP),
-        ..resolution
-    };
+    let coarse = coarse(resolution);
     let workshop = Workshop::new(set.clone(), coarse, ContactKind::Hertz, measured.tests())?;
     let hertz = measured.bench(&workshop)?;
     let elastic = match kind {
@@ -133,6 +138,16 @@ pub fn diagnose(
         kind,
     };
     with(&judge, &workshop, watch)
+}
+
+/// Resolution of the screening.
+fn coarse(fine: Numerics) -> Numerics {
+    Numerics {
+        elements_per_half_width: fine.elements_per_half_width.min(COARSE_EDGES),
+        positions: fine.positions.min(COARSE_POSITIONS),
+        step_tolerance: fine.step_tolerance.max(COARSE_STEP),
+        ..fine
+    }
 }
 
 /// Resolution of the middle fidelity: flank edges per half width, positions, error of a wear step.

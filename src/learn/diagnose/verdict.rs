@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::NotJudged;
-use super::flexible::{Driver, Flexible};
+use super::flexible::{Driver, Flexible, MapPoint};
 use super::ground::Ground;
 use super::judge::{Base, Judge, Judged};
 use super::rank::Ranking;
@@ -79,6 +79,9 @@ pub struct Diagnosis {
     pub driver: Option<Driver>,
     /// All drivers.
     pub drivers: Vec<Driver>,
+    /// The smooth discrepancy at every fitted row; not part of the document, but a table of its own.
+    #[serde(skip)]
+    pub discrepancy: Vec<MapPoint>,
     /// Share of what anything smooth could explain that the leading effect explains; None without a discrepancy.
     pub explained_share: Option<f64>,
     /// Fall of χ² that anything smooth could bring.
@@ -258,6 +261,7 @@ pub(super) fn diagnosis(
         indistinguishable,
         driver: drivers.first().cloned(),
         drivers,
+        discrepancy: flexible.map(ground),
         explained_share: best
             .filter(|_| flexible.is_real())
             .map(|i| ranking.shares[i]),

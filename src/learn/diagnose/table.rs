@@ -1,0 +1,255 @@
+//! The table of feasible tests after measurements: how well each separates what a fast diagnosis leaves.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::candidate::Candidate;
+use super::feasible::{ENOUGH, changes, grid, purpose, ranked, shown, strength};
+use super::ground::Ground;
+use super::judge::{Judge, Judged};
+use super::layout::Layout;
+use super::next::{Place, existing, plain};
+use super::plan::{Leader, NextTests, RankedTest, Separated, noise_ahead};
+use super::telling::{Said, Scale, Telling};
+use super::{DiagnoseError, HERTZ_ERROR, Watch, coarse};
+use crate::learn::bench::Workshop;
+use crate::learn::measured::Measured;
+use crate::learn::noise::{ModelError, NoiseModel};
+use crate::measure::Quantity;
+use crate::simulate::forward::ContactKind;
+use crate::study::{Operation, Role};
+
+/// Log posterior behind the first from which a candidate leads no longer.
+const LEADING: f64 = 8.0;
+/// Least and most leading candidates.
+const LEADERS: [usize; 2] = [2, 4];
+/// Quantities of the table.
+const QUANTITIES: [Quantity; 3] = [
+    Quantity::WearDepth,
+    Quantity::TransmissionError,
+    Quantity::MassLoss,
+];
+
+/// The table.
+pub(super) fn next_tests(
+    measured: &Measured<'_>,
+    noise: f64,
+    watch: Watch<'_>,
+) -> Result<NextTests, DiagnoseError> {
+    let study = measured.study();
+    let fitted = NoiseModel {
+        model_error: Some(ModelError {
+            relative: HERTZ_ERROR,
+            ..ModelError::default()
+        }),
+        ..NoiseModel::of(&study.noise)
+    };
+    let ground = Ground::new(measured, fitted, Role::Fit);
+    if ground.tests.is_empty() {
+        return Err(DiagnoseError::NoObservations);
+    }
+    let numerics = coarse(study.resolution());
+    let set = study.gear_set();
+    let shop = Workshop::new(set, numerics, ContactKind::Hertz, measured.tests())?;
+    let hertz = measured.bench(&shop)?;
+    let judge = Judge {
+        ground,
+        hertz: &hertz,
+        middle: &hertz,
+        exact: &hertz,
+        kind: ContactKind::Hertz,
+    };
+    watch(0.0, "fitting the base model".to_owned());
+    let base = judge.base(Candidate::base(study))?;
+    let (singles, _) = Candidate::singles(study);
+    watch(0.2, format!("screening {} effects", singles.len()));
+    let screened = judge.screen(&base, &singles);
+    let leaders = leaders(&base.judged, &screened);
+    watch(0.6, "trying feasible tests".to_owned());
+    let tests = grid(&plain(&judge));
+    let made = existing(&judge);
+    let all: Vec<Operation> = (tests.iter().map(|(_, operation)| *operation))
+        .chain(made)
+        .collect();
+    let found: Vec<Vec<Told>> = all
+        .par_iter()
+        .map(|operation| told(&judge, &shop, operation, &leaders, noise).unwrap_or_default())
+        .collect();
+    let repetition = (found[tests.len()..].iter().flatten())
+        .map(Told::score)
+        .fold(0.0, f64::max);
+    let mut rows: Vec<RankedTest> = Vec::new();
+    for ((changes, operation), told) in tests.iter().zip(&found) {
+        rows.extend(
+            told.iter()
+                .map(|told| row(&judge, *changes, operation, told, &leaders)),
+        );
+    }
+    let scores: Vec<(f64, usize)> = rows.iter().map(|r| (r.expected_chi2, r.changes)).collect();
+    let tests: Vec<RankedTest> = ranked(&scores)
+        .into_iter()
+        .map(|i| rows[i].clone())
+        .collect();
+    Ok(NextTests {
+        sentence: tests.first().map_or_else(
+            || "No feasible test could be computed.".to_owned(),
+            |best| {
+                format!(
+                    "Next: {} with {}; {}",
+                    best.quantity.replace('_', " "),
+                    changes(&best.test, &study.operation),
+                    best.why
+                )
+            },
+        ),
+        leaders: leaders
+            .iter()
+            .map(|(judged, log)| Leader {
+                effect: judged.candidate.name(),
+                form: judged.candidate.forms.join(", "),
+                behind: leaders[0].1 - log,
+            })
+            .collect(),
+        noise,
+        repetition_chi2: repetition,
+        tests,
+    })
+}
+
+/// The leading candidates with their log posterior, one form of each effect.
+fn leaders<'j>(base: &'j Judged, screened: &'j [Judged]) -> Vec<(&'j Judged, f64)> {
+    let mut names: Vec<_> = screened.iter().map(|j| &j.candidate.names).collect();
+    names.sort();
+    names.dedup();
+    let share = 0.35 / names.len().max(1) as f64;
+    let log = |j: &Judged| j.log_evidence + (share / j.candidate.siblings as f64).ln();
+    let mut all: Vec<(&Judged, f64)> = screened.iter().map(|j| (j, log(j))).collect();
+    all.push((base, base.log_evidence + 0.5_f64.ln()));
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut leaders: Vec<(&Judged, f64)> = Vec::new();
+    for (judged, log) in all {
+        let near = leaders.first().is_none_or(|first| first.1 - log < LEADING);
+        let new = leaders
+            .iter()
+            .all(|l| l.0.candidate.names != judged.candidate.names);
+        if new && (leaders.len() < LEADERS[0] || (leaders.len() < LEADERS[1] && near)) {
+            leaders.push((judged, log));
+        }
+    }
+    leaders
+}
+
+/// What one quantity in one test says of the leader against each other candidate.
+#[derive(Default)]
+struct Told {
+    quantity: Option<Quantity>,
+    chi2: Vec<f64>,
+    /// Where the leader's wear differs most from the second one's.
+    place: Option<Place>,
+}
+
+impl Told {
+    fn score(&self) -> f64 {
+        let capped: f64 = self.chi2.iter().map(|c| c.min(ENOUGH)).sum();
+        capped / self.chi2.len().max(1) as f64
+    }
+}
+
+fn told(
+    judge: &Judge<'_>,
+    shop: &Workshop,
+    operation: &Operation,
+    leaders: &[(&Judged, f64)],
+    noise: f64,
+) -> Option<Vec<Told>> {
+    let study = judge.ground.measured.study();
+    let layout = Layout::measured(judge, operation.cycles)?
+        .completed(Layout::standard(study, operation, noise)?);
+    let bench = shop.bench(vec![layout.test(study, operation)]).ok()?;
+    let said: Vec<Said> = leaders
+        .iter()
+        .map(|(j, _)| Said::of(&bench, &j.candidate, &j.found.state).ok())
+        .collect::<Option<_>>()?;
+    let columns: Vec<Vec<Vec<f64>>> = said
+        .iter()
+        .zip(leaders)
+        .map(|(said, (judged, _))| said.posterior(judged))
+        .collect();
+    let data = layout.with(&said[0].values);
+    let noise = noise_ahead(study);
+    let of_quantity = |quantity: Quantity| {
+        let scale = Scale::new(&data, layout.rows(quantity), &noise);
+        let whitened = |columns: &[Vec<f64>]| -> Vec<DVector<f64>> {
+            columns.iter().map(|c| scale.white(c)).collect()
+        };
+        let values: Vec<DVector<f64>> = said.iter().map(|s| scale.white(&s.values)).collect();
+        let first = whitened(&columns[0]);
+        let chi2 = (1..said.len())
+            .map(|other| {
+                let own = [first.clone(), whitened(&columns[other])].concat();
+                Telling::new(&(&values[0] - &values[other]), &[], &own).chi2()
+            })
+            .collect();
+        Told {
+            quantity: Some(quantity),
+            chi2,
+            place: Place::of(&data, &said[0].values, &said[1].values),
+        }
+    };
+    let there = |quantity: &Quantity| !layout.rows(*quantity).is_empty();
+    Some(
+        QUANTITIES
+            .into_iter()
+            .filter(there)
+            .map(of_quantity)
+            .collect(),
+    )
+}
+
+fn row(
+    judge: &Judge<'_>,
+    changes: usize,
+    operation: &Operation,
+    told: &Told,
+    leaders: &[(&Judged, f64)],
+) -> RankedTest {
+    let test = shown(operation);
+    let names: Vec<String> = leaders.iter().map(|(j, _)| j.candidate.name()).collect();
+    let separates: Vec<Separated> = (names[1..].iter().zip(&told.chi2))
+        .map(|(other, chi2)| Separated {
+            pair: [names[0].clone(), other.clone()],
+            chi2: *chi2,
+        })
+        .collect();
+    let least = told.chi2.iter().copied().fold(f64::INFINITY, f64::min);
+    let weakest = separates.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    let weakest = weakest.map_or(String::new(), |s| {
+        format!(
+            "; hardest to tell apart: {} and {}, χ² {least:.0}, {}",
+            s.pair[0],
+            s.pair[1],
+            strength(least)
+        )
+    });
+    let depth = told
+        .place
+        .as_ref()
+        .filter(|_| told.quantity == Some(Quantity::WearDepth))
+        .map_or(String::new(), |p| {
+            format!(
+                "; {} and {} differ by up to {:.2} µm, on the {} after {:.2e} cycles, before refitting",
+                names[0], names[1], p.largest, p.member, p.cycles
+            )
+        });
+    RankedTest {
+        why: format!(
+            "{}{weakest}{depth}",
+            purpose(&test, &judge.ground.measured.study().operation)
+        ),
+        quantity: told.quantity.map_or("", Quantity::name).to_owned(),
+        changes,
+        expected_chi2: told.score(),
+        separates,
+        test,
+    }
+}

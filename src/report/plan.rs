@@ -1,0 +1,302 @@
+//! A plan for people and for tables: the terminal, the page, `plan.csv`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use super::html::{Cell, Page, Section, Table};
+use crate::learn::diagnose::{Campaign, NextTest, NextTests, Plan, RankedTest};
+
+/// Rows of the table shown on the terminal.
+const SHOWN: usize = 12;
+
+/// The table of tests, and for a campaign every effect.
+pub fn summary(title: &str, plan: &Plan, folder: &Path) -> String {
+    let mut text = String::new();
+    if !title.is_empty() {
+        let _ = writeln!(text, "{title}\n");
+    }
+    let _ = writeln!(text, "{}\n", sentence(plan));
+    match plan {
+        Plan::NextTests(next) => {
+            let names: Vec<&str> = next.leaders.iter().map(|l| l.effect.as_str()).collect();
+            let _ = writeln!(text, "to separate: {}\n", names.join(", "));
+            heading(&mut text, "measure", ["χ² mean", "χ² least"]);
+            for row in next.tests.iter().take(SHOWN) {
+                let figures = [row.expected_chi2, least(row)].map(|c| format!("{c:.1}"));
+                line(&mut text, &row.test, &row.quantity, figures);
+            }
+            let _ = writeln!(
+                text,
+                "\nrepetition of the best test made already: χ² {:.1}",
+                next.repetition_chi2
+            );
+        }
+        Plan::Campaign(campaign) => {
+            heading(&mut text, "newly told apart", ["shown", "told apart"]);
+            for test in &campaign.tests {
+                let figures = [test.detectable, test.told_apart].map(|n| n.to_string());
+                line(&mut text, &test.test, &newly(&test.newly), figures);
+            }
+            let _ = writeln!(
+                text,
+                "\n  {:<26}{:>10}{:>10}  nearest look-alike",
+                "effect", "χ² shown", "χ² apart"
+            );
+            for effect in &campaign.effects {
+                let _ = writeln!(
+                    text,
+                    "  {:<26}{:>10.1}{:>10.1}  {}",
+                    effect.effect, effect.detection_chi2, effect.nearest_chi2, effect.nearest
+                );
+            }
+            for (what, count) in &campaign.told_apart_with {
+                let _ = writeln!(text, "\nwith {what}: {count} told apart");
+            }
+            for name in &campaign.not_judged {
+                let needs = name.needs.join(", ");
+                let _ = writeln!(text, "not judged: {} needs {needs}", name.effect);
+            }
+        }
+    }
+    let _ = writeln!(
+        text,
+        "\npage:    {}\nfigures: {} and plan.csv",
+        folder.join("report.html").display(),
+        folder.join("plan.json").display()
+    );
+    text
+}
+
+/// The same as a page, the whole table with reasons.
+pub fn page(title: &str, plan: &Plan) -> Page {
+    let sections = match plan {
+        Plan::NextTests(next) => next_tests(next),
+        Plan::Campaign(campaign) => of_campaign(campaign),
+    };
+    Page {
+        title: if title.is_empty() {
+            "Plan".to_owned()
+        } else {
+            format!("Plan: {title}")
+        },
+        conclusion: sentence(plan).to_owned(),
+        sections,
+        ..Page::default()
+    }
+}
+
+/// `plan.csv`: every feasible test.
+///
+/// Columns `rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why` after measurements,
+/// `chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart` for a campaign: N·m, rpm, mm, revolutions.
+pub fn csv(plan: &Plan) -> String {
+    let mut text = String::new();
+    let conditions = |t: &NextTest| {
+        format!(
+            "{},{},{},{},{}",
+            t.torque, t.speed, t.misalignment, t.cycles, t.reversed
+        )
+    };
+    match plan {
+        Plan::NextTests(next) => {
+            text.push_str("rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why\n");
+            for (i, row) in next.tests.iter().enumerate() {
+                let _ = writeln!(
+                    text,
+                    "{},{},{},{},{},{},\"{}\"",
+                    i + 1,
+                    conditions(&row.test),
+                    row.quantity,
+                    row.changes,
+                    row.expected_chi2,
+                    least(row),
+                    row.why.replace('"', "\"\"")
+                );
+            }
+        }
+        Plan::Campaign(campaign) => {
+            text.push_str(
+                "chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart\n",
+            );
+            for test in &campaign.alone {
+                let _ = writeln!(
+                    text,
+                    "{},{},{},{},{}",
+                    test.chosen.map_or(String::new(), |c| c.to_string()),
+                    conditions(&test.test),
+                    test.changes,
+                    test.detectable,
+                    test.told_apart
+                );
+            }
+        }
+    }
+    text
+}
+
+fn sentence(plan: &Plan) -> &str {
+    match plan {
+        Plan::NextTests(next) => &next.sentence,
+        Plan::Campaign(campaign) => &campaign.sentence,
+    }
+}
+
+fn least(row: &RankedTest) -> f64 {
+    let all = row.separates.iter().map(|s| s.chi2);
+    all.reduce(f64::min).unwrap_or(0.0)
+}
+
+fn newly(names: &[String]) -> String {
+    match names.len() {
+        0 => "none".to_owned(),
+        1 | 2 => names.join(", "),
+        more => format!("{} and {} more", names[0], more - 1),
+    }
+}
+
+fn heading(text: &mut String, what: &str, figures: [&str; 2]) {
+    let _ = writeln!(
+        text,
+        "  {:>8}{:>9}{:>7}{:>10} {:>8}  {:<38}{:>10}{:>11}",
+        "N·m", "rpm", "mm", "cycles", "reversed", what, figures[0], figures[1]
+    );
+}
+
+fn line(text: &mut String, test: &NextTest, what: &str, figures: [String; 2]) {
+    let _ = writeln!(
+        text,
+        "  {:>8}{:>9}{:>7}{:>10.2e} {:>8}  {:<38}{:>10}{:>11}",
+        test.torque,
+        test.speed,
+        test.misalignment,
+        test.cycles,
+        if test.reversed { "yes" } else { "" },
+        what,
+        figures[0],
+        figures[1]
+    );
+}
+
+fn conditions(test: &NextTest) -> Vec<Cell> {
+    vec![
+        Cell::number(test.torque.to_string()),
+        Cell::number(test.speed.to_string()),
+        Cell::number(test.misalignment.to_string()),
+        Cell::number(format!("{:.2e}", test.cycles)),
+        Cell::text(if test.reversed { "yes" } else { "" }),
+    ]
+}
+
+fn next_tests(next: &NextTests) -> Vec<Section> {
+    let head = [
+        "N·m",
+        "rpm",
+        "mm",
+        "cycles",
+        "reversed",
+        "measure",
+        "χ² mean",
+        "χ² least",
+        "why",
+    ];
+    let mut table = Table::new("Feasible tests, best first", head);
+    for row in &next.tests {
+        let mut cells = conditions(&row.test);
+        cells.extend([
+            Cell::text(row.quantity.clone()),
+            Cell::number(format!("{:.1}", row.expected_chi2)),
+            Cell::number(format!("{:.1}", least(row))),
+            Cell::text(row.why.clone()),
+        ]);
+        table = table.row(cells);
+    }
+    let names: Vec<&str> = next.leaders.iter().map(|l| l.effect.as_str()).collect();
+    vec![
+        Section::new("What is to be separated").paragraph(names.join(", ")),
+        Section::new("Feasible tests")
+            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Among near-equals the plainest test stands first.")
+            .table(table),
+    ]
+}
+
+fn of_campaign(campaign: &Campaign) -> Vec<Section> {
+    let head = [
+        "N·m",
+        "rpm",
+        "mm",
+        "cycles",
+        "reversed",
+        "shown",
+        "told apart",
+        "newly told apart",
+        "why",
+    ];
+    let mut chosen = Table::new("Chosen tests, each with those before", head);
+    for test in &campaign.tests {
+        let mut cells = conditions(&test.test);
+        cells.extend([
+            Cell::number(test.detectable.to_string()),
+            Cell::number(test.told_apart.to_string()),
+            Cell::text(test.newly.join(", ")),
+            Cell::text(test.why.clone()),
+        ]);
+        chosen = chosen.row(cells);
+    }
+    let head = ["effect", "χ² shown", "χ² apart", "nearest look-alike"];
+    let mut effects = Table::new("Effects at their median strength", head);
+    for effect in &campaign.effects {
+        effects = effects.row([
+            Cell::text(effect.effect.clone()),
+            Cell::number(format!("{:.1}", effect.detection_chi2)),
+            Cell::number(format!("{:.1}", effect.nearest_chi2)),
+            Cell::text(effect.nearest.clone()),
+        ]);
+    }
+    vec![
+        Section::new("Tests").table(chosen),
+        Section::new("Effects")
+            .paragraph("χ² of 6 counts as shown and as told apart. Every rival is refitted: k, k per test, datums, its parameters and strength.")
+            .table(effects),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learn::diagnose::Separated;
+
+    #[test]
+    fn the_table_has_a_row_per_test_and_quotes_reasons() {
+        let row = RankedTest {
+            test: NextTest {
+                torque: 50.0,
+                speed: 2000.0,
+                misalignment: 0.0,
+                cycles: 1e6,
+                reversed: false,
+            },
+            quantity: "wear_depth".to_owned(),
+            changes: 1,
+            expected_chi2: 12.0,
+            separates: vec![Separated {
+                pair: ["a".to_owned(), "b".to_owned()],
+                chi2: 9.0,
+            }],
+            why: "say \"so\", plainly".to_owned(),
+        };
+        let plan = Plan::NextTests(NextTests {
+            sentence: "Next.".to_owned(),
+            leaders: Vec::new(),
+            noise: 0.02,
+            repetition_chi2: 1.0,
+            tests: vec![row],
+        });
+        let table = csv(&plan);
+        assert_eq!(table.lines().count(), 2);
+        assert!(table.ends_with(
+            "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\"\n"
+        ));
+        assert!(summary("", &plan, Path::new("out")).contains("wear_depth"));
+        assert!(page("", &plan).html().unwrap().contains("plainly"));
+    }
+}
