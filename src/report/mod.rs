@@ -11,6 +11,7 @@ pub mod csv;
 pub mod diagnosis;
 mod error;
 pub mod format;
+pub mod guide;
 pub mod html;
 pub mod json;
 pub mod ladder;
