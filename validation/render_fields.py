@@ -4,7 +4,7 @@
 usage: render_fields.py FIELDS OUT.png [--index N] [--warp F] [--at X Y HEIGHT] [--size W H] [--edges]
 FIELDS    the fields folder of a run, or a .pvd of it (default wear.pvd)
 --index   which file of the series, 0 the first [default: -1, the last]
---warp    factor on the displacements [default: 100]
+--warp    factor on the displacements [default: 10]
 --at      centre and height of the view, mm [default: around the contact with the largest pressure]
 --edges   draw the edges of the elements
 --range   largest stress of the colours, MPa [default: 99.95th percentile in the view]
@@ -32,7 +32,7 @@ def main():
     parser.add_argument("fields", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--index", type=int, default=-1)
-    parser.add_argument("--warp", type=float, default=100.0)
+    parser.add_argument("--warp", type=float, default=10.0)
     parser.add_argument("--at", type=float, nargs=3)
     parser.add_argument("--size", type=int, nargs=2, default=(1000, 640))
     parser.add_argument("--edges", action="store_true")
@@ -104,7 +104,7 @@ def draw(grid, top, view, arguments):
     if arguments.edges:
         actor.GetProperty().EdgeVisibilityOn()
         actor.GetProperty().SetEdgeColor(0.45, 0.45, 0.48)
-        actor.GetProperty().SetLineWidth(0.4)
+        actor.GetProperty().SetLineWidth(0.5)
 
     outline = vtk.vtkFeatureEdges()
     outline.SetInputConnection(surface.GetOutputPort())
@@ -128,8 +128,12 @@ def draw(grid, top, view, arguments):
     bar.SetLabelFormat("{:.0f}" if vtk.vtkVersion().GetVTKMajorVersion() >= 9 and vtk.vtkVersion().GetVTKMinorVersion() >= 6 else "%.0f")
     bar.UnconstrainedFontSizeOn()
     bar.SetOrientationToHorizontal()
-    bar.SetPosition(0.03, 0.03)
-    bar.SetPosition2(0.36, 0.11)
+    bar.SetPosition(0.61, 0.03)
+    bar.SetPosition2(0.36, 0.13)
+    bar.SetVerticalTitleSeparation(arguments.size[1] // 45)
+    bar.DrawBackgroundOn()
+    bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
+    bar.GetBackgroundProperty().SetOpacity(0.85)
     for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
         text.SetColor(0.1, 0.1, 0.15)
         text.ShadowOff()
