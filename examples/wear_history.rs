@@ -39,7 +39,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     println!("    cycles   pinion, µm     gear, µm   (deepest places)");
     for state in &states {
-        let [pinion, gear] = [0, 1].map(|m| 1e3 * state.depth[m].iter().fold(0.0, f64::max));
+        let [pinion, gear] =
+            [0, 1].map(|m| 1e3 * state.depth[m].iter().copied().fold(0.0, f64::max));
         println!("{:10.0} {pinion:12.3} {gear:12.3}", state.cycles);
     }
     Ok(())

@@ -49,7 +49,7 @@
 //!
 //! let mut deepest = 0.0;
 //! forward.wear(&mut None, &[conditions.cycles], &mut |_| true, &mut |state| {
-//!     deepest = state.depth[0].iter().fold(0.0, f64::max);
+//!     deepest = state.depth[0].iter().copied().fold(0.0, f64::max);
 //! })?;
 //! assert!(deepest > 1e-4 && deepest < 2e-3, "{deepest} mm");
 //! # Ok(())
