@@ -14,6 +14,7 @@ pub mod drawings;
 pub mod discrepancy;
 mod error;
 pub mod format;
+pub mod guide;
 pub mod html;
 pub mod json;
 pub mod ladder;

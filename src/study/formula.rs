@@ -13,7 +13,7 @@ use crate::source_text::{Diagnostic, Fault, list, nearest};
 /// The `kind` of a formula.
 pub(super) const KIND: &str = "formula";
 
-const KEYS: &[&str] = &[
+pub(super) const KEYS: &[&str] = &[
     "kind",
     "name",
     "wear_factor",

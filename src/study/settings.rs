@@ -38,7 +38,7 @@ pub enum ContactKind {
 
 impl ContactKind {
     /// The word in the study file.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             ContactKind::Fem => "fem",
             ContactKind::Hertz => "hertz",

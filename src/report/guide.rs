@@ -1,0 +1,275 @@
+//! The pages of the guide that are written from the code: the catalogue of effects and the keys of the study file.
+//!
+//! `cargo run --example write_guide` writes them; `tests/guide.rs` holds the committed ones against the code.
+
+use std::fmt::Write;
+
+use crate::effects::formula::FUNCTIONS;
+use crate::effects::variables::{VARIABLES, Variable};
+use crate::effects::{CATALOGUE, Card, Hook, Param};
+use crate::study::{KEY_DOCS, KeyDoc, Without};
+
+const EFFECTS: &str = "# The catalogue of effects
+
+Written from the code by `cargo run --example write_guide`; do not edit. `gearwear effects EFFECT` prints the same on the terminal.
+
+An effect changes the base model (constant wear coefficient, perfect flanks, frictionless contact at the nominal centre distance)
+through one hook. Any number of them can stand in a study as `[[effect]]`. Sources say what of them could be checked and what not.
+";
+
+const VARIABLES_HEAD: &str = "## Variables of formulas
+
+A formula of the catalogue and one of your own (`kind = \"formula\"`) know these. W: `wear_factor`, A: `added_depth`, L: `load_factor`
+(asked before the contact is solved, so it knows no pressure), P: `profile`.
+
+| variable | unit | in | meaning | needs |
+|---|---|---|---|---|
+";
+
+const STUDY: &str = "# The study file
+
+Written from the code by `cargo run --example write_guide`; do not edit.
+
+A study is one TOML file. Inside it lengths are mm, torques N m, speeds rpm, angles degrees, wear and relief um, temperatures degC; what
+is *in modules* is a length divided by the module. `gearwear init` writes a commented one to start from. A mistake is one message with
+its place, what was found and what is allowed, and nothing is written. **needed** means: without it the study is refused.
+";
+
+/// Introductions of the tables, in the order of the file.
+const TABLES: &[(&str, &str, &str)] = &[
+    ("", "Before the first table", ""),
+    (
+        "gears",
+        "`[gears]`",
+        "Needed. The basic rack and the pair; addendum, dedendum and fillet radius are ISO 53 profile A if not stated.",
+    ),
+    (
+        "gears.pinion",
+        "`[gears.pinion]` and `[gears.gear]`",
+        "Both needed, with the same keys.",
+    ),
+    (
+        "material",
+        "`[material]`",
+        "Needed. Of both members; or the same keys in `[material.pinion]` and `[material.gear]`, then none in `[material]` itself.",
+    ),
+    (
+        "lubricant",
+        "`[lubricant]`",
+        "May be absent. Effects that need a key, and friction in the contact, say so.",
+    ),
+    (
+        "thermal",
+        "`[thermal]`",
+        "May be absent. Effects that need a key say so.",
+    ),
+    (
+        "operation",
+        "`[operation]`",
+        "Needed. What `gearwear run` runs without `--test`.",
+    ),
+    (
+        "wear",
+        "`[wear]`",
+        "Needed. One cycle is one turn of the pinion.",
+    ),
+    ("model", "`[model]`", "May be absent."),
+    ("fit", "`[fit]`", "May be absent."),
+    (
+        "noise",
+        "`[noise]`",
+        "May be absent. What measurements carry beyond the sigma of each row.",
+    ),
+    (
+        "effect",
+        "`[[effect]]`",
+        "May be absent; there may be several. With a `kind` of the [catalogue](effects.md) the other keys are its parameters, each a number or `{ value = 3.0, lower = 0.0, upper = 10.0 }`; those not stated have their defaults. The keys below `kind` belong to `kind = \"formula\"`: see [an effect of your own](own-effect.md).",
+    ),
+    (
+        "test",
+        "`[[test]]`",
+        "May be absent; there may be several. The conditions of a measured test, those of `[operation]` where it states none.",
+    ),
+    (
+        "measurements",
+        "`[measurements]`",
+        "May be absent. The file has the columns `test,member,cycles,quantity,position,value,sigma,trace`.",
+    ),
+    (
+        "numerics",
+        "`[numerics]`",
+        "May be absent. The defaults are those whose error `gearwear validate convergence` shows.",
+    ),
+];
+
+/// `guide/effects.md`.
+pub fn effects() -> String {
+    let mut text = EFFECTS.to_owned();
+    text.push_str("\n| effect | gives | shows as |\n|---|---|---|\n");
+    for card in CATALOGUE {
+        let signature = card.signature.split(';').next().unwrap_or_default();
+        let _ = writeln!(
+            text,
+            "| [`{0}`](#{0}) | {1} | {2} |",
+            card.name,
+            card.hook.meaning(),
+            cell(signature)
+        );
+    }
+    for card in CATALOGUE {
+        effect(&mut text, card);
+    }
+    let _ = write!(text, "\n{VARIABLES_HEAD}");
+    for variable in VARIABLES {
+        let _ = writeln!(
+            text,
+            "| `{}` | {} | {} | {} | {} |",
+            variable.name,
+            cell(variable.unit),
+            hooks(variable),
+            cell(variable.meaning),
+            code_list(variable.needs)
+        );
+    }
+    text.push_str("\nFunctions:\n\n| function | arguments | meaning |\n|---|---|---|\n");
+    for (name, arguments, meaning) in FUNCTIONS {
+        let _ = writeln!(text, "| `{name}` | {arguments} | {} |", cell(meaning));
+    }
+    text.push_str("\nOperators `+ - * / ^`, parentheses, the constant `pi`.\n");
+    text
+}
+
+fn effect(text: &mut String, card: &Card) {
+    let _ = writeln!(
+        text,
+        "\n## {}\n\nGives: {}.\n\n```text\n{}\n```\n",
+        card.name,
+        card.hook.meaning(),
+        card.formula
+    );
+    text.push_str(
+        "| parameter | unit | default | range | prior | meaning |\n|---|---|---|---|---|---|\n",
+    );
+    for param in card.params {
+        parameter(text, param);
+    }
+    text.push('\n');
+    for form in card.forms {
+        let settings: Vec<String> = form
+            .settings
+            .iter()
+            .map(|(name, value)| format!("`{name} = {value}`"))
+            .collect();
+        let _ = writeln!(
+            text,
+            "- *also accepted, {}*: {}",
+            form.name,
+            settings.join(", ")
+        );
+    }
+    if !card.needs.is_empty() {
+        let _ = writeln!(text, "- *needs from the study*: {}", code_list(card.needs));
+    }
+    let confounded: Vec<String> = card
+        .confounded_with
+        .iter()
+        .map(|name| format!("[`{name}`](#{name})"))
+        .collect();
+    let confounded = match confounded.is_empty() {
+        true => "no effect of the catalogue".to_owned(),
+        false => confounded.join(", "),
+    };
+    let _ = writeln!(text, "- *signature*: {}", cell(card.signature));
+    let _ = writeln!(text, "- *confounded with*: {confounded}");
+    let _ = writeln!(text, "- *separated by*: {}", cell(card.separated_by));
+    let _ = writeln!(text, "- *source*: {}", cell(card.source));
+}
+
+fn parameter(text: &mut String, param: &Param) {
+    let mut meaning = cell(param.meaning);
+    if let Some(neutral) = param.neutral {
+        let _ = write!(meaning, "; does nothing at {neutral}");
+    }
+    if !param.fitted {
+        meaning.push_str("; fits leave it alone");
+    }
+    let _ = writeln!(
+        text,
+        "| `{}` | {} | {} | {} to {} | {} | {meaning} |",
+        param.name,
+        cell(param.unit),
+        param.default,
+        param.range.0,
+        param.range.1,
+        param.prior
+    );
+}
+
+/// Letters of the hooks that know a variable.
+fn hooks(variable: &Variable) -> String {
+    let known = [
+        (Hook::WearFactor, 'W'),
+        (Hook::AddedDepth, 'A'),
+        (Hook::LoadFactor, 'L'),
+        (Hook::Profile, 'P'),
+    ];
+    let letters = known
+        .into_iter()
+        .filter(|(hook, _)| variable.available(*hook))
+        .map(|(_, letter)| letter);
+    let text: String = letters.collect();
+    if text.is_empty() {
+        "cards only".to_owned()
+    } else {
+        text
+    }
+}
+
+/// `guide/study-file.md`.
+pub fn study_file() -> String {
+    let mut text = STUDY.to_owned();
+    for (table, title, words) in TABLES {
+        let _ = writeln!(text, "\n## {title}\n");
+        if !words.is_empty() {
+            let _ = writeln!(text, "{words}\n");
+        }
+        text.push_str("| key | value | without it | meaning |\n|---|---|---|---|\n");
+        for doc in KEY_DOCS.iter().filter(|doc| doc.table == *table) {
+            key(&mut text, doc);
+        }
+    }
+    text
+}
+
+fn key(text: &mut String, doc: &KeyDoc) {
+    let without = match doc.without {
+        Without::Refused => "**needed**".to_owned(),
+        Without::Default(value) => format!("`{value}`"),
+        Without::Words(words) => words.to_owned(),
+    };
+    let _ = writeln!(
+        text,
+        "| `{}` | {} | {without} | {} |",
+        doc.key,
+        cell(&doc.allowed()),
+        cell(doc.meaning)
+    );
+}
+
+fn code_list(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+/// Text that markdown takes for plain text, in a table's cell too.
+fn cell(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '|' | '*' => out.extend(['\\', c]),
+            _ => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,309 @@
+//! What every key of a study file is, in machine form: the guide is written from it and tests hold it against the readers.
+
+use super::quantity::{self as q, Quantity};
+use super::settings::ContactKind;
+
+/// One key of a study file.
+#[derive(Debug, Clone, Copy)]
+pub struct KeyDoc {
+    /// Its table as in the file, `gears.pinion` for both members; empty before the first table.
+    pub table: &'static str,
+    /// The key.
+    pub key: &'static str,
+    /// What holds where it is not stated.
+    pub without: Without,
+    /// What it is.
+    pub meaning: &'static str,
+    value: Value,
+}
+
+/// What holds where a key is not stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Without {
+    /// The study is refused; for a table that may be absent: the table is.
+    Refused,
+    /// This value, as a study writes it.
+    Default(&'static str),
+    /// This, in words.
+    Words(&'static str),
+}
+
+/// What the value may be.
+#[derive(Debug, Clone, Copy)]
+enum Value {
+    Number(&'static Quantity),
+    Count(usize, usize),
+    Flag,
+    Text,
+    Texts,
+    Word(&'static [&'static str]),
+    /// A word or a number.
+    WordOr(&'static str, &'static Quantity),
+    Table,
+}
+
+impl KeyDoc {
+    /// The allowed values, as a refusal states them.
+    pub fn allowed(&self) -> String {
+        match self.value {
+            Value::Number(quantity) => format!("a number, {quantity}"),
+            Value::Count(least, most) => format!("a whole number, {least} to {most}"),
+            Value::Flag => "true or false".to_owned(),
+            Value::Text => "a text in quotes".to_owned(),
+            Value::Texts => "a list of texts, [\"...\"]".to_owned(),
+            Value::Word(words) => {
+                let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                quoted.join(" or ")
+            }
+            Value::WordOr(word, quantity) => format!("\"{word}\" or a number, {quantity}"),
+            Value::Table => "a table".to_owned(),
+        }
+    }
+}
+
+use Without::{Default, Refused, Words};
+
+const fn doc(
+    table: &'static str,
+    key: &'static str,
+    value: Value,
+    without: Without,
+    meaning: &'static str,
+) -> KeyDoc {
+    KeyDoc {
+        table,
+        key,
+        without,
+        meaning,
+        value,
+    }
+}
+
+const fn number(
+    table: &'static str,
+    key: &'static str,
+    quantity: &'static Quantity,
+    without: Without,
+    meaning: &'static str,
+) -> KeyDoc {
+    doc(table, key, Value::Number(quantity), without, meaning)
+}
+
+const CONTACTS: &[&str] = &[
+    ContactKind::Fem.name(),
+    ContactKind::Hertz.name(),
+    ContactKind::Paper.name(),
+];
+const NOT_STATED: Without = Words("not stated: what needs it says so");
+const OPERATION: Without = Words("that of `[operation]`");
+
+/// Every key there is, in the order of the tables.
+#[rustfmt::skip]
+pub static KEY_DOCS: &[KeyDoc] = &[
+    doc("", "title", Value::Text, Default("\"\""), "free text, shown in reports"),
+
+    number("gears", "module", &q::MODULE, Refused, "module of the basic rack"),
+    number("gears", "pressure_angle", &q::PRESSURE_ANGLE, Refused, "at the reference circle"),
+    number("gears", "face_width", &q::FACE_WIDTH, Refused, "common width that carries the load"),
+    number("gears", "centre_distance", &q::CENTRE_DISTANCE, Words("the zero-backlash distance for the profile shifts"), "nominal, without misalignment"),
+    number("gears", "addendum", &q::ADDENDUM, Default("1.0"), "of the teeth, without profile shift"),
+    number("gears", "dedendum", &q::DEDENDUM, Default("1.25"), "of the teeth, without profile shift"),
+    number("gears", "fillet_radius", &q::FILLET_RADIUS, Default("0.38"), "tip radius of the cutting rack"),
+
+    doc("gears.pinion", "teeth", Value::Count(5, 1000), Refused, "number of teeth"),
+    number("gears.pinion", "profile_shift", &q::PROFILE_SHIFT, Default("0.0"), "shift of the rack away from the axis"),
+    number("gears.pinion", "thickness_reduction", &q::THICKNESS_REDUCTION, Default("0.0"), "taken off the tooth's thickness at the reference circle (backlash allowance)"),
+    number("gears.pinion", "bore_diameter", &q::BORE_DIAMETER, Refused, "the bore is rigid: the pinion's turns, the gear's is held"),
+    number("gears.pinion", "tip_relief_amount", &q::RELIEF_AMOUNT, Default("0.0"), "linear relief at the tip"),
+    number("gears.pinion", "tip_relief_length", &q::RELIEF_LENGTH, Default("0.0"), "along the path of contact, from the tip"),
+    number("gears.pinion", "tip_rounding", &q::TIP_ROUNDING, Default("0.0"), "radius at the tip corner, 0 is sharp"),
+
+    number("material", "youngs_modulus", &q::YOUNGS_MODULUS, Refused, "Young's modulus"),
+    number("material", "poisson_ratio", &q::POISSON_RATIO, Refused, "Poisson's ratio"),
+    number("material", "density", &q::DENSITY, Refused, "turns worn volume into mass"),
+
+    number("lubricant", "viscosity", &q::VISCOSITY, NOT_STATED, "dynamic, at the operating temperature"),
+    number("lubricant", "pressure_viscosity", &q::PRESSURE_VISCOSITY, NOT_STATED, "pressure viscosity coefficient"),
+    number("lubricant", "roughness", &q::ROUGHNESS, NOT_STATED, "composite Rq of both flanks"),
+    number("lubricant", "friction_coefficient", &q::FRICTION, NOT_STATED, "coefficient of friction"),
+
+    number("thermal", "bulk_temperature", &q::TEMPERATURE, NOT_STATED, "bulk temperature of the teeth"),
+    number("thermal", "conductivity", &q::CONDUCTIVITY, NOT_STATED, "heat conductivity of the teeth"),
+    number("thermal", "specific_heat", &q::SPECIFIC_HEAT, NOT_STATED, "specific heat of the teeth"),
+
+    number("operation", "torque", &q::TORQUE, Refused, "on the pinion"),
+    number("operation", "speed", &q::SPEED, Refused, "of the pinion"),
+    number("operation", "misalignment", &q::MISALIGNMENT, Default("0.0"), "radial: added to the centre distance"),
+
+    number("wear", "coefficient", &q::WEAR_COEFFICIENT, Refused, "specific wear coefficient k = K/H of both members"),
+    number("wear", "cycles", &q::CYCLES, Refused, "length of the run"),
+
+    doc("model", "contact", Value::Word(CONTACTS), Default("\"fem\""), "finite elements, analytic line contact, or the published model with its mistakes"),
+
+    doc("fit", "free", Value::Texts, Default("[\"wear.coefficient\"]"), "what a comparison may adjust: `wear.coefficient`, `EFFECT.PARAMETER`"),
+
+    doc("noise", "coefficient_scatter", Value::WordOr("estimate", &q::SCATTER), Default("\"estimate\""), "relative scatter of k between tests"),
+    number("noise", "datum", &q::DATUM, Default("0.5"), "prior standard deviation of a trace's unknown constant datum"),
+
+    doc("effect", "kind", Value::Text, Refused, "an effect of the catalogue, whose parameters are then keys of this table, or `\"formula\"`"),
+    doc("effect", "name", Value::Text, Refused, "formula only: what results call it"),
+    doc("effect", "wear_factor", Value::Text, Words("one of the four is stated"), "formula only: factor on the wear coefficient"),
+    doc("effect", "added_depth", Value::Text, Words("one of the four is stated"), "formula only: depth besides sliding wear, um per contact of that member"),
+    doc("effect", "load_factor", Value::Text, Words("one of the four is stated"), "formula only: factor on the load of a tooth pair"),
+    doc("effect", "profile", Value::Text, Words("one of the four is stated"), "formula only: material removed before the start, um"),
+    doc("effect", "parameters", Value::Table, Words("no parameters"), "formula only: its own parameters, numbers or `{ value, lower, upper }`"),
+
+    doc("test", "id", Value::Text, Refused, "its name in the measurement file, different in each test"),
+    doc("test", "role", Value::Word(&["fit", "holdout"]), Default("\"fit\""), "a held-out test is never fitted, only judged"),
+    number("test", "torque", &q::TORQUE, OPERATION, "on the pinion"),
+    number("test", "speed", &q::SPEED, OPERATION, "of the pinion"),
+    number("test", "misalignment", &q::MISALIGNMENT, OPERATION, "radial: added to the centre distance"),
+    number("test", "cycles", &q::CYCLES, Words("that of `[wear]`"), "length of the test"),
+    number("test", "bulk_temperature", &q::TEMPERATURE, Words("that of `[thermal]`"), "bulk temperature of the teeth"),
+    number("test", "viscosity", &q::VISCOSITY, Words("that of `[lubricant]`"), "dynamic, at the test's temperature"),
+    doc("test", "reversed", Value::Flag, Default("false"), "the other drive direction"),
+
+    doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
+
+    doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
+    doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width"),
+    doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions on one base pitch"),
+    number("numerics", "step_tolerance", &q::STEP_TOLERANCE, Default("2e-3"), "relative error of one wear step"),
+    doc("numerics", "fields", Value::Count(0, 500), Default("4"), "mesh positions whose stress fields are written"),
+    doc("numerics", "friction", Value::Flag, Default("false"), "Coulomb friction (full slip) with `lubricant.friction_coefficient`"),
+    doc("numerics", "mesh_pinion", Value::Text, Words("meshed by gearwear"), "a mesh of your own, .vtu or .msh, relative to the study"),
+    doc("numerics", "mesh_gear", Value::Text, Words("meshed by gearwear"), "a mesh of your own, .vtu or .msh, relative to the study"),
+    doc("numerics", "stored_states", Value::Count(1, 10_000), Default("5"), "worn states that are kept and written"),
+];
+
+/// Claim: the table holds every key and nothing else, and says what the readers do.
+/// Source: the readers, by studies that state, leave out and misstate each key. Tolerance: none.
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::super::{KEYS, Study, formula};
+    use super::*;
+    use crate::source_text::Fault;
+
+    const NEEDED: &[(&str, &[(&str, &str)])] = &[
+        (
+            "gears",
+            &[
+                ("module", "2.0"),
+                ("pressure_angle", "20.0"),
+                ("face_width", "33.0"),
+            ],
+        ),
+        (
+            "gears.pinion",
+            &[("teeth", "27"), ("bore_diameter", "25.0")],
+        ),
+        ("gears.gear", &[("teeth", "53"), ("bore_diameter", "40.0")]),
+        (
+            "material",
+            &[
+                ("youngs_modulus", "2.1e5"),
+                ("poisson_ratio", "0.3"),
+                ("density", "7850.0"),
+            ],
+        ),
+        ("lubricant", &[]),
+        ("thermal", &[]),
+        ("operation", &[("torque", "100.0"), ("speed", "2000.0")]),
+        ("wear", &[("coefficient", "6e-10"), ("cycles", "1e6")]),
+        ("model", &[]),
+        ("fit", &[]),
+        ("noise", &[]),
+        ("test", &[("id", "\"A\"")]),
+        ("measurements", &[("file", "\"m.csv\"")]),
+        ("numerics", &[]),
+    ];
+
+    /// The smallest study with `key` of `table` set to `value`, or left out if there is none.
+    fn with(table: &str, key: &str, value: Option<&str>) -> Result<Study, Box<(Fault, String)>> {
+        let mut text = String::new();
+        let mut state = |key: &str, value: &str| text.push_str(&format!("{key} = {value}\n"));
+        if let ("", Some(value)) = (table, value) {
+            state(key, value);
+        }
+        for (name, needed) in NEEDED {
+            text.push_str(&match *name {
+                "test" => "[[test]]\n".to_owned(),
+                name => format!("[{name}]\n"),
+            });
+            for (needed, sample) in *needed {
+                if (*name, *needed) != (table, key) {
+                    text.push_str(&format!("{needed} = {sample}\n"));
+                }
+            }
+            if let (true, Some(value)) = (*name == table, value) {
+                text.push_str(&format!("{key} = {value}\n"));
+            }
+        }
+        Study::parse(&text, "study.toml").map_err(|error| {
+            let found = error.diagnostic();
+            Box::new((found.fault, found.allowed.clone()))
+        })
+    }
+
+    fn readable() -> impl Iterator<Item = &'static KeyDoc> {
+        KEY_DOCS.iter().filter(|doc| doc.table != "effect")
+    }
+
+    #[test]
+    fn every_key_is_there_and_nothing_else() {
+        let told: BTreeSet<_> = KEY_DOCS.iter().map(|doc| (doc.table, doc.key)).collect();
+        assert_eq!(told.len(), KEY_DOCS.len(), "a key stands there twice");
+        let members = |key: &str| ["pinion", "gear"].contains(&key);
+        let known: BTreeSet<_> = KEYS
+            .iter()
+            .chain(&[("effect", formula::KEYS)])
+            .flat_map(|(table, keys)| keys.iter().map(move |key| (*table, *key)))
+            .filter(|(_, key)| !members(key))
+            .collect();
+        assert_eq!(told, known);
+    }
+
+    #[test]
+    fn what_is_needed_and_the_defaults_are_the_readers() {
+        let plain = with("", "", None).unwrap_or_else(|e| panic!("{e:?}"));
+        for doc in readable() {
+            let place = format!("{}.{}", doc.table, doc.key);
+            match doc.without {
+                Refused => {
+                    let refused = with(doc.table, doc.key, None).map_err(|e| e.0);
+                    assert_eq!(refused.err(), Some(Fault::MissingKey), "{place}");
+                }
+                Default(value) => {
+                    let stated = with(doc.table, doc.key, Some(value))
+                        .unwrap_or_else(|e| panic!("{place}: {e:?}"));
+                    let same = stated.title == plain.title
+                        && stated.gears == plain.gears
+                        && stated.operation == plain.operation
+                        && stated.contact == plain.contact
+                        && stated.noise == plain.noise
+                        && stated.tests == plain.tests
+                        && stated.free == plain.free
+                        && stated.numerics == plain.numerics;
+                    assert!(same, "{place} = {value} is not its default");
+                }
+                Words(_) => {}
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_allowed_is_what_a_refusal_says() {
+        for doc in readable() {
+            let wrong = match doc.value {
+                Value::Word(_) => "\"?\"",
+                _ => "1979-05-27",
+            };
+            let Err(refusal) = with(doc.table, doc.key, Some(wrong)) else {
+                panic!("{}.{} took a wrong value", doc.table, doc.key);
+            };
+            assert_eq!(refusal.1, doc.allowed(), "{}.{}", doc.table, doc.key);
+        }
+    }
+}
