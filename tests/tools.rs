@@ -334,6 +334,8 @@ fn a_sweep_refuses_what_it_cannot_vary() {
         home.refused(&arguments)
     };
     for (vary, says) in [
+        ("gears.gear.teeth=3", "5 to 1000"),
+        ("gears.pinion=1", "no such key"),
         (
             "operation.torqe=1,2",
             "the nearest valid key is `operation.torque`",

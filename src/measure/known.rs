@@ -49,7 +49,7 @@ impl Known {
     }
 
     /// True if a radius (mm) lies on the member's flank, up to the rounding of its third decimal.
-    pub(super) fn on_flank(&self, member: Member, radius: f64) -> bool {
+    pub(crate) fn on_flank(&self, member: Member, radius: f64) -> bool {
         let [form, tip] = self.flank_of(member);
         (form - ROUNDING..=tip + ROUNDING).contains(&radius)
     }

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::format::{count, plain, significant, uncertain};
 use super::discrepancy;
+use super::format::{count, plain, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
 

@@ -117,6 +117,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("gears.pinion", "tip_relief_amount", &q::RELIEF_AMOUNT, Default("0.0"), "linear relief at the tip"),
     number("gears.pinion", "tip_relief_length", &q::RELIEF_LENGTH, Default("0.0"), "along the path of contact, from the tip"),
     number("gears.pinion", "tip_rounding", &q::TIP_ROUNDING, Default("0.0"), "radius at the tip corner, 0 is sharp"),
+    doc("gears.pinion", "profile_file", Value::Text, Words("an involute"), "a CSV file (radius,deviation in mm and µm) of the unworn flank's measured deviation, relative to the study"),
 
     number("material", "youngs_modulus", &q::YOUNGS_MODULUS, Refused, "Young's modulus"),
     number("material", "poisson_ratio", &q::POISSON_RATIO, Refused, "Poisson's ratio"),

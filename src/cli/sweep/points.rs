@@ -24,6 +24,9 @@ const MOST: usize = 100_000;
 /// Tables whose keys change no run at the study's own operation.
 const IDLE: [&str; 5] = ["", "fit", "noise", "test", "measurements"];
 
+/// Tables inside others, no keys.
+const MEMBERS: [&str; 2] = ["pinion", "gear"];
+
 /// One point.
 pub(super) struct Point {
     /// Its values, axis by axis.
@@ -89,11 +92,18 @@ pub(super) fn prepare(study: &Study, axes: &[Axis]) -> std::result::Result<Vec<P
 }
 
 fn check_key(study: &Study, key: &str) -> std::result::Result<(), CliError> {
-    let tables = KEYS.iter().filter(|(table, _)| !IDLE.contains(table));
-    let known = tables.flat_map(|(table, keys)| keys.iter().map(move |k| format!("{table}.{k}")));
-    let of_tables: Vec<String> = known
-        .filter(|name| !KEYS.iter().any(|(table, _)| table == name))
-        .collect();
+    let mut of_tables = Vec::new();
+    for (table, keys) in KEYS.iter().filter(|(table, _)| !IDLE.contains(table)) {
+        // what is said of one member can be said of the other
+        let homes: &[&str] = match *table {
+            "gears.pinion" => &["gears.pinion", "gears.gear"],
+            "material" => &["material", "material.pinion", "material.gear"],
+            table => &[table],
+        };
+        let plain = keys.iter().filter(|key| !MEMBERS.contains(key));
+        of_tables
+            .extend(plain.flat_map(|key| homes.iter().map(move |home| format!("{home}.{key}"))));
+    }
     let of_effects: Vec<&str> = study
         .effect_model()
         .parameters()

@@ -195,8 +195,8 @@ mod tests {
         let (v1, v2) = (vector(&[1.0, 2.0, -0.5]), vector(&[0.3, -1.0]));
         let (c1, c2) = (vector(&[0.4, 1.0, 2.0]), vector(&[1.5, 0.2]));
         let (o1, o2) = (vector(&[1.0, 1.0, 0.7]), vector(&[0.1, 3.0]));
-        let one = Telling::new(&v1, &[c1.clone()], &[o1.clone()]);
-        let two = Telling::new(&v2, &[c2.clone()], &[o2.clone()]);
+        let one = Telling::new(&v1, std::slice::from_ref(&c1), std::slice::from_ref(&o1));
+        let two = Telling::new(&v2, std::slice::from_ref(&c2), std::slice::from_ref(&o2));
         let join = |a: &[f64], b: &[f64]| vector(&[a, b].concat());
         let columns = [
             join(c1.as_slice(), c2.as_slice()),
