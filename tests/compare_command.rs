@@ -342,7 +342,10 @@ fn unusable_input_writes_nothing() {
     let own = BASE
         .replace("\"hertz\"", "\"fem\"")
         .replace("[numerics]\n", "[numerics]\nmesh_gear = \"gear.vtu\"\n");
-    write("own.toml", &format!("{own}{FILE}"));
+    write(
+        "own.toml",
+        &format!("{own}[measurements]\nfile = \"m.csv\"\n"),
+    );
     write(
         "a.toml",
         &format!("{BASE}[measurements]\nfile = \"m.csv\"\n"),
