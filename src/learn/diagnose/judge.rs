@@ -26,14 +26,16 @@ const SCREEN: Effort = Effort {
     floor: 0.3,
     carry: 0.4,
 };
-/// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.
+/// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
+/// of the leader's gain.
 const IN_PLAY: usize = 8;
+const IN_PLAY_REFINED: usize = 4;
 const IN_PLAY_SHARE: f64 = 0.5;
 /// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
 /// gain as much as this at all.
 const REFINED: usize = 8;
 const REFINED_SHARE: f64 = 0.5;
-const MEANT: f64 = -3.0;
+const MEANT: f64 = -1.0;
 /// A deciding fit between two anchors.
 const DECIDE: Effort = Effort {
     iterations: 8,
@@ -152,18 +154,8 @@ impl<'a> Judge<'a> {
         let looks: Vec<Option<Found>> = (candidates.par_iter())
             .map(|candidate| self.look(base, candidate))
             .collect();
-        let mut objectives: Vec<f64> = looks
-            .iter()
-            .flatten()
-            .map(|found| found.objective)
-            .collect();
-        objectives.sort_by(f64::total_cmp);
-        let Some(&leader) = objectives.first() else {
-            return Vec::new();
-        };
-        let before = base.judged.found.objective;
-        let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
-        let bar = objectives[(IN_PLAY - 1).min(objectives.len() - 1)].max(share);
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.judged.found.objective, least, IN_PLAY);
         (candidates.par_iter().zip(looks))
             .filter_map(|(candidate, found)| {
                 let mut found = found?;
@@ -196,23 +188,31 @@ impl<'a> Judge<'a> {
             None => return screened,
         };
         let offset = &base.judged.offset;
-        (screened.into_par_iter())
+        let fit = |candidate: &Candidate, state: State, effort: &Effort| {
+            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+            let parameters = &candidate.parameters;
+            self.ground.fit(&predictor, parameters, state, effort).ok()
+        };
+        let looks: Vec<Option<Found>> = (screened.par_iter())
             .map(|judged| {
-                let candidate = judged.candidate.clone();
-                if judged.log_evidence - before < bar && !candidate.sharp() {
+                let candidate = &judged.candidate;
+                let wanted = judged.log_evidence - before >= bar || candidate.sharp();
+                wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
+            })
+            .collect();
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.judged.found.objective, least, IN_PLAY_REFINED);
+        (screened.into_par_iter().zip(looks))
+            .map(|(judged, look)| {
+                let Some(mut found) = look else {
                     return judged;
+                };
+                let candidate = judged.candidate;
+                if found.objective <= bar && !found.converged {
+                    let further = fit(&candidate, found.state.clone(), &SCREEN);
+                    found = further.unwrap_or(found);
                 }
-                let predictor = Anchored::new(model(self.middle, &candidate), offset.clone());
-                let state = judged.found.state.clone();
-                let fit = self
-                    .ground
-                    .fit(&predictor, &candidate.parameters, state, &SCREEN);
-                match fit {
-                    Ok(found) => {
-                        self.judged(candidate.clone(), found, offset.clone(), Some(base), false)
-                    }
-                    Err(_) => judged,
-                }
+                self.judged(candidate, found, offset.clone(), Some(base), false)
             })
             .collect()
     }
@@ -367,6 +367,17 @@ impl<'a> Judge<'a> {
             decided,
         }
     }
+}
+
+/// The objective up to which candidates stay in play after a first look: the best `count`, and those near the leader.
+fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
+    let mut objectives: Vec<f64> = looks.collect();
+    objectives.sort_by(f64::total_cmp);
+    let Some(leader) = objectives.first() else {
+        return before;
+    };
+    let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
+    objectives[(count - 1).min(objectives.len() - 1)].max(share)
 }
 
 /// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change.

@@ -84,6 +84,8 @@ const WITHIN: f64 = 10.0;
 const WITHIN_SHARE: f64 = 0.02;
 /// Least and most single candidates decided by finite elements.
 const DECIDED: [usize; 2] = [3, 7];
+/// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
+const GAIN: f64 = 0.0;
 
 /// Diagnoses a study's measurements: screened by the analytic model, decided by `kind`.
 ///
@@ -211,7 +213,8 @@ fn decide_leaders(
         .iter()
         .enumerate()
         .take_while(|(i, j)| {
-            *i < DECIDED[0] || (*i < DECIDED[1] && j.log_evidence > leader - within)
+            let near = *i < DECIDED[0] || j.log_evidence > leader - within;
+            *i == 0 || *i < DECIDED[1] && near && j.log_evidence > before + GAIN
         })
         .count();
     let rest = screened.split_off(chosen);
