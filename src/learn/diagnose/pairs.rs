@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::anchored::{Anchored, model};
 use super::candidate::Candidate;
+use super::fidelity::Fidelity;
 use super::judge::{Base, Judge, Judged};
 use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
@@ -52,7 +53,7 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
     let mut decided = Vec::with_capacity(fitted.len());
     for (i, pair) in fitted.into_iter().enumerate() {
         let better = pair.log_evidence > best.log_evidence;
-        if i < FITTED[1] && better {
+        if i < FITTED[1] && better && judge.fidelity != Fidelity::Middle {
             let start = pair.found.state.clone();
             decided.push(
                 judge
@@ -181,5 +182,11 @@ fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged>
         .ground
         .fit(&predictor, &candidate.parameters, start, &EFFORT)
         .ok()?;
-    Some(judge.judged(candidate.clone(), found, offset.clone(), Some(base), false))
+    Some(judge.judged(
+        candidate.clone(),
+        found,
+        offset.clone(),
+        Some(base),
+        Fidelity::Middle,
+    ))
 }
