@@ -37,6 +37,8 @@ pub(super) struct Ranking {
     pub(super) judged: Vec<Judged>,
     /// Share of the attainable fall of χ² that each of them explains.
     pub(super) shares: Vec<f64>,
+    /// Log evidence of a smooth discrepancy of unknown cause.
+    pub(super) unknown: f64,
 }
 
 impl Ranking {
@@ -110,6 +112,7 @@ impl Ranking {
             probabilities,
             judged,
             shares,
+            unknown,
         }
     }
 

@@ -86,6 +86,10 @@ pub struct Diagnosis {
     pub explained_share: Option<f64>,
     /// Fall of χ² that anything smooth could bring.
     pub attainable_drop: f64,
+    /// Standard deviation of that on noise alone.
+    pub attainable_spread: f64,
+    /// Log evidence of a smooth discrepancy of unknown cause over the base model.
+    pub unknown_evidence_gain: f64,
     /// The test that would best separate what is left.
     pub next_experiment: Option<NextExperiment>,
     /// Everything fitted, by falling evidence.
@@ -266,6 +270,8 @@ pub(super) fn diagnosis(
             .filter(|_| flexible.is_real())
             .map(|i| ranking.shares[i]),
         attainable_drop: flexible.drop.max(0.0),
+        attainable_spread: flexible.spread(),
+        unknown_evidence_gain: ranking.unknown - base.judged.log_evidence,
         next_experiment: None,
         screened: ranking
             .judged
