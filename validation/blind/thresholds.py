@@ -37,7 +37,7 @@ TRIED = {
     "DOUBT": [0.05, 0.1, 0.2, 0.4],
     "ALIKE": [0.001, 0.01, 0.03, 0.1],
 }
-SHARE_WIDTH, SECOND_WIDTH = 0.04, 0.012
+SHARE_WIDTH, PAIR_SHARE_WIDTH, SECOND_WIDTH = 0.04, 0.025, 0.012
 PRIOR_UNKNOWN, PRIOR_SINGLES = 0.1, 0.35
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
@@ -69,7 +69,7 @@ def probabilities(found, rule):
         if len(names) == 1:
             odds = (rule["SHARE"] - share - 2 * doubt) / SHARE_WIDTH
         else:
-            odds = (rule["PAIR_SHARE"] - share - doubt) / SHARE_WIDTH
+            odds = (rule["PAIR_SHARE"] - share - doubt) / PAIR_SHARE_WIDTH
         stronger = max(names, key=lambda n: alone[n])
         if len(names) == 2 and alone[stronger] > 0:
             second = (s["chi2_drop"] - alone[stronger]) / alone[stronger]
