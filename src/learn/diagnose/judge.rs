@@ -430,7 +430,7 @@ fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
 }
 
 /// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change.
-fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> f64 {
+pub(super) fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> f64 {
     let length = seen.norm_squared();
     if length < 1e-12 {
         return 0.0;

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::Candidate;
 use super::fidelity::Fidelity;
-use super::judge::{Base, Judge, Judged};
+use super::judge::{Base, Judge, Judged, linear_gain};
 use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
 
@@ -153,7 +153,8 @@ fn promising(
     chosen
 }
 
-/// The stronger effect of a fitted pair with other partners: those that gain most on what it leaves with its values of the pair.
+/// The stronger effect of a fitted pair with other partners: those whose starts gain most, in the linearised analytic model, on
+/// what it leaves with its values of the pair.
 fn partners(
     judge: &Judge<'_>,
     base: &Base,
@@ -162,11 +163,18 @@ fn partners(
     pair: &Judged,
 ) -> Vec<Judged> {
     let part = |s: &&Judged| pair.candidate.names.contains(&s.candidate.names[0]);
-    let Some(kept) = (singles.iter().filter(part)).min_by(|a, b| a.square.total_cmp(&b.square))
-    else {
+    let kept = (singles.iter().filter(part)).min_by(|a, b| a.square.total_cmp(&b.square));
+    let Some((kept, state)) = kept.and_then(|k| Some((k, state_in(&k.candidate, pair)?))) else {
         return Vec::new();
     };
-    let Some(alone) = alone_in(judge, base, kept, pair) else {
+    let predicted = |bench, offset: &[Vec<f64>], candidate: &Candidate, state: &State| {
+        let predictor = Anchored::new(model(bench, candidate), offset.to_vec());
+        let values = predictions(&judge.ground, &predictor, candidate, state).ok()?;
+        Some(judge.ground.joined(&values))
+    };
+    let alone = predicted(judge.middle, &base.judged.offset, &kept.candidate, &state);
+    let analytic = predicted(judge.hertz, &[], &kept.candidate, &state);
+    let (Some(alone), Some(analytic)) = (alone, analytic) else {
         return Vec::new();
     };
     let left = judge.ground.residual(&alone);
@@ -175,30 +183,39 @@ fn partners(
         let both = [s.candidate.names[0], kept.candidate.names[0]];
         (fitted.iter()).any(|f| both.iter().all(|name| f.candidate.names.contains(name)))
     };
-    let mut gains: Vec<(f64, &Judged)> = (singles.par_iter())
+    let mut gains: Vec<(f64, Candidate, State)> = (singles.par_iter())
         .filter(|s| s.candidate.names != kept.candidate.names && !known(s))
-        .map(|s| {
-            let seen = judge.visible(base, &s.change);
-            let square = seen.norm_squared();
-            let gain = if square > 1e-9 {
-                seen.dot(&left).powi(2) / square
-            } else {
-                0.0
+        .flat_map_iter(|s| s.candidate.starts.iter().map(move |values| (s, values)))
+        .filter_map(|(s, values)| {
+            let both = kept.candidate.with(&s.candidate);
+            let own = &s.candidate.parameters[s.candidate.inherited..];
+            let added = own.iter().zip(values).map(|(p, &x)| p.natural_start(x));
+            let state = State {
+                theta: state.theta.iter().copied().chain(added).collect(),
+                ..state.clone()
             };
-            (0.5 * gain, s)
+            let change: Vec<f64> = (predicted(judge.hertz, &[], &both, &state)?.iter())
+                .zip(&analytic)
+                .map(|(f, a)| f - a)
+                .collect();
+            let gain = linear_gain(&judge.visible(base, &change), &left);
+            (gain > PROMISE).then_some((gain, both, state))
         })
-        .filter(|(gain, _)| *gain > PROMISE)
         .collect();
     gains.sort_by(|a, b| b.0.total_cmp(&a.0));
-    gains.truncate(PARTNERS);
-    (gains.par_iter())
-        .filter_map(|(_, partner)| fit(judge, base, kept, partner))
+    let mut chosen: Vec<(f64, Candidate, State)> = Vec::new();
+    for gain in gains {
+        if chosen.len() < PARTNERS && chosen.iter().all(|c| c.1.names != gain.1.names) {
+            chosen.push(gain);
+        }
+    }
+    (chosen.into_par_iter())
+        .filter_map(|(_, both, start)| fitted_from(judge, base, both, start, &base.judged.offset))
         .collect()
 }
 
-/// What the coarse finite elements predict for one effect of a fitted pair alone, with its values of the pair, per row.
-fn alone_in(judge: &Judge<'_>, base: &Base, kept: &Judged, pair: &Judged) -> Option<Vec<f64>> {
-    let candidate = &kept.candidate;
+/// A fitted pair's state with the parameters of one of its effects only.
+fn state_in(candidate: &Candidate, pair: &Judged) -> Option<State> {
     let value = |name: &str| {
         let at = (pair.candidate.parameters.iter()).position(|p| p.name == name)?;
         Some(pair.found.state.theta[at])
@@ -206,14 +223,10 @@ fn alone_in(judge: &Judge<'_>, base: &Base, kept: &Judged, pair: &Judged) -> Opt
     let theta: Option<Vec<f64>> = (candidate.parameters.iter())
         .map(|p| value(&p.name))
         .collect();
-    let state = State {
+    Some(State {
         theta: theta?,
         ..pair.found.state.clone()
-    };
-    let offset = base.judged.offset.clone();
-    let predictor = Anchored::new(model(judge.middle, candidate), offset);
-    let values = predictions(&judge.ground, &predictor, candidate, &state).ok()?;
-    Some(judge.ground.joined(&values))
+    })
 }
 
 /// ½ of the fall of χ² by two changes with amplitudes that are not negative.
@@ -254,15 +267,28 @@ fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged>
     } else {
         &first.offset
     };
-    let predictor = Anchored::new(model(judge.middle, &candidate), offset.clone());
+    fitted_from(judge, base, candidate, start, offset)
+}
+
+/// A pair fitted by the middle fidelity from `start`, with `offset` added.
+fn fitted_from(
+    judge: &Judge<'_>,
+    base: &Base,
+    candidate: Candidate,
+    start: State,
+    offset: &[Vec<f64>],
+) -> Option<Judged> {
+    let predictor = Anchored::new(model(judge.middle, &candidate), offset.to_vec());
+    let parameters = &candidate.parameters;
     let found = judge
         .ground
-        .fit(&predictor, &candidate.parameters, start, &EFFORT)
+        .fit(&predictor, parameters, start, &EFFORT)
         .ok()?;
+    let offset = offset.to_vec();
     Some(judge.judged(
         candidate.clone(),
         found,
-        offset.clone(),
+        offset,
         Some(base),
         Fidelity::Middle,
     ))
