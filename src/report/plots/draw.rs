@@ -244,12 +244,18 @@ impl Plot {
         widened(span(points.map(|p| p.0).chain(marks)))
     }
 
-    /// What the vertical axis spans: all finite points with a little air above and below.
+    /// What the vertical axis spans: all finite points and their bars with a little air above and below.
     fn vertical(&self) -> (f64, f64) {
+        let ends = self.curves.iter().flat_map(|curve| {
+            let bars = curve.points.iter().zip(&curve.errors);
+            bars.flat_map(|(&(x, y), sigma)| [(x, y - sigma), (x, y + sigma)])
+        });
+        let ends: Vec<(f64, f64)> = ends.collect();
         let points = self
             .curves
             .iter()
-            .flat_map(|curve| self.seen(&curve.points));
+            .flat_map(|curve| self.seen(&curve.points))
+            .chain(self.seen(&ends));
         let level = self.residuals.then_some(0.0);
         let (low, high) = widened(span(points.map(|p| p.1).chain(level)));
         let air = 0.05 * (high - low);
