@@ -190,6 +190,7 @@ mod contact {
             coefficient: CONDITIONS.coefficient,
             acting: None,
             tolerance: numerics(fineness).step_tolerance,
+            balance: true,
         };
         forward.with_model(|model| {
             let mut after = Some(before.clone());
@@ -231,6 +232,7 @@ fn wear(bencher: Bencher, fineness: usize) {
         coefficient: CONDITIONS.coefficient,
         acting: None,
         tolerance: numerics(fineness).step_tolerance,
+        balance: true,
     };
     forward.with_model(|model| {
         bencher

@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 use std::path::Path;
 
-use gearwear::learn::diagnose::{Diagnosis, Named, Verdict, diagnose};
+use gearwear::learn::diagnose::{Diagnosis, Fidelity, Named, Verdict, diagnose};
 use gearwear::learn::{GearModel, Measured, Predictor};
 use gearwear::measure::{Dataset, Quantity};
 use gearwear::simulate::forward::ContactKind;
@@ -96,7 +96,7 @@ fn diagnosed(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Diagnosis 
     let base = study("");
     let data = synthetic(hidden, scatter, relative, seed);
     let measured = Measured::new(&base, data);
-    let found = diagnose(&measured, ContactKind::Hertz, &|_, _| {}).unwrap();
+    let found = diagnose(&measured, Fidelity::Screening, &|_, _| {}).unwrap();
     let total: f64 = found.probabilities.values().sum();
     assert!((total - 1.0).abs() < 1e-9, "{total}");
     found
@@ -181,7 +181,7 @@ fn one_test_at_one_time_is_said_to_be_too_little() {
     data.observations
         .retain(|o| o.test == 0 && o.cycles == last);
     let measured = Measured::new(&base, data);
-    let found = diagnose(&measured, ContactKind::Hertz, &|_, _| {}).unwrap();
+    let found = diagnose(&measured, Fidelity::Screening, &|_, _| {}).unwrap();
     assert!(
         found
             .warnings

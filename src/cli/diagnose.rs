@@ -7,22 +7,35 @@ use super::args::StudyAndOutput;
 use super::folder;
 use super::{CliError, Context, Outcome};
 use crate::learn::Measured;
-use crate::learn::diagnose::diagnose;
+use crate::learn::diagnose::{Fidelity, diagnose};
 use crate::report::{self, atomic};
-use crate::simulate::forward::ContactKind;
 use crate::study::{self, Study};
 
 /// Arguments of `diagnose`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear diagnose study.toml\n  gearwear diagnose study.toml --fast\n  gearwear diagnose study.toml -o results/diagnosis --json"
+    after_help = "Examples:\n  gearwear diagnose study.toml\n  gearwear diagnose study.toml --fidelity middle\n  gearwear diagnose study.toml -o results/diagnosis --json"
 )]
 pub struct DiagnoseArgs {
     #[command(flatten)]
     paths: StudyAndOutput,
     /// Decide by the analytic contact model alone: seconds instead of a minute, and 1 to 2 % model error that may look like an effect
-    #[arg(long)]
+    #[arg(long, conflicts_with = "fidelity")]
     fast: bool,
+    /// By which model candidates are compared at last; --fast is --fidelity screening
+    #[arg(long, value_enum, value_name = "MODEL")]
+    fidelity: Option<Deciding>,
+}
+
+/// Models to decide by.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum Deciding {
+    /// The analytic contact model alone
+    Screening,
+    /// Finite elements, coarse ones for what effects change: about two thirds of the time of full
+    Middle,
+    /// Finite elements as the study resolves them
+    Full,
 }
 
 /// Checks the input and the folder, diagnoses, writes.
@@ -35,14 +48,15 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "diagnose"));
     atomic::check(&target)?;
-    let kind = if args.fast || study.contact == study::ContactKind::Hertz {
-        ContactKind::Hertz
-    } else {
-        ContactKind::Fem
+    let fidelity = match args.fidelity {
+        _ if args.fast || study.contact == study::ContactKind::Hertz => Fidelity::Screening,
+        Some(Deciding::Screening) => Fidelity::Screening,
+        Some(Deciding::Middle) => Fidelity::Middle,
+        Some(Deciding::Full) | None => Fidelity::Full,
     };
     let measured = Measured::new(&study, data);
     let progress = context.progress("diagnose");
-    let diagnosis = diagnose(&measured, kind, &|done, what| progress.show(done, what))?;
+    let diagnosis = diagnose(&measured, fidelity, &|done, what| progress.show(done, what))?;
     drop(progress);
     let document = json!(diagnosis);
     let page = report::diagnosis::page(&study.title, &diagnosis);

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::contact::deposit::{Travel, deposit};
 use crate::contact::frame::{Frame, Touch};
-use crate::contact::mortar::{Trace, couple};
+use crate::contact::mortar::{Facing, Trace, couple};
 use crate::gear::{Pair, ToothContact, contacts_at};
 use crate::numeric::cross;
 use crate::numeric::sparse::SparseRows;
@@ -82,6 +82,8 @@ pub struct PairContact {
     pub wear: [SparseRows; 2],
     /// Arc coordinates of the multiplier nodes on each flank, mm.
     pub arc: [Vec<f64>; 2],
+    /// What faces what at ξ = 0.
+    pub facing: Facing,
     /// Signed sliding distance per path of contact, mm/mm (its sign changes at the pitch point).
     pub slip: f64,
 }
@@ -282,6 +284,7 @@ impl Position {
         self.pairs.push(PairContact {
             tooth,
             path,
+            facing: frame.facing(pair, 0.0),
             frame,
             xi,
             offset,

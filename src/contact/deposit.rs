@@ -31,8 +31,8 @@ pub struct Travel {
 pub fn deposit(xi: &[f64], arc: &[f64], stations: &[f64], travel: Travel) -> SparseRows {
     let times = instants(travel, stations);
     let last = xi.len() - 1;
+    let mut row = Accumulator::new(stations);
     SparseRows::from_rows((0..xi.len()).map(|k| {
-        let mut row = Accumulator::default();
         for (from, to) in [(k.saturating_sub(1), k), (k, (k + 1).min(last))] {
             if from == to {
                 continue;
@@ -42,11 +42,11 @@ pub fn deposit(xi: &[f64], arc: &[f64], stations: &[f64], travel: Travel) -> Spa
                 let s = arc[from] + u * (arc[to] - arc[from]);
                 let amount = hat * weight * (xi[to] - xi[from]);
                 for &(shift, slide) in &times {
-                    row.add(stations, s + shift, amount * slide);
+                    row.add(s + shift, amount * slide);
                 }
             }
         }
-        row.entries
+        row.take()
     }))
 }
 
@@ -83,16 +83,27 @@ fn instants(travel: Travel, stations: &[f64]) -> Vec<(f64, f64)> {
     out
 }
 
-/// Sums contributions to few neighbouring stations.
-#[derive(Default)]
-struct Accumulator {
-    entries: Vec<(u32, f64)>,
+/// Sums contributions to neighbouring stations.
+struct Accumulator<'s> {
+    stations: &'s [f64],
+    sums: Vec<f64>,
+    /// First and one past the last station that has been added to.
+    touched: (usize, usize),
 }
 
-impl Accumulator {
-    fn add(&mut self, stations: &[f64], s: f64, area: f64) {
+impl<'s> Accumulator<'s> {
+    fn new(stations: &'s [f64]) -> Self {
+        Self {
+            stations,
+            sums: vec![0.0; stations.len()],
+            touched: (stations.len(), 0),
+        }
+    }
+
+    fn add(&mut self, s: f64, area: f64) {
+        let stations = self.stations;
         let last = stations.len() - 1;
-        let next = stations.partition_point(|&x| x <= s);
+        let next = after(stations, s);
         if next == 0 || next > last {
             let i = if next == 0 { 0 } else { last };
             self.put(i, area / tributary(stations, i));
@@ -104,16 +115,31 @@ impl Accumulator {
     }
 
     fn put(&mut self, station: usize, value: f64) {
-        match self
-            .entries
-            .iter_mut()
-            .rev()
-            .find(|e| e.0 == station as u32)
-        {
-            Some(entry) => entry.1 += value,
-            None => self.entries.push((station as u32, value)),
-        }
+        self.sums[station] += value;
+        self.touched = (self.touched.0.min(station), self.touched.1.max(station + 1));
     }
+
+    /// The sums since the last call.
+    fn take(&mut self) -> Vec<(u32, f64)> {
+        let (from, to) = std::mem::replace(&mut self.touched, (self.sums.len(), 0));
+        (from..to)
+            .map(|i| (i as u32, std::mem::take(&mut self.sums[i])))
+            .collect()
+    }
+}
+
+/// Number of stations up to `s`; they lie about evenly, so it is looked for near where it would then be.
+fn after(stations: &[f64], s: f64) -> usize {
+    let (first, last) = (stations[0], stations[stations.len() - 1]);
+    let share = (s - first) / (last - first);
+    let mut next = (share * (stations.len() - 1) as f64).clamp(0.0, stations.len() as f64) as usize;
+    while next < stations.len() && stations[next] <= s {
+        next += 1;
+    }
+    while next > 0 && stations[next - 1] > s {
+        next -= 1;
+    }
+    next
 }
 
 /// ∫ N_i ds: the flank length that belongs to station `i`, mm.

@@ -18,6 +18,9 @@ pub enum Touch {
     GearTip,
 }
 
+/// Newton's method on an involute ends with a step below this, mm.
+const NEWTON_STEP: f64 = 1e-7;
+
 /// Contact frame of one tooth pair at one mesh position, in the fixed frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -116,7 +119,8 @@ impl Frame {
                 let miss = offset.dot(&self.tangent) - xi;
                 let step = miss / slope.dot(&self.tangent);
                 rho[side] -= step;
-                if step.abs() < 1e-10 {
+                // the error left is the step's square over 2 rho
+                if step.abs() < NEWTON_STEP {
                     offset -= slope * step;
                     break;
                 }

@@ -116,18 +116,17 @@ impl<'a> HertzContact<'a> {
 
     /// What separates the flanks of a pair where they should touch, mm.
     fn deviation(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
-        pair.frame.facing(&self.cycle.pair, 0.0).gap + self.worn(pair, depth)
+        pair.facing.gap + self.worn(pair, depth)
     }
 
     /// Missing material (mm at the stations of both flanks) where the flanks of a pair should touch, mm.
     fn worn(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
-        let facing = pair.frame.facing(&self.cycle.pair, 0.0);
         (0..2)
             .map(|side| {
                 interpolate(
                     &self.cycle.stations.arc[side],
                     depth[side],
-                    facing.arc[side],
+                    pair.facing.arc[side],
                 )
             })
             .sum()

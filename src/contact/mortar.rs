@@ -10,7 +10,7 @@
 //! The same integrals against the piecewise linear worn depth tell how wear opens the gap. Wohlmuth, Acta Numerica 20
 //! (2011), sections 3-4, for the method; the multiplier grid travels with the contact instead of sitting on one flank.
 
-use crate::numeric::sparse::SparseRows;
+use crate::numeric::sparse::{SparseRows, accumulate};
 
 /// What faces what at one place of the contact's tangent.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +100,7 @@ pub fn couple(xi: &[f64], facing: impl Fn(f64) -> Facing, traces: &[Trace]) -> C
                     for ((trace, edge), rows) in traces.iter().zip(&edges).zip(&mut rows) {
                         let (shapes, count) = edge_shapes(trace, *edge, at.arc[trace.side]);
                         for (i, shape) in shapes.iter().enumerate().take(count) {
-                            rows[node].push(((edge + i) as u32, w * shape));
+                            accumulate(&mut rows[node], (edge + i) as u32, w * shape);
                         }
                     }
                 }

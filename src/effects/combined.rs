@@ -39,6 +39,11 @@ impl Combined {
         depths
     }
 
+    /// Whether an effect displaces material without removing it.
+    pub fn displaces(&self) -> bool {
+        self.of(Hook::AddedDepth).any(Effect::keeps_mass)
+    }
+
     fn of(&self, hook: Hook) -> impl Iterator<Item = &dyn Effect> {
         self.entries
             .iter()

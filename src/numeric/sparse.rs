@@ -1,5 +1,13 @@
 //! Short compressed sparse rows for the many small operators of a mesh cycle.
 
+/// Adds `value` to the entry of `column`, which is expected near the end.
+pub fn accumulate(row: &mut Vec<(u32, f64)>, column: u32, value: f64) {
+    match row.iter_mut().rev().find(|entry| entry.0 == column) {
+        Some(entry) => entry.1 += value,
+        None => row.push((column, value)),
+    }
+}
+
 /// A sparse matrix by rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SparseRows {

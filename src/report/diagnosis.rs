@@ -96,7 +96,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
             Cell::number(format!("{:.3}", entry.fit_chi2_per_point)),
             Cell::number(held),
             Cell::text(parameters(entry)),
-            Cell::text(entry.decided_by.clone()),
+            Cell::text(entry.decided_by.name()),
         ]);
     }
     if let Some(&unknown) = diagnosis.probabilities.get("unknown") {

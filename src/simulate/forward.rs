@@ -151,9 +151,21 @@ impl<'a> Forward<'a> {
     pub fn with_effects(
         set: &'a GearSet,
         members: Option<&'a Members>,
+        conditions: Conditions,
+        numerics: Numerics,
+        acting: Option<&'a Acting>,
+    ) -> Result<Self, ForwardError> {
+        Self::mounted(set, members, conditions, numerics, acting, None)
+    }
+
+    /// As [`Forward::with_effects`], looking for contact within the window and reach of `as_before`.
+    fn mounted(
+        set: &'a GearSet,
+        members: Option<&'a Members>,
         mut conditions: Conditions,
         numerics: Numerics,
         acting: Option<&'a Acting>,
+        as_before: Option<CycleSpec>,
     ) -> Result<Self, ForwardError> {
         let mut pair = set.mount(conditions.misalignment)?;
         if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
@@ -166,6 +178,11 @@ impl<'a> Forward<'a> {
             None => numerics.flank_spacing(&pair, set.modulus(), torque),
         };
         let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
+        let spec = as_before.map_or(spec, |CycleSpec { window, reach, .. }| CycleSpec {
+            window,
+            reach,
+            ..spec
+        });
         let stations = Stations::new(&pair, spacing);
         let kind = if members.is_some() {
             ContactKind::Fem
@@ -241,13 +258,10 @@ impl<'a> Forward<'a> {
         };
         if acting.is_some_and(|acting| acting.acts(Hook::Operation)) || self.worn.is_some() {
             // another mounting is another mesh cycle
-            let members = self.members();
+            let (members, spec) = (self.members(), Some(self.cycle.spec));
             let mut out =
-                Forward::with_effects(self.set, members, conditions, self.numerics, acting)?;
-            out.prepare(&Preparation {
-                condensed_at: None,
-                ..self.preparation()
-            })?;
+                Forward::mounted(self.set, members, conditions, self.numerics, acting, spec)?;
+            out.shares = true;
             return Ok(out);
         }
         let mut out = Forward {
@@ -379,6 +393,8 @@ impl<'a> Forward<'a> {
             coefficient: self.conditions.coefficient,
             acting: self.acting,
             tolerance: self.numerics.step_tolerance,
+            // of several runs only the depths are asked for, and the mass that is not lost with them
+            balance: !self.shares || self.acting.is_some_and(|a| a.effects.displaces()),
         };
         loop {
             // here and not after the step that calls for it: a run resumed from that step does the same

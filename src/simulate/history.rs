@@ -106,6 +106,9 @@ pub struct WearLaw<'a> {
     pub acting: Option<&'a Acting>,
     /// Allowed step error relative to the largest depth.
     pub tolerance: f64,
+    /// Whether the worn area is also integrated from the line loads; if not, [`Balance::law`] and
+    /// [`Progress::displaced`] stay 0.
+    pub balance: bool,
 }
 
 /// Depth below which the step tolerance is absolute, mm.
@@ -141,13 +144,20 @@ pub fn wear_until<M: ContactModel + ?Sized>(
 ) -> Result<bool, StepError<WearError>> {
     let cycle = model.cycle();
     let mut system = ArchardSystem::new(model, law.coefficient).with(law.acting);
+    let area_rate = |system: &mut ArchardSystem<'_, M>, n, u: &[f64]| {
+        if law.balance {
+            system.area_rate(n, u)
+        } else {
+            Ok(AreaRate::default())
+        }
+    };
     let fail = |source| StepError::System { n: 0.0, source };
     let control = match progress {
         Some(_) => law.control(&[]),
         None => {
             let fresh = vec![0.0; cycle.stations.count()];
             let control = law.control(&system.rate(0.0, &fresh).map_err(fail)?);
-            let rate = system.area_rate(0.0, &fresh).map_err(fail)?;
+            let rate = area_rate(&mut system, 0.0, &fresh).map_err(fail)?;
             *progress = Some(Progress {
                 stand: Stand::new(fresh, control),
                 balance: Balance::default(),
@@ -164,11 +174,10 @@ pub fn wear_until<M: ContactModel + ?Sized>(
     let solves_before = progress.solves;
     system.start_from(&progress.warm);
     while progress.stand.n < end {
-        // the step counts only once the contact at its end is known too
+        // with the balance, a step counts only once the contact at its end is known too
         let mut stand = progress.stand.clone();
         advance(&mut system, &mut stand, end, control)?;
-        let rate = system
-            .area_rate(stand.n, &stand.u)
+        let rate = area_rate(&mut system, stand.n, &stand.u)
             .map_err(|source| StepError::System { n: stand.n, source })?;
         let (pinion, gear) = stand.u.split_at(cycle.stations.arc[0].len());
         for side in 0..2 {

@@ -23,7 +23,7 @@ use crate::gear::Member;
 use crate::numeric::sparse::SparseRows;
 use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::integrator::WearSystem;
-use crate::wear::passage::Passage;
+use crate::wear::passage::{Moment, Passage};
 
 /// Length over which the largest pressure that effects are told is averaged, mm: about that of a micropit, and a third of a contact.
 const PEAK_LENGTH: f64 = 0.03;
@@ -48,6 +48,8 @@ pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
     passage: Option<Passage>,
     warm: Vec<Vec<usize>>,
     last: Option<(Vec<f64>, Vec<PositionContact>)>,
+    /// What the stations of pinion and gear see in the last solution; empty where no effect asks.
+    moments: [Vec<Moment>; 2],
     /// Contact problems solved so far.
     pub solves: usize,
 }
@@ -71,6 +73,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             passage: None,
             warm: vec![Vec::new(); model.cycle().positions.len()],
             last: None,
+            moments: Default::default(),
             solves: 0,
         }
     }
@@ -112,6 +115,9 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             self.solves += solved.len();
             for (warm, contact) in self.warm.iter_mut().zip(&solved) {
                 warm.clone_from(&contact.active);
+            }
+            if let Some(passage) = &self.passage {
+                self.moments = [0, 1].map(|s| passage.moments(self.model.cycle(), &solved, s));
             }
             self.last = Some((u.to_vec(), solved));
         }
@@ -237,7 +243,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     }
 
     /// What effects add at every station, mm per pinion cycle.
-    fn added(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added> {
+    fn added(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added<'_>> {
         let (Some(acting), Some(passage)) = (self.acting, &self.passage) else {
             return Vec::new();
         };
@@ -254,11 +260,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         for member in Member::BOTH {
             let side = side(member);
             let per_cycle = 1e-3 / [1.0, cycle.pair.speed_ratio][side];
-            for (station, moment) in passage
-                .moments(cycle, contacts, side)
-                .into_iter()
-                .enumerate()
-            {
+            for (station, moment) in self.moments[side].iter().enumerate() {
                 let mut local = locals[moment.pair];
                 local.peak_pressure = moment.pressure;
                 let arc = cycle.stations.arc[side][station];
@@ -279,7 +281,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
                     removed: per_cycle * removed,
                     displaced: per_cycle * displaced,
                     slope,
-                    read: moment.read,
+                    read: &moment.read,
                 });
             }
         }
@@ -294,7 +296,7 @@ struct View<'b> {
 }
 
 /// What effects add at one station.
-struct Added {
+struct Added<'b> {
     side: usize,
     station: usize,
     /// mm per pinion cycle, material lost.
@@ -304,7 +306,7 @@ struct Added {
     /// Change of both with the largest pressure, mm per MPa.
     slope: f64,
     /// The unknowns that pressure is read from.
-    read: Vec<(u32, u32, f64)>,
+    read: &'b [(u32, u32, f64)],
 }
 
 /// Pinion and gear part of the joint depth vector.

@@ -159,8 +159,13 @@ fn middle(pair: &PairContact, side: usize) -> f64 {
 /// them; outside the nodes there is nothing.
 fn averaging(arc: &[f64], from: f64, to: f64) -> Average {
     let mut weights: Average = Vec::new();
-    for k in 1..arc.len() {
+    let rising = arc.first() < arc.last();
+    let before = |s: &f64| if rising { *s < from } else { *s > to };
+    for k in arc.partition_point(before).max(1)..arc.len() {
         let (a, b) = (arc[k - 1], arc[k]);
+        if if rising { a >= to } else { a <= from } {
+            break;
+        }
         let (low, high) = (a.min(b).max(from), a.max(b).min(to));
         if low >= high {
             continue;

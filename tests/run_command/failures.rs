@@ -208,6 +208,7 @@ const LAW: WearLaw<'static> = WearLaw {
     coefficient: [6e-10; 2],
     acting: None,
     tolerance: 2e-3,
+    balance: true,
 };
 
 fn study() -> Study {

@@ -14,7 +14,7 @@ use super::feasible::{CLEAR, changes, grid, purpose, ranked, shown};
 use super::layout::Layout;
 use super::plan::{AloneTest, Campaign, ChosenTest, Shown, noise_ahead};
 use super::telling::{LEAST_SCATTER, Said, Scale, Telling};
-use super::{DiagnoseError, Watch, coarse};
+use super::{DiagnoseError, Fidelity, Watch};
 use crate::learn::bench::Workshop;
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
@@ -48,7 +48,7 @@ pub(super) fn campaign(
     let candidates: Vec<Candidate> = std::iter::once(base)
         .chain(singles.into_iter().filter(Candidate::is_own_form))
         .collect();
-    let numerics = coarse(study.resolution());
+    let numerics = Fidelity::Screening.resolution(study.resolution());
     let shop = Workshop::new(study.gear_set(), numerics, ContactKind::Hertz, &[])?;
     let tests = grid(&study.operation);
     watch(0.0, format!("running {} feasible tests", tests.len()));

@@ -1,15 +1,15 @@
-//! Fits and evidence of candidates: screened by the middle fidelity, decided by finite elements.
+//! Fits and evidence of candidates: screened by the analytic model, fitted by coarse finite elements, decided by fine ones.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::anchored::{Anchored, model, offset, predictions};
 use super::candidate::Candidate;
+use super::fidelity::Fidelity;
 use super::ground::{Ground, whiten};
 use crate::learn::bench::Bench;
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
-use crate::simulate::forward::ContactKind;
 use rayon::prelude::*;
 
 /// The first look at a candidate: two steps with the derivatives of its start.
@@ -26,14 +26,16 @@ const SCREEN: Effort = Effort {
     floor: 0.3,
     carry: 0.4,
 };
-/// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.
+/// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
+/// of the leader's gain.
 const IN_PLAY: usize = 8;
+const IN_PLAY_REFINED: usize = 4;
 const IN_PLAY_SHARE: f64 = 0.5;
 /// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
 /// gain as much as this at all.
 const REFINED: usize = 8;
 const REFINED_SHARE: f64 = 0.5;
-const MEANT: f64 = -3.0;
+const MEANT: f64 = 1.0;
 /// A deciding fit between two anchors.
 const DECIDE: Effort = Effort {
     iterations: 8,
@@ -67,21 +69,21 @@ const HOPELESS_SHARE: f64 = 0.05;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
 
-/// What is judged on, and the benches: the coarse analytic one for changes, the exact one that decides.
+/// What is judged on, and the benches: the analytic one to screen, coarse finite elements for changes, the exact one that decides.
 pub(super) struct Judge<'a> {
     pub(super) ground: Ground<'a>,
     pub(super) hertz: &'a Bench<'a>,
     pub(super) middle: &'a Bench<'a>,
     pub(super) exact: &'a Bench<'a>,
-    /// By which contact model `exact` computes.
-    pub(super) kind: ContactKind,
+    /// By which candidates are compared at last.
+    pub(super) fidelity: Fidelity,
 }
 
 /// A fitted candidate.
 pub(super) struct Judged {
     pub(super) candidate: Candidate,
     pub(super) found: Found,
-    /// Finite elements minus analytic model at the fit, per test of the data set; empty without finite elements.
+    /// Finite elements minus the cheaper model at the fit, per test of the data set; empty without finite elements.
     pub(super) offset: Vec<Vec<f64>>,
     /// Log evidence, the effect's form taken as uncertain.
     pub(super) log_evidence: f64,
@@ -91,8 +93,8 @@ pub(super) struct Judged {
     pub(super) change: Vec<f64>,
     /// χ² with the whole covariance.
     pub(super) square: f64,
-    /// Whether finite elements were used.
-    pub(super) decided: bool,
+    /// By what it was fitted.
+    pub(super) fidelity: Fidelity,
     pub(super) converged: bool,
 }
 
@@ -147,23 +149,13 @@ impl<'a> Judge<'a> {
         v - &base.adjustable * along
     }
 
-    /// Fits all candidates by the middle fidelity: a first look at each, then in full those that the look leaves in play.
+    /// Fits all candidates by the analytic model: a first look at each, then in full those that the look leaves in play.
     pub(super) fn screen(&self, base: &Base, candidates: &[Candidate]) -> Vec<Judged> {
         let looks: Vec<Option<Found>> = (candidates.par_iter())
             .map(|candidate| self.look(base, candidate))
             .collect();
-        let mut objectives: Vec<f64> = looks
-            .iter()
-            .flatten()
-            .map(|found| found.objective)
-            .collect();
-        objectives.sort_by(f64::total_cmp);
-        let Some(&leader) = objectives.first() else {
-            return Vec::new();
-        };
-        let before = base.judged.found.objective;
-        let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
-        let bar = objectives[(IN_PLAY - 1).min(objectives.len() - 1)].max(share);
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.judged.found.objective, least, IN_PLAY);
         (candidates.par_iter().zip(looks))
             .filter_map(|(candidate, found)| {
                 let mut found = found?;
@@ -178,14 +170,21 @@ impl<'a> Judge<'a> {
                         found = further;
                     }
                 }
-                Some(self.judged(candidate.clone(), found, offset, Some(base), false))
+                Some(self.judged(
+                    candidate.clone(),
+                    found,
+                    offset,
+                    Some(base),
+                    Fidelity::Screening,
+                ))
             })
             .collect()
     }
 
     /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
-    /// leaders, and all whose rate is sharp in the local pressure, of which the analytic model knows least.
-    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>) -> Vec<Judged> {
+    /// leaders, and (if the discrepancy is real) all whose rate is sharp in the local pressure, of which the analytic model knows
+    /// least.
+    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
         let before = base.judged.log_evidence;
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
@@ -196,23 +195,37 @@ impl<'a> Judge<'a> {
             None => return screened,
         };
         let offset = &base.judged.offset;
-        (screened.into_par_iter())
+        let fit = |candidate: &Candidate, state: State, effort: &Effort| {
+            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+            let parameters = &candidate.parameters;
+            self.ground.fit(&predictor, parameters, state, effort).ok()
+        };
+        let looks: Vec<Option<Found>> = (screened.par_iter())
             .map(|judged| {
-                let candidate = judged.candidate.clone();
-                if judged.log_evidence - before < bar && !candidate.sharp() {
+                let candidate = &judged.candidate;
+                let wanted = judged.log_evidence - before >= bar || real && candidate.sharp();
+                wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
+            })
+            .collect();
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.judged.found.objective, least, IN_PLAY_REFINED);
+        (screened.into_par_iter().zip(looks))
+            .map(|(judged, look)| {
+                let Some(mut found) = look else {
                     return judged;
+                };
+                let candidate = judged.candidate;
+                if found.objective <= bar && !found.converged {
+                    let further = fit(&candidate, found.state.clone(), &SCREEN);
+                    found = further.unwrap_or(found);
                 }
-                let predictor = Anchored::new(model(self.middle, &candidate), offset.clone());
-                let state = judged.found.state.clone();
-                let fit = self
-                    .ground
-                    .fit(&predictor, &candidate.parameters, state, &SCREEN);
-                match fit {
-                    Ok(found) => {
-                        self.judged(candidate.clone(), found, offset.clone(), Some(base), false)
-                    }
-                    Err(_) => judged,
-                }
+                self.judged(
+                    candidate,
+                    found,
+                    offset.clone(),
+                    Some(base),
+                    Fidelity::Middle,
+                )
             })
             .collect()
     }
@@ -263,13 +276,13 @@ impl<'a> Judge<'a> {
     ) -> Result<Judged, PredictError> {
         let parameters = &candidate.parameters;
         let exact = model(self.exact, candidate);
-        let analytic = model(self.middle, candidate);
+        let cheap = model(self.middle, candidate);
         let mut state = start;
         let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
         let mut converged = false;
         for _ in 0..ANCHORS {
             let at = predictions(&self.ground, &exact, candidate, &state)?;
-            let near = predictions(&self.ground, &analytic, candidate, &state)?;
+            let near = predictions(&self.ground, &cheap, candidate, &state)?;
             let offset = offset(&self.ground, &at, &near);
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
             let here = self
@@ -296,7 +309,7 @@ impl<'a> Judge<'a> {
                     break;
                 }
             } else if let Some((b, _)) = &best {
-                // The analytic changes led too far: back half the way.
+                // The cheap model's changes led too far: back half the way.
                 if b.objective - next.objective < worth {
                     converged = true;
                     break;
@@ -306,7 +319,7 @@ impl<'a> Judge<'a> {
         }
         let (mut found, offset) = best.expect("at least one anchor was taken");
         found.converged = converged;
-        Ok(self.judged(candidate.clone(), found, offset, base, true))
+        Ok(self.judged(candidate.clone(), found, offset, base, self.fidelity))
     }
 
     /// A fit on the exact bench with its own derivatives; None if it finds nothing better.
@@ -322,10 +335,10 @@ impl<'a> Judge<'a> {
             return None;
         }
         let at = predictions(&self.ground, &exact, candidate, &found.state).ok()?;
-        let analytic = model(self.middle, candidate);
-        let near = predictions(&self.ground, &analytic, candidate, &found.state).ok()?;
+        let cheap = model(self.middle, candidate);
+        let near = predictions(&self.ground, &cheap, candidate, &found.state).ok()?;
         let offset = offset(&self.ground, &at, &near);
-        Some(self.judged(candidate.clone(), found, offset, Some(base), true))
+        Some(self.judged(candidate.clone(), found, offset, Some(base), self.fidelity))
     }
 
     /// The state of the base fit with an added effect's values.
@@ -345,7 +358,7 @@ impl<'a> Judge<'a> {
         found: Found,
         offset: Vec<Vec<f64>>,
         base: Option<&Base>,
-        decided: bool,
+        fidelity: Fidelity,
     ) -> Judged {
         let change: Vec<f64> = match base {
             Some(base) => (found.model.iter().zip(&base.judged.found.model))
@@ -364,9 +377,20 @@ impl<'a> Judge<'a> {
             covariance,
             change,
             found,
-            decided,
+            fidelity,
         }
     }
+}
+
+/// The objective up to which candidates stay in play after a first look: the best `count`, and those near the leader.
+fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
+    let mut objectives: Vec<f64> = looks.collect();
+    objectives.sort_by(f64::total_cmp);
+    let Some(leader) = objectives.first() else {
+        return before;
+    };
+    let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
+    objectives[(count - 1).min(objectives.len() - 1)].max(share)
 }
 
 /// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change.

@@ -14,6 +14,7 @@ mod campaign;
 mod candidate;
 mod drivers;
 mod feasible;
+mod fidelity;
 mod flexible;
 mod ground;
 mod judge;
@@ -29,10 +30,9 @@ mod words;
 
 use crate::learn::bench::Workshop;
 use crate::learn::measured::Measured;
-use crate::learn::noise::{ModelError, NoiseModel};
+use crate::learn::noise::NoiseModel;
 use crate::learn::predictor::PredictError;
 use crate::simulate::forward::{ContactKind, ForwardError};
-use crate::simulate::numerics::Numerics;
 use crate::study::Role;
 
 pub use candidate::NotJudged;
@@ -40,6 +40,7 @@ pub use drivers::{
     BinMean, DRIVER_KINDS, DRIVERS, DriverBin, DriverKind, DriverRow, Explained, ResidualDriver,
     ResidualDrivers,
 };
+pub use fidelity::Fidelity;
 pub use flexible::{Driver, MapPoint};
 pub use plan::{
     AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
@@ -77,55 +78,46 @@ pub enum DiagnoseError {
 /// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
 pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
 
-/// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 %.
-const HERTZ_ERROR: f64 = 0.02;
-/// Resolution of the screening, which only looks at changes: flank edges per half width, positions, error of a wear step.
-const COARSE_EDGES: f64 = 2.0;
-const COARSE_POSITIONS: usize = 48;
-const COARSE_STEP: f64 = 0.02;
 /// Log evidence behind the leader within which candidates are decided by finite elements.
 const WITHIN: f64 = 10.0;
 /// The same as a share of the leader's gain, for the middle fidelity's own error.
 const WITHIN_SHARE: f64 = 0.02;
 /// Least and most single candidates decided by finite elements.
 const DECIDED: [usize; 2] = [3, 7];
+/// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
+const GAIN: f64 = 0.0;
 
-/// Diagnoses a study's measurements: screened by the analytic model, decided by `kind`.
+/// Diagnoses a study's measurements: screened by the analytic model, decided by `fidelity`.
 ///
 /// # Errors
 /// [`DiagnoseError`]
 pub fn diagnose(
     measured: &Measured<'_>,
-    kind: ContactKind,
+    fidelity: Fidelity,
     watch: Watch<'_>,
 ) -> Result<Diagnosis, DiagnoseError> {
     watch(0.0, "preparing the gears".to_owned());
-    let relative = match kind {
-        ContactKind::Fem => ModelError::default().relative,
-        ContactKind::Hertz => HERTZ_ERROR,
-    };
     let noise = NoiseModel {
-        model_error: Some(ModelError {
-            relative,
-            ..ModelError::default()
-        }),
+        model_error: Some(fidelity.model_error()),
         ..NoiseModel::of(&measured.study().noise)
     };
     let ground = Ground::new(measured, noise, Role::Fit);
     if ground.tests.is_empty() {
         return Err(DiagnoseError::NoObservations);
     }
-    let set = measured.study().gear_set();
-    let resolution = measured.study().resolution();
-    let coarse = coarse(resolution);
-    let workshop = Workshop::new(set.clone(), coarse, ContactKind::Hertz, measured.tests())?;
-    let hertz = measured.bench(&workshop)?;
-    let elastic = match kind {
-        ContactKind::Fem => {
-            let middle = Workshop::new(set.clone(), middle(resolution), kind, measured.tests())?;
-            Some((middle, measured.workshop(kind)?))
-        }
-        ContactKind::Hertz => None,
+    let fine = measured.study().resolution();
+    let workshop = |kind, fidelity: Fidelity| {
+        let set = measured.study().gear_set().clone();
+        Workshop::new(set, fidelity.resolution(fine), kind, measured.tests())
+    };
+    let analytic = workshop(ContactKind::Hertz, Fidelity::Screening)?;
+    let hertz = measured.bench(&analytic)?;
+    let elastic = match fidelity {
+        Fidelity::Screening => None,
+        Fidelity::Middle | Fidelity::Full => Some((
+            workshop(ContactKind::Fem, Fidelity::Middle)?,
+            measured.workshop(ContactKind::Fem)?,
+        )),
     };
     let benches = match &elastic {
         Some((middle, fine)) => Some((measured.bench(middle)?, measured.bench(fine)?)),
@@ -140,35 +132,9 @@ pub fn diagnose(
         hertz: &hertz,
         middle,
         exact,
-        kind,
+        fidelity,
     };
-    with(&judge, &workshop, watch)
-}
-
-/// Resolution of the screening.
-fn coarse(fine: Numerics) -> Numerics {
-    Numerics {
-        elements_per_half_width: fine.elements_per_half_width.min(COARSE_EDGES),
-        positions: fine.positions.min(COARSE_POSITIONS),
-        step_tolerance: fine.step_tolerance.max(COARSE_STEP),
-        ..fine
-    }
-}
-
-/// Resolution of the middle fidelity: flank edges per half width, positions, error of a wear step.
-const MIDDLE_EDGES: f64 = 2.5;
-const MIDDLE_POSITIONS: usize = 50;
-const MIDDLE_STEP: f64 = 5e-3;
-
-/// Resolution of the middle fidelity: finite elements coarse enough for thousands of histories.
-fn middle(fine: Numerics) -> Numerics {
-    Numerics {
-        elements_per_half_width: MIDDLE_EDGES,
-        positions: MIDDLE_POSITIONS,
-        step_tolerance: MIDDLE_STEP,
-        condense_after: f64::INFINITY,
-        ..fine
-    }
+    with(&judge, &analytic, watch)
 }
 
 /// The diagnosis on prepared benches.
@@ -179,15 +145,22 @@ fn with(judge: &Judge<'_>, shop: &Workshop, watch: Watch<'_>) -> Result<Diagnosi
     let (singles, not_judged) = Candidate::singles(study);
     watch(0.2, format!("screening {} effects", singles.len()));
     let screened = judge.screen(&base, &singles);
-    let screened = match judge.kind {
-        ContactKind::Fem => judge.refine(&base, screened),
-        ContactKind::Hertz => screened,
-    };
-    watch(0.45, "what anything smooth could explain".to_owned());
     let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
-    let judged = decide_leaders(judge, &base, screened, &|done, what| {
-        watch(0.5 + 0.3 * done, what);
-    });
+    let screened = match judge.fidelity {
+        Fidelity::Screening => screened,
+        Fidelity::Middle | Fidelity::Full => {
+            watch(0.35, "the leaders by coarse finite elements".to_owned());
+            judge.refine(&base, screened, flexible.is_real())
+        }
+    };
+    let judged = match judge.fidelity {
+        Fidelity::Middle => screened,
+        Fidelity::Screening | Fidelity::Full => {
+            decide_leaders(judge, &base, screened, &|done, what| {
+                watch(0.5 + 0.3 * done, what);
+            })
+        }
+    };
     watch(0.8, "looking at pairs".to_owned());
     let pairs = pairs::pairs(judge, &base, &judged);
     let failed = not_fitted(&singles, &judged);
@@ -216,7 +189,8 @@ fn decide_leaders(
         .iter()
         .enumerate()
         .take_while(|(i, j)| {
-            *i < DECIDED[0] || (*i < DECIDED[1] && j.log_evidence > leader - within)
+            let near = *i < DECIDED[0] || j.log_evidence > leader - within;
+            *i == 0 || *i < DECIDED[1] && near && j.log_evidence > before + GAIN
         })
         .count();
     let rest = screened.split_off(chosen);

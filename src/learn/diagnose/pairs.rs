@@ -11,12 +11,15 @@ use rayon::prelude::*;
 
 use super::anchored::{Anchored, model};
 use super::candidate::Candidate;
+use super::fidelity::Fidelity;
 use super::judge::{Base, Judge, Judged};
 use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
 
 /// Log evidence by which a pair must promise to beat the best single effect to be looked at.
 const PROMISE: f64 = 6.0;
+/// The same as a share of the best one's own gain: what adds less is taken for a mending of its form (`SECOND` in `rank`).
+const PROMISE_SHARE: f64 = 0.06;
 /// Pairs fitted by the middle fidelity, and by finite elements.
 const FITTED: [usize; 2] = [5, 2];
 /// Pair fits.
@@ -50,7 +53,7 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
     let mut decided = Vec::with_capacity(fitted.len());
     for (i, pair) in fitted.into_iter().enumerate() {
         let better = pair.log_evidence > best.log_evidence;
-        if i < FITTED[1] && better {
+        if i < FITTED[1] && better && judge.fidelity != Fidelity::Middle {
             let start = pair.found.state.clone();
             decided.push(
                 judge
@@ -77,6 +80,7 @@ fn promising(
         .collect();
     let along: Vec<f64> = seen.iter().map(|v| v.dot(&base.residual)).collect();
     let single = 0.5 * (base.judged.square - best.square);
+    let promise = PROMISE.max(PROMISE_SHARE * single);
     let mut found: Vec<(f64, usize, usize)> = Vec::new();
     for a in 0..singles.len() {
         for b in a + 1..singles.len() {
@@ -87,7 +91,7 @@ fn promising(
             // A linear gain counts the fitted effects' own gain at least.
             let own = [a, b].map(|i| 0.5 * (base.judged.square - singles[i].square));
             let gain = gain.max(own[0]).max(own[1]);
-            if gain > single + PROMISE {
+            if gain > single + promise {
                 found.push((gain, a, b));
             }
         }
@@ -113,7 +117,7 @@ fn promising(
         } else {
             0.0
         };
-        if gain > PROMISE {
+        if gain > promise {
             found.push((single + gain, leader.min(b), leader.max(b)));
         }
     }
@@ -178,5 +182,11 @@ fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged>
         .ground
         .fit(&predictor, &candidate.parameters, start, &EFFORT)
         .ok()?;
-    Some(judge.judged(candidate.clone(), found, offset.clone(), Some(base), false))
+    Some(judge.judged(
+        candidate.clone(),
+        found,
+        offset.clone(),
+        Some(base),
+        Fidelity::Middle,
+    ))
 }

@@ -11,10 +11,10 @@ use super::layout::Layout;
 use super::next::{Place, existing, plain};
 use super::plan::{Leader, NextTests, RankedTest, Separated, noise_ahead};
 use super::telling::{Said, Scale, Telling};
-use super::{DiagnoseError, HERTZ_ERROR, Watch, coarse};
+use super::{DiagnoseError, Fidelity, Watch};
 use crate::learn::bench::Workshop;
 use crate::learn::measured::Measured;
-use crate::learn::noise::{ModelError, NoiseModel};
+use crate::learn::noise::NoiseModel;
 use crate::measure::Quantity;
 use crate::simulate::forward::ContactKind;
 use crate::study::{Operation, Role};
@@ -38,17 +38,14 @@ pub(super) fn next_tests(
 ) -> Result<NextTests, DiagnoseError> {
     let study = measured.study();
     let fitted = NoiseModel {
-        model_error: Some(ModelError {
-            relative: HERTZ_ERROR,
-            ..ModelError::default()
-        }),
+        model_error: Some(Fidelity::Screening.model_error()),
         ..NoiseModel::of(&study.noise)
     };
     let ground = Ground::new(measured, fitted, Role::Fit);
     if ground.tests.is_empty() {
         return Err(DiagnoseError::NoObservations);
     }
-    let numerics = coarse(study.resolution());
+    let numerics = Fidelity::Screening.resolution(study.resolution());
     let set = study.gear_set();
     let shop = Workshop::new(set, numerics, ContactKind::Hertz, measured.tests())?;
     let hertz = measured.bench(&shop)?;
@@ -57,7 +54,7 @@ pub(super) fn next_tests(
         hertz: &hertz,
         middle: &hertz,
         exact: &hertz,
-        kind: ContactKind::Hertz,
+        fidelity: Fidelity::Screening,
     };
     watch(0.0, "fitting the base model".to_owned());
     let base = judge.base(Candidate::base(study))?;

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::NotJudged;
 use super::drivers::{self, ResidualDrivers};
+use super::fidelity::Fidelity;
 use super::flexible::{Driver, Flexible, MapPoint};
 use super::ground::Ground;
 use super::judge::{Base, Judge, Judged};
@@ -15,7 +16,6 @@ use super::{NOTHING, UNKNOWN};
 use super::{next, words};
 use crate::learn::bench::Workshop;
 use crate::learn::search::Effort;
-use crate::simulate::forward::ContactKind;
 use crate::study::{Role, Scatter};
 
 /// Probability from which a single effect or set is named.
@@ -136,7 +136,7 @@ pub struct Ranked {
     /// Of the held-out tests; None without, and for candidates far behind.
     pub holdout_chi2_per_point: Option<f64>,
     /// `fem` or `hertz`: by what it was judged in the end.
-    pub decided_by: String,
+    pub decided_by: Fidelity,
     /// Whether its fit converged.
     pub converged: bool,
 }
@@ -284,7 +284,7 @@ pub(super) fn diagnosis(
                 form: form(j),
                 evidence_gain: j.log_evidence - base.judged.log_evidence,
                 chi2_drop: base.judged.square - j.square,
-                decided: j.decided,
+                decided: j.fidelity == judge.fidelity,
                 values: parameters(j).iter().map(|p| p.value).collect(),
             })
             .collect(),
@@ -374,12 +374,7 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
                 } else {
                     None
                 },
-                decided_by: if judged.decided && judge.kind == ContactKind::Fem {
-                    "fem"
-                } else {
-                    "hertz"
-                }
-                .to_owned(),
+                decided_by: judged.fidelity,
                 converged: judged.converged,
             })
         })
