@@ -38,6 +38,23 @@ impl Plot {
         Ok(accessible(&text, &self.title, height))
     }
 
+    /// The legend alone as a complete SVG document, and its height in pixels.
+    pub(super) fn legend(&self) -> Result<(String, u32), OutputError> {
+        let rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
+        let height = ((rows * LEGEND_ROW + 8 * FINE) / FINE) as u32;
+        let mut text = String::new();
+        {
+            let size = (SIZE.0 * FINE as u32, height * FINE as u32);
+            let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+            let drawn = self.draw_legend(&area).and_then(|()| area.present());
+            drawn.map_err(|error| OutputError::Plot {
+                title: self.title.clone(),
+                message: error.to_string(),
+            })?;
+        }
+        Ok((accessible(&text, &self.title, height), height))
+    }
+
     fn draw(&self, area: &Area<'_>) -> Result<(), String> {
         let said = |error: &dyn std::fmt::Display| error.to_string();
         let legend_rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
