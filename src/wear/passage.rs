@@ -113,9 +113,8 @@ impl Passage {
                 let first = stations.partition_point(|&s| s < centre + low);
                 let last = stations.partition_point(|&s| s <= centre + high);
                 for i in first..last {
-                    let pressure = read(from, to, t, stations[i] - centre)
-                        .map(|(view, k, weight)| weight * view.pressure[k])
-                        .sum();
+                    let offset = stations[i] - centre;
+                    let pressure = (1.0 - t) * from.pressure(offset) + t * to.pressure(offset);
                     if pressure > moments[i].pressure {
                         moments[i].pressure = pressure;
                         moments[i].pair = if t < 0.5 { m } else { m + 1 };
@@ -259,17 +258,28 @@ impl<'a> View<'a> {
         self.loaded.is_none()
     }
 
+    /// The pressure at the point `offset` (mm of arc) from the middle, MPa.
+    fn pressure(&self, offset: f64) -> f64 {
+        let [(a, left), (b, right)] = self.at(offset);
+        left * self.pressure[a] + right * self.pressure[b]
+    }
+
     /// The two nodes around the point `offset` (mm of arc) from the middle, with their weights; weight 0 outside.
     fn at(&self, offset: f64) -> [(usize, f64); 2] {
         let s = self.centre + offset;
         let last = self.arc.len() - 1;
         // the gear's arc falls where ξ grows
         let rising = self.arc[last] >= self.arc[0];
-        let after = if rising {
-            self.arc.partition_point(|&x| x <= s)
-        } else {
-            self.arc.partition_point(|&x| x >= s)
-        };
+        let passed = |x: f64| if rising { x <= s } else { x >= s };
+        // nodes lie about evenly, so the place is looked for near where it would then be
+        let share = (s - self.arc[0]) / (self.arc[last] - self.arc[0]);
+        let mut after = (share * last as f64 + 1.0).clamp(0.0, (last + 1) as f64) as usize;
+        while after <= last && passed(self.arc[after]) {
+            after += 1;
+        }
+        while after > 0 && !passed(self.arc[after - 1]) {
+            after -= 1;
+        }
         if after == 0 || after > last {
             return [(0, 0.0), (0, 0.0)];
         }

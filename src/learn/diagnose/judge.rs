@@ -33,9 +33,11 @@ const IN_PLAY_REFINED: usize = 4;
 const IN_PLAY_SHARE: f64 = 0.5;
 /// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
 /// gain as much as this at all.
-const REFINED: usize = 8;
-const REFINED_SHARE: f64 = 0.5;
+const REFINED: usize = 3;
+const REFINED_SHARE: f64 = 0.4;
 const MEANT: f64 = 1.0;
+/// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
+const SHARP_SHARE: f64 = 0.15;
 /// A deciding fit between two anchors.
 const DECIDE: Effort = Effort {
     iterations: 8,
@@ -66,6 +68,10 @@ const WORTH_SHARE: f64 = 0.003;
 /// Ln posterior behind the leader, and share of its gain, from which a candidate is not followed further.
 const HOPELESS: f64 = 15.0;
 const HOPELESS_SHARE: f64 = 0.05;
+/// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at: its starts
+/// cover the priors, and lie within about half the gain of what a fit would find.
+const FAR_BEHIND: f64 = 20.0;
+const FAR_BEHIND_SHARE: f64 = 0.8;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
 
@@ -149,10 +155,25 @@ impl<'a> Judge<'a> {
         v - &base.adjustable * along
     }
 
-    /// Fits all candidates by the analytic model: a first look at each, then in full those that the look leaves in play.
+    /// Fits all candidates by the analytic model: the gain of each start in the linearised model, a first look at each candidate,
+    /// then in full those that the look leaves in play.
     pub(super) fn screen(&self, base: &Base, candidates: &[Candidate]) -> Vec<Judged> {
-        let looks: Vec<Option<Found>> = (candidates.par_iter())
-            .map(|candidate| self.look(base, candidate))
+        let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter())
+            .map(|candidate| self.starts(base, candidate))
+            .collect();
+        let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
+        let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
+        let looks: Vec<Option<Found>> = (candidates.par_iter().zip(starts))
+            .map(|(candidate, starts)| {
+                let behind = leader - best(&starts);
+                let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
+                self.look(
+                    base,
+                    candidate,
+                    starts,
+                    if hopeless { &STAY } else { &LOOK },
+                )
+            })
             .collect();
         let least = (looks.iter().flatten()).map(|found| found.objective);
         let bar = in_play(base.judged.found.objective, least, IN_PLAY);
@@ -182,18 +203,19 @@ impl<'a> Judge<'a> {
     }
 
     /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
-    /// leaders, and (if the discrepancy is real) all whose rate is sharp in the local pressure, of which the analytic model knows
-    /// least.
+    /// leaders, and where the discrepancy is real all whose rate is sharp in the local pressure, of which the analytic model
+    /// knows least.
     pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
         let before = base.judged.log_evidence;
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
-        let bar = match gains.first() {
-            Some(best) => gains[(REFINED - 1).min(gains.len() - 1)]
-                .min(REFINED_SHARE * best)
-                .max(MEANT),
-            None => return screened,
+        let Some(best) = gains.first() else {
+            return screened;
         };
+        let bar = gains[(REFINED - 1).min(gains.len() - 1)]
+            .min(REFINED_SHARE * best)
+            .max(MEANT);
+        let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
         let offset = &base.judged.offset;
         let fit = |candidate: &Candidate, state: State, effort: &Effort| {
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
@@ -203,7 +225,12 @@ impl<'a> Judge<'a> {
         let looks: Vec<Option<Found>> = (screened.par_iter())
             .map(|judged| {
                 let candidate = &judged.candidate;
-                let wanted = judged.log_evidence - before >= bar || real && candidate.sharp();
+                let bar = if candidate.sharp() {
+                    bar_of_sharp.min(bar)
+                } else {
+                    bar
+                };
+                let wanted = judged.log_evidence - before >= bar;
                 wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
             })
             .collect();
@@ -230,8 +257,8 @@ impl<'a> Judge<'a> {
             .collect()
     }
 
-    /// Two steps from that of a candidate's starts which leads furthest in the linearised model, and from a near second.
-    fn look(&self, base: &Base, candidate: &Candidate) -> Option<Found> {
+    /// A candidate's starts with their gain in the linearised model, the largest first.
+    fn starts(&self, base: &Base, candidate: &Candidate) -> Vec<(f64, State)> {
         let predictor = Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone());
         let mut starts: Vec<(f64, State)> = candidate
             .starts
@@ -248,21 +275,24 @@ impl<'a> Judge<'a> {
             })
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        starts
+    }
+
+    /// A fit from the first of the starts, and from a near second.
+    fn look(
+        &self,
+        base: &Base,
+        candidate: &Candidate,
+        starts: Vec<(f64, State)>,
+        effort: &Effort,
+    ) -> Option<Found> {
+        let predictor = Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone());
         let best = starts.first()?.0;
         let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
-        let count = if starts.get(1).is_some_and(|s| near(s.0)) {
-            2
-        } else {
-            1
-        };
-        starts
-            .into_iter()
-            .take(count)
-            .filter_map(|(_, state)| {
-                self.ground
-                    .fit(&predictor, &candidate.parameters, state, &LOOK)
-                    .ok()
-            })
+        let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
+        let parameters = &candidate.parameters;
+        (starts.into_iter().take(if second { 2 } else { 1 }))
+            .filter_map(|(_, state)| self.ground.fit(&predictor, parameters, state, effort).ok())
             .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
 
@@ -367,9 +397,15 @@ impl<'a> Judge<'a> {
             None => Vec::new(),
         };
         let own = (!change.is_empty()).then_some(change.as_slice());
-        let (log_evidence, covariance) = self.ground.evidence(&found, &candidate.parameters, own);
+        let (mut log_evidence, covariance) =
+            self.ground.evidence(&found, &candidate.parameters, own);
+        let square = self.ground.square(&found.model);
+        // the tolerance of a large change must not pay for a fit that is worse than without it
+        if let Some(b) = base.map(|base| &base.judged).filter(|b| b.square < square) {
+            log_evidence = log_evidence.min(b.log_evidence - 0.5 * (square - b.square));
+        }
         Judged {
-            square: self.ground.square(&found.model),
+            square,
             converged: found.converged,
             candidate,
             offset,
