@@ -7,7 +7,7 @@ use super::raster::Raster;
 use super::view::View;
 use super::{Picture, base64, opened};
 use crate::numeric::Vec2;
-use crate::report::bitmap::{self, SCALE};
+use crate::report::bitmap;
 use crate::report::error::OutputError;
 use crate::report::html::escape;
 use crate::simulate::result::{FieldFrame, Run};
@@ -57,16 +57,17 @@ fn picture(
 ) -> Result<Picture, OutputError> {
     let colors = palette();
     let title = format!("Von Mises stress and mesh: {}", name(frame));
-    let drawn = |view: View, end: f64| [view.stress(frame, end), view.lines(frame)];
+    let layers: Vec<[Raster; 2]> = (views.into_iter().zip(ends))
+        .map(|(view, end)| [view.stress(frame, end), view.lines(frame)])
+        .collect();
     let mut images = String::new();
-    for (i, (view, end)) in views.into_iter().zip(ends).enumerate() {
-        let [field, lines] = drawn(view, end);
+    for (i, [field, lines]) in layers.iter().enumerate() {
         for layer in [field.png(&colors)?, lines.shade()?] {
             images.push_str(&format!(
                 "<image x=\"{}\" y=\"{TITLE}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>\n",
                 left(i),
-                view.size[0],
-                view.size[1],
+                field.width,
+                field.height,
                 base64::encoded(&layer)
             ));
         }
@@ -76,19 +77,16 @@ fn picture(
     let svg = format!(
         "{open}<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{images}{over}</svg>\n"
     );
-    let png = bitmap::over(&file, &format!("{open}{over}</svg>\n"), |width, pixels| {
-        for (i, (view, end)) in views.into_iter().zip(ends).enumerate() {
-            let [field, lines] = drawn(view.enlarged(SCALE), end);
-            blend(
-                &field,
-                &lines,
-                &colors,
-                [left(i), TITLE].map(|p| SCALE * p),
-                width,
-                pixels,
-            );
-        }
-    })?;
+    let png = bitmap::over(
+        &file,
+        &format!("{open}{over}</svg>\n"),
+        1,
+        |width, pixels| {
+            for (i, [field, lines]) in layers.iter().enumerate() {
+                blend(field, lines, &colors, [left(i), TITLE], width, pixels);
+            }
+        },
+    )?;
     Ok(Picture {
         name: file,
         svg,

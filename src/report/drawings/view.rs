@@ -73,15 +73,6 @@ impl View {
         }
     }
 
-    /// The same part in `factor` times as many pixels each way.
-    pub(super) fn enlarged(self, factor: usize) -> Self {
-        View {
-            corner: self.corner,
-            scale: factor as f64 * self.scale,
-            size: self.size.map(|pixels| factor * pixels),
-        }
-    }
-
     /// Pixels of a place.
     pub(super) fn at(&self, p: Vec2) -> [f64; 2] {
         [
