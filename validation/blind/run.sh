@@ -4,7 +4,7 @@
 #   validation/blind/run.sh DATA RESULTS [PART/PARTS] [-- more arguments of `gearwear diagnose`]
 #
 # GEARWEAR: the program (default target/debug/gearwear beside the repository's root). TIMEOUT: seconds per set (900).
-# MODEL=hertz decides by the analytic model instead of finite elements; MODEL=mixed takes finite elements for every fifth set.
+# MODEL=screening|middle|full is `--fidelity` (full); MODEL=mixed is full for every fifth set and middle for the others.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 data=$1
@@ -19,7 +19,7 @@ if [ $# -gt 0 ] && [ "$1" != "--" ]; then
 fi
 [ "${1:-}" != "--" ] || shift
 program=${GEARWEAR:-$here/../../target/debug/gearwear}
-model=${MODEL:-fem}
+model=${MODEL:-full}
 mkdir -p "$results"
 count=0
 for set in "$data"/*/; do
@@ -35,12 +35,12 @@ for set in "$data"/*/; do
     cp "$set/measurements.csv" "$work/"
     kind=$model
     if [ "$model" = mixed ]; then
-        kind=hertz
-        [ $((count % 5)) -ne 0 ] || kind=fem
+        kind=middle
+        [ $((count % 5)) -ne 0 ] || kind=full
     fi
-    sed "s/^contact = .*/contact = \"$kind\"/" "$set/study.toml" >"$work/study.toml"
+    cp "$set/study.toml" "$work/"
     start=$(date +%s)
-    if timeout "${TIMEOUT:-900}" nice -n 19 "$program" --quiet --json diagnose "$work/study.toml" -o "$work/out" "$@" >"$work/stdout.json" 2>"$work/stderr.txt"; then
+    if timeout "${TIMEOUT:-900}" nice -n 19 "$program" --quiet --json diagnose --fidelity "$kind" "$work/study.toml" -o "$work/out" "$@" >"$work/stdout.json" 2>"$work/stderr.txt"; then
         mkdir -p "$results/$name"
         echo "$kind $(($(date +%s) - start))" >"$results/$name/seconds.txt"
         if [ -f "$work/out/diagnosis.json" ]; then

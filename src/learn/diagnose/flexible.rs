@@ -1,11 +1,12 @@
 //! A flexible discrepancy: how much of a misfit anything smooth could explain, and on what that depends.
 //!
 //! ```text
-//! m(test, member, quantity; s, n) = Σ_p Σ_c a_pc cos(p π s) T_c(n)      one set of a per test, member and quantity
+//! m(test, member, quantity; s, n) = g Σ_p Σ_c a_pc cos(p π s) T_c(n)      one set of a per test, member and quantity
 //! ```
-//! s: position in shares of the measured range; T: Chebyshev's polynomials of the share of the test. The numbers of terms
-//! are those of the least Bayesian information criterion. Its attainable fall of χ² is counted after subtracting what
-//! as many terms gain on noise alone.
+//! s: position in shares of the measured range; T: Chebyshev's polynomials of the share of the test; g: 1, or the model's own value,
+//! of which most missing effects are a smooth share. The discrepancy shown is that of the least Bayesian information criterion. What
+//! anything smooth could explain is more than such few terms do: the largest fall of χ², beyond what as many terms gain on noise,
+//! that is sure to two standard deviations.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -18,7 +19,7 @@ use super::ground::{Ground, whiten};
 use crate::learn::region::Map;
 
 /// Terms along the position and over the cycles that are tried.
-const TERMS: [(usize, usize); 5] = [(3, 1), (4, 2), (7, 3), (12, 3), (18, 4)];
+const TERMS: [(usize, usize); 7] = [(1, 1), (1, 3), (3, 1), (4, 2), (7, 3), (12, 3), (18, 4)];
 /// Prior precision of the whitened coefficients, so that terms the data do not hold stay finite.
 const RIDGE: f64 = 1e-6;
 /// Bins of a continuous driver.
@@ -31,7 +32,7 @@ const CLEARLY: f64 = 0.1;
 pub(super) struct Flexible {
     /// Fall of χ² beyond what its terms gain on noise.
     pub(super) drop: f64,
-    /// Number of its terms.
+    /// Number of terms that this takes.
     pub(super) terms: usize,
     /// Its values, model minus what is missing: to be added to the model, per row.
     pub(super) values: Vec<f64>,
@@ -69,13 +70,17 @@ impl Flexible {
         let residual = ground.residual(model);
         let white = DVector::from_vec(ground.covariance.whiten(&residual));
         let groups = groups(ground);
-        let tried: Vec<(f64, Flexible)> = TERMS
+        let ones = vec![1.0; ground.len()];
+        let kinds: Vec<(&[f64], (usize, usize))> = ([ones.as_slice(), model].into_iter())
+            .flat_map(|g| TERMS.map(|terms| (g, terms)))
+            .collect();
+        let tried: Vec<Flexible> = kinds
             .par_iter()
-            .map(|&terms| {
+            .map(|&(g, terms)| {
                 let mut values = vec![0.0; ground.len()];
                 let (mut fallen, mut count) = (0.0, 0);
                 for group in &groups {
-                    let columns = group.columns(ground, terms);
+                    let columns = group.columns(g, terms);
                     let seen = whiten(&ground.covariance, &columns);
                     let mut gram = seen.tr_mul(&seen);
                     for i in 0..gram.nrows() {
@@ -94,20 +99,23 @@ impl Flexible {
                         .zip(of_group.iter())
                         .for_each(|(v, m)| *v += m);
                 }
-                let drop = fallen - count as f64;
-                let criterion = fallen - count as f64 * (ground.len() as f64).ln();
-                (
-                    criterion,
-                    Flexible {
-                        drop,
-                        terms: count,
-                        values,
-                    },
-                )
+                Flexible {
+                    drop: fallen - count as f64,
+                    terms: count,
+                    values,
+                }
             })
             .collect();
-        let best = tried.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        best.expect("some numbers of terms are tried").1
+        let rows = (ground.len() as f64).ln();
+        let criterion = |f: &Flexible| f.drop + (1.0 - rows) * f.terms as f64;
+        let sure = |f: &Flexible| f.drop - 2.0 * f.spread();
+        let shown = best(&tried, criterion).values.clone();
+        let Flexible { drop, terms, .. } = *best(&tried, sure);
+        Self {
+            drop,
+            terms,
+            values: shown,
+        }
     }
 
     /// Whether it is far more than noise: five standard deviations.
@@ -200,6 +208,11 @@ impl Flexible {
     }
 }
 
+fn best(tried: &[Flexible], value: impl Fn(&Flexible) -> f64) -> &Flexible {
+    (tried.iter().max_by(|a, b| value(a).total_cmp(&value(b))))
+        .expect("some numbers of terms are tried")
+}
+
 /// Σ over bins of (Σ m f/σ²)²/Σ f²/σ².
 fn explained(m: &[f64], weight: &[f64], bins: &[usize], f: &dyn Fn(usize) -> f64) -> f64 {
     let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
@@ -275,15 +288,15 @@ struct Group {
 }
 
 impl Group {
-    /// The basis functions at the rows, 0 elsewhere.
-    fn columns(&self, ground: &Ground<'_>, terms: (usize, usize)) -> DMatrix<f64> {
+    /// The basis functions times `g` at the rows, 0 elsewhere.
+    fn columns(&self, g: &[f64], terms: (usize, usize)) -> DMatrix<f64> {
         let (along, over) = (terms.0.min(self.distinct.0), terms.1.min(self.distinct.1));
-        let mut columns = DMatrix::zeros(ground.len(), along * over);
+        let mut columns = DMatrix::zeros(g.len(), along * over);
         for (&row, &(s, n)) in self.rows.iter().zip(&self.places) {
             for p in 0..along {
                 for c in 0..over {
                     let chebyshev = (c as f64 * (2.0 * n - 1.0).acos()).cos();
-                    columns[(row, p * over + c)] = (p as f64 * PI * s).cos() * chebyshev;
+                    columns[(row, p * over + c)] = g[row] * (p as f64 * PI * s).cos() * chebyshev;
                 }
             }
         }

@@ -4,12 +4,13 @@
 //! gain(a, b) = ½ rᵀP r       P onto the changes of a and b that k cannot make; amplitudes not negative
 //! ```
 //! The changes are those of the singly fitted effects. The most promising pairs are then fitted in full, by the middle fidelity,
-//! and the best of these by finite elements.
+//! and the best of these by finite elements. If the best one leaves more than noise, its stronger effect as fitted in the pair is
+//! given other partners: what fits an effect best alone may hide the right partner.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::anchored::{Anchored, model};
+use super::anchored::{Anchored, model, predictions};
 use super::candidate::Candidate;
 use super::fidelity::Fidelity;
 use super::judge::{Base, Judge, Judged};
@@ -22,6 +23,10 @@ const PROMISE: f64 = 6.0;
 const PROMISE_SHARE: f64 = 0.06;
 /// Pairs fitted by the middle fidelity, and by finite elements.
 const FITTED: [usize; 2] = [5, 2];
+/// Other partners tried for the stronger effect of the best pair, and the χ² per degree of freedom above 1, in standard deviations,
+/// that the pair must leave for that.
+const PARTNERS: usize = 4;
+const LEFT: f64 = 1.0;
 /// Pair fits.
 const EFFORT: Effort = Effort {
     iterations: 5,
@@ -50,6 +55,15 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
         .filter_map(|&(a, b)| fit(judge, base, &singles[a], &singles[b]))
         .collect();
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    let rows = judge.ground.len() as f64;
+    if let Some(pair) = fitted
+        .first()
+        .filter(|p| p.square > rows + LEFT * (2.0 * rows).sqrt())
+    {
+        let more = partners(judge, base, singles, &fitted, pair);
+        fitted.extend(more);
+        fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    }
     let mut decided = Vec::with_capacity(fitted.len());
     for (i, pair) in fitted.into_iter().enumerate() {
         let better = pair.log_evidence > best.log_evidence;
@@ -137,6 +151,69 @@ fn promising(
         }
     }
     chosen
+}
+
+/// The stronger effect of a fitted pair with other partners: those that gain most on what it leaves with its values of the pair.
+fn partners(
+    judge: &Judge<'_>,
+    base: &Base,
+    singles: &[Judged],
+    fitted: &[Judged],
+    pair: &Judged,
+) -> Vec<Judged> {
+    let part = |s: &&Judged| pair.candidate.names.contains(&s.candidate.names[0]);
+    let Some(kept) = (singles.iter().filter(part)).min_by(|a, b| a.square.total_cmp(&b.square))
+    else {
+        return Vec::new();
+    };
+    let Some(alone) = alone_in(judge, base, kept, pair) else {
+        return Vec::new();
+    };
+    let left = judge.ground.residual(&alone);
+    let left = DVector::from_vec(judge.ground.covariance.whiten(&left));
+    let known = |s: &Judged| {
+        let both = [s.candidate.names[0], kept.candidate.names[0]];
+        (fitted.iter()).any(|f| both.iter().all(|name| f.candidate.names.contains(name)))
+    };
+    let mut gains: Vec<(f64, &Judged)> = (singles.par_iter())
+        .filter(|s| s.candidate.names != kept.candidate.names && !known(s))
+        .map(|s| {
+            let seen = judge.visible(base, &s.change);
+            let square = seen.norm_squared();
+            let gain = if square > 1e-9 {
+                seen.dot(&left).powi(2) / square
+            } else {
+                0.0
+            };
+            (0.5 * gain, s)
+        })
+        .filter(|(gain, _)| *gain > PROMISE)
+        .collect();
+    gains.sort_by(|a, b| b.0.total_cmp(&a.0));
+    gains.truncate(PARTNERS);
+    (gains.par_iter())
+        .filter_map(|(_, partner)| fit(judge, base, kept, partner))
+        .collect()
+}
+
+/// What the coarse finite elements predict for one effect of a fitted pair alone, with its values of the pair, per row.
+fn alone_in(judge: &Judge<'_>, base: &Base, kept: &Judged, pair: &Judged) -> Option<Vec<f64>> {
+    let candidate = &kept.candidate;
+    let value = |name: &str| {
+        let at = (pair.candidate.parameters.iter()).position(|p| p.name == name)?;
+        Some(pair.found.state.theta[at])
+    };
+    let theta: Option<Vec<f64>> = (candidate.parameters.iter())
+        .map(|p| value(&p.name))
+        .collect();
+    let state = State {
+        theta: theta?,
+        ..pair.found.state.clone()
+    };
+    let offset = base.judged.offset.clone();
+    let predictor = Anchored::new(model(judge.middle, candidate), offset);
+    let values = predictions(&judge.ground, &predictor, candidate, &state).ok()?;
+    Some(judge.ground.joined(&values))
 }
 
 /// ½ of the fall of χ² by two changes with amplitudes that are not negative.

@@ -24,6 +24,7 @@ const SHARE_WIDTH: f64 = 0.04;
 /// The same for two effects together: with twice the freedom they come nearer to anything; pairs that were really there explained
 /// all of it.
 const PAIR_SHARE: f64 = 0.95;
+const PAIR_SHARE_WIDTH: f64 = 0.025;
 /// Fall of χ² by the weaker effect of a pair over that by the stronger one alone, below which it is thought to mend the form of the
 /// stronger one and not to be an effect, and how sharply: an effect in a form of its own left up to 8 %.
 const SECOND: f64 = 0.10;
@@ -37,6 +38,8 @@ pub(super) struct Ranking {
     pub(super) judged: Vec<Judged>,
     /// Share of the attainable fall of χ² that each of them explains.
     pub(super) shares: Vec<f64>,
+    /// Log evidence of a smooth discrepancy of unknown cause.
+    pub(super) unknown: f64,
 }
 
 impl Ranking {
@@ -80,7 +83,7 @@ impl Ranking {
             // ln of (1 − named)/named, named the probability that such a share is the missing effect's own.
             let odds = match j.candidate.names.len() {
                 1 => (SHARE - share - 2.0 * spread) / SHARE_WIDTH,
-                _ => (PAIR_SHARE - share - spread) / SHARE_WIDTH,
+                _ => (PAIR_SHARE - share - spread) / PAIR_SHARE_WIDTH,
             };
             match stronger_alone(base, &judged, j) {
                 Some((name, second)) => {
@@ -110,6 +113,7 @@ impl Ranking {
             probabilities,
             judged,
             shares,
+            unknown,
         }
     }
 

@@ -89,6 +89,10 @@ pub struct Diagnosis {
     pub explained_share: Option<f64>,
     /// Fall of χ² that anything smooth could bring.
     pub attainable_drop: f64,
+    /// Standard deviation of that on noise alone.
+    pub attainable_spread: f64,
+    /// Log evidence of a smooth discrepancy of unknown cause over the base model.
+    pub unknown_evidence_gain: f64,
     /// The test that would best separate what is left.
     pub next_experiment: Option<NextExperiment>,
     /// Everything fitted, by falling evidence.
@@ -135,7 +139,10 @@ pub struct Ranked {
     pub fit_chi2_per_point: f64,
     /// Of the held-out tests; None without, and for candidates far behind.
     pub holdout_chi2_per_point: Option<f64>,
-    /// `fem` or `hertz`: by what it was judged in the end.
+    /// Angle between what it and the leading effect change, deg, in the metric of the noise, after k is refitted; below some 10 they
+    /// do the same. None for `nothing_missing`.
+    pub angle_to_leader: Option<f64>,
+    /// `fem`, `coarse_fem` or `hertz`: by what it was judged in the end.
     pub decided_by: Fidelity,
     /// Whether its fit converged.
     pub converged: bool,
@@ -275,6 +282,8 @@ pub(super) fn diagnosis(
             .filter(|_| flexible.is_real())
             .map(|i| ranking.shares[i]),
         attainable_drop: flexible.drop.max(0.0),
+        attainable_spread: flexible.spread(),
+        unknown_evidence_gain: ranking.unknown - base.judged.log_evidence,
         next_experiment: None,
         screened: ranking
             .judged
@@ -346,6 +355,19 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
         b.1.total_cmp(&a.1)
             .then(evidence(b.0).total_cmp(&evidence(a.0)))
     });
+    let leader = ranking.effects().first().and_then(|e| ranking.best_of(e.0));
+    let seen = |place: usize| judge.visible(base, &ranking.judged[place].change);
+    let leading = leader.map(seen);
+    let angle = |name: &str| {
+        let (own, leading) = (seen(ranking.best_of(name)?), leading.as_ref()?);
+        let lengths = own.norm() * leading.norm();
+        (lengths > 0.0).then(|| {
+            (own.dot(leading) / lengths)
+                .clamp(-1.0, 1.0)
+                .acos()
+                .to_degrees()
+        })
+    };
     let held = Ground::new(judge.ground.measured, judge.ground.noise, Role::Holdout);
     let mut listed: Vec<(&str, f64)> = names.iter().copied().take(LISTED).collect();
     if !listed.iter().any(|l| l.0 == NOTHING) {
@@ -374,6 +396,7 @@ fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<Ranked> {
                 } else {
                     None
                 },
+                angle_to_leader: angle(name),
                 decided_by: judged.fidelity,
                 converged: judged.converged,
             })

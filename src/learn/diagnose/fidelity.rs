@@ -1,0 +1,77 @@
+//! Three fidelities of the forward model: the analytic one screens, coarse finite elements fit, fine ones decide.
+
+use serde::{Deserialize, Serialize};
+
+use crate::learn::noise::ModelError;
+use crate::simulate::numerics::Numerics;
+
+/// By which model candidates are compared at last, or one of them was fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Fidelity {
+    /// The analytic contact model alone.
+    #[serde(rename = "hertz")]
+    Screening,
+    /// The base model by fine finite elements, what effects change about it by coarse ones.
+    #[serde(rename = "coarse_fem")]
+    Middle,
+    /// Fine finite elements.
+    #[serde(rename = "fem")]
+    Full,
+}
+
+/// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 %.
+const HERTZ_ERROR: f64 = 0.02;
+
+/// Resolution of the screening, which only looks at changes: flank edges per half width, positions, error of a wear step.
+const COARSE_EDGES: f64 = 2.0;
+const COARSE_POSITIONS: usize = 48;
+const COARSE_STEP: f64 = 0.02;
+
+/// Resolution of the coarse finite elements: flank edges per half width, positions, error of a wear step.
+const MIDDLE_EDGES: f64 = 2.5;
+const MIDDLE_POSITIONS: usize = 50;
+const MIDDLE_STEP: f64 = 5e-3;
+
+impl Fidelity {
+    /// As it stands in the result file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Screening => "hertz",
+            Self::Middle => "coarse_fem",
+            Self::Full => "fem",
+        }
+    }
+
+    /// The model error that belongs to it.
+    pub(super) fn model_error(self) -> ModelError {
+        let plain = ModelError::default();
+        ModelError {
+            relative: match self {
+                Self::Screening => HERTZ_ERROR,
+                Self::Middle | Self::Full => plain.relative,
+            },
+            ..plain
+        }
+    }
+
+    /// Its resolution where a study asks for `fine`.
+    pub(super) fn resolution(self, fine: Numerics) -> Numerics {
+        match self {
+            Self::Screening => Numerics {
+                elements_per_half_width: fine.elements_per_half_width.min(COARSE_EDGES),
+                positions: fine.positions.min(COARSE_POSITIONS),
+                step_tolerance: fine.step_tolerance.max(COARSE_STEP),
+                ..fine
+            },
+            // coarse enough for thousands of histories
+            Self::Middle => Numerics {
+                elements_per_half_width: MIDDLE_EDGES,
+                positions: MIDDLE_POSITIONS,
+                step_tolerance: MIDDLE_STEP,
+                condense_after: f64::INFINITY,
+                ..fine
+            },
+            Self::Full => fine,
+        }
+    }
+}
