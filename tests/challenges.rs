@@ -6,8 +6,8 @@
 //! is in the README there); 0.5 % for the root mean square of all depths and for mass losses.
 //!
 //! And by the way that fits go, with the true micropitting: the sealed test, whose law takes the largest pressure of a passage to the
-//! sixth power. Tolerance there: 1.5 %, 2 % at the end points, as the data's own error for such laws is said to be 0.5 % (root mean
-//! square) and 1 to 2 % at trace ends. (With the pressure at points instead of its average over 30 µm it is 12 % off.)
+//! sixth power. Same tolerances: 1 %, 1.5 % at the end points; measured are 0.91 and 1.39 %. (With the pressure at points
+//! instead of its average over 30 µm it is 12 % off.)
 
 use std::path::Path;
 
@@ -91,7 +91,7 @@ fn the_largest_pressure_to_the_sixth_power_is_reproduced() {
         for (i, (computed, given)) in trace.iter().enumerate() {
             let error = (*computed - given.value) / largest;
             let end = i == 0 || i + 1 == trace.len();
-            let tolerance = if end { 0.02 } else { 0.015 };
+            let tolerance = if end { 0.015 } else { 0.01 };
             assert!(
                 error.abs() < tolerance,
                 "{given:?}: {computed}, off by {error:.4}"

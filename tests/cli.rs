@@ -6,23 +6,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
 use tempfile::TempDir;
 
-fn gearwear(home: &TempDir, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::cargo_bin("gearwear")
-        .unwrap()
-        .current_dir(home)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
+mod common;
+
+use common::gearwear;
 
 /// A folder with the `paper` example in it.
 fn home() -> TempDir {

@@ -12,27 +12,17 @@
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-const BASE: &str = r#"title = "made up"
-[gears]
-module = 2.0
-pressure_angle = 20.0
-face_width = 33.0
-centre_distance = 80.0
-[gears.pinion]
-teeth = 27
-bore_diameter = 25.0
-[gears.gear]
-teeth = 53
-bore_diameter = 40.0
-[material]
-youngs_modulus = 2.1e5
-poisson_ratio = 0.3
-density = 7850.0
-[operation]
+mod common;
+
+use common::{gears, succeed};
+
+const BASE: &str = concat!(
+    "title = \"made up\"\n",
+    gears!("centre_distance = 80.0\n"),
+    r#"[operation]
 torque = 100.0
 speed = 2000.0
 [wear]
@@ -55,7 +45,8 @@ id = "H, held out"
 role = "holdout"
 torque = 130.0
 cycles = 4e5
-"#;
+"#
+);
 const RUNNING_IN: &str =
     "[[effect]]\nkind = \"running_in\"\namplitude = 2.0\ndecay_cycles = 1.5e5\n";
 const FREE: &str =
@@ -63,27 +54,6 @@ const FREE: &str =
 const WRONG: &str = "[[effect]]\nkind = \"pressure_exponent\"\nexponent = 1.2\n[fit]\nfree = \
                      [\"wear.coefficient\", \"pressure_exponent.exponent\"]\n";
 const FILE: &str = "[measurements]\nfile = \"measurements.csv\"\n";
-
-fn gearwear(home: &TempDir, line: &str) -> (Option<i32>, String, String) {
-    let output = Command::cargo_bin("gearwear")
-        .unwrap()
-        .current_dir(home)
-        .args(line.split(' '))
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
-
-fn succeed(home: &TempDir, line: &str) -> String {
-    let (code, out, err) = gearwear(home, line);
-    assert_eq!(code, Some(0), "{line}: {err}");
-    out
-}
 
 /// A folder with measurements of the model with running-in in `data`, and versions of the model beside them.
 fn home() -> TempDir {
@@ -384,7 +354,7 @@ fn unusable_input_writes_nothing() {
             "not compared with measurements",
         ),
     ] {
-        let (code, out, err) = gearwear(&home, line);
+        let (code, out, err) = common::line(&home, line);
         assert_eq!((code, out.as_str()), (Some(2), ""), "{line}: {err}");
         assert!(err.contains(word), "{line}: {err}");
         assert_eq!(names(home.path()), before, "{line}");

@@ -127,6 +127,11 @@ fn nothing_is_missing_where_only_the_coefficient_scatters() {
         .iter()
         .filter(|r| r.effect != "nothing_missing");
     assert!(largest.map(|r| r.probability).fold(0.0, f64::max) < 0.5);
+    let left = &found.residual_drivers;
+    assert_eq!(left.after, None);
+    for driver in &left.drivers {
+        assert!(driver.before.share < 0.04, "{driver:?}");
+    }
 }
 
 #[test]
@@ -137,6 +142,14 @@ fn running_in_is_named_though_its_decay_is_of_another_form() {
     assert!(names(&found, "running_in"), "{}", says(&found));
     let best = &found.ranking[0];
     assert!((0.8..1.3).contains(&best.fit_chi2_per_point), "{best:?}");
+    // what was left followed the cycles, and nearly nothing of it is left
+    let left = &found.residual_drivers;
+    assert_eq!(left.after.as_deref(), Some("running_in"));
+    let first = &left.drivers[0];
+    assert_eq!(first.name, "cycles", "{first:?}");
+    assert!(first.before.share > 0.3, "{first:?}");
+    let after = first.after.unwrap();
+    assert!(after.variance < 0.03 * first.before.variance, "{first:?}");
 }
 
 #[test]

@@ -14,29 +14,22 @@ use std::sync::LazyLock;
 use serde_json::Value;
 use tempfile::TempDir;
 
-const STUDY: &str = r#"title = "Seen in a browser"
-[gears]
-module = 2.0
-pressure_angle = 20.0
-face_width = 33.0
-centre_distance = 80.0
-[gears.pinion]
-teeth = 27
-bore_diameter = 25.0
-[gears.gear]
-teeth = 53
-bore_diameter = 40.0
-[material]
-youngs_modulus = 2.1e5
-poisson_ratio = 0.3
-density = 7850.0
+mod common;
+
+use common::{gears, succeed};
+
+const STUDY: &str = concat!(
+    "title = \"Seen in a browser\"\n",
+    gears!("centre_distance = 80.0\n"),
+    "\
 [operation]
 torque = 100.0
 speed = 2000.0
 [wear]
 coefficient = 2e-10
 cycles = 1e6
-"#;
+"
+);
 const FEM: &str = "[model]\ncontact = \"fem\"\n[numerics]\nelements_per_half_width = 2\npositions = 16\nstep_tolerance = 2e-2\n";
 const HERTZ: &str = "[model]\ncontact = \"hertz\"\n[numerics]\npositions = 40\n";
 const TESTS: &str = "[[test]]\nid = \"A\"\n[[test]]\nid = \"B\"\ntorque = 170.0\ncycles = 6e5\n[[test]]\nid = \"H\"\nrole = \
@@ -57,17 +50,6 @@ static BROWSER: LazyLock<Option<PathBuf>> = LazyLock::new(|| {
         .flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
     places.into_iter().find(|place| place.is_file())
 });
-
-fn gearwear(home: &TempDir, line: &str) {
-    let output = assert_cmd::Command::cargo_bin("gearwear")
-        .unwrap()
-        .current_dir(home)
-        .args(line.split(' '))
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{line}: {said}");
-}
 
 /// Runs the browser on `page`; what it prints, and what it complains of.
 fn browse(home: &TempDir, page: &Path, width: usize, options: &[String]) -> (String, Vec<String>) {
@@ -192,7 +174,7 @@ fn reports_work_in_a_browser() {
     let home = tempfile::tempdir().unwrap();
     let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
     write("study.toml", format!("{STUDY}{FEM}"));
-    gearwear(&home, "run study.toml -q");
+    succeed(&home, "run study.toml -q");
     let found = opened(&home, "study.out/run", 9);
     for name in [
         "wear_pinion",
@@ -212,8 +194,16 @@ fn reports_work_in_a_browser() {
     }
     let pointed = found["pointed"][0].as_str().unwrap();
     assert!(pointed.ends_with("MPa"), "{pointed}");
+    let captions = found["captions"].as_array().unwrap();
+    assert!(captions.len() >= 4, "{captions:?}");
+    for (i, said) in captions.iter().enumerate() {
+        assert_eq!(said[1], 1, "one picture is seen: {captions:?}");
+        let said = said[0].as_str().unwrap();
+        assert!(said.starts_with("Mesh and von Mises stress"), "{said}");
+        assert_eq!(said.ends_with("close-up of the contact"), i % 2 == 1);
+    }
 
-    gearwear(&home, "models study.toml -q");
+    succeed(&home, "models study.toml -q");
     opened(
         &home,
         "study.out/models",
@@ -221,7 +211,7 @@ fn reports_work_in_a_browser() {
     );
 
     write("truth.toml", format!("{STUDY}{HERTZ}{TESTS}{EFFECT}"));
-    gearwear(&home, "synthesize truth.toml -o data --seed 5 -q");
+    succeed(&home, "synthesize truth.toml -o data --seed 5 -q");
     let data = home.path().join("data/measurements.csv");
     fs::copy(data, home.path().join("measurements.csv")).unwrap();
     write("base.toml", format!("{STUDY}{HERTZ}{TESTS}{FILE}"));
@@ -229,15 +219,22 @@ fn reports_work_in_a_browser() {
         "right.toml",
         format!("{STUDY}{HERTZ}{TESTS}{EFFECT}{FREE}{FILE}"),
     );
-    gearwear(&home, "compare base.toml -q");
+    succeed(&home, "compare base.toml -q");
     opened(
         &home,
         "base.out/compare",
         pictures(&home, "base.out/compare"),
     );
-    gearwear(&home, "ladder base.toml right.toml -q");
+    succeed(&home, "ladder base.toml right.toml -q");
     opened(&home, "base.out/ladder", 2);
-    gearwear(&home, "diagnose base.toml --fast -q");
-    let page = fs::read_to_string(home.path().join("base.out/diagnose/report.html")).unwrap();
+    succeed(&home, "diagnose base.toml --fast -q");
+    let folder = "base.out/diagnose";
+    let drawn = pictures(&home, folder);
+    assert!(
+        drawn > 6,
+        "{drawn} pictures of the discrepancy and its drivers"
+    );
+    opened(&home, folder, drawn);
+    let page = fs::read_to_string(home.path().join(folder).join("report.html")).unwrap();
     assert!(page.contains("class=\"bar\"") && page.contains("running_in"));
 }

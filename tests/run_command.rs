@@ -8,6 +8,8 @@
 //!
 //! The runs are coarse (two linear elements per Hertz half width, 30 positions): they last about a second, and what is claimed
 //! here holds at any resolution. How figures converge is shown by `gearwear validate`.
+mod common;
+
 #[path = "run_command/failures.rs"]
 mod failures;
 #[path = "run_command/files.rs"]

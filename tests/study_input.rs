@@ -8,31 +8,24 @@
 use gearwear::study::{ContactKind, Fault, Order, Role, Scatter, Study};
 use proptest::prelude::*;
 
+mod common;
+
+use common::gears;
+
 /// Every key of the format once, each on its own line.
 const FULL: &str = include_str!("../src/cli/examples/paper.toml");
 
-const SHORT: &str = "\
-[gears]
-module = 2.0
-pressure_angle = 20.0
-face_width = 33.0
-[gears.pinion]
-teeth = 27
-bore_diameter = 25.0
-[gears.gear]
-teeth = 53
-bore_diameter = 40.0
-[material]
-youngs_modulus = 2.1e5
-poisson_ratio = 0.3
-density = 7850.0
+const SHORT: &str = concat!(
+    gears!(),
+    "\
 [operation]
 torque = 100.0
 speed = 2000.0
 [wear]
 coefficient = 6e-10
 cycles = 50000
-";
+"
+);
 
 /// `SHORT` with the line that starts with `old` replaced by `new` (several lines may be given).
 fn with(old: &str, new: &str) -> String {

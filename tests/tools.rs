@@ -16,23 +16,15 @@ use gearwear::verify::calculix::{self, CalculixError};
 use serde_json::Value;
 use tempfile::TempDir;
 
+mod common;
+
+use common::gears;
+
 /// A coarse study of about a second; one line per key, so that tests can replace lines.
-const STUDY: &str = r#"title = "coarse"
-[gears]
-module = 2.0
-pressure_angle = 20.0
-face_width = 33.0
-centre_distance = 80.0
-[gears.pinion]
-teeth = 27
-bore_diameter = 25.0
-[gears.gear]
-teeth = 53
-bore_diameter = 40.0
-[material]
-youngs_modulus = 2.1e5
-poisson_ratio = 0.3
-density = 7850.0
+const STUDY: &str = concat!(
+    "title = \"coarse\"\n",
+    gears!("centre_distance = 80.0\n"),
+    "\
 [operation]
 torque = 100.0
 speed = 2000.0
@@ -44,7 +36,8 @@ elements_per_half_width = 2
 positions = 20
 stored_states = 1
 fields = 0
-"#;
+"
+);
 
 struct Home(TempDir);
 
@@ -78,13 +71,7 @@ impl Home {
     }
 
     fn gearwear(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
-        let output = self.command(arguments).output().unwrap();
-        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-        (
-            output.status.code(),
-            text(output.stdout),
-            text(output.stderr),
-        )
+        common::gearwear(self.path(), arguments)
     }
 
     fn ok(&self, arguments: &[&str]) -> String {

@@ -61,7 +61,12 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
     let document = json!(diagnosis);
     let page = report::diagnosis::page(&study.title, &diagnosis);
     let map = report::discrepancy::csv(&diagnosis.discrepancy)?;
-    let further = [("discrepancy.csv", map)];
+    let left = &diagnosis.residual_drivers;
+    let further = [
+        ("discrepancy.csv", map),
+        ("residual_drivers.csv", report::drivers::bins(left)?),
+        ("residual_rows.csv", report::drivers::rows(left)?),
+    ];
     let written = report::write_page_with(&page, "diagnosis.json", &document, &further, &target)?;
     let study_name = args.paths.study.display().to_string();
     Ok(Outcome {

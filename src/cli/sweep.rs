@@ -24,7 +24,7 @@ use points::{Point, Result};
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Values are a list, 0,0.5,1, or a range with its number of points, 50..200:4 (50..200:4:log for equal ratios).\nSeveral --vary give every combination. A swept key may be any of the study's tables, or an effect's parameter\n(running_in.amplitude). An interrupted sweep goes on with --resume; points that are done are not computed again,\nalso when values were added.\n\nExamples:\n  gearwear sweep study.toml --vary operation.misalignment=0,0.25,0.5,1 --vary operation.torque=50..200:4\n  gearwear sweep study.toml --vary gears.pinion.profile_shift=-0.2..0.4:7 --resume\n  gearwear sweep study.toml --vary model.contact=fem,hertz --json"
+    after_help = "Values are a list, 0,0.5,1, or a range with its number of points, 50..200:4 (50..200:4:log for equal ratios).\nSeveral --vary give every combination. A swept key may be any of the study's tables, or an effect's parameter\n(running_in.amplitude). Keys that shape the teeth (tip_relief_amount, profile_shift)\nor their material mesh both gears anew at every value; effects such as tip_relief do not.\nAn interrupted sweep goes on with --resume; points that are done are not computed again,\nalso when values were added.\n\nExamples:\n  gearwear sweep study.toml --vary operation.misalignment=0,0.25,0.5,1 --vary operation.torque=50..200:4\n  gearwear sweep study.toml --vary gears.pinion.profile_shift=-0.2..0.4:7 --resume\n  gearwear sweep study.toml --vary model.contact=fem,hertz --json"
 )]
 pub struct SweepArgs {
     #[command(flatten)]

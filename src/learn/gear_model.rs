@@ -5,11 +5,12 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::effects::Combined;
+use crate::effects::{Combined, Local};
 use crate::learn::bench::Bench;
 use crate::learn::observe::Reading;
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::trajectory::Trajectory;
+use crate::measure::Observation;
 use crate::simulate::forward::{Forward, ForwardError};
 use crate::wear::acting::Acting;
 
@@ -69,22 +70,29 @@ impl<'a> GearModel<'a> {
         Ok(longer)
     }
 
-    fn run(
-        &self,
-        test: usize,
-        coefficient: f64,
-        parameters: &[f64],
-    ) -> Result<Vec<f64>, ForwardError> {
+    fn acting(&self, test: usize, effects: Combined) -> Acting {
         let measured = &self.bench.tests[test];
-        let effects = (self.effects)(parameters);
-        let acting = (!effects.is_empty()).then(|| Acting {
+        Acting {
             effects,
             surroundings: measured.surroundings,
             torque: 1e-3 * measured.conditions.torque,
             speed: measured.conditions.speed,
             reversed: measured.reversed,
             face_width: self.bench.set().face_width,
-        });
+        }
+    }
+
+    /// What `of` reads of every observation of a test.
+    fn read<T>(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        of: impl Fn(&Reading<'_>, &Observation) -> Result<T, ForwardError>,
+    ) -> Result<Vec<T>, ForwardError> {
+        let measured = &self.bench.tests[test];
+        let effects = (self.effects)(parameters);
+        let acting = (!effects.is_empty()).then(|| self.acting(test, effects));
         // one history in a coefficient of the test's own serves all others
         let worn_with = if self.stretches {
             measured.conditions.coefficient[0]
@@ -103,15 +111,40 @@ impl<'a> GearModel<'a> {
         let bits = parameters.iter().map(|p| p.to_bits()).collect();
         let key = (test, bits, worn_with.to_bits());
         let history = self.history(&mut forward, key, observed(last))?;
-        let mut values = vec![0.0; measured.observations.len()];
+        let mut values: Vec<(usize, T)> = Vec::with_capacity(order.len());
         for rows in order.chunk_by(|a, b| observed(a) == observed(b)) {
             let state = history.at(observed(&rows[0]));
             let reading = Reading::new(&forward, &state, self.bench.set());
             for &row in rows {
-                values[row] = reading.of(&measured.observations[row])?;
+                values.push((row, of(&reading, &measured.observations[row])?));
             }
         }
-        Ok(values)
+        values.sort_by_key(|(row, _)| *row);
+        Ok(values.into_iter().map(|(_, value)| value).collect())
+    }
+
+    /// What every observation of a test feels where and when it was made; none for what stands nowhere on a flank.
+    ///
+    /// # Errors
+    /// As [`Predictor::predict`].
+    pub(super) fn locals(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+    ) -> Result<Vec<Option<Local>>, PredictError> {
+        let acting = self.acting(test, Combined::default());
+        self.read(test, coefficient, parameters, |reading, observation| {
+            reading.local(&acting, observation)
+        })
+        .map_err(|error| self.failed(test, &error))
+    }
+
+    fn failed(&self, test: usize, error: &ForwardError) -> PredictError {
+        PredictError {
+            test: self.bench.tests[test].id.clone(),
+            reason: error.to_string(),
+        }
     }
 }
 
@@ -122,10 +155,9 @@ impl Predictor for GearModel<'_> {
         coefficient: f64,
         parameters: &[f64],
     ) -> Result<Vec<f64>, PredictError> {
-        self.run(test, coefficient, parameters)
-            .map_err(|error| PredictError {
-                test: self.bench.tests[test].id.clone(),
-                reason: error.to_string(),
-            })
+        self.read(test, coefficient, parameters, |reading, observation| {
+            reading.of(observation)
+        })
+        .map_err(|error| self.failed(test, &error))
     }
 }

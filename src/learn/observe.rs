@@ -3,12 +3,14 @@
 use std::cell::OnceCell;
 
 use crate::contact::model::PositionContact;
+use crate::effects::Local;
 use crate::gear::Member;
 use crate::learn::trajectory::Node;
-use crate::measure::{Observation, Quantity, Subject};
+use crate::measure::{Observation, Place, Quantity, Subject};
 use crate::numeric::interpolate;
 use crate::simulate::forward::{Forward, ForwardError, GearSet};
 use crate::simulate::history::worn_area;
+use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::{Moment, Passage};
 
 /// A worn state that can be read. Contacts are solved only when a quantity asks for them.
@@ -62,6 +64,45 @@ impl<'a> Reading<'a> {
         }
     }
 
+    /// What an observed flank point feels: the contact at the moment at which it presses the point most, and the depth worn by
+    /// then. None for what stands nowhere on a flank.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a contact cannot be solved.
+    pub(super) fn local(
+        &self,
+        acting: &Acting,
+        observation: &Observation,
+    ) -> Result<Option<Local>, ForwardError> {
+        let on_flank = observation.quantity.place() == Place::Flank;
+        let (Some(member), Some(radius)) = (
+            observation.member.member(),
+            observation.position.filter(|_| on_flank),
+        ) else {
+            return Ok(None);
+        };
+        let (cycle, meshing) = (self.forward.cycle(), self.meshing()?);
+        let (arc, stations) = (self.arc(member, radius), self.stations(member));
+        let after = stations.partition_point(|s| *s < arc);
+        let after = after.clamp(1, stations.len() - 1);
+        let nearer = usize::from(stations[after] - arc < arc - stations[after - 1]);
+        let moment = &meshing.moments[side(member)][after - 1 + nearer];
+        let pair = meshing.passage.pair(cycle, moment.pair);
+        let (position, _) = meshing.passage.order[moment.pair];
+        let load = PairLoad::of(pair, &meshing.contacts[position]);
+        let age = Age {
+            cycles: observation.cycles,
+            worn_volume: 0.0,
+        };
+        let mut local = acting.at_pair(cycle, pair, load, age);
+        let depth = 1e-3 * self.depth(member, radius);
+        let pressure = self.pressure(member, radius)?;
+        acting.at_point(&mut local, cycle, member, arc, depth, pressure);
+        let rho = cycle.pair.member(member).rho_at_arc(arc);
+        local.path = cycle.pair.path_at_rho(member, rho);
+        Ok(Some(local))
+    }
+
     fn depths(&self, member: Member) -> &[f64] {
         let arcs = &self.forward.cycle().stations.arc;
         let (pinion, gear) = self.worn.u.split_at(arcs[0].len());
@@ -72,7 +113,7 @@ impl<'a> Reading<'a> {
     }
 
     fn stations(&self, member: Member) -> &[f64] {
-        &self.forward.cycle().stations.arc[crate::wear::acting::side(member)]
+        &self.forward.cycle().stations.arc[side(member)]
     }
 
     /// Arc of the point at `radius` (mm) on the flank of `member`, mm.
@@ -93,7 +134,7 @@ impl<'a> Reading<'a> {
 
     /// mg of the whole member.
     fn mass(&self, member: Member) -> f64 {
-        let side = crate::wear::acting::side(member);
+        let side = side(member);
         let lost =
             worn_area(self.stations(member), self.depths(member)) - self.worn.displaced[side];
         let teeth = self.forward.cycle().pair.member(member).spec.teeth;
@@ -152,7 +193,7 @@ impl<'a> Reading<'a> {
 
     /// MPa, the largest the point sees in a passage.
     fn pressure(&self, member: Member, radius: f64) -> Result<f64, ForwardError> {
-        let moments = &self.meshing()?.moments[crate::wear::acting::side(member)];
+        let moments = &self.meshing()?.moments[side(member)];
         let largest: Vec<f64> = moments.iter().map(|m| m.pressure).collect();
         let arc = self.arc(member, radius);
         Ok(interpolate(self.stations(member), &largest, arc))

@@ -7,7 +7,7 @@ use resvg::usvg::{Options, Tree, fontdb};
 use super::error::OutputError;
 
 /// Pixels for one of the SVG file.
-const SCALE: f32 = 2.0;
+const SCALE: usize = 2;
 /// DejaVu Sans 2.37: Latin, Greek, Cyrillic and what formulas need; its licence stands beside it.
 const FONT: &[u8] = include_bytes!("font/DejaVuSans-subset.ttf");
 
@@ -23,6 +23,20 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 /// # Errors
 /// [`OutputError::Plot`] if it is no SVG document.
 pub(super) fn of_svg(name: &str, svg: &str) -> Result<Vec<u8>, OutputError> {
+    over(name, svg, SCALE, |_, _| {})
+}
+
+/// The drawing, `scale` pixels for one of the SVG file, over what `under` paints: width of the picture in pixels, its opaque
+/// RGBA bytes, white at first.
+///
+/// # Errors
+/// [`OutputError::Plot`] if it is no SVG document.
+pub(super) fn over(
+    name: &str,
+    svg: &str,
+    scale: usize,
+    under: impl FnOnce(usize, &mut [u8]),
+) -> Result<Vec<u8>, OutputError> {
     let failed = |message: String| OutputError::Plot {
         title: name.to_owned(),
         message,
@@ -34,13 +48,14 @@ pub(super) fn of_svg(name: &str, svg: &str) -> Result<Vec<u8>, OutputError> {
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| failed(error.to_string()))?;
     let size = tree.size().to_int_size();
-    let pixels = |length: u32| (length as f32 * SCALE) as u32;
+    let pixels = |length: u32| length * scale as u32;
     let mut picture = Pixmap::new(pixels(size.width()), pixels(size.height()))
         .ok_or_else(|| failed("it has no size".to_owned()))?;
     picture.fill(Color::WHITE);
+    under(picture.width() as usize, picture.data_mut());
     resvg::render(
         &tree,
-        Transform::from_scale(SCALE, SCALE),
+        Transform::from_scale(scale as f32, scale as f32),
         &mut picture.as_mut(),
     );
     picture

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::discrepancy;
 use super::format::{count, plain, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
+use super::{discrepancy, drivers};
 use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
 
 /// Entries of the ranking shown on the terminal.
@@ -134,6 +134,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
                 .plots(discrepancy::plots(&diagnosis.discrepancy)),
         );
     }
+    sections.extend(drivers::section(&diagnosis.residual_drivers));
     let mut next = Section::new("What to do next").paragraph(diagnosis.next_step.clone());
     if let Some(experiment) = &diagnosis.next_experiment {
         next = next

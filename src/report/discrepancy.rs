@@ -3,6 +3,7 @@
 use super::comparison::quoted;
 use super::csv::Table;
 use super::error::OutputError;
+use super::format::count;
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::MapPoint;
 
@@ -67,7 +68,7 @@ pub fn plots(map: &[MapPoint]) -> Vec<Plot> {
                     index,
                     count: times.len(),
                 };
-                plot = plot.curve(&format!("{time:.2e} cycles"), style, points);
+                plot = plot.curve(&format!("{} cycles", count(time)), style, points);
             }
             plot.residuals = true;
             plot

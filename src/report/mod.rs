@@ -12,6 +12,7 @@ pub mod csv;
 pub mod diagnosis;
 pub mod discrepancy;
 pub mod drawings;
+pub mod drivers;
 mod error;
 pub mod format;
 pub mod guide;

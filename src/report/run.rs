@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::json;
 
+use super::drawings::{Picture, stress_pictures};
 use super::error::OutputError;
 use super::html::{self, Case, Page};
 use super::{Staging, bitmap, comparison, csv, json as documents, ladder, models, vtk};
@@ -53,22 +54,20 @@ pub fn write_run_with(
     // drawing takes a core, writing fields mostly waits
     let (written, drawn) = rayon::join(
         || write_fields(run, &mut staging),
-        || html::run(run, pair).and_then(|page| Ok((pictures(&page)?, page))),
+        || {
+            let page = html::run(run, pair)?;
+            let mut pictures = pictures(&page)?;
+            pictures.extend(stress_pictures(run)?);
+            Ok((pictures, page))
+        },
     );
     written?;
-    let (pictures, mut page) = drawn?;
+    let (pictures, mut page): (Vec<Picture>, Page) = drawn?;
     write_pictures(&pictures, &mut staging)?;
     page.sections
         .push(html::files_of_run(run, staging.written()));
     staging.write("report.html", page.html()?.as_bytes())?;
     finish(staging)
-}
-
-/// A picture as files have it.
-struct Picture {
-    name: String,
-    svg: String,
-    png: Vec<u8>,
 }
 
 /// Every plot and drawing of a page.

@@ -1,15 +1,15 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+mod preparation;
+
+use std::sync::Arc;
 
 use crate::analytic::iso6336;
-use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, CycleSpec, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
-use crate::effects::{Effect, Hook};
+use crate::effects::Hook;
 use crate::gear::PairError;
 pub use crate::simulate::gear_set::GearSet;
 use crate::simulate::gear_set::MOST_UNKNOWNS;
@@ -21,6 +21,8 @@ use crate::simulate::numerics::Numerics;
 use crate::wear::acting::Acting;
 use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
+pub use preparation::Preparation;
+use preparation::{Altered, Shelf};
 
 /// Conditions of a run or test.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,28 +110,6 @@ pub struct Forward<'a> {
     altered: Option<Altered>,
 }
 
-/// Preparations on unworn members, by the bits of window and reach.
-///
-/// A run goes through the same preparations whether they lie here or are made anew: results do not depend on it.
-type Shelf = Arc<Mutex<HashMap<[u64; 2], Prepared>>>;
-
-/// A mesh cycle with what belongs to it.
-#[derive(Clone)]
-struct Prepared {
-    cycle: Arc<Cycle>,
-    compliance: Option<Arc<CycleCompliance>>,
-    extended: Option<Arc<Members>>,
-}
-
-/// The contact as effects change it.
-struct Altered {
-    alteration: Alteration,
-    /// Weighted gaps of the profile, by position.
-    opened: Option<Vec<Vec<f64>>>,
-    /// The projected compliance with load factors and flexibility.
-    compliance: Option<CycleCompliance>,
-}
-
 impl<'a> Forward<'a> {
     /// Prepares a run: by finite elements if `members` are given, else analytically.
     ///
@@ -211,35 +191,6 @@ impl<'a> Forward<'a> {
         }
         out.project()?;
         Ok(out)
-    }
-
-    /// Projects the compliance of the members onto the cycle, and what effects change about it.
-    fn project(&mut self) -> Result<(), ForwardError> {
-        if let Some(members) = self.condensed() {
-            let flanks = members.flanks();
-            let friction = self.numerics.friction;
-            let compliance = CycleCompliance::new(&self.cycle, flanks, friction)?;
-            self.compliance = Some(Arc::new(compliance));
-        }
-        self.alter()
-    }
-
-    /// Lets the effects change the contact.
-    fn alter(&mut self) -> Result<(), ForwardError> {
-        self.altered = None;
-        let Some(acting) = self.acting else {
-            return Ok(());
-        };
-        let alteration = acting.alteration(&self.cycle);
-        if let Some(fault) = acting.effects.fault() {
-            return Err(ForwardError::Effect(fault));
-        }
-        self.altered = (!alteration.is_none()).then(|| Altered {
-            opened: alteration.gaps(&self.cycle),
-            compliance: (self.compliance.as_ref()).map(|c| c.altered(&self.cycle, &alteration)),
-            alteration,
-        });
-        Ok(())
     }
 
     /// A fresh run of the same gears at the same torque and mounting with another wear coefficient and other effects, on the
@@ -446,23 +397,6 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// Condenses the members anew if they have worn too far since they were last.
-    fn condense_if_stale(&mut self, progress: Option<&Progress>) -> Result<(), ForwardError> {
-        let preparation = self.preparation();
-        match progress {
-            Some(progress)
-                if self.members.is_some()
-                    && preparation.is_stale(&progress.stand.u, self.numerics.condense_after) =>
-            {
-                self.prepare(&Preparation {
-                    condensed_at: Some(progress.stand.u.clone()),
-                    ..preparation
-                })
-            }
-            _ => Ok(()),
-        }
-    }
-
     /// Depths and contact of every position where `progress` stands.
     ///
     /// # Errors
@@ -477,117 +411,6 @@ impl<'a> Forward<'a> {
     /// [`ForwardError`] if a contact cannot be solved.
     pub fn contacts_at(&self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
         Ok(self.with_model(|model| contacts_at(model, u))?)
-    }
-
-    /// How the contact is prepared at the moment.
-    pub fn preparation(&self) -> Preparation {
-        Preparation {
-            window: self.cycle.spec.window,
-            reach: self.cycle.spec.reach,
-            condensed_at: self.condensed_at.clone(),
-        }
-    }
-
-    /// Prepares the contact as `preparation` says, as an interrupted run had it.
-    ///
-    /// # Errors
-    /// [`ForwardError`] if a worn member cannot be factored; the run is then without a contact model and must be given up.
-    pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
-        if *preparation == self.preparation() {
-            return Ok(());
-        }
-        let spec = CycleSpec {
-            window: preparation.window,
-            reach: preparation.reach,
-            ..self.cycle.spec
-        };
-        let shelved = self.shares && self.worn.is_none() && preparation.condensed_at.is_none();
-        let key = [preparation.window, preparation.reach].map(f64::to_bits);
-        let shelf = Arc::clone(&self.prepared);
-        let shelf = || shelf.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = shelved.then(|| shelf().get(&key).cloned()).flatten();
-        if let Some(known) = known {
-            (self.cycle, self.compliance) = (known.cycle, known.compliance);
-            self.extended = known.extended;
-            return self.alter();
-        }
-        self.prepare_anew(preparation, spec)?;
-        if shelved {
-            let prepared = Prepared {
-                cycle: Arc::clone(&self.cycle),
-                compliance: self.compliance.clone(),
-                extended: self.extended.clone(),
-            };
-            shelf().insert(key, prepared);
-        }
-        Ok(())
-    }
-
-    fn prepare_anew(
-        &mut self,
-        preparation: &Preparation,
-        spec: CycleSpec,
-    ) -> Result<(), ForwardError> {
-        if spec != self.cycle.spec {
-            self.cycle = Arc::new(Cycle::new(&self.cycle.pair, &self.cycle.stations, spec));
-        }
-        // what the new preparation replaces is let go first: it is as large as what takes its place
-        (self.compliance, self.altered) = (None, None);
-        let more_teeth = self.extend_members()?;
-        if self.members().is_none() {
-            return self.project();
-        }
-        if more_teeth || preparation.condensed_at != self.condensed_at {
-            (self.worn, self.condensed_at) = (None, None);
-            let Some(fresh) = self.members() else {
-                return self.project();
-            };
-            let worn = match &preparation.condensed_at {
-                Some(u) => {
-                    let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
-                    let meshes = fresh.worn_meshes(
-                        &self.cycle.pair,
-                        &self.cycle.stations,
-                        [pinion, gear],
-                    )?;
-                    Some(Box::new(fresh.condensed_on(meshes)?))
-                }
-                None => None,
-            };
-            self.factorisations += 2 * usize::from(worn.is_some());
-            self.condensed_at.clone_from(&preparation.condensed_at);
-            self.worn = worn;
-        }
-        self.project()
-    }
-
-    /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
-    fn extend_members(&mut self) -> Result<bool, ForwardError> {
-        let Some(members) = self.members() else {
-            return Ok(false);
-        };
-        let mut teeth = Cycle::teeth(&self.cycle.pair, self.cycle.spec);
-        let fine = members.teeth();
-        if members.of_user() || teeth.iter().all(|t| fine.contains(t)) {
-            // a tooth that a user's own mesh lacks is refused by the coupling
-            return Ok(false);
-        }
-        teeth.extend(fine);
-        teeth.sort_unstable();
-        teeth.dedup();
-        let (spacing, order) = (members.spacing(), self.numerics.order);
-        (self.worn, self.condensed_at, self.extended) = (None, None, None);
-        let built = Members::build(
-            &self.set.gears,
-            self.set.materials,
-            &teeth,
-            spacing,
-            order,
-            [None, None],
-        )?;
-        self.factorisations += 2;
-        self.extended = Some(Arc::new(built));
-        Ok(true)
     }
 
     /// Stiffness factorisations so far.
@@ -620,28 +443,5 @@ impl<'a> Forward<'a> {
     }
 }
 
-/// How a [`Forward`] has prepared its contact: what a resumed run must restore before it goes on.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Preparation {
-    /// Half width of the strip contact is looked for in, mm.
-    pub window: f64,
-    /// Tooth pairs farther apart than this are left out, mm.
-    pub reach: f64,
-    /// Worn depths at which the members were last condensed, mm at all stations; none: unworn.
-    pub condensed_at: Option<Vec<f64>>,
-}
-
 /// Corners farther apart than this are never looked at, in modules: flanks that close farther are refused.
 const MOST_REACH: f64 = 0.25;
-
-impl Preparation {
-    fn is_stale(&self, u: &[f64], condense_after: f64) -> bool {
-        match &self.condensed_at {
-            Some(before) => u
-                .iter()
-                .zip(before)
-                .any(|(now, then)| now - then > condense_after),
-            None => u.iter().any(|now| *now > condense_after),
-        }
-    }
-}

@@ -64,6 +64,18 @@ fn it_writes_what_it_prints_and_threads_change_nothing() {
     assert!(target.join("report.html").is_file());
     let map = std::fs::read_to_string(target.join("discrepancy.csv")).unwrap();
     assert!(map.starts_with("test,member,quantity,cycles,position,value\n"));
+    let bins = std::fs::read_to_string(target.join("residual_drivers.csv")).unwrap();
+    assert!(bins.starts_with("driver,unit,from,to,centre,points,before,before_error,after"));
+    let rows = std::fs::read_to_string(target.join("residual_rows.csv")).unwrap();
+    let drivers = document["residual_drivers"]["drivers"].as_array().unwrap();
+    assert!(drivers.iter().any(|d| d["name"] == "contact_pressure"));
+    let binned = drivers.iter().map(|d| d["bins"].as_array().unwrap().len());
+    assert_eq!(bins.lines().count(), 1 + binned.sum::<usize>());
+    assert_eq!(
+        rows.lines().count(),
+        map.lines().count(),
+        "every fitted row"
+    );
     for key in [
         "verdict",
         "effect",

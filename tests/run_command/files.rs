@@ -258,6 +258,44 @@ fn report_is_one_file_and_names_only_files_that_exist() {
     }
 }
 
+/// Each stored position has its picture; in the close-up (right panel of 560 pixels) both teeth are seen, and stress is highest in
+/// the middle: viridis' green grows with the stress.
+#[test]
+fn stresses_are_pictures_with_a_close_up_of_the_contact() {
+    let files = FEM.result("run").files();
+    let named = |end: &str| -> Vec<&str> {
+        let of = |name: &&String| name.starts_with("plots/stress_") && name.ends_with(end);
+        files.keys().filter(of).map(String::as_str).collect()
+    };
+    assert_eq!(
+        named(".svg"),
+        ["plots/stress_1.svg", "plots/stress_new.svg"]
+    );
+    for name in named(".png") {
+        let decoder = png::Decoder::new(std::io::Cursor::new(&files[name]));
+        let mut reader = decoder.read_info().unwrap();
+        let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut bytes).unwrap();
+        let step = info.color_type.samples();
+        let (width, corner, side) = (info.width as usize, [912, 44], 560);
+        let greens = |margin: usize| -> Vec<f64> {
+            let inside = margin..side - margin;
+            (inside
+                .clone()
+                .flat_map(|row| inside.clone().map(move |column| [row, column])))
+            .map(|[row, column]| step * ((corner[1] + row) * width + corner[0] + column))
+            .filter(|at| bytes[*at..at + 3] != [255; 3])
+            .map(|at| f64::from(bytes[at + 1]))
+            .collect()
+        };
+        let (all, middle) = (greens(4), greens(side / 2 - 40));
+        assert!(all.len() > side * side / 2, "{name}: {}", all.len());
+        assert!(middle.len() > 80 * 80 * 9 / 10, "{name}: {}", middle.len());
+        let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
+        assert!(mean(&middle) > 1.3 * mean(&all), "{name}");
+    }
+}
+
 #[test]
 fn the_terminal_gets_the_figures_and_json_the_summary() {
     let home = super::home::Home::with(&[("contact", "\"hertz\"")]);

@@ -4,28 +4,16 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
+use crate::common::{self, gears};
+
 /// The gears of the paper's study at a resolution of about a second; one line per key, so that tests can replace lines.
-pub(crate) const STUDY: &str = r#"title = "coarse"
-[gears]
-module = 2.0
-pressure_angle = 20.0
-face_width = 33.0
-centre_distance = 80.0
-[gears.pinion]
-teeth = 27
-bore_diameter = 25.0
-[gears.gear]
-teeth = 53
-bore_diameter = 40.0
-[material]
-youngs_modulus = 2.1e5
-poisson_ratio = 0.3
-density = 7850.0
-[lubricant]
+pub(crate) const STUDY: &str = concat!(
+    "title = \"coarse\"\n",
+    gears!("centre_distance = 80.0\n"),
+    r#"[lubricant]
 friction_coefficient = 0.06
 [operation]
 torque = 100.0
@@ -42,7 +30,8 @@ elements_per_half_width = 2
 positions = 30
 stored_states = 2
 fields = 1
-"#;
+"#
+);
 
 /// [`STUDY`] with some keys' values replaced; a key that it does not have is appended to `[numerics]`.
 pub(crate) fn study_with(values: &[(&str, &str)]) -> String {
@@ -95,17 +84,8 @@ impl Home {
 
     /// Starts the program here with these arguments, separated by blanks.
     pub(crate) fn gearwear(&self, arguments: &str) -> Answer {
-        let output = Command::cargo_bin("gearwear")
-            .unwrap()
-            .current_dir(self.0.path())
-            .args(arguments.split_whitespace())
-            .output()
-            .unwrap();
-        Answer {
-            code: output.status.code(),
-            out: String::from_utf8(output.stdout).unwrap(),
-            err: String::from_utf8(output.stderr).unwrap(),
-        }
+        let (code, out, err) = common::line(self.0.path(), arguments);
+        Answer { code, out, err }
     }
 
     /// As [`Home::gearwear`], and it has to succeed.

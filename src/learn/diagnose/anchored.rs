@@ -1,10 +1,11 @@
-//! The middle fidelity: the analytic model's changes on top of what finite elements gave at an anchor.
+//! A cheap model's changes on top of what fine finite elements gave at an anchor.
 //!
 //! ```text
-//! f(k, θ) = hertz(k, θ) + [fem(k₀, θ₀) − hertz(k₀, θ₀)]
+//! f(k, θ) = cheap(k, θ) + [fem(k₀, θ₀) − cheap(k₀, θ₀)]      cheap: the analytic model, or coarse finite elements
 //! ```
-//! Exact at the anchor; away from it the analytic model's own error enters by its change only. A fit that takes its result as
-//! the next anchor, until nothing moves, ends on finite-element values with the analytic model's derivatives.
+//! Exact at the anchor; away from it the cheap model's own error enters by its change only. The screening's changes are the
+//! analytic model's, those of a second and of the deciding fits coarse finite elements'. A fit that takes its result as the next
+//! anchor, until nothing moves, ends on fine finite-element values with the cheap model's derivatives.
 
 use rayon::prelude::*;
 
@@ -15,7 +16,7 @@ use crate::learn::gear_model::GearModel;
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::quadratic::State;
 
-/// The analytic model with an offset per test of the data set; none for a test without.
+/// A cheap model with an offset per test of the data set; none for a test without.
 pub(super) struct Anchored<'a> {
     model: GearModel<'a>,
     offset: Vec<Vec<f64>>,

@@ -12,6 +12,7 @@
 mod anchored;
 mod campaign;
 mod candidate;
+mod drivers;
 mod feasible;
 mod fidelity;
 mod flexible;
@@ -35,6 +36,10 @@ use crate::simulate::forward::{ContactKind, ForwardError};
 use crate::study::Role;
 
 pub use candidate::NotJudged;
+pub use drivers::{
+    BinMean, DRIVER_KINDS, DRIVERS, DriverBin, DriverKind, DriverRow, Explained, ResidualDriver,
+    ResidualDrivers,
+};
 pub use fidelity::Fidelity;
 pub use flexible::{Driver, MapPoint};
 pub use plan::{

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::NotJudged;
+use super::drivers::{self, ResidualDrivers};
 use super::fidelity::Fidelity;
 use super::flexible::{Driver, Flexible, MapPoint};
 use super::ground::Ground;
@@ -82,6 +83,8 @@ pub struct Diagnosis {
     /// The smooth discrepancy at every fitted row; not part of the document, but a table of its own.
     #[serde(skip)]
     pub discrepancy: Vec<MapPoint>,
+    /// What the base model and the leading one leave, against each physical driver.
+    pub residual_drivers: ResidualDrivers,
     /// Share of what anything smooth could explain that the leading effect explains; None without a discrepancy.
     pub explained_share: Option<f64>,
     /// Fall of χ² that anything smooth could bring.
@@ -252,7 +255,7 @@ pub(super) fn diagnosis(
         Verdict::Effect | Verdict::Effects if group.len() > 1 => vec![group],
         _ => Vec::new(),
     };
-    let drivers = if flexible.is_real() {
+    let smooth = if flexible.is_real() {
         flexible.drivers(ground, &base.judged.found.model)
     } else {
         Vec::new()
@@ -266,9 +269,15 @@ pub(super) fn diagnosis(
         next_step: String::new(),
         ranking: ranked(judge, base, &ranking),
         indistinguishable,
-        driver: drivers.first().cloned(),
-        drivers,
+        driver: smooth.first().cloned(),
+        drivers: smooth,
         discrepancy: flexible.map(ground),
+        residual_drivers: drivers::of(
+            judge,
+            &base.judged,
+            best.filter(|_| verdict != Verdict::NothingMissing)
+                .map(|i| &ranking.judged[i]),
+        ),
         explained_share: best
             .filter(|_| flexible.is_real())
             .map(|i| ranking.shares[i]),

@@ -2,14 +2,28 @@
 mod base64;
 mod field;
 mod pair;
+mod palette;
 mod raster;
+mod stress_files;
 mod tooth;
+mod view;
 
 use super::html::escape;
 
 pub use field::stresses;
 pub use pair::of_pair;
+pub(super) use stress_files::stress_pictures;
 pub use tooth::{Worn, worn_teeth};
+
+/// A picture as files have it.
+pub(super) struct Picture {
+    /// File stem.
+    pub(super) name: String,
+    /// The document.
+    pub(super) svg: String,
+    /// The same in pixels.
+    pub(super) png: Vec<u8>,
+}
 
 /// A drawing of a page.
 #[derive(Debug, Clone, PartialEq)]

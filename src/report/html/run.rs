@@ -103,7 +103,8 @@ fn contact(run: &Run) -> Section {
 
 fn stress(run: &Run) -> Section {
     Section::new("Mesh and stress").note(format!(
-        "Deformed as computed, not magnified. Fine elements along the flanks are too small to be told apart here; the {} stored \
+        "Deformed as computed, not magnified. Along the flanks elements are too small to be told apart but in the close-ups, which show \
+         the contact that carries most and have a scale of their own. As files: `plots/stress_*.svg` and `.png`. The {} stored \
          fields hold displacement, stress tensor, contact pressure and worn depth for ParaView.",
         run.fields.len()
     ))

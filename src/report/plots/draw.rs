@@ -38,6 +38,23 @@ impl Plot {
         Ok(accessible(&text, &self.title, height))
     }
 
+    /// The legend alone as a complete SVG document, and its height in pixels.
+    pub(super) fn legend(&self) -> Result<(String, u32), OutputError> {
+        let rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
+        let height = ((rows * LEGEND_ROW + 8 * FINE) / FINE) as u32;
+        let mut text = String::new();
+        {
+            let size = (SIZE.0 * FINE as u32, height * FINE as u32);
+            let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+            let drawn = self.draw_legend(&area).and_then(|()| area.present());
+            drawn.map_err(|error| OutputError::Plot {
+                title: self.title.clone(),
+                message: error.to_string(),
+            })?;
+        }
+        Ok((accessible(&text, &self.title, height), height))
+    }
+
     fn draw(&self, area: &Area<'_>) -> Result<(), String> {
         let said = |error: &dyn std::fmt::Display| error.to_string();
         let legend_rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
@@ -244,12 +261,18 @@ impl Plot {
         widened(span(points.map(|p| p.0).chain(marks)))
     }
 
-    /// What the vertical axis spans: all finite points with a little air above and below.
+    /// What the vertical axis spans: all finite points and their bars with a little air above and below.
     fn vertical(&self) -> (f64, f64) {
+        let ends = self.curves.iter().flat_map(|curve| {
+            let bars = curve.points.iter().zip(&curve.errors);
+            bars.flat_map(|(&(x, y), sigma)| [(x, y - sigma), (x, y + sigma)])
+        });
+        let ends: Vec<(f64, f64)> = ends.collect();
         let points = self
             .curves
             .iter()
-            .flat_map(|curve| self.seen(&curve.points));
+            .flat_map(|curve| self.seen(&curve.points))
+            .chain(self.seen(&ends));
         let level = self.residuals.then_some(0.0);
         let (low, high) = widened(span(points.map(|p| p.1).chain(level)));
         let air = 0.05 * (high - low);

@@ -1,6 +1,7 @@
 //! One picture of a sweep: four panels over the first varied key, a curve per combination of the others.
 use super::{Plot, Style};
 use crate::report::OutputError;
+use crate::report::html::escape;
 
 /// A curve: its label, and for each value of the first key peak pressure (MPa), transmission error (µrad) and the largest depth of
 /// pinion and gear (µm).
@@ -20,44 +21,62 @@ pub fn sweep_picture(
 ) -> Result<Option<String>, OutputError> {
     let labels = [
         ("Peak pressure, unworn", "MPa"),
-        ("Transmission error, unworn", "peak to peak, µrad"),
-        ("Wear of the pinion", "largest depth, µm"),
-        ("Wear of the gear", "largest depth, µm"),
+        ("Transmission error, unworn, peak to peak", "µrad"),
+        ("Largest depth worn, pinion", "µm"),
+        ("Largest depth worn, gear", "µm"),
     ];
     let mut panels = Vec::new();
+    let mut legend = Plot::new("sweep", title, "", "");
     for (i, (name, unit)) in labels.into_iter().enumerate() {
-        let mut plot = Plot::new("sweep", name, key, &format!("{name}: {unit}"));
+        let mut plot = Plot::new("sweep", name, key, unit);
         for (number, (label, points)) in curves.iter().take(MOST_CURVES).enumerate() {
             let points = points.iter().filter_map(|(x, y)| Some((*x, y[i]?)));
-            plot = plot.curve(label, Style::Kind(number), points.collect());
+            let points: Vec<(f64, f64)> = points.collect();
+            let style = Style::Kind(number);
+            if legend.curves.iter().all(|known| known.label != *label) {
+                legend = legend.curve(label, style, points.clone());
+            }
+            // all panels share one legend
+            plot = plot.curve("", style, points);
         }
         if !plot.is_empty() {
-            panels.push(plot.starting_at_zero().svg()?);
+            panels.push((name, plot.starting_at_zero().svg()?));
         }
     }
     if panels.is_empty() {
         return Ok(None);
     }
-    Ok(Some(side_by_side(title, &panels)))
+    Ok(Some(side_by_side(title, &legend.legend()?, &panels)))
 }
 
-/// Complete SVG texts as one, two in a row.
-fn side_by_side(title: &str, panels: &[String]) -> String {
-    let (width, height) = size(&panels[0]);
+/// Height of a panel's heading, pixels.
+const HEADING: f64 = 30.0;
+
+/// Complete SVG texts under their headings as one, two in a row, the legend above.
+fn side_by_side(title: &str, legend: &(String, u32), panels: &[(&str, String)]) -> String {
+    let (width, height) = size(&panels[0].1);
     let (columns, rows) = (panels.len().min(2), panels.len().div_ceil(2));
-    let title = title
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;");
+    let top = 8.0 + f64::from(legend.1);
+    let title = escape(title);
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n\
-         <title>{title}</title>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\" \
+         font-family=\"sans-serif\">\n<title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
+         <g transform=\"translate(0 8)\">\n{}\n</g>\n",
+        legend.0,
         w = width * columns as f64,
-        h = height * rows as f64,
+        h = (height + HEADING) * rows as f64 + top,
     );
-    for (i, panel) in panels.iter().enumerate() {
-        let (x, y) = (width * (i % 2) as f64, height * (i / 2) as f64);
-        out += &format!("<g transform=\"translate({x} {y})\">\n{panel}\n</g>\n");
+    for (i, (name, panel)) in panels.iter().enumerate() {
+        let x = width * (i % 2) as f64;
+        let y = top + (height + HEADING) * (i / 2) as f64;
+        out += &format!(
+            "<text x=\"{}\" y=\"{}\" font-size=\"17\" font-weight=\"bold\" fill=\"#282828\">{}</text>\n\
+             <g transform=\"translate({x} {})\">\n{panel}\n</g>\n",
+            x + 30.0,
+            y + 22.0,
+            escape(name),
+            y + HEADING
+        );
     }
     out + "</svg>\n"
 }

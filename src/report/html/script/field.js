@@ -4,11 +4,12 @@ function makeField(figure) {
   const choice = figure.querySelector("select"), said = figure.querySelector("output");
   const lines = figure.querySelector("input[type=checkbox]");
   const palette = new Map(JSON.parse(figure.dataset.palette).map((rgb, i) => [rgb, i]));
-  const highest = Number(figure.dataset.highest);
+  const caption = figure.querySelector("figcaption"), end = figure.querySelector(".scale .end");
+  const shown = () => pictures[Number(choice.value)];
   let pixels = null;
 
   function read() {
-    const image = pictures[Number(choice.value)].querySelector("img");
+    const image = shown().querySelector("img");
     const canvas = document.createElement("canvas");
     canvas.width = image.naturalWidth;
     canvas.height = image.naturalHeight;
@@ -19,7 +20,10 @@ function makeField(figure) {
   }
 
   choice.addEventListener("change", () => {
-    pictures.forEach((picture, i) => { picture.hidden = i !== Number(choice.value); });
+    pictures.forEach((picture) => { picture.hidden = picture !== shown(); });
+    caption.textContent = `${figure.dataset.title}: ${choice.selectedOptions[0].textContent}`;
+    end.textContent = shown().dataset.end;
+    said.textContent = "";
     pixels = null;
   });
   if (lines) lines.addEventListener("change", () => figure.classList.toggle("bare", !lines.checked));
@@ -32,7 +36,7 @@ function makeField(figure) {
       const y = Math.floor((event.clientY - box.top) / box.height * pixels.height);
       const at = 4 * (y * pixels.width + x), [r, g, b] = pixels.data.slice(at, at + 3);
       const level = palette.get((r << 16) | (g << 8) | b);
-      said.textContent = level === undefined || pixels.data[at + 3] === 0 ? "" : `${level === 255 ? "\u2265 " : ""}${significant(level / 255 * highest, 3)} MPa`;
+      said.textContent = level === undefined || pixels.data[at + 3] === 0 ? "" : `${level === 254 ? "\u2265 " : ""}${significant(level / 254 * Number(shown().dataset.highest), 3)} MPa`;
     });
     picture.addEventListener("pointerleave", () => { said.textContent = ""; });
   }

@@ -139,7 +139,7 @@ function makePanel(panel, place) {
         values: panel.log ? (u, splits) => splits.map((v) => (v === null ? "" : significant(v, 1))) : values },
     ],
     series: [
-      { label: named ? "version" : panel.short, value: (u, v) => (named ? panel.names[v - 1] || "" : significant(v, 4)) },
+      { label: panel.short, value: (u, v) => (named ? panel.names[v - 1] || "" : significant(v, 4)) },
       ...slots.map((slot) => seriesOf(slot.curves[slot.curves.length - 1], panel)),
     ],
     cursor: {

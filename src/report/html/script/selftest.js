@@ -26,6 +26,18 @@ function selftest() {
     }
     return "";
   });
+  // caption and number of seen pictures at each choice of a stress figure
+  const captions = () => [...document.querySelectorAll("figure[data-field]")].flatMap((figure) => {
+    const choice = figure.querySelector("select");
+    const at = (value) => {
+      choice.value = value;
+      choice.dispatchEvent(new Event("change"));
+      return [figure.querySelector("figcaption").textContent, figure.querySelectorAll(".picture:not([hidden])").length];
+    };
+    const found = [...choice.options].map((option) => at(option.value));
+    at(0);
+    return found;
+  });
   const values = (plot) => JSON.stringify(plot.data.slice(1));
   const points = (plot) => plot.data.slice(1).flat().filter((v) => v !== null && v !== undefined).length;
   const report = charts.map(({ spec, chart }) => ({
@@ -50,5 +62,5 @@ function selftest() {
   }
   const node = element("pre", "", document.body);
   node.id = "selftest-result";
-  node.textContent = JSON.stringify({ faults, pointed: pointed(), states: given.states.length, overflow: document.documentElement.scrollWidth - innerWidth, charts: report });
+  node.textContent = JSON.stringify({ faults, pointed: pointed(), captions: captions(), states: given.states.length, overflow: document.documentElement.scrollWidth - innerWidth, charts: report });
 }

@@ -1,0 +1,503 @@
+//! What is left of the measurements against each physical quantity that it may follow from, before and after.
+//!
+//! ```text
+//! r = (measured − model − datum)/σ                                      1: the noise; datum: the trace's most probable one
+//! η² = Σ_bins n_b (r̄_b − r̄)²/Σ (r − r̄)²,   share = 1 − (1 − η²)(n − 1)/(n − b)      b bins of about equal size
+//! ```
+//! The share of the variance that the means of b bins explain grows with b even on pure noise; the second formula (ε², Kelley
+//! 1935) takes that off: its mean is 0 where r does not depend on the driver, its standard deviation √(2 (b − 1)/((n − b)(n + 1))).
+//! Residuals are divided by their own σ and not whitened with the whole covariance, which would carry each row's residual over to
+//! the rows behind it. Local quantities are the fitted base model's, for before and after alike: the contact at the moment
+//! at which it presses the measured point most.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::anchored::model;
+use super::judge::{Judge, Judged};
+use crate::effects::Local;
+use crate::measure::Observation;
+use crate::study::Operation;
+
+/// Most bins of a driver.
+const BINS: usize = 12;
+/// Least rows in a bin on average.
+const ROWS: usize = 5;
+
+/// A quantity that residuals may follow from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DriverKind {
+    /// Name in files.
+    pub name: &'static str,
+    /// Name for people, with its unit.
+    pub label: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+}
+
+/// Number of drivers.
+pub const DRIVERS: usize = 11;
+
+/// All of them, in the order of [`DriverRow::values`].
+#[rustfmt::skip]
+pub static DRIVER_KINDS: [DriverKind; DRIVERS] = [
+    DriverKind { name: "position", label: "distance along the path of contact from the pitch point, mm", unit: "mm" },
+    DriverKind { name: "sliding_speed", label: "sliding speed, m/s", unit: "m/s" },
+    DriverKind { name: "contact_pressure", label: "largest contact pressure in a passage, MPa", unit: "MPa" },
+    DriverKind { name: "film_ratio", label: "film ratio", unit: "-" },
+    DriverKind { name: "flash_temperature", label: "flash temperature, K", unit: "K" },
+    DriverKind { name: "depth_worn", label: "depth worn, µm", unit: "um" },
+    DriverKind { name: "cycles", label: "pinion revolutions", unit: "-" },
+    DriverKind { name: "torque", label: "torque on the pinion, N·m", unit: "N m" },
+    DriverKind { name: "speed", label: "speed of the pinion, rpm", unit: "rpm" },
+    DriverKind { name: "misalignment", label: "radial misalignment, mm", unit: "mm" },
+    DriverKind { name: "member", label: "member", unit: "1 pinion, 2 gear, 3 both" },
+];
+
+/// What is left, by driver.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ResidualDrivers {
+    /// The effects of the model after, joined by `+`; None where nothing is missing, and then there is no after.
+    pub after: Option<String>,
+    /// By falling share before.
+    pub drivers: Vec<ResidualDriver>,
+    /// Drivers that have one value only in these data, or that the study does not state what is needed for.
+    pub constant: Vec<String>,
+    /// Every fitted row; not part of the document, but a table of its own.
+    #[serde(skip)]
+    pub rows: Vec<DriverRow>,
+}
+
+/// The residual against one driver.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ResidualDriver {
+    /// One of [`DRIVER_KINDS`].
+    pub name: String,
+    /// Unit of its values.
+    pub unit: String,
+    /// Rows for which it has a value.
+    pub points: usize,
+    /// Of the fitted base model.
+    pub before: Explained,
+    /// With the effects of the model after.
+    pub after: Option<Explained>,
+    /// By ascending driver.
+    pub bins: Vec<DriverBin>,
+}
+
+/// How much of a residual one driver explains.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Explained {
+    /// Share of the residual's variance that depends on the driver alone, not below 0.
+    pub share: f64,
+    /// Standard deviation of the share where the residual does not depend on the driver.
+    pub share_by_chance: f64,
+    /// The same part in units of the noise's variance.
+    pub variance: f64,
+}
+
+/// One bin of a driver.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DriverBin {
+    /// Smallest value of the driver in it.
+    pub from: f64,
+    /// Largest.
+    pub to: f64,
+    /// Mean.
+    pub centre: f64,
+    /// Rows.
+    pub points: usize,
+    /// Residual of the base model.
+    pub before: BinMean,
+    /// Of the model after.
+    pub after: Option<BinMean>,
+}
+
+/// Mean residual of a bin, in standard deviations of a measured value.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BinMean {
+    /// Mean of (measured − model − datum)/σ.
+    pub mean: f64,
+    /// Its standard error, from the scatter in the bin.
+    pub error: f64,
+}
+
+/// One fitted row with its drivers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriverRow {
+    /// Id of the test.
+    pub test: String,
+    /// `pinion`, `gear` or `pair`.
+    pub member: &'static str,
+    /// What is measured.
+    pub quantity: &'static str,
+    /// mm of radius or base pitches of rotation; None for a whole member.
+    pub position: Option<f64>,
+    /// Values of [`DRIVER_KINDS`]; None where there is none.
+    pub values: [Option<f64>; DRIVERS],
+    /// Residual of the base model, in sigmas.
+    pub before: f64,
+    /// Of the model after.
+    pub after: Option<f64>,
+}
+
+/// What the base model leaves, and what the model after does.
+pub(super) fn of(judge: &Judge<'_>, base: &Judged, after: Option<&Judged>) -> ResidualDrivers {
+    let ground = &judge.ground;
+    let locals = locals(judge, base);
+    let left = |j: &Judged| ground.standardised(&j.found.model);
+    let (before, now) = (left(base), after.map(left));
+    let rows = (0..ground.len())
+        .map(|i| {
+            let o = ground.observation(i);
+            let conditions = &ground.measured.study().tests[o.test].conditions;
+            DriverRow {
+                test: ground.measured.data.tests[o.test].clone(),
+                member: o.member.name(),
+                quantity: o.quantity.name(),
+                position: o.position,
+                values: values(o, conditions, locals[i].as_ref()),
+                // those are model minus measured
+                before: -before[i],
+                after: now.as_ref().map(|now| -now[i]),
+            }
+        })
+        .collect();
+    against(after.map(|j| j.candidate.name()), rows)
+}
+
+/// What each row of the ground feels under the fitted base model; none of a test that cannot be computed.
+fn locals(judge: &Judge<'_>, base: &Judged) -> Vec<Option<Local>> {
+    let ground = &judge.ground;
+    let model = model(judge.exact, &base.candidate);
+    let (k, theta) = ground.arguments(&base.candidate.parameters, &base.found.state);
+    let of_tests: Vec<Vec<Option<Local>>> = (ground.tests.par_iter().zip(&k))
+        .map(|(&test, &k)| model.locals(test, k, &theta).unwrap_or_default())
+        .collect();
+    let mut locals = vec![None; ground.len()];
+    for (rows, of_test) in ground.rows.iter().zip(of_tests) {
+        for (&row, local) in rows.iter().zip(of_test) {
+            locals[row] = local;
+        }
+    }
+    locals
+}
+
+/// Drivers of an observation; what the study does not state is 0 in a local state.
+fn values(
+    o: &Observation,
+    conditions: &Operation,
+    local: Option<&Local>,
+) -> [Option<f64>; DRIVERS] {
+    let loaded = local.filter(|at| at.pressure > 0.0);
+    let stated = |value: f64| Some(value).filter(|v| *v > 0.0);
+    [
+        local.map(|at| at.path),
+        local.map(Local::sliding_speed),
+        loaded.map(|at| at.pressure),
+        loaded.and_then(|at| stated(at.film_ratio)),
+        loaded.and_then(|at| stated(at.flash_temperature)),
+        local.map(|at| at.depth),
+        Some(o.cycles),
+        Some(1e-3 * conditions.torque_nmm),
+        Some(conditions.speed_rpm),
+        Some(conditions.misalignment_mm),
+        Some(1.0 + f64::from(o.member as u8)),
+    ]
+}
+
+/// Residuals of rows against each of their drivers.
+fn against(after: Option<String>, rows: Vec<DriverRow>) -> ResidualDrivers {
+    let (mut drivers, mut constant) = (Vec::new(), Vec::new());
+    for (number, kind) in DRIVER_KINDS.iter().enumerate() {
+        match driver(kind, number, &rows, after.is_some()) {
+            Some(driver) => drivers.push(driver),
+            None => constant.push(kind.name.to_owned()),
+        }
+    }
+    drivers.sort_by(|a, b| b.before.share.total_cmp(&a.before.share));
+    ResidualDrivers {
+        after,
+        drivers,
+        constant,
+        rows,
+    }
+}
+
+/// One driver; None if all rows have the same value or none.
+fn driver(
+    kind: &DriverKind,
+    number: usize,
+    rows: &[DriverRow],
+    after: bool,
+) -> Option<ResidualDriver> {
+    let mut known: Vec<(f64, &DriverRow)> = rows
+        .iter()
+        .filter_map(|row| Some((row.values[number]?, row)))
+        .collect();
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let at: Vec<f64> = known.iter().map(|k| k.0).collect();
+    let ends = bins(&at);
+    if ends.len() < 2 || known.len() <= ends.len() {
+        return None;
+    }
+    let before: Vec<f64> = known.iter().map(|k| k.1.before).collect();
+    let later: Option<Vec<f64>> = after.then(|| known.iter().filter_map(|k| k.1.after).collect());
+    let first = |i: usize| if i == 0 { 0 } else { ends[i - 1] };
+    Some(ResidualDriver {
+        name: kind.name.to_owned(),
+        unit: kind.unit.to_owned(),
+        points: known.len(),
+        before: explained(&before, &ends),
+        after: later.as_ref().map(|later| explained(later, &ends)),
+        bins: (0..ends.len())
+            .map(|i| {
+                let own = first(i)..ends[i];
+                DriverBin {
+                    from: at[own.start],
+                    to: at[own.end - 1],
+                    centre: mean(&at[own.clone()]),
+                    points: own.len(),
+                    before: bin_mean(&before[own.clone()]),
+                    after: later.as_ref().map(|later| bin_mean(&later[own.clone()])),
+                }
+            })
+            .collect(),
+    })
+}
+
+/// Ends (exclusive) of bins of about equal size of ascending values; equal values share a bin, few different ones have one each.
+fn bins(at: &[f64]) -> Vec<usize> {
+    let most = (at.len() / ROWS).clamp(2, BINS);
+    let steps: Vec<usize> = (1..at.len()).filter(|&i| at[i] > at[i - 1]).collect();
+    let mut ends: Vec<usize> = if steps.len() < most {
+        steps
+    } else {
+        // the step nearest to each equal part
+        let nearest = |wanted: usize| {
+            let after = steps.partition_point(|s| *s < wanted);
+            let around = [after.saturating_sub(1), after.min(steps.len() - 1)];
+            around
+                .map(|i| steps[i])
+                .into_iter()
+                .min_by_key(|s| s.abs_diff(wanted))
+        };
+        (1..most)
+            .filter_map(|i| nearest(i * at.len() / most))
+            .collect()
+    };
+    ends.dedup();
+    if !at.is_empty() {
+        ends.push(at.len());
+    }
+    ends
+}
+
+/// What the means of bins with these ends explain of a residual.
+fn explained(residual: &[f64], ends: &[usize]) -> Explained {
+    let (n, b) = (residual.len() as f64, ends.len() as f64);
+    let share_by_chance = (2.0 * (b - 1.0) / ((n - b) * (n + 1.0))).sqrt();
+    let squares = |of: &[f64]| {
+        let mean = mean(of);
+        of.iter().map(|r| (r - mean).powi(2)).sum::<f64>()
+    };
+    let all = squares(residual);
+    let mut start = 0;
+    let within: f64 = ends
+        .iter()
+        .map(|&end| {
+            let own = squares(&residual[start..end]);
+            start = end;
+            own
+        })
+        .sum();
+    let share = if all > 0.0 {
+        (1.0 - within / all * (n - 1.0) / (n - b)).max(0.0)
+    } else {
+        0.0
+    };
+    Explained {
+        share,
+        share_by_chance,
+        variance: share * all / (n - 1.0),
+    }
+}
+
+fn bin_mean(residual: &[f64]) -> BinMean {
+    let (mean, n) = (mean(residual), residual.len() as f64);
+    let squares: f64 = residual.iter().map(|r| (r - mean).powi(2)).sum();
+    // a single row's error is its own sigma
+    let variance = if n > 1.0 { squares / (n - 1.0) } else { 1.0 };
+    BinMean {
+        mean,
+        error: (variance / n).sqrt(),
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    /// Normal numbers: Knuth's linear congruential generator of MMIX, the sum of twelve uniform ones.
+    fn noise(seed: u64, count: usize) -> Vec<f64> {
+        let mut state = seed;
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..count)
+            .map(|_| (0..12).map(|_| uniform()).sum::<f64>() - 6.0)
+            .collect()
+    }
+
+    /// Rows along a path from −4 to 4 mm, at three torques in turn; `before` from both, nothing after.
+    fn rows(count: usize, before: impl Fn(f64, f64, f64) -> f64) -> Vec<DriverRow> {
+        let (e, f) = (noise(1, count), noise(2, count));
+        (0..count)
+            .map(|i| {
+                let path = 8.0 * i as f64 / (count - 1) as f64 - 4.0;
+                let torque = 100.0 + 50.0 * (i % 3) as f64;
+                let mut values = [None; DRIVERS];
+                values[0] = Some(path);
+                values[1] = Some(path.abs());
+                values[7] = Some(torque);
+                values[8] = Some(2000.0);
+                values[10] = Some(1.0 + (i % 2) as f64);
+                DriverRow {
+                    test: "A".to_owned(),
+                    member: "pinion",
+                    quantity: "wear_depth",
+                    position: Some(27.0),
+                    values,
+                    before: before(path, torque, e[i]),
+                    after: Some(f[i]),
+                }
+            })
+            .collect()
+    }
+
+    fn of<'d>(found: &'d ResidualDrivers, name: &str) -> &'d ResidualDriver {
+        found.drivers.iter().find(|d| d.name == name).unwrap()
+    }
+
+    #[test]
+    fn noise_follows_nothing() {
+        let found = against(Some("none".to_owned()), rows(600, |_, _, e| e));
+        for driver in &found.drivers {
+            for part in [Some(driver.before), driver.after].into_iter().flatten() {
+                assert!(part.share < 3.5 * part.share_by_chance, "{driver:?}");
+                assert!(part.share < 0.03, "{driver:?}");
+            }
+        }
+    }
+
+    /// Over many sets of noise: mean 0 and the stated spread, where η² alone would have (b − 1)/(n − 1) = 9 %.
+    #[test]
+    fn the_corrected_share_of_noise_is_zero_on_average() {
+        let (n, b, sets) = (120, 12, 400);
+        let ends: Vec<usize> = (1..=b).map(|i| i * n / b).collect();
+        let shares: Vec<f64> = (0..sets)
+            .map(|seed| {
+                // both signs: the share before it is kept from falling below 0
+                let residual = noise(1000 + seed, n);
+                let all = explained(&residual, &[n]).share_by_chance;
+                assert_eq!(all, 0.0);
+                let mean = mean(&residual);
+                let total: f64 = residual.iter().map(|r| (r - mean).powi(2)).sum();
+                let within: f64 = residual
+                    .chunks(n / b)
+                    .map(|own| {
+                        let mean = super::mean(own);
+                        own.iter().map(|r| (r - mean).powi(2)).sum::<f64>()
+                    })
+                    .sum();
+                let share = 1.0 - within / total * (n as f64 - 1.0) / (n - b) as f64;
+                let kept = explained(&residual, &ends).share;
+                assert!((kept - share.max(0.0)).abs() < 1e-12);
+                share
+            })
+            .collect();
+        let average = mean(&shares);
+        let spread =
+            (shares.iter().map(|s| (s - average).powi(2)).sum::<f64>() / sets as f64).sqrt();
+        let stated = explained(&noise(1, n), &ends).share_by_chance;
+        assert!(
+            average.abs() < 3.0 * stated / (sets as f64).sqrt(),
+            "{average}"
+        );
+        assert!((spread / stated - 1.0).abs() < 0.12, "{spread} {stated}");
+    }
+
+    #[test]
+    fn what_follows_the_position_is_seen_there_and_gone_after() {
+        // a wave that averages to nothing over |path|: variance 2 of 3
+        let found = against(
+            Some("profile_form".to_owned()),
+            rows(1200, |path, _, e| 2.0 * (PI * path / 4.0).sin() + e),
+        );
+        assert_eq!(found.drivers[0].name, "position");
+        let position = of(&found, "position");
+        assert!(
+            (position.before.share - 2.0 / 3.0).abs() < 0.05,
+            "{:?}",
+            position.before
+        );
+        assert!(
+            (position.before.variance - 2.0).abs() < 0.2,
+            "{:?}",
+            position.before
+        );
+        assert!(position.after.unwrap().share < 0.02);
+        assert!(of(&found, "sliding_speed").before.share < 0.02);
+        assert!(of(&found, "torque").before.share < 0.02);
+        assert_eq!(position.bins.len(), BINS);
+        let total: usize = position.bins.iter().map(|bin| bin.points).sum();
+        assert_eq!(total, 1200);
+        for bin in &position.bins {
+            // 100 rows of noise 1 and what the wave changes inside the bin
+            assert!((0.07..0.14).contains(&bin.before.error), "{bin:?}");
+            let expected = 2.0 * (PI * bin.centre / 4.0).sin();
+            assert!((bin.before.mean - expected).abs() < 0.4, "{bin:?}");
+        }
+    }
+
+    #[test]
+    fn few_values_are_bins_of_their_own_and_one_is_none() {
+        let found = against(None, rows(300, |_, torque, e| 0.04 * (torque - 150.0) + e));
+        assert_eq!(found.drivers[0].name, "torque");
+        let torque = of(&found, "torque");
+        let values: Vec<f64> = torque.bins.iter().map(|bin| bin.centre).collect();
+        assert_eq!(values, [100.0, 150.0, 200.0]);
+        assert!(torque.after.is_none() && torque.bins[0].after.is_none());
+        // two thirds of 2² over itself and 1
+        assert!(
+            (torque.before.share - 8.0 / 11.0).abs() < 0.04,
+            "{:?}",
+            torque.before
+        );
+        assert!(found.constant.iter().any(|name| name == "speed"));
+        assert!(found.constant.iter().any(|name| name == "film_ratio"));
+    }
+
+    #[test]
+    fn equal_values_are_never_split() {
+        let at = [
+            1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0,
+        ];
+        let ends = bins(&at);
+        assert_eq!(ends.last(), Some(&at.len()));
+        for end in &ends[..ends.len() - 1] {
+            assert!(at[*end] > at[end - 1], "{ends:?}");
+        }
+        assert_eq!(bins(&[2.0; 9]), [9]);
+        assert!(bins(&[]).is_empty());
+    }
+}

@@ -1,0 +1,314 @@
+//! What is left against each physical driver, before and after: tables and pictures.
+
+use super::comparison::quoted;
+use super::csv::Table as Csv;
+use super::error::OutputError;
+use super::format::{percent, significant, whole};
+use super::html::{Cell, Section, Table};
+use super::plots::{Plot, Style};
+use crate::learn::diagnose::{
+    BinMean, DRIVER_KINDS, DriverBin, DriverKind, Explained, ResidualDriver, ResidualDrivers,
+};
+
+const BINS: &str = "residual_drivers.csv";
+const ROWS: &str = "residual_rows.csv";
+/// The driver that is no number.
+const MEMBER: &str = "member";
+
+/// `residual_drivers.csv`: the mean residual in each bin of each driver.
+///
+/// Columns `driver,unit,from,to,centre,points,before,before_error,after,after_error`: (measured − model − datum)/σ of the base
+/// model and of the leading one, with the standard errors of the means; empty where nothing is missing.
+///
+/// # Errors
+/// [`OutputError`] for a number that is not finite.
+pub fn bins(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
+    let mut table = Csv::new(
+        BINS,
+        "driver,unit,from,to,centre,points,before,before_error,after,after_error",
+    );
+    for driver in &left.drivers {
+        for bin in &driver.bins {
+            table.text(&driver.name);
+            table.text(&quoted(&driver.unit));
+            table.number("from", bin.from)?;
+            table.number("to", bin.to)?;
+            table.number("centre", bin.centre)?;
+            table.text(&bin.points.to_string());
+            for mean in [Some(bin.before), bin.after] {
+                for value in [mean.map(|m| m.mean), mean.map(|m| m.error)] {
+                    optional(&mut table, "residual", value)?;
+                }
+            }
+            table.end_row();
+        }
+    }
+    Ok(table.into_bytes())
+}
+
+/// `residual_rows.csv`: every fitted row with what it felt and what either model leaves of it.
+///
+/// Columns `test,member,quantity,where`, the drivers (units in `residual_drivers.csv`; `member` once), `before,after`.
+///
+/// # Errors
+/// [`OutputError`] for a number that is not finite.
+pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
+    let kinds = || DRIVER_KINDS.iter().filter(|kind| kind.name != MEMBER);
+    let names: Vec<&str> = kinds().map(|kind| kind.name).collect();
+    let head = format!(
+        "test,member,quantity,where,{},before,after",
+        names.join(",")
+    );
+    let mut table = Csv::new(ROWS, &head);
+    for row in &left.rows {
+        table.text(&quoted(&row.test));
+        table.text(row.member);
+        table.text(row.quantity);
+        optional(&mut table, "where", row.position)?;
+        for (kind, value) in kinds().zip(row.values) {
+            optional(&mut table, kind.name, value)?;
+        }
+        table.number("before", row.before)?;
+        optional(&mut table, "after", row.after)?;
+        table.end_row();
+    }
+    Ok(table.into_bytes())
+}
+
+fn optional(table: &mut Csv, name: &'static str, value: Option<f64>) -> Result<(), OutputError> {
+    match value {
+        Some(value) => table.number(name, value)?,
+        None => table.text(""),
+    }
+    Ok(())
+}
+
+/// The section of the page; none if nothing varies.
+pub fn section(left: &ResidualDrivers) -> Option<Section> {
+    if left.drivers.is_empty() {
+        return None;
+    }
+    let after = left.after.as_deref().map(words);
+    let mut head = vec![
+        "driver",
+        "share explained, before",
+        "of the noise's variance",
+    ];
+    if after.is_some() {
+        head.extend(["share explained, after", "of the noise's variance"]);
+    }
+    head.extend(["by chance", "rows"]);
+    let mut table = Table::new("", head);
+    for driver in &left.drivers {
+        let mut row = vec![Cell::text(kind(driver).label)];
+        for part in [Some(driver.before), driver.after].into_iter().flatten() {
+            row.push(Cell::Bar(part.share, share(part)));
+            row.push(Cell::number(significant(part.variance, 2)));
+        }
+        row.push(Cell::number(format!(
+            "± {}",
+            percent(driver.before.share_by_chance, 1)
+        )));
+        row.push(Cell::number(whole(driver.points)));
+        table = table.row(row);
+    }
+    let models = match &after {
+        Some(after) => format!(
+            "Before: the fitted base model. After: fitted anew with {after}. An effect that is the right one leaves nothing that \
+             follows its drivers."
+        ),
+        None => "Nothing is missing that these data show, so there is no model after.".to_owned(),
+    };
+    let mut section = Section::new("The residual against each physical driver")
+        .paragraph(models)
+        .paragraph(
+            "Share: how much of the variance of (measured − model − datum)/σ the means of the driver's bins explain, corrected for \
+             their number; on noise alone it is 0 give or take what stands under by chance. Beside it the same part in units of the \
+             noise's variance, because a share of little is little.",
+        )
+        .table(table)
+        .plots(plots(left))
+        .note(
+            "Points: means of bins of about equal size; bars: their standard errors. Drivers on the flank are those of the fitted base \
+             model at the measured point, when a contact presses it most. Drivers that go together, such as position and sliding \
+             speed, share what they explain. All of it stands in `residual_drivers.csv`, every row with its drivers in `residual_rows.csv`.",
+        );
+    if !left.constant.is_empty() {
+        let names: Vec<String> = left.constant.iter().map(|n| n.replace('_', " ")).collect();
+        section = section.note(format!(
+            "Not shown, because these data have one value of it only or the study does not state what it follows from: {}.",
+            names.join(", ")
+        ));
+    }
+    Some(section)
+}
+
+/// One picture for each driver: mean residuals before and after.
+pub fn plots(left: &ResidualDrivers) -> Vec<Plot> {
+    let after = left.after.as_deref().map(words);
+    let picture = |driver: &ResidualDriver| {
+        let label = kind(driver).label;
+        let name = label.split(',').next().unwrap_or(label);
+        let mut plot = Plot::new(
+            &format!("residual_{}", driver.name),
+            &format!("Residual against {name}"),
+            label,
+            "mean of (measured − model) / σ",
+        );
+        plot.residuals = true;
+        let curve = |of: &dyn Fn(&DriverBin) -> Option<BinMean>| -> (Vec<(f64, f64)>, Vec<f64>) {
+            let known = driver.bins.iter().filter_map(|bin| Some((bin, of(bin)?)));
+            known
+                .map(|(bin, mean)| ((bin.centre, mean.mean), mean.error))
+                .unzip()
+        };
+        let (points, errors) = curve(&|bin| Some(bin.before));
+        plot = plot.with_errors("before: base model", Style::Kind(1), points, errors);
+        if let Some(after) = &after {
+            let (points, errors) = curve(&|bin| bin.after);
+            plot = plot.with_errors(
+                &format!("after: with {after}"),
+                Style::Kind(0),
+                points,
+                errors,
+            );
+        }
+        if driver.name == MEMBER {
+            let last = driver.bins.iter().map(|bin| bin.to as usize).max();
+            let names = ["pinion", "gear", "both"].into_iter().map(str::to_owned);
+            plot = plot.with_names(names.take(last.unwrap_or(2)).collect());
+        }
+        plot
+    };
+    left.drivers.iter().map(picture).collect()
+}
+
+fn kind(driver: &ResidualDriver) -> &'static DriverKind {
+    let known = DRIVER_KINDS.iter().find(|kind| kind.name == driver.name);
+    known.unwrap_or(&DRIVER_KINDS[0])
+}
+
+/// `running_in and member_hardness`.
+fn words(names: &str) -> String {
+    names.replace('+', " and ")
+}
+
+fn share(part: Explained) -> String {
+    if part.share < 0.001 {
+        "none".to_owned()
+    } else {
+        percent(part.share, 2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learn::diagnose::{DRIVERS, DriverRow};
+
+    fn left(after: bool) -> ResidualDrivers {
+        let mean = |mean: f64| BinMean { mean, error: 0.1 };
+        let bin = |centre: f64, before: f64| DriverBin {
+            from: centre - 0.5,
+            to: centre,
+            centre,
+            points: 20,
+            before: mean(before),
+            after: after.then(|| mean(0.02)),
+        };
+        let part = |share: f64| Explained {
+            share,
+            share_by_chance: 0.02,
+            variance: 3.0 * share,
+        };
+        let driver = |name: &str, unit: &str, bins: Vec<DriverBin>| ResidualDriver {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            points: 40,
+            before: part(0.4),
+            after: after.then(|| part(0.0)),
+            bins,
+        };
+        let mut values = [None; DRIVERS];
+        values[6] = Some(1e5);
+        ResidualDrivers {
+            after: after.then(|| "running_in+coating".to_owned()),
+            drivers: vec![
+                driver("cycles", "-", vec![bin(1e5, 2.0), bin(1e6, -1.0)]),
+                driver(
+                    "member",
+                    "1 pinion, 2 gear, 3 both",
+                    vec![bin(1.0, 0.5), bin(2.0, -0.5)],
+                ),
+            ],
+            constant: vec!["film_ratio".to_owned()],
+            rows: vec![DriverRow {
+                test: "A, first".to_owned(),
+                member: "pair",
+                quantity: "mass_loss",
+                position: None,
+                values,
+                before: 2.5,
+                after: after.then_some(-0.5),
+            }],
+        }
+    }
+
+    fn lines(bytes: Vec<u8>) -> Vec<String> {
+        let text = String::from_utf8(bytes).unwrap();
+        text.lines().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn both_tables_hold_before_and_after() {
+        let table = lines(bins(&left(true)).unwrap());
+        assert_eq!(table.len(), 5);
+        assert_eq!(table[1], "cycles,-,99999.5,100000,100000,20,2,0.1,0.02,0.1");
+        assert!(table[3].starts_with("member,\"1 pinion, 2 gear, 3 both\",0.5,1,1,20,0.5,"));
+        let table = lines(bins(&left(false)).unwrap());
+        assert_eq!(table[1], "cycles,-,99999.5,100000,100000,20,2,0.1,,");
+        let table = lines(rows(&left(true)).unwrap());
+        assert_eq!(
+            table[0],
+            "test,member,quantity,where,position,sliding_speed,contact_pressure,film_ratio,flash_temperature,depth_worn,cycles,\
+             torque,speed,misalignment,before,after"
+        );
+        assert_eq!(
+            table[1],
+            "\"A, first\",pair,mass_loss,,,,,,,,100000,,,,2.5,-0.5"
+        );
+    }
+
+    #[test]
+    fn a_picture_has_a_colour_for_before_and_one_for_after() {
+        let plots = plots(&left(true));
+        assert_eq!(plots.len(), 2);
+        for plot in &plots {
+            let labels: Vec<&str> = plot.curves.iter().map(|c| c.label.as_str()).collect();
+            assert_eq!(
+                labels,
+                ["before: base model", "after: with running_in and coating"]
+            );
+            assert_ne!(plot.curves[0].style, plot.curves[1].style);
+            assert!(plot.curves.iter().all(|c| c.errors.len() == c.points.len()));
+            assert!(plot.svg().is_ok());
+        }
+        assert_eq!(plots[1].names, ["pinion", "gear"]);
+        assert_eq!(super::plots(&left(false))[0].curves.len(), 1);
+    }
+
+    #[test]
+    fn the_section_says_what_is_constant_and_what_after_is() {
+        let section = section(&left(true)).unwrap();
+        assert!(section.text[0].contains("running_in and coating"));
+        assert!(section.notes.iter().any(|note| note.contains("film ratio")));
+        assert_eq!(section.tables[0].rows.len(), 2);
+        assert_eq!(
+            section.tables[0].head.len(),
+            section.tables[0].rows[0].len()
+        );
+        let alone = super::section(&left(false)).unwrap();
+        assert_eq!(alone.tables[0].head.len(), alone.tables[0].rows[0].len());
+        assert!(alone.text[0].starts_with("Nothing is missing"));
+    }
+}
