@@ -130,7 +130,9 @@ def recovered(binary, work, effect, seed, contact):
     true = STUDY.format(effect=effect, k=TRUE_K, contact=contact, extra=extra)
     (folder / "true.toml").write_text(f'{true}[[effect]]\nkind = "{effect}"\n{table}')
     made = folder / "made"
-    program(binary, "synthesize", folder / "true.toml", "-o", made, "--noise", NOISE, "--seed", seed)
+    # no two effects share their noise
+    own = 1000 * (1 + list(EFFECTS).index(effect)) + seed
+    program(binary, "synthesize", folder / "true.toml", "-o", made, "--noise", NOISE, "--seed", own)
     start = STUDY.format(effect=effect, k=START_K, contact=contact, extra=extra)
     (made / "start.toml").write_text(f'{start}[measurements]\nfile = "measurements.csv"\n')
     answer = program(binary, "add", made / "start.toml", effect, "-o", made / "fitted.toml", "--force")["fit"]
