@@ -130,7 +130,9 @@ def recovered(binary, work, effect, seed, contact):
     true = STUDY.format(effect=effect, k=TRUE_K, contact=contact, extra=extra)
     (folder / "true.toml").write_text(f'{true}[[effect]]\nkind = "{effect}"\n{table}')
     made = folder / "made"
-    program(binary, "synthesize", folder / "true.toml", "-o", made, "--noise", NOISE, "--seed", seed)
+    # no two effects share their noise
+    own = 1000 * (1 + list(EFFECTS).index(effect)) + seed
+    program(binary, "synthesize", folder / "true.toml", "-o", made, "--noise", NOISE, "--seed", own)
     start = STUDY.format(effect=effect, k=START_K, contact=contact, extra=extra)
     (made / "start.toml").write_text(f'{start}[measurements]\nfile = "measurements.csv"\n')
     answer = program(binary, "add", made / "start.toml", effect, "-o", made / "fitted.toml", "--force")["fit"]
@@ -154,6 +156,7 @@ def median(values):
 
 def page(answers):
     rows, poor = [], []
+    held = asked = 0
     for contact in sorted({a["contact"] for a in answers}, reverse=True):
         for effect, (truth, _) in EFFECTS.items():
             own = [a for a in answers if a["effect"] == effect and a["contact"] == contact]
@@ -164,6 +167,7 @@ def page(answers):
             for name, value in truth.items():
                 of_fit = [next(p for p in a["parameters"] if p["name"] == f"{effect}.{name}") for a in fits]
                 hits = sum(inside(p, value) for p in of_fit)
+                held, asked = held + hits, asked + len(own)
                 off = median([abs(p["value"] / value - 1) for p in of_fit])
                 spread = median([p["sigma"] / abs(value) for p in of_fit])
                 enough = bool(own) and hits >= 0.9 * len(own)
@@ -192,6 +196,8 @@ distance from the truth; *sigma*: median of the stated standard deviation over t
 | effect | parameter | contact | true | inside | error | sigma | χ² | converged | recovered |
 |---|---|---|---|---|---|---|---|---|---|
 {chr(10).join(rows)}
+
+Of all intervals together {held} of {asked} hold the true value, {100 * held / max(asked, 1):.1f} %.
 
 Not recovered as asked: {', '.join(poor) if poor else 'none'}.
 

@@ -30,8 +30,15 @@ pub struct Workshop {
     members: Option<Members>,
 }
 
-/// Step tolerance of fits that is looser than a run's own: it costs 0.05 % of the largest depth.
+/// Step tolerance with which fits begin, looser than a run's own: it costs 0.05 % of the largest depth, and more than measurements with 2 %
+/// noise forgive where a law jumps (coating, severe transition). Whether it is too loose shows where the fit ends ([`Bench::finer`]).
 const STEP_TOLERANCE: f64 = 4e-3;
+
+/// How much finer each refinement is: steps are of second order.
+const REFINEMENT: f64 = 0.25;
+
+/// No refinement goes below this tolerance; measurements are made up with it.
+const FINEST_TOLERANCE: f64 = 2.5e-4;
 
 /// Members are condensed anew only after this depth in fits, mm; what that leaves out is 4e-5 of the depth at 15 µm.
 const CONDENSE_AFTER: f64 = 0.1;
@@ -88,15 +95,36 @@ impl Workshop {
     /// # Errors
     /// [`ForwardError`] of the first test that cannot run.
     pub fn bench(&self, tests: Vec<MeasuredTest>) -> Result<Bench<'_>, ForwardError> {
+        self.stepping(tests, self.numerics.step_tolerance)
+    }
+
+    /// Prepares every test, to be worn with the finest steps.
+    ///
+    /// # Errors
+    /// As [`Workshop::bench`].
+    pub fn finest(&self, tests: Vec<MeasuredTest>) -> Result<Bench<'_>, ForwardError> {
+        self.stepping(tests, FINEST_TOLERANCE)
+    }
+
+    fn stepping(
+        &self,
+        tests: Vec<MeasuredTest>,
+        step_tolerance: f64,
+    ) -> Result<Bench<'_>, ForwardError> {
+        let numerics = Numerics {
+            step_tolerance,
+            ..self.numerics
+        };
         let templates = tests
             .par_iter()
             .map(|test| {
                 let members = self.members.as_ref();
-                Forward::new(&self.set, members, test.conditions, self.numerics)
+                Forward::new(&self.set, members, test.conditions, numerics)
             })
             .collect::<Result<_, ForwardError>>()?;
         Ok(Bench {
-            set: &self.set,
+            shop: self,
+            step_tolerance,
             tests,
             templates,
         })
@@ -105,7 +133,8 @@ impl Workshop {
 
 /// Every test ready to be run with any wear coefficient and effects.
 pub struct Bench<'a> {
-    set: &'a GearSet,
+    shop: &'a Workshop,
+    step_tolerance: f64,
     /// The tests.
     pub tests: Vec<MeasuredTest>,
     pub(super) templates: Vec<Forward<'a>>,
@@ -114,6 +143,18 @@ pub struct Bench<'a> {
 impl<'a> Bench<'a> {
     /// The gears.
     pub fn set(&self) -> &'a GearSet {
-        self.set
+        &self.shop.set
+    }
+
+    /// The same tests with finer wear steps; none if the steps are the finest.
+    ///
+    /// # Errors
+    /// As [`Workshop::bench`].
+    pub fn finer(&self) -> Result<Option<Self>, ForwardError> {
+        let tolerance = REFINEMENT * self.step_tolerance;
+        if tolerance < FINEST_TOLERANCE {
+            return Ok(None);
+        }
+        self.shop.stepping(self.tests.clone(), tolerance).map(Some)
     }
 }

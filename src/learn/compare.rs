@@ -148,8 +148,39 @@ impl Measured<'_> {
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
                 .unwrap_or(first)
         };
+        let fit = self.refined(bench, version, noise, fit, &effort, &told);
         let comparison = Comparison::new(self.study(), &self.data, &fit);
         Ok(Compared { fit, comparison })
+    }
+
+    /// The fit with wear steps as fine as the measurements call for: ever finer, until they would not move it any more.
+    fn refined(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        mut fit: Fit,
+        effort: &Effort,
+        watch: &(dyn Fn(usize) + Sync),
+    ) -> Fit {
+        let mut finer = bench.finer();
+        while let Ok(Some(bench)) = finer {
+            // finer steps that fail say nothing against the coarser ones
+            let Ok(next) = self.go_on(&bench, version, noise, &fit, effort, watch) else {
+                break;
+            };
+            let at_rest = next.iterations == 0;
+            fit = Fit {
+                iterations: fit.iterations + next.iterations,
+                evaluations: fit.evaluations + next.evaluations,
+                ..next
+            };
+            if at_rest {
+                break;
+            }
+            finer = bench.finer();
+        }
+        fit
     }
 }
 

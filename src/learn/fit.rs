@@ -222,6 +222,39 @@ impl Problem<'_> {
         found.into_iter().map(|(_, start)| start).collect()
     }
 
+    /// The fit from where another to the same measurements ended, with the derivatives that it ended with.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn go_on(&self, from: &Fit, effort: &Effort) -> Result<Fit, FitError> {
+        let fit = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
+        let mut theta: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
+        for (value, parameter) in theta.iter_mut().zip(&self.parameters) {
+            let known = from.parameters.iter().find(|p| p.name == parameter.name);
+            *value = known.map_or(*value, |known| known.value);
+        }
+        let params = theta.len();
+        let mut state = self.state(&theta, fit.tests.len());
+        state.log_k = from.coefficient.ln();
+        let mut jacobian = DMatrix::zeros(fit.measured.len(), params + fit.tests.len());
+        for (i, test) in fit.tests.iter().enumerate() {
+            let Some(known) = from.tests.iter().find(|known| known.test == *test) else {
+                continue;
+            };
+            state.epsilon[i] = known.deviation;
+            let derivatives = &known.uncertainty.derivatives;
+            for (&row, values) in fit.rows[i].iter().zip(derivatives.row_iter()) {
+                for p in 0..params {
+                    jacobian[(row, p)] = values[p];
+                }
+                jacobian[(row, params + i)] = values[params];
+            }
+        }
+        let mut evaluator = self.evaluator();
+        let found = fit.go_on(&mut evaluator, state, jacobian, effort)?;
+        self.finish(&fit, found, &mut evaluator, effort)
+    }
+
     /// Adds the held-out tests to what was found and puts it all together.
     fn finish(
         &self,

@@ -105,6 +105,14 @@ impl<'a> Measured<'a> {
         workshop.bench(self.tests.clone())
     }
 
+    /// The bench in a workshop, with the finest wear steps.
+    ///
+    /// # Errors
+    /// As [`Measured::bench`].
+    pub fn finest_bench<'b>(&self, workshop: &'b Workshop) -> Result<Bench<'b>, ForwardError> {
+        workshop.finest(self.tests.clone())
+    }
+
     /// Fits a version of the model, from its parameters' values and from `others`.
     ///
     /// # Errors
@@ -139,6 +147,24 @@ impl<'a> Measured<'a> {
         };
         self.with_problem(bench, version, noise, watch, |problem| {
             problem.fit_from(&starts(problem), effort)
+        })
+    }
+
+    /// Goes on from `fit`, made on a bench with coarser steps; without a step if these histories call for none.
+    ///
+    /// # Errors
+    /// [`FitError`]
+    pub fn go_on(
+        &self,
+        bench: &Bench,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        fit: &Fit,
+        effort: &Effort,
+        watch: &(dyn Fn(usize) + Sync),
+    ) -> Result<Fit, FitError> {
+        self.with_problem(bench, version, noise, watch, |problem| {
+            problem.go_on(fit, effort)
         })
     }
 

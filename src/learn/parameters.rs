@@ -4,13 +4,10 @@ use std::f64::consts::PI;
 
 use super::gaussian::{log_mass, quantile};
 use crate::effects::{Param, Prior};
+use crate::study::{COEFFICIENT_BOUNDS, COEFFICIENT_PRIOR};
 
 /// Name of the wear coefficient in `[fit] free` and in results.
 pub const COEFFICIENT: &str = "wear.coefficient";
-/// Geometric standard deviation of the wear coefficient's prior: dry to well lubricated steel spans four decades.
-const COEFFICIENT_SPREAD: f64 = 10.0;
-/// How far a fit may take the wear coefficient from where it starts, as a factor.
-const COEFFICIENT_REACH: f64 = 1e6;
 /// Step of the forward differences, in prior standard deviations of the natural scale: large enough to stand out of the rounding of
 /// predictions that are themselves computed with adaptive steps, small enough not to step over a narrow hill of a flat prior.
 const DIFFERENCE: f64 = 0.02;
@@ -57,18 +54,15 @@ pub struct Estimate {
 }
 
 impl Parameter {
-    /// The wear coefficient, mm²/N, from a first guess: log-normal about it, a factor of ten being one standard deviation.
+    /// The wear coefficient, mm²/N, from a first guess, with the bounds and the prior of a study's.
     pub fn coefficient(start: f64) -> Self {
         Self {
             name: COEFFICIENT.to_owned(),
             unit: "mm2/N".to_owned(),
             start,
-            lower: start / COEFFICIENT_REACH,
-            upper: start * COEFFICIENT_REACH,
-            prior: Prior::LogNormal {
-                median: start,
-                spread: COEFFICIENT_SPREAD,
-            },
+            lower: COEFFICIENT_BOUNDS[0],
+            upper: COEFFICIENT_BOUNDS[1],
+            prior: COEFFICIENT_PRIOR,
         }
     }
 

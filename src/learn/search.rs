@@ -3,6 +3,11 @@
 //! One round asks for the predictions of all tests at one state, or for all tests' derivatives by forward differences: these run
 //! side by side. ∂f_t/∂ln k and ∂f_t/∂ε_t are one and the same. Close to where derivatives were taken they are kept up to date by
 //! Broyden's formula instead of being taken anew. The scatter σ_k is chosen anew before each step (see [`super::scatter`]).
+//!
+//! Predictions that are simulations are rough: contacts enter and leave a grid, steps are cut anew. Over a short move that roughness
+//! outweighs the change itself; carried into derivatives it makes them too large, so that a fit seems to be at rest where it is not, and
+//! its parameters better known than they are. So derivatives are not carried over moves shorter than a difference, and a fit settles:
+//! where it comes to rest they are taken once more, central and over two posterior standard deviations to each side.
 
 use std::sync::Arc;
 
@@ -28,6 +33,8 @@ pub struct Effort {
     pub floor: f64,
     /// How far, in prior standard deviations (for ln k: 1), derivatives are carried before they are taken anew.
     pub carry: f64,
+    /// How often, at most, derivatives are taken anew where a fit comes to rest; 0: it ends with those it has.
+    pub settle: usize,
 }
 
 impl Default for Effort {
@@ -37,6 +44,7 @@ impl Default for Effort {
             tolerance: 1e-4,
             floor: 0.05,
             carry: 0.1,
+            settle: 0,
         }
     }
 }
@@ -50,6 +58,7 @@ impl Effort {
             tolerance: 1e-2,
             floor: 0.3,
             carry: 0.3,
+            settle: 3,
         }
     }
 }
@@ -84,6 +93,9 @@ pub(super) struct Found {
     pub(super) converged: bool,
 }
 
+/// Step of the differences in ln k of a test.
+const DIFFERENCE_K: f64 = 0.02;
+
 /// Model values per test.
 type Values = Vec<Arc<[f64]>>;
 
@@ -95,19 +107,52 @@ impl Search<'_> {
         state: State,
         effort: &Effort,
     ) -> Result<Found, PredictError> {
-        let (mut state, mut values) = self.scaled_start(evaluator, state)?;
-        let mut jacobian = self.derivatives(evaluator, &state, &values)?;
+        let (state, values) = self.scaled_start(evaluator, state)?;
+        let jacobian = self.derivatives(evaluator, &state, &values)?;
+        self.descend(evaluator, state, values, jacobian, None, effort)
+    }
+
+    /// Goes on from `state`, where another search settled with these derivatives: if they promise nothing, it ends there.
+    pub(super) fn go_on(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: State,
+        jacobian: DMatrix<f64>,
+        effort: &Effort,
+    ) -> Result<Found, PredictError> {
+        let values = self.predict(evaluator, &state)?;
+        let settled = Some(state.clone());
+        self.descend(evaluator, state, values, jacobian, settled, effort)
+    }
+
+    fn descend(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        mut state: State,
+        mut values: Values,
+        mut jacobian: DMatrix<f64>,
+        mut settled_at: Option<State>,
+        effort: &Effort,
+    ) -> Result<Found, PredictError> {
         let mut taken_at = state.clone();
         let mut damping = 1e-3;
-        let mut iterations = 0;
+        let (mut iterations, mut rounds) = (0, 0);
         let (converged, scatter, normal) = loop {
             let normal = self.normal(&values, &jacobian);
             let scatter = most_probable(self.scatter, &self.layout, &normal, &state);
             let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
             let fresh = taken_at == state;
             let promised = quadratic.step(0.0).decrease;
+            let settled = rounds == effort.settle
+                || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
             if promised <= effort.tolerance {
-                if fresh || self.distance(&taken_at, &state) <= effort.carry {
+                if !settled {
+                    jacobian = self.central(evaluator, &state, &values, &quadratic)?;
+                    (taken_at, settled_at) = (state.clone(), Some(state.clone()));
+                    rounds += 1;
+                    continue;
+                }
+                if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
                     break (true, scatter, normal);
                 }
                 jacobian = self.derivatives(evaluator, &state, &values)?;
@@ -120,6 +165,13 @@ impl Search<'_> {
             iterations += 1;
             let tried = self.improve(evaluator, &quadratic, &state, scatter, &mut damping);
             let Some((next, next_values)) = tried else {
+                if !settled {
+                    jacobian = self.central(evaluator, &state, &values, &quadratic)?;
+                    (taken_at, settled_at) = (state.clone(), Some(state.clone()));
+                    rounds += 1;
+                    damping = 1e-3;
+                    continue;
+                }
                 if promised <= effort.floor {
                     break (true, scatter, normal);
                 }
@@ -131,7 +183,9 @@ impl Search<'_> {
                 damping = 1e-3;
                 continue;
             };
-            if self.distance(&taken_at, &next) <= effort.carry {
+            if effort.settle > 0 && self.near(&state, &next) {
+                (state, values) = (next, next_values);
+            } else if self.distance(&taken_at, &next) <= effort.carry {
                 self.broyden(&mut jacobian, [&state, &next], [&values, &next_values]);
                 (state, values) = (next, next_values);
             } else {
@@ -268,7 +322,7 @@ impl Search<'_> {
                 asked.push((test, p, step));
             }
             if moves_k {
-                asked.push((test, params + test, 0.02));
+                asked.push((test, params + test, DIFFERENCE_K));
             }
         }
         let shifted = |&(test, column, step): &(usize, usize, f64)| {
@@ -299,6 +353,74 @@ impl Search<'_> {
                 .iter()
                 .zip(found?.iter())
                 .zip(values[test].iter())
+            {
+                jacobian[(row, column)] = (after - before) / divisor;
+            }
+        }
+        Ok(jacobian)
+    }
+
+    /// Central differences of all tests in one round, over two posterior standard deviations to each side, but at least half and at most ten
+    /// times as wide as a forward difference.
+    fn central(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+        quadratic: &Quadratic,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        let params = self.layout.parameters.len();
+        let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
+        let covariance = quadratic.mapped_covariance();
+        let mut asked = Vec::new();
+        for test in 0..self.tests.len() {
+            for p in 0..params {
+                let (prior, at) = (&self.layout.parameters[p], state.theta[p]);
+                let usual = self.parameters[p].difference(at).abs();
+                let step = 2.0 * covariance[(p, p)].max(0.0).sqrt();
+                let step = step.clamp(0.5 * usual, 10.0 * usual);
+                let [low, high] =
+                    [-step, step].map(|step| (at + step).clamp(prior.lower, prior.upper) - at);
+                asked.push((test, p, low, high));
+            }
+            if moves_k {
+                asked.push((test, params + test, -DIFFERENCE_K, DIFFERENCE_K));
+            }
+        }
+        let shifted = |test: usize, column: usize, step: f64| {
+            let mut state = state.clone();
+            match state.theta.get_mut(column).filter(|_| column < params) {
+                Some(theta) => *theta += step,
+                None => state.epsilon[test] += step,
+            }
+            self.point(&state, test)
+        };
+        let sides = asked.iter().flat_map(|&(test, column, low, high)| {
+            [low, high].map(|step| shifted(test, column, step))
+        });
+        let points: Vec<Point> = sides.collect();
+        let found = evaluator.all(&points);
+        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        for (&(test, column, low, high), pair) in asked.iter().zip(found.chunks_exact(2)) {
+            // a side without an answer is replaced by the middle
+            let ends = match (&pair[0], &pair[1]) {
+                (Err(error), Err(_)) => return Err(error.clone()),
+                (low_side, high_side) => {
+                    [(low_side, low), (high_side, high)].map(|(side, step)| {
+                        let known = side.as_ref().ok().map(|values| (Arc::clone(values), step));
+                        known.unwrap_or_else(|| (Arc::clone(&values[test]), 0.0))
+                    })
+                }
+            };
+            let divided = |step: f64| match self.parameters.get(column).filter(|_| column < params)
+            {
+                Some(parameter) => parameter.divisor(step),
+                None => step.exp_m1(),
+            };
+            let [(before, low), (after, high)] = ends;
+            let divisor = divided(high) - divided(low);
+            for ((&row, after), before) in
+                self.rows[test].iter().zip(after.iter()).zip(before.iter())
             {
                 jacobian[(row, column)] = (after - before) / divisor;
             }
@@ -337,6 +459,15 @@ impl Search<'_> {
                 }
             }
         }
+    }
+
+    /// Whether two states are no farther apart than a forward difference, in any unknown.
+    fn near(&self, a: &State, b: &State) -> bool {
+        let theta = self.parameters.iter().zip(a.theta.iter().zip(&b.theta));
+        let mut theta = theta.map(|(p, (a, b))| (a - b).abs() <= p.difference(*a).abs());
+        let tests = a.epsilon.iter().zip(&b.epsilon);
+        let mut tests = tests.map(|(e, f)| (a.log_k + e - b.log_k - f).abs() <= DIFFERENCE_K);
+        theta.all(|near| near) && tests.all(|near| near)
     }
 
     /// How far two states are apart in the priors' scales.

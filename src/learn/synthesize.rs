@@ -56,7 +56,7 @@ pub fn synthesize(
     watch(Doing::Members);
     let workshop = measured.workshop(kind)?;
     watch(Doing::Tests);
-    let bench = measured.bench(&workshop)?;
+    let bench = measured.finest_bench(&workshop)?;
     let model = GearModel::new(&bench, Box::new(|_| study.effect_model().stated()))
         .stretching(study.effect_model().stretches_time());
     let mut synthetic = Synthetic {

@@ -7,6 +7,15 @@ use crate::effects::{Param, Prior};
 /// The name of the wear coefficient among the free parameters.
 pub const WEAR_COEFFICIENT: &str = "wear.coefficient";
 
+/// What is thought of the wear coefficient, mm²/N: two standard deviations reach from 1e-12 to 1e-7, mild wear of metals.
+pub const COEFFICIENT_PRIOR: Prior = Prior::LogNormal {
+    median: 3.2e-10,
+    spread: 18.0,
+};
+
+/// Bounds of the wear coefficient in fits, mm²/N.
+pub const COEFFICIENT_BOUNDS: [f64; 2] = [1e-16, 1e-4];
+
 /// One standard deviation of a formula's parameter of which nothing but a positive value is known, as a factor.
 const FORMULA_SPREAD: f64 = 5.0;
 
@@ -38,18 +47,15 @@ pub struct FreeParameter {
 }
 
 impl FreeParameter {
-    /// The wear coefficient, mm²/N. Prior: log-normal with two standard deviations from 1e-12 to 1e-7, mild wear of metals.
+    /// The wear coefficient, mm²/N.
     pub fn wear_coefficient(wear: &Wear) -> Self {
         Self {
             name: WEAR_COEFFICIENT.to_owned(),
             unit: "mm2/N",
-            value: wear.coefficient.clamp(1e-16, 1e-4),
-            lower: 1e-16,
-            upper: 1e-4,
-            prior: Prior::LogNormal {
-                median: 3.2e-10,
-                spread: 18.0,
-            },
+            value: (wear.coefficient).clamp(COEFFICIENT_BOUNDS[0], COEFFICIENT_BOUNDS[1]),
+            lower: COEFFICIENT_BOUNDS[0],
+            upper: COEFFICIENT_BOUNDS[1],
+            prior: COEFFICIENT_PRIOR,
             neutral: None,
             log_scale: true,
         }

@@ -303,12 +303,12 @@ fn the_evidence_integrates_the_scatter_of_k() {
         .sum()
     };
     let steps = 160;
-    let (half, spread) = (0.03, 10f64.ln());
+    let (half, spread) = (0.03, 18f64.ln());
     let width = 2.0 * half / f64::from(steps);
     let grid = |test: usize| -> Vec<(f64, f64)> {
         (0..=steps)
             .map(|i| ks[test].ln() - half + width * f64::from(i))
-            .map(|eta| (eta - start.ln(), log_likelihood(test, eta)))
+            .map(|eta| (eta - 3.2e-10f64.ln(), log_likelihood(test, eta)))
             .collect()
     };
     let (first, second) = (grid(0), grid(1));

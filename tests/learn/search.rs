@@ -64,7 +64,7 @@ fn the_state_found_is_the_most_probable() {
             sum += 0.5 * (z2 - 0.25 * rw * rw / (1.0 + 0.25 * w));
         }
         let priors = [
-            ((x[0] - 3e-10f64.ln()) / 10f64.ln()),
+            ((x[0] - 3.2e-10f64.ln()) / 18f64.ln()),
             (x[1] - 2f64.ln()) / 3f64.ln(),
             (x[2] - 2e5f64.ln()) / 3f64.ln(),
         ];

@@ -18,6 +18,7 @@ const LOOK: Effort = Effort {
     tolerance: 0.2,
     floor: 0.3,
     carry: 1.0,
+    settle: 0,
 };
 /// The screening fit of those that the first look leaves in play.
 const SCREEN: Effort = Effort {
@@ -25,6 +26,7 @@ const SCREEN: Effort = Effort {
     tolerance: 0.1,
     floor: 0.3,
     carry: 0.4,
+    settle: 0,
 };
 /// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
 /// of the leader's gain.
@@ -44,6 +46,7 @@ const DECIDE: Effort = Effort {
     tolerance: 0.05,
     floor: 0.2,
     carry: 0.4,
+    settle: 0,
 };
 /// The leader's last steps with derivatives of the exact model, if anchors did not bring it to rest.
 const POLISH: Effort = Effort {
@@ -51,6 +54,7 @@ const POLISH: Effort = Effort {
     tolerance: 0.1,
     floor: 0.3,
     carry: 1.0,
+    settle: 0,
 };
 /// Taking stock of a state without leaving it.
 const STAY: Effort = Effort {
@@ -58,6 +62,7 @@ const STAY: Effort = Effort {
     tolerance: 0.0,
     floor: 0.0,
     carry: 0.0,
+    settle: 0,
 };
 /// Anchors of a deciding fit.
 const ANCHORS: usize = 4;

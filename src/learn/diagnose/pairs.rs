@@ -33,6 +33,7 @@ const EFFORT: Effort = Effort {
     tolerance: 0.3,
     floor: 0.3,
     carry: 0.7,
+    settle: 0,
 };
 
 /// The fitted pairs that promise more than the best single effect.
