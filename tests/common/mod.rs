@@ -1,5 +1,10 @@
 //! What tests of the whole program share: the gears of the paper's study as text, and the program started in a folder.
-#![allow(dead_code, unused_imports, unused_macros, reason = "no test uses all of it")]
+#![allow(
+    dead_code,
+    unused_imports,
+    unused_macros,
+    reason = "no test uses all of it"
+)]
 
 use std::path::Path;
 

@@ -23,9 +23,11 @@ mod next;
 mod pairs;
 mod plan;
 mod rank;
+mod ranked;
 mod table;
 mod telling;
 mod verdict;
+mod warnings;
 mod words;
 
 use crate::learn::bench::Workshop;
@@ -46,9 +48,8 @@ pub use plan::{
     AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
     plan_after, plan_first,
 };
-pub use verdict::{
-    Diagnosis, Named, NextExperiment, NextTest, ParameterValue, Ranked, Screened, Verdict,
-};
+pub use ranked::{ParameterValue, Ranked};
+pub use verdict::{Diagnosis, Named, NextExperiment, NextTest, Screened, Verdict};
 
 use candidate::Candidate;
 use flexible::Flexible;

@@ -2,7 +2,8 @@
 
 use super::judge::{Base, Judge, Judged};
 use super::rank::Ranking;
-use super::verdict::{Diagnosis, Verdict, parameters};
+use super::ranked::parameters;
+use super::verdict::{Diagnosis, Verdict};
 use super::{NOTHING, UNKNOWN};
 use crate::effects::find;
 
