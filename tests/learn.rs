@@ -177,6 +177,7 @@ fn running_in_parameters() -> Vec<Parameter> {
 fn noise(scatter: Scatter) -> NoiseModel {
     NoiseModel {
         datum_um: 0.5,
+        sigma_factor: 1.0,
         scatter,
         model_error: None,
     }

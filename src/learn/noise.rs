@@ -21,6 +21,8 @@ pub struct NoiseModel {
     /// Prior standard deviation of a wear trace's datum, µm. Datums of other quantities' traces get a broad prior: the
     /// largest magnitude measured in the trace, at least ten of its largest sigmas.
     pub datum_um: f64,
+    /// Factor on the stated σ.
+    pub sigma_factor: f64,
     /// Scatter of the wear coefficient between tests.
     pub scatter: study::Scatter,
     /// Error of the model itself, correlated along a trace and over cycles.
@@ -58,6 +60,7 @@ impl NoiseModel {
     pub fn of(noise: &study::Noise) -> Self {
         Self {
             datum_um: noise.datum_um,
+            sigma_factor: 1.0,
             scatter: noise.coefficient_scatter,
             model_error: None,
         }
@@ -110,6 +113,9 @@ impl Covariance {
         further: &[(&[f64], ModelError)],
     ) -> Self {
         let picked: Vec<&Observation> = rows.iter().map(|&row| &data.observations[row]).collect();
+        let sigma: Vec<f64> = (picked.iter())
+            .map(|o| model.sigma_factor * o.sigma)
+            .collect();
         let traces = || trace_rows(&picked, model.datum_um);
         let mut errors: Vec<(Vec<f64>, ModelError)> = Vec::new();
         if let Some(error) = model.model_error {
@@ -119,10 +125,10 @@ impl Covariance {
         let blocks = if errors.is_empty() {
             traces().into_iter().map(Block::Datum).collect()
         } else {
-            dense_blocks(&picked, &traces(), &errors)
+            dense_blocks(&picked, &sigma, &traces(), &errors)
         };
         Self {
-            sigma: picked.iter().map(|o| o.sigma).collect(),
+            sigma,
             blocks,
             traces: traces(),
         }
@@ -218,6 +224,7 @@ fn trace_rows(picked: &[&Observation], datum_um: f64) -> Vec<TraceRows> {
 /// One block per test, member and quantity; traces that reach over several tie them together.
 fn dense_blocks(
     picked: &[&Observation],
+    sigma: &[f64],
     traces: &[TraceRows],
     errors: &[(Vec<f64>, ModelError)],
 ) -> Vec<Block> {
@@ -268,7 +275,7 @@ fn dense_blocks(
                     matrix[(a, b)] += tau.map_or(0.0, |t| t.tau * t.tau);
                 }
             }
-            matrix[(a, a)] += picked[i].sigma.powi(2);
+            matrix[(a, a)] += sigma[i].powi(2);
         }
         // Positive definite: a sum of positive semi-definite parts and diag σ² > 0.
         let factor = Cholesky::new(matrix).expect("σ is above 0");

@@ -20,6 +20,7 @@ mod ground;
 mod judge;
 mod layout;
 mod next;
+mod noise_level;
 mod pairs;
 mod plan;
 mod rank;
@@ -128,21 +129,35 @@ pub fn diagnose(
         Some((middle, fine)) => (middle, fine),
         None => (&hertz, &hertz),
     };
-    let judge = Judge {
+    let mut judge = Judge {
         ground,
         hertz: &hertz,
         middle,
         exact,
         fidelity,
     };
-    with(&judge, &analytic, watch)
+    watch(0.08, "fitting the base model".to_owned());
+    let mut base = judge.base(Candidate::base(measured.study()))?;
+    let sigma_factor = noise_level::sigma_factor(&judge.ground, &base.judged.found.model);
+    if sigma_factor > 1.0 {
+        let noise = NoiseModel {
+            sigma_factor,
+            ..noise
+        };
+        judge.ground = Ground::new(measured, noise, Role::Fit);
+        base = judge.base(Candidate::base(measured.study()))?;
+    }
+    with(&judge, base, &analytic, watch)
 }
 
-/// The diagnosis on prepared benches.
-fn with(judge: &Judge<'_>, shop: &Workshop, watch: Watch<'_>) -> Result<Diagnosis, DiagnoseError> {
+/// The diagnosis from the base model's fit on.
+fn with(
+    judge: &Judge<'_>,
+    base: Base,
+    shop: &Workshop,
+    watch: Watch<'_>,
+) -> Result<Diagnosis, DiagnoseError> {
     let study = judge.ground.measured.study();
-    watch(0.08, "fitting the base model".to_owned());
-    let base = judge.base(Candidate::base(study))?;
     let (singles, not_judged) = Candidate::singles(study);
     watch(0.2, format!("screening {} effects", singles.len()));
     let screened = judge.screen(&base, &singles);

@@ -8,6 +8,12 @@ use super::ranked::parameters;
 /// What keeps an answer from being trusted.
 pub(super) fn warnings(ground: &Ground<'_>, base: &Base, ranking: &Ranking) -> Vec<String> {
     let mut warnings = Vec::new();
+    let factor = ground.noise.sigma_factor;
+    if factor > 1.0 {
+        warnings.push(format!(
+            "neighbouring points of a trace scatter {factor:.1} times as much as their stated sigma: it was taken that much larger here"
+        ));
+    }
     let data = &ground.measured.data;
     let mut alone = Vec::new();
     for &test in &ground.tests {
