@@ -1,11 +1,12 @@
 //! Mild oxidational wear: an oxide grows between contacts and is rubbed off when it is thick enough.
 //!
 //! ```text
-//! f = (v_ref/max(v, 0.02))^s exp(−(Q/R) (1/T_c − 1/T_ref))        s = 1, T in K, R = 8.314 J/(mol K)
+//! f = 1 − a + a (v_ref/max(v, 0.02))^s exp(−(Q/R) (1/T_c − 1/T_ref))        a = 1, s = 1, T in K, R = 8.314 J/(mol K)
 //! ```
 //! Wear per sliding distance falls as 1/v because the oxide grows in time, not in distance. The exponent is kept within ±30.
+//! a is the part of the wear that is oxidational; the rest follows the base law.
 
-use super::{Card, Effect, Hook, Local, Param, Prior};
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 /// Gas constant, kJ/(mol K) (CODATA 2018).
 const GAS: f64 = 8.314_462_618e-3;
@@ -15,7 +16,7 @@ const ZERO_CELSIUS: f64 = 273.15;
 pub(super) const CARD: Card = Card {
     name: "oxidative",
     hook: Hook::WearFactor,
-    formula: "wear_factor = (reference_speed/max(v_slide, 0.02))^speed_exponent*exp(min(max(activation_energy/0.008314462618*(1/(reference_temperature + 273.15) - 1/max(bulk_temperature + flash_temperature + 273.15, 100)), -30), 30))",
+    formula: "wear_factor = 1 - part + part*(reference_speed/max(v_slide, 0.02))^speed_exponent*exp(min(max(activation_energy/0.008314462618*(1/(reference_temperature + 273.15) - 1/max(bulk_temperature + flash_temperature + 273.15, 100)), -30), 30))",
     source: "T.F.J. Quinn, Review of oxidational wear, Tribol. Int. 16 (1983) 257-271 and 305-315, and Quinn (1971): oxide to a critical thickness of 1 to 3 um, Arrhenius growth; abstract read, and the Arrhenius term as Eq. (3.63) of R.G. Bayer, Mechanical Wear Fundamentals and Testing. Linear growth (wear as 1/v) is taken; parabolic growth gives the square root of the exponential.",
     signature: "the same loss per contact wherever there is sliding; Arrhenius in the oil temperature; wear per cycle as 1/n",
     confounded_with: &[
@@ -78,14 +79,32 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::new(
+            "part",
+            "-",
+            "part of the wear that is oxidational",
+            1.0,
+            (0.0, 1.0),
+            Prior::Uniform {
+                low: 0.0,
+                high: 1.0,
+            },
+        )
+        .neutral(0.0)
+        .fixed(),
     ],
-    forms: &[],
+    forms: &[Form {
+        name: "part of the wear",
+        settings: &[("part", 0.3)],
+        frees: &["part"],
+    }],
     build: |p| {
         Box::new(Oxidative {
             activation_energy: p[0],
             speed_exponent: p[1],
             reference_temperature: p[2],
             reference_speed: p[3],
+            part: p[4],
         })
     },
 };
@@ -95,6 +114,7 @@ struct Oxidative {
     speed_exponent: f64,
     reference_temperature: f64,
     reference_speed: f64,
+    part: f64,
 }
 
 impl Effect for Oxidative {
@@ -102,6 +122,7 @@ impl Effect for Oxidative {
         let kelvin = (at.bulk_temperature + at.flash_temperature + ZERO_CELSIUS).max(100.0);
         let inverse = 1.0 / (self.reference_temperature + ZERO_CELSIUS) - 1.0 / kelvin;
         let exponent = (self.activation_energy / GAS * inverse).clamp(-30.0, 30.0);
-        (self.reference_speed / at.floored_sliding()).powf(self.speed_exponent) * exponent.exp()
+        let speed = (self.reference_speed / at.floored_sliding()).powf(self.speed_exponent);
+        1.0 - self.part + self.part * (speed * exponent.exp())
     }
 }
