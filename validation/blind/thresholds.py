@@ -18,7 +18,7 @@ PAGE = Path(__file__).resolve().parent / "THRESHOLDS.md"
 
 # As in rank.rs (first five) and verdict.rs.
 RULE = {
-    "SHARE": 0.75,  # least share of the attainable fall of chi^2 for one effect
+    "SHARE": 0.85,  # least share of the attainable fall of chi^2 for one effect
     "PAIR_SHARE": 0.95,  # the same for two
     "SECOND": 0.10,  # least part of a pair's weaker effect, over the stronger one alone
     "PRIOR_NOTHING": 0.5,
@@ -37,7 +37,7 @@ TRIED = {
     "DOUBT": [0.05, 0.1, 0.2, 0.4],
     "ALIKE": [0.001, 0.01, 0.03, 0.1],
 }
-SHARE_WIDTH, PAIR_SHARE_WIDTH, SECOND_WIDTH = 0.04, 0.025, 0.012
+SHARE_WIDTH, PAIR_SHARE_WIDTH, SECOND_WIDTH = 0.03, 0.025, 0.012
 PRIOR_UNKNOWN, PRIOR_SINGLES = 0.1, 0.35
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
