@@ -6,7 +6,7 @@ use std::path::Path;
 use super::format::{count, plain, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
 use super::{discrepancy, drivers};
-use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked};
+use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked, Screened};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
@@ -178,7 +178,12 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     let mut table = Table::new("", head);
     let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
     let largest = drops.fold(attainable, f64::max);
-    for entry in diagnosis.screened.iter().take(FITTED) {
+    let better = |entry: &&Screened| entry.chi2_drop > 0.0;
+    let shown: Vec<&Screened> = (diagnosis.screened.iter().filter(better))
+        .take(FITTED)
+        .collect();
+    let count = shown.len();
+    for entry in shown {
         let named = if entry.form.is_empty() {
             entry.effect.clone()
         } else {
@@ -196,8 +201,8 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         ]);
     }
     let text = format!(
-        "Anything smooth could bring χ² down by about {attainable:.0}. The {} best of {} fits.",
-        diagnosis.screened.len().min(FITTED),
+        "Anything smooth could bring χ² down by about {attainable:.0}. The {count} best of {} candidates; those whose first look promised \
+         nothing are left out.",
         diagnosis.screened.len()
     );
     Some(

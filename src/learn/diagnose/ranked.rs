@@ -13,6 +13,8 @@ use crate::study::{Role, Scatter};
 
 /// Entries of the ranking.
 const LISTED: usize = 12;
+/// Rise of χ² from which an entry is left out: its parameters are where the search began.
+const WORSE: f64 = 20.0;
 /// Leaders whose held-out error is computed.
 const JUDGED_ON_HOLDOUT: usize = 3;
 
@@ -70,6 +72,11 @@ pub(super) fn ranked(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<R
             .best_of(name)
             .map_or(base.judged.log_evidence, |i| ranking.judged[i].log_evidence)
     };
+    // a first look that was worse than nothing is no fit worth telling
+    names.retain(|(name, _)| {
+        (ranking.best_of(name))
+            .is_none_or(|i| ranking.judged[i].square < base.judged.square + WORSE)
+    });
     names.sort_by(|a, b| {
         b.1.total_cmp(&a.1)
             .then(evidence(b.0).total_cmp(&evidence(a.0)))
