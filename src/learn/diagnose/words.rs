@@ -143,7 +143,7 @@ fn against(log: f64) -> String {
     }
 }
 
-/// `amplitude 1.81 ± 0.04, decay_cycles 1.27e5 ± 3e3 cycles`.
+/// `amplitude 1.81 ± 0.04, decay_cycles (1.27 ± 0.03)e5 cycles`.
 fn values(j: &Judged) -> String {
     let all: Vec<String> = parameters(j)
         .iter()
@@ -153,20 +153,31 @@ fn values(j: &Judged) -> String {
             } else {
                 format!(" {}", p.unit)
             };
-            format!("{} {} ± {}{unit}", p.name, short(p.value), short(p.sigma))
+            format!("{} {}{unit}", p.name, uncertain(p.value, p.sigma))
         })
         .collect();
     all.join(", ")
 }
 
-fn short(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-2..1e4).contains(&size) {
-        format!("{value:.2e}")
-    } else if size < 10.0 {
-        format!("{value:.3}")
+/// A value and its standard deviation with as many digits as the latter has two of.
+fn uncertain(value: f64, sigma: f64) -> String {
+    let size = value.abs().max(sigma);
+    let exponent = if size != 0.0 && !(1e-2..1e4).contains(&size) {
+        size.log10().floor() as i32
     } else {
-        format!("{value:.1}")
+        0
+    };
+    let scale = 10f64.powi(exponent);
+    let (value, sigma) = (value / scale, sigma / scale);
+    let digits = if sigma > 0.0 {
+        (1.0 - sigma.log10().floor()).clamp(0.0, 6.0) as usize
+    } else {
+        3
+    };
+    let both = format!("{value:.digits$} ± {sigma:.digits$}");
+    match exponent {
+        0 => both,
+        _ => format!("({both})e{exponent}"),
     }
 }
 
@@ -175,4 +186,17 @@ fn signatures(j: &Judged) -> Vec<String> {
     cards
         .map(|card| format!("How {} shows: {}.", card.name, card.signature))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::uncertain;
+
+    #[test]
+    fn values_share_the_digits_and_the_power_of_their_error() {
+        assert_eq!(uncertain(1.8194, 0.0353), "1.819 ± 0.035");
+        assert_eq!(uncertain(123_859.0, 4665.6), "(1.239 ± 0.047)e5");
+        assert_eq!(uncertain(0.0271, 0.0017), "0.0271 ± 0.0017");
+        assert_eq!(uncertain(8.95, 0.0), "8.950 ± 0.000");
+    }
 }
