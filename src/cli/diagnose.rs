@@ -59,7 +59,8 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
     let diagnosis = diagnose(&measured, fidelity, &|done, what| progress.show(done, what))?;
     drop(progress);
     let document = json!(diagnosis);
-    let page = report::diagnosis::page(&study.title, &diagnosis);
+    let study_name = args.paths.study.display().to_string();
+    let page = report::diagnosis::page(&study.title, &diagnosis, &study_name);
     let map = report::discrepancy::csv(&diagnosis.discrepancy)?;
     let left = &diagnosis.residual_drivers;
     let further = [
@@ -68,7 +69,6 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
         ("residual_rows.csv", report::drivers::rows(left)?),
     ];
     let written = report::write_page_with(&page, "diagnosis.json", &document, &further, &target)?;
-    let study_name = args.paths.study.display().to_string();
     Ok(Outcome {
         json: document,
         text: report::diagnosis::summary(&study.title, &diagnosis, &study_name, &written.folder),

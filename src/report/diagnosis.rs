@@ -66,8 +66,8 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     text
 }
 
-/// The same as a page, with the whole ranking.
-pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
+/// The same as a page, with the whole ranking; `study` is how the commands to come name the study file.
+pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     let mut why = Section::new("Why");
     for reason in &diagnosis.reasons {
         why = why.paragraph(reason);
@@ -148,7 +148,8 @@ pub fn page(title: &str, diagnosis: &Diagnosis) -> Page {
         );
     }
     sections.extend(drivers::section(&diagnosis.residual_drivers));
-    let mut next = Section::new("What to do next").paragraph(diagnosis.next_step.clone());
+    let mut next =
+        Section::new("What to do next").paragraph(diagnosis.next_step.replace("STUDY", study));
     if let Some(experiment) = &diagnosis.next_experiment {
         next = next
             .paragraph(experiment.why.clone())
