@@ -73,8 +73,8 @@ const WORTH_SHARE: f64 = 0.003;
 /// Ln posterior behind the leader, and share of its gain, from which a candidate is not followed further.
 const HOPELESS: f64 = 15.0;
 const HOPELESS_SHARE: f64 = 0.05;
-/// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at: its starts
-/// cover the priors, and lie within about half the gain of what a fit would find.
+/// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at. Not safe
+/// where all starts lie far from the truth: a coating with a small ratio was given up so.
 const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
 /// Second starts are followed if their linear gain is this share of the best one's.
