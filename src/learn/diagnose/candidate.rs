@@ -1,8 +1,9 @@
 //! What could be missing: every effect of the catalogue in each accepted form, alone or several together.
 
-use crate::effects::{CATALOGUE, Card, Prior};
+use crate::effects::{CATALOGUE, Card, Hook, Prior};
 use crate::learn::measured::{ModelVersion, parameter};
 use crate::learn::parameters::Parameter;
+use crate::numeric::halton::halton;
 use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
 
 /// The base model with nothing, one or several effects more.
@@ -22,6 +23,8 @@ pub(super) struct Candidate {
     pub(super) inherited: usize,
     /// Values of the added parameters from which a fit may start.
     pub(super) starts: Vec<Vec<f64>>,
+    /// Of the added parameters: lower bound, upper bound, and value without effect where that is finite.
+    strengths: Vec<(f64, f64, Option<f64>)>,
 }
 
 /// An effect that cannot be judged.
@@ -41,6 +44,9 @@ const SHARP: [&str; 4] = [
     "plastic_deformation",
 ];
 
+/// How many places of the priors are looked at besides.
+const SPREAD: usize = 8;
+
 /// Name of the form with a card's own settings.
 const OWN: &str = "";
 
@@ -57,6 +63,7 @@ impl Candidate {
             parameters,
             version,
             starts: vec![Vec::new()],
+            strengths: Vec::new(),
         }
     }
 
@@ -99,7 +106,20 @@ impl Candidate {
             inherited: self.inherited,
             version,
             starts: Vec::new(),
+            strengths: Vec::new(),
         }
+    }
+
+    /// Values of a start with `amplitude` times the effect, as far as that is linear in the parameters that have a value without
+    /// effect.
+    pub(super) fn scaled(&self, values: &[f64], amplitude: f64) -> Vec<f64> {
+        let all = values.iter().zip(&self.strengths);
+        all.map(|(&x, &(lower, upper, neutral))| {
+            neutral.map_or(x, |none| {
+                (none + amplitude * (x - none)).clamp(lower, upper)
+            })
+        })
+        .collect()
     }
 
     /// Whether its rate is sharp in the local pressure, which the analytic model knows least.
@@ -151,21 +171,29 @@ fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
             };
             let fitted = spec.fitted();
             let version = base.version.with(spec);
+            let parameters = parameters(&version.free);
+            let mut starts = starts(&fitted);
+            if fitted.len() > 1 && card.hook == Hook::WearFactor {
+                starts.extend(spread(&parameters[base.inherited..], &fitted));
+            }
             Some(Candidate {
                 names: vec![card.name],
                 forms: vec![form],
                 siblings: 1 + card.forms.len(),
-                parameters: parameters(&version.free),
+                parameters,
                 inherited: base.inherited,
                 version,
-                starts: starts(&fitted),
+                starts,
+                strengths: (fitted.iter())
+                    .map(|f| (f.lower, f.upper, f.neutral.filter(|none| none.is_finite())))
+                    .collect(),
             })
         })
         .collect();
     all
 }
 
-/// The defaults, the priors' medians, and the mirror image of each where both signs are possible.
+/// The defaults, the priors' medians, the mirror image of each where both signs are possible, and a weak effect.
 fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
     let defaults: Vec<f64> = fitted.iter().map(|f| f.value).collect();
     let medians: Vec<f64> = fitted.iter().map(median).collect();
@@ -185,6 +213,7 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
             values
         })
     });
+    let weak = fitted.iter().map(|f| weak_ratio(f).unwrap_or(median(f)));
     let mut starts: Vec<Vec<f64>> = Vec::new();
     let plain = [
         defaults.clone(),
@@ -192,7 +221,7 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
         medians.clone(),
         mirrored(&medians),
     ];
-    for values in plain.into_iter().chain(ends) {
+    for values in plain.into_iter().chain([weak.collect()]).chain(ends) {
         if !starts.contains(&values) {
             starts.push(values);
         }
@@ -200,11 +229,43 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
     starts
 }
 
+/// Places spread over the priors, for laws of several parameters that cost little to look at, and each with a weak effect.
+fn spread(parameters: &[Parameter], fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
+    let mut places = Vec::new();
+    for i in 0..SPREAD {
+        let shares = parameters.iter().zip(halton(i, parameters.len()));
+        let place: Vec<f64> = shares.map(|(p, share)| p.quantile(share)).collect();
+        let weak = place.iter().zip(fitted);
+        let weak: Vec<f64> = weak.map(|(&x, f)| weak_ratio(f).unwrap_or(x)).collect();
+        if weak != place {
+            places.push(weak);
+        }
+        places.push(place);
+    }
+    places
+}
+
 /// The prior's median; one standard deviation up where the median is no effect.
 fn median(free: &FreeParameter) -> f64 {
     match free.prior {
         Prior::Normal { mean, sd } if free.neutral.is_some() => mean + sd,
         prior => prior.median().clamp(free.lower, free.upper),
+    }
+}
+
+/// For a ratio, a quarter of the way (of its logarithm) from no effect to the prior's median.
+///
+/// Laws are nearly linear in a ratio near 1, so fits find their way from there. From a coating ten times as hard as its base none
+/// finds to one twice as hard: they look too unlike.
+fn weak_ratio(free: &FreeParameter) -> Option<f64> {
+    match (free.neutral, free.prior) {
+        (Some(neutral), Prior::LogNormal { median, .. })
+            if neutral > 0.0 && neutral.is_finite() =>
+        {
+            let ratio = neutral * (median / neutral).powf(0.25);
+            Some(ratio.clamp(free.lower, free.upper))
+        }
+        _ => None,
     }
 }
 

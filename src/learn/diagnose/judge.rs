@@ -77,6 +77,8 @@ const HOPELESS_SHARE: f64 = 0.05;
 /// where all starts lie far from the truth: a coating with a small ratio was given up so.
 const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
+/// Starts are scaled to the amplitude that gains most in the linearised model, but to no less than this.
+pub(super) const LEAST_AMPLITUDE: f64 = 0.02;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
 
@@ -270,13 +272,14 @@ impl<'a> Judge<'a> {
             .iter()
             .filter_map(|values| {
                 let state = self.added(base, candidate, values);
-                let values = predictions(&self.ground, &predictor, candidate, &state).ok()?;
-                let joined = self.ground.joined(&values);
+                let predicted = predictions(&self.ground, &predictor, candidate, &state).ok()?;
+                let joined = self.ground.joined(&predicted);
                 let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
                     .map(|(f, b)| f - b)
                     .collect();
-                let seen = self.visible(base, &change);
-                Some((linear_gain(&seen, &base.residual), state))
+                let (gain, amplitude) = linear_gain(&self.visible(base, &change), &base.residual);
+                let scaled = candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE));
+                Some((gain, self.added(base, candidate, &scaled)))
             })
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -434,15 +437,16 @@ fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
     objectives[(count - 1).min(objectives.len() - 1)].max(share)
 }
 
-/// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change.
-pub(super) fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> f64 {
+/// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change, and that amplitude.
+pub(super) fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> (f64, f64) {
     let length = seen.norm_squared();
     if length < 1e-12 {
-        return 0.0;
+        return (0.0, 0.0);
     }
     let along = seen.dot(residual);
     let amplitude = (along / length).clamp(0.0, 4.0);
-    amplitude * along - 0.5 * amplitude * amplitude * length
+    let gain = amplitude * along - 0.5 * amplitude * amplitude * length;
+    (gain, amplitude)
 }
 
 /// Gram and Schmidt's columns of length 1, twice for rounding; dependent ones become 0.

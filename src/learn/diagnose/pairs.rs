@@ -4,8 +4,8 @@
 //! gain(a, b) = ½ rᵀP r       P onto the changes of a and b that k cannot make; amplitudes not negative
 //! ```
 //! The changes are those of the singly fitted effects. The most promising pairs are then fitted in full, by the middle fidelity,
-//! and the best of these by finite elements. If the best one leaves more than noise, its stronger effect as fitted in the pair is
-//! given other partners: what fits an effect best alone may hide the right partner.
+//! and the best of these by finite elements. The best one's effects, as fitted in the pair, are then given other partners: what fits
+//! an effect best alone may hide the right partner.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::Candidate;
 use super::fidelity::Fidelity;
-use super::judge::{Base, Judge, Judged, linear_gain};
+use super::judge::{Base, Judge, Judged, LEAST_AMPLITUDE, linear_gain};
 use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
 
@@ -23,8 +23,8 @@ const PROMISE: f64 = 6.0;
 const PROMISE_SHARE: f64 = 0.06;
 /// Pairs fitted by the middle fidelity, and by finite elements.
 const FITTED: [usize; 2] = [5, 2];
-/// Other partners tried for the stronger effect of the best pair, and the χ² per degree of freedom above 1, in standard deviations,
-/// that the pair must leave for that.
+/// Other partners tried for each effect of the best pair, and the χ² per degree of freedom above 1, in standard deviations, that a
+/// pair which does not lead must leave for that.
 const PARTNERS: usize = 4;
 const LEFT: f64 = 1.0;
 /// Pair fits.
@@ -56,14 +56,20 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
         .filter_map(|&(a, b)| fit(judge, base, &singles[a], &singles[b]))
         .collect();
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
-    let rows = judge.ground.len() as f64;
-    if let Some(pair) = fitted
-        .first()
-        .filter(|p| p.square > rows + LEFT * (2.0 * rows).sqrt())
-    {
-        let more = partners(judge, base, singles, &fitted, pair);
+    if let Some(pair) = fitted.first() {
+        let more: Vec<Judged> = (kept(judge, singles, pair, best).into_iter())
+            .flat_map(|kept| partners(judge, base, singles, &fitted, pair, kept))
+            .collect();
         fitted.extend(more);
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    }
+    if let Some(leader) = fitted.first_mut().filter(|pair| !pair.converged) {
+        let (pair, start) = (leader.candidate.clone(), leader.found.state.clone());
+        if let Some(further) = fitted_from(judge, base, pair, start, &leader.offset)
+            && further.log_evidence > leader.log_evidence
+        {
+            *leader = further;
+        }
     }
     let mut decided = Vec::with_capacity(fitted.len());
     for (i, pair) in fitted.into_iter().enumerate() {
@@ -154,18 +160,42 @@ fn promising(
     chosen
 }
 
-/// The stronger effect of a fitted pair with other partners: those whose starts gain most, in the linearised analytic model, on
-/// what it leaves with its values of the pair.
+/// The effects of a fitted pair that are to be tried with other partners: both if the pair beats the best single effect, for one
+/// of them may stand for a look-alike that was not followed alone; the stronger one if the pair leaves more than noise.
+fn kept<'j>(
+    judge: &Judge<'_>,
+    singles: &'j [Judged],
+    pair: &Judged,
+    best: &Judged,
+) -> Vec<&'j Judged> {
+    let part = |s: &&Judged| {
+        let (own, joint) = (&s.candidate, &pair.candidate);
+        let mut effects = joint.names.iter().zip(&joint.forms);
+        effects.any(|effect| effect == (&own.names[0], &own.forms[0]))
+    };
+    let mut parts: Vec<&Judged> = singles.iter().filter(part).collect();
+    parts.sort_by(|a, b| a.square.total_cmp(&b.square));
+    let rows = judge.ground.len() as f64;
+    let leaves = pair.square > rows + LEFT * (2.0 * rows).sqrt();
+    parts.truncate(if pair.log_evidence > best.log_evidence {
+        2
+    } else {
+        usize::from(leaves)
+    });
+    parts
+}
+
+/// One effect of a fitted pair with other partners: those whose starts gain most, in the linearised analytic model, on what it
+/// leaves with its values of the pair.
 fn partners(
     judge: &Judge<'_>,
     base: &Base,
     singles: &[Judged],
     fitted: &[Judged],
     pair: &Judged,
+    kept: &Judged,
 ) -> Vec<Judged> {
-    let part = |s: &&Judged| pair.candidate.names.contains(&s.candidate.names[0]);
-    let kept = (singles.iter().filter(part)).min_by(|a, b| a.square.total_cmp(&b.square));
-    let Some((kept, state)) = kept.and_then(|k| Some((k, state_in(&k.candidate, pair)?))) else {
+    let Some(state) = state_in(&kept.candidate, pair) else {
         return Vec::new();
     };
     let predicted = |bench, offset: &[Vec<f64>], candidate: &Candidate, state: &State| {
@@ -190,17 +220,21 @@ fn partners(
         .filter_map(|(s, values)| {
             let both = kept.candidate.with(&s.candidate);
             let own = &s.candidate.parameters[s.candidate.inherited..];
-            let added = own.iter().zip(values).map(|(p, &x)| p.natural_start(x));
-            let state = State {
-                theta: state.theta.iter().copied().chain(added).collect(),
+            let with = |values: &[f64]| State {
+                theta: (state.theta.iter().copied())
+                    .chain(own.iter().zip(values).map(|(p, &x)| p.natural_start(x)))
+                    .collect(),
                 ..state.clone()
             };
-            let change: Vec<f64> = (predicted(judge.hertz, &[], &both, &state)?.iter())
+            let predicted = predicted(judge.hertz, &[], &both, &with(values))?;
+            let change: Vec<f64> = predicted
+                .iter()
                 .zip(&analytic)
                 .map(|(f, a)| f - a)
                 .collect();
-            let gain = linear_gain(&judge.visible(base, &change), &left);
-            (gain > PROMISE).then_some((gain, both, state))
+            let (gain, amplitude) = linear_gain(&judge.visible(base, &change), &left);
+            let scaled = s.candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE));
+            (gain > PROMISE).then(|| (gain, both, with(&scaled)))
         })
         .collect();
     gains.sort_by(|a, b| b.0.total_cmp(&a.0));
