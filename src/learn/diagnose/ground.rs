@@ -166,6 +166,27 @@ impl<'a> Ground<'a> {
         }
     }
 
+    /// Model values with all wear scaled to the size of what was measured, as another k would.
+    pub(super) fn rescaled(&self, model: &[f64]) -> Vec<f64> {
+        let only_worn = |values: &[f64]| -> Vec<f64> {
+            let each = values.iter().zip(&self.worn);
+            let kept: Vec<f64> = each.map(|(v, &worn)| if worn { *v } else { 0.0 }).collect();
+            self.covariance.whiten(&kept)
+        };
+        let (f, y) = (only_worn(model), only_worn(&self.values));
+        let product: f64 = f.iter().zip(&y).map(|(f, y)| f * y).sum();
+        let square: f64 = f.iter().map(|f| f * f).sum();
+        let factor = product / square;
+        let factor = if factor.is_finite() {
+            factor.clamp(0.01, 100.0)
+        } else {
+            1.0
+        };
+        let each = model.iter().zip(&self.worn);
+        each.map(|(f, &worn)| if worn { factor * f } else { *f })
+            .collect()
+    }
+
     /// A constant predictor's values joined to rows.
     pub(super) fn joined(&self, of_tests: &[Vec<f64>]) -> Vec<f64> {
         let mut joined = vec![0.0; self.len()];

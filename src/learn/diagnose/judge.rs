@@ -273,7 +273,7 @@ impl<'a> Judge<'a> {
             .filter_map(|values| {
                 let state = self.added(base, candidate, values);
                 let predicted = predictions(&self.ground, &predictor, candidate, &state).ok()?;
-                let joined = self.ground.joined(&predicted);
+                let joined = self.ground.rescaled(&self.ground.joined(&predicted));
                 let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
                     .map(|(f, b)| f - b)
                     .collect();

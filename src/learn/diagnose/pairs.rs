@@ -205,6 +205,7 @@ fn partners(
     };
     let alone = predicted(judge.middle, &base.judged.offset, &kept.candidate, &state);
     let analytic = predicted(judge.hertz, &[], &kept.candidate, &state);
+    let analytic = analytic.map(|model| judge.ground.rescaled(&model));
     let (Some(alone), Some(analytic)) = (alone, analytic) else {
         return Vec::new();
     };
@@ -226,7 +227,10 @@ fn partners(
                     .collect(),
                 ..state.clone()
             };
-            let predicted = predicted(judge.hertz, &[], &both, &with(values))?;
+            let predicted =
+                judge
+                    .ground
+                    .rescaled(&predicted(judge.hertz, &[], &both, &with(values))?);
             let change: Vec<f64> = predicted
                 .iter()
                 .zip(&analytic)
