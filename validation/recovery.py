@@ -149,6 +149,11 @@ def inside(parameter, truth):
     return low <= truth <= high
 
 
+def surely(parameter, truth):
+    """The same for the 90 % interval, of a normal distribution."""
+    return abs(parameter["value"] - truth) <= 1.6449 * parameter["sigma"]
+
+
 def median(values):
     values = sorted(values)
     return values[len(values) // 2] if values else math.nan
@@ -156,7 +161,7 @@ def median(values):
 
 def page(answers):
     rows, poor = [], []
-    held = asked = 0
+    held = asked = sure = 0
     for contact in sorted({a["contact"] for a in answers}, reverse=True):
         for effect, (truth, _) in EFFECTS.items():
             own = [a for a in answers if a["effect"] == effect and a["contact"] == contact]
@@ -168,6 +173,7 @@ def page(answers):
                 of_fit = [next(p for p in a["parameters"] if p["name"] == f"{effect}.{name}") for a in fits]
                 hits = sum(inside(p, value) for p in of_fit)
                 held, asked = held + hits, asked + len(own)
+                sure += sum(surely(p, value) for p in of_fit)
                 off = median([abs(p["value"] / value - 1) for p in of_fit])
                 spread = median([p["sigma"] / abs(value) for p in of_fit])
                 enough = bool(own) and hits >= 0.9 * len(own)
@@ -197,7 +203,7 @@ distance from the truth; *sigma*: median of the stated standard deviation over t
 |---|---|---|---|---|---|---|---|---|---|
 {chr(10).join(rows)}
 
-Of all intervals together {held} of {asked} hold the true value, {100 * held / max(asked, 1):.1f} %.
+Of all 95 % intervals together {held} of {asked} hold the true value, {100 * held / max(asked, 1):.1f} %; of those of 90 % {sure}, {100 * sure / max(asked, 1):.1f} %.
 
 Not recovered as asked: {', '.join(poor) if poor else 'none'}.
 

@@ -25,6 +25,7 @@ mod pairs;
 mod plan;
 mod rank;
 mod ranked;
+mod sparse;
 mod table;
 mod telling;
 mod verdict;
@@ -162,6 +163,7 @@ fn with(
     watch(0.2, format!("screening {} effects", singles.len()));
     let screened = judge.screen(&base, &singles);
     let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
+    let sparse = sparse::selection(judge, &base, &screened);
     let screened = match judge.fidelity {
         Fidelity::Screening => screened,
         Fidelity::Middle | Fidelity::Full => {
@@ -183,7 +185,9 @@ fn with(
     watch(0.93, "weighing".to_owned());
     let ranking = Ranking::new(&judge.ground, &base.judged, judged, pairs, &flexible);
     watch(0.95, "held-out tests and the next experiment".to_owned());
-    let diagnosis = verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged, failed);
+    let mut diagnosis =
+        verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged, failed);
+    diagnosis.sparse_regression = sparse;
     watch(1.0, "done".to_owned());
     Ok(diagnosis)
 }

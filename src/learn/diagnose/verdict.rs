@@ -86,6 +86,8 @@ pub struct Diagnosis {
     pub attainable_spread: f64,
     /// Log evidence of a smooth discrepancy of unknown cause over the base model.
     pub unknown_evidence_gain: f64,
+    /// What a sparse regression on the effects' linear signatures picks, the strongest first: a second opinion that refits nothing.
+    pub sparse_regression: Vec<String>,
     /// The test that would best separate what is left.
     pub next_experiment: Option<NextExperiment>,
     /// Everything fitted, by falling evidence.
@@ -234,6 +236,7 @@ pub(super) fn diagnosis(
         attainable_drop: flexible.drop.max(0.0),
         attainable_spread: flexible.spread(),
         unknown_evidence_gain: ranking.unknown - base.judged.log_evidence,
+        sparse_regression: Vec::new(),
         next_experiment: None,
         screened: ranking
             .judged

@@ -202,8 +202,9 @@ const RESULTS: [&str; 7] = [
 /// What simpler judges make of the same fits, put as a diagnosis so that it is counted alike.
 ///
 /// `bic`: the least chi^2 + p ln(n) over the base model, single effects and the pairs that were fitted, whatever is left over.
+/// `sparse regression`: the effects whose linear signatures are picked one after another, whatever is left over.
 /// `discrepancy`: the base model with a Gaussian process; it tells that something is missing when its evidence is higher, never what.
-fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 2] {
+fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 3] {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut best = (0.0, None);
     for s in found["screened"].as_array().into_iter().flatten() {
@@ -213,13 +214,14 @@ fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 2] {
             best = (gain, s["effect"].as_str());
         }
     }
-    let bic = match best.1 {
-        Some(name) if name.contains('+') => {
-            json!({"verdict": "effects", "effect": name.split('+').collect::<Vec<_>>()})
-        }
-        Some(name) => json!({"verdict": "effect", "effect": name}),
-        None => json!({"verdict": "nothing_missing"}),
+    let claim = |names: Vec<&str>| match names.as_slice() {
+        [] => json!({"verdict": "nothing_missing"}),
+        [name] => json!({"verdict": "effect", "effect": name}),
+        names => json!({"verdict": "effects", "effect": names}),
     };
+    let bic = claim(best.1.map_or(Vec::new(), |name| name.split('+').collect()));
+    let picked = found["sparse_regression"].as_array().into_iter().flatten();
+    let sparse = claim(picked.filter_map(Value::as_str).collect());
     let missing = number(&found["unknown_evidence_gain"]) > 0.0;
     let verdict = if missing {
         "unknown"
@@ -228,6 +230,7 @@ fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 2] {
     };
     [
         ("bic over effects", bic),
+        ("sparse regression", sparse),
         ("base and Gaussian process", json!({"verdict": verdict})),
     ]
 }
@@ -458,9 +461,10 @@ mod tests {
             {"effect": "a", "chi2_drop": 40.0, "values": [1.0]},
             {"effect": "b", "chi2_drop": 42.0, "values": [1.0, 2.0, 3.0, 4.0]},
         ]);
-        let found = json!({"screened": screened, "unknown_evidence_gain": -1.0});
-        let [(_, bic), (_, process)] = baselines(&found, 100);
+        let found = json!({"screened": screened, "unknown_evidence_gain": -1.0, "sparse_regression": ["b", "a"]});
+        let [(_, bic), (_, sparse), (_, process)] = baselines(&found, 100);
         assert_eq!(bic["effect"], "a");
+        assert_eq!(sparse["effect"], json!(["b", "a"]));
         assert_eq!(process["verdict"], "nothing_missing");
         let little = json!({"screened": [{"effect": "a", "chi2_drop": 4.0, "values": [1.0]}]});
         assert_eq!(baselines(&little, 100)[0].1["verdict"], "nothing_missing");
