@@ -86,6 +86,10 @@ fn instants(travel: Travel, stations: &[f64]) -> Vec<(f64, f64)> {
 /// Sums contributions to neighbouring stations.
 struct Accumulator<'s> {
     stations: &'s [f64],
+    /// Stations per length, 1/mm, as if they lay evenly.
+    density: f64,
+    /// The inverse of each station's [`tributary`], 1/mm.
+    per_length: Vec<f64>,
     sums: Vec<f64>,
     /// First and one past the last station that has been added to.
     touched: (usize, usize),
@@ -93,8 +97,12 @@ struct Accumulator<'s> {
 
 impl<'s> Accumulator<'s> {
     fn new(stations: &'s [f64]) -> Self {
+        let last = stations.len() - 1;
+        let inverse = |i| tributary(stations, i).recip();
         Self {
             stations,
+            density: last as f64 / (stations[last] - stations[0]),
+            per_length: (0..=last).map(inverse).collect(),
             sums: vec![0.0; stations.len()],
             touched: (stations.len(), 0),
         }
@@ -103,43 +111,46 @@ impl<'s> Accumulator<'s> {
     fn add(&mut self, s: f64, area: f64) {
         let stations = self.stations;
         let last = stations.len() - 1;
-        let next = after(stations, s);
+        let next = self.after(s);
         if next == 0 || next > last {
             let i = if next == 0 { 0 } else { last };
-            self.put(i, area / tributary(stations, i));
+            self.put(i, area);
             return;
         }
         let t = (s - stations[next - 1]) / (stations[next] - stations[next - 1]);
-        self.put(next - 1, (1.0 - t) * area / tributary(stations, next - 1));
-        self.put(next, t * area / tributary(stations, next));
+        self.put(next - 1, (1.0 - t) * area);
+        self.put(next, t * area);
     }
 
-    fn put(&mut self, station: usize, value: f64) {
-        self.sums[station] += value;
+    fn put(&mut self, station: usize, area: f64) {
+        self.sums[station] += area;
         self.touched = (self.touched.0.min(station), self.touched.1.max(station + 1));
+    }
+
+    /// Number of stations up to `s`; they lie about evenly, so it is looked for near where it would then be.
+    fn after(&self, s: f64) -> usize {
+        let stations = self.stations;
+        let near = (s - stations[0]) * self.density;
+        let mut next = (near + 1.0).clamp(0.0, stations.len() as f64) as usize;
+        while next < stations.len() && stations[next] <= s {
+            next += 1;
+        }
+        while next > 0 && stations[next - 1] > s {
+            next -= 1;
+        }
+        next
     }
 
     /// The sums since the last call.
     fn take(&mut self) -> Vec<(u32, f64)> {
         let (from, to) = std::mem::replace(&mut self.touched, (self.sums.len(), 0));
         (from..to)
-            .map(|i| (i as u32, std::mem::take(&mut self.sums[i])))
+            .map(|i| {
+                let area = std::mem::take(&mut self.sums[i]);
+                (i as u32, area * self.per_length[i])
+            })
             .collect()
     }
-}
-
-/// Number of stations up to `s`; they lie about evenly, so it is looked for near where it would then be.
-fn after(stations: &[f64], s: f64) -> usize {
-    let (first, last) = (stations[0], stations[stations.len() - 1]);
-    let share = (s - first) / (last - first);
-    let mut next = (share * (stations.len() - 1) as f64).clamp(0.0, stations.len() as f64) as usize;
-    while next < stations.len() && stations[next] <= s {
-        next += 1;
-    }
-    while next > 0 && stations[next - 1] > s {
-        next -= 1;
-    }
-    next
 }
 
 /// ∫ N_i ds: the flank length that belongs to station `i`, mm.

@@ -18,8 +18,8 @@ pub enum Touch {
     GearTip,
 }
 
-/// Newton's method on an involute ends with a step below this, mm.
-const NEWTON_STEP: f64 = 1e-7;
+/// Newton's method on an involute ends with a step below this, mm: what is left is its square over twice the curvature radius.
+const NEWTON_STEP: f64 = 1e-5;
 
 /// Contact frame of one tooth pair at one mesh position, in the fixed frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,6 +111,9 @@ impl Frame {
         let mut height = [0.0; 2];
         for side in 0..2 {
             let curve = &self.flanks[side];
+            // an arc of length ξ from the frame's own point: the flank turns so little that it is nearly there
+            let turn = [2.0, -2.0][side] * curve.base_radius * xi;
+            rho[side] = (rho[side] * rho[side] + turn).max(0.0).sqrt();
             // Newton's method on the tangent coordinate; an involute is smooth and monotone here
             let mut offset = Vec2::zeros();
             for _ in 0..20 {
@@ -119,7 +122,6 @@ impl Frame {
                 let miss = offset.dot(&self.tangent) - xi;
                 let step = miss / slope.dot(&self.tangent);
                 rho[side] -= step;
-                // the error left is the step's square over 2 rho
                 if step.abs() < NEWTON_STEP {
                     offset -= slope * step;
                     break;

@@ -81,16 +81,18 @@ pub fn couple(xi: &[f64], facing: impl Fn(f64) -> Facing, traces: &[Trace]) -> C
     };
     let mut rows: Vec<Vec<Vec<(u32, f64)>>> = traces.iter().map(|_| vec![Vec::new(); n]).collect();
     let mut cuts = Vec::new();
+    let ends: Vec<Facing> = xi.iter().map(|&x| facing(x)).collect();
     for k in 0..n.saturating_sub(1) {
         let (a, b) = (xi[k], xi[k + 1]);
-        common_refinement(a, b, &facing, traces, &mut cuts);
+        common_refinement([a, b], [ends[k], ends[k + 1]], traces, &mut cuts);
         for cut in cuts.windows(2) {
             let width = cut[1] - cut[0];
-            let middle = facing(0.5 * (cut[0] + cut[1]));
+            let place = |u: f64| cut[0] + u * width;
+            let facings = GAUSS.map(|(u, _)| facing(place(u)));
+            let middle = facings[GAUSS.len() / 2];
             let edges: Vec<usize> = traces.iter().map(|t| t.edge(middle.arc[t.side])).collect();
-            for (u, weight) in GAUSS {
-                let x = cut[0] + u * width;
-                let at = facing(x);
+            for ((u, weight), at) in GAUSS.into_iter().zip(facings) {
+                let x = place(u);
                 let hat = (x - a) / (b - a);
                 for (node, value) in [(k, 1.0 - hat), (k + 1, hat)] {
                     let w = value * weight * width;
@@ -133,15 +135,13 @@ fn edge_shapes(trace: &Trace, first: usize, s: f64) -> ([f64; 3], usize) {
 /// An edge end is carried from arc to ξ by linear interpolation over the cell: exact for straight flanks, and a shift of
 /// second order in the cell's size (of a quadrature limit only) for curved ones.
 fn common_refinement(
-    a: f64,
-    b: f64,
-    facing: &impl Fn(f64) -> Facing,
+    [a, b]: [f64; 2],
+    [at_a, at_b]: [Facing; 2],
     traces: &[Trace],
     cuts: &mut Vec<f64>,
 ) {
     cuts.clear();
     cuts.extend([a, b]);
-    let (at_a, at_b) = (facing(a), facing(b));
     for trace in traces {
         let (from, to) = (at_a.arc[trace.side], at_b.arc[trace.side]);
         let (low, high) = (from.min(to), from.max(to));

@@ -13,6 +13,7 @@ use super::quadratic::{Layout, Quadratic, State};
 use super::scatter::marginal;
 use super::search::{Effort, Found, Search};
 use crate::measure::{Dataset, Quantity};
+use crate::numeric::halton::halton;
 use crate::study::{Role, Scatter};
 
 /// A model, what is free in it, and the measurements.
@@ -136,20 +137,6 @@ pub enum FitError {
     NoObservations,
 }
 
-/// Bases of the sequence of places, one for each parameter.
-const PRIMES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
-
-/// The number `i` in `base` with its digits mirrored at the point: fills 0 to 1 ever more evenly (J.H. Halton, Numer. Math. 2, 1960).
-fn halton(mut i: usize, base: usize) -> f64 {
-    let (mut value, mut digit) = (0.0, 1.0);
-    while i > 0 {
-        digit /= base as f64;
-        value += digit * (i % base) as f64;
-        i /= base;
-    }
-    value
-}
-
 impl Problem<'_> {
     /// The fit from the parameters' starts.
     ///
@@ -207,10 +194,9 @@ impl Problem<'_> {
         let own: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
         let most = misfit(&own).unwrap_or(f64::INFINITY);
         let place = |i: usize| -> Vec<f64> {
-            let bases = PRIMES.iter().cycle();
-            let each = self.parameters.iter().zip(bases);
-            each.map(|(p, &base)| p.quantile(halton(i + 1, base)))
-                .collect()
+            let point = halton(i, self.parameters.len());
+            let each = self.parameters.iter().zip(point);
+            each.map(|(p, share)| p.quantile(share)).collect()
         };
         let mut found: Vec<(f64, Vec<f64>)> = (0..count)
             .map(place)
@@ -250,8 +236,10 @@ impl Problem<'_> {
                 jacobian[(row, params + i)] = values[params];
             }
         }
+        let numbers = self.numbers(&fit.tests);
+        let before: Vec<f64> = numbers.iter().map(|&row| from.rows[row].model).collect();
         let mut evaluator = self.evaluator();
-        let found = fit.go_on(&mut evaluator, state, jacobian, effort)?;
+        let found = fit.go_on(&mut evaluator, state, jacobian, &before, effort)?;
         self.finish(&fit, found, &mut evaluator, effort)
     }
 

@@ -96,6 +96,9 @@ pub(super) struct Found {
 /// Step of the differences in ln k of a test.
 const DIFFERENCE_K: f64 = 0.02;
 
+/// Whitened sum of squares by which model values may have moved under derivatives that are kept.
+const MOVED: f64 = 1.0;
+
 /// Model values per test.
 type Values = Vec<Arc<[f64]>>;
 
@@ -112,16 +115,21 @@ impl Search<'_> {
         self.descend(evaluator, state, values, jacobian, None, effort)
     }
 
-    /// Goes on from `state`, where another search settled with these derivatives: if they promise nothing, it ends there.
+    /// Goes on from `state`, where another search settled with these derivatives and model values: if the derivatives promise
+    /// nothing, it ends there, unless the values have moved so much that derivatives will have too.
     pub(super) fn go_on(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: State,
         jacobian: DMatrix<f64>,
+        before: &[f64],
         effort: &Effort,
     ) -> Result<Found, PredictError> {
         let values = self.predict(evaluator, &state)?;
-        let settled = Some(state.clone());
+        let joined = self.joined(&values);
+        let moved: Vec<f64> = joined.iter().zip(before).map(|(now, b)| now - b).collect();
+        let same = squared(&self.covariance.whiten(&moved)) < MOVED;
+        let settled = same.then(|| state.clone());
         self.descend(evaluator, state, values, jacobian, settled, effort)
     }
 

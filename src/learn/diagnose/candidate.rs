@@ -1,8 +1,9 @@
 //! What could be missing: every effect of the catalogue in each accepted form, alone or several together.
 
-use crate::effects::{CATALOGUE, Card, Prior};
+use crate::effects::{CATALOGUE, Card, Hook, Prior};
 use crate::learn::measured::{ModelVersion, parameter};
 use crate::learn::parameters::Parameter;
+use crate::numeric::halton::halton;
 use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
 
 /// The base model with nothing, one or several effects more.
@@ -40,6 +41,9 @@ const SHARP: [&str; 4] = [
     "micropitting",
     "plastic_deformation",
 ];
+
+/// How many places of the priors are looked at besides.
+const SPREAD: usize = 8;
 
 /// Name of the form with a card's own settings.
 const OWN: &str = "";
@@ -151,21 +155,26 @@ fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
             };
             let fitted = spec.fitted();
             let version = base.version.with(spec);
+            let parameters = parameters(&version.free);
+            let mut starts = starts(&fitted);
+            if fitted.len() > 1 && card.hook == Hook::WearFactor {
+                starts.extend(spread(&parameters[base.inherited..]));
+            }
             Some(Candidate {
                 names: vec![card.name],
                 forms: vec![form],
                 siblings: 1 + card.forms.len(),
-                parameters: parameters(&version.free),
+                parameters,
                 inherited: base.inherited,
                 version,
-                starts: starts(&fitted),
+                starts,
             })
         })
         .collect();
     all
 }
 
-/// The defaults, the priors' medians, and the mirror image of each where both signs are possible.
+/// The defaults, the priors' medians, the mirror image of each where both signs are possible, and a weak effect.
 fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
     let defaults: Vec<f64> = fitted.iter().map(|f| f.value).collect();
     let medians: Vec<f64> = fitted.iter().map(median).collect();
@@ -185,6 +194,7 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
             values
         })
     });
+    let weak: Vec<f64> = fitted.iter().map(weak).collect();
     let mut starts: Vec<Vec<f64>> = Vec::new();
     let plain = [
         defaults.clone(),
@@ -192,7 +202,7 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
         medians.clone(),
         mirrored(&medians),
     ];
-    for values in plain.into_iter().chain(ends) {
+    for values in plain.into_iter().chain([weak]).chain(ends) {
         if !starts.contains(&values) {
             starts.push(values);
         }
@@ -200,11 +210,33 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
     starts
 }
 
+/// Places spread over the priors, for laws of several parameters that cost little to look at.
+fn spread(parameters: &[Parameter]) -> impl Iterator<Item = Vec<f64>> {
+    (0..SPREAD).map(|i| {
+        let shares = parameters.iter().zip(halton(i, parameters.len()));
+        shares.map(|(p, share)| p.quantile(share)).collect()
+    })
+}
+
 /// The prior's median; one standard deviation up where the median is no effect.
 fn median(free: &FreeParameter) -> f64 {
     match free.prior {
         Prior::Normal { mean, sd } if free.neutral.is_some() => mean + sd,
         prior => prior.median().clamp(free.lower, free.upper),
+    }
+}
+
+/// Half way (of its logarithm) from the prior's median to no effect, for a ratio; the median of others.
+///
+/// A coating ten times as hard as its base and one twice as hard look so unlike that no fit finds from one to the other.
+fn weak(free: &FreeParameter) -> f64 {
+    match (free.neutral, free.prior) {
+        (Some(neutral), Prior::LogNormal { median, .. })
+            if neutral > 0.0 && neutral.is_finite() =>
+        {
+            (neutral * median).sqrt().clamp(free.lower, free.upper)
+        }
+        _ => median(free),
     }
 }
 
