@@ -27,6 +27,8 @@ pub struct HertzContact<'a> {
     modulus: f64,
     /// Largest stiffness of a tooth pair, N/mm per mm of approach and face width.
     stiffness: f64,
+    /// How it falls along the path of contact: β₀, rad per base pitch.
+    fall: f64,
     alteration: Option<&'a Alteration>,
 }
 
@@ -39,6 +41,7 @@ impl<'a> HertzContact<'a> {
             load: torque / cycle.pair.pinion.base_radius,
             modulus,
             stiffness: 1e3 * stiffness,
+            fall: (0.5 * (1.11 + 0.5 * cycle.pair.contact_ratio).powi(2) - 1.17).powf(-0.5),
             alteration: None,
         }
     }
@@ -51,10 +54,8 @@ impl<'a> HertzContact<'a> {
 
     fn stiffness_at(&self, pair: &PairContact) -> f64 {
         let geometry = &self.cycle.pair;
-        let ratio = geometry.contact_ratio;
-        let beta = (0.5 * (1.11 + 0.5 * ratio).powi(2) - 1.17).powf(-0.5);
         let xi = (geometry.rho_c + pair.path - geometry.rho_a) / geometry.base_pitch;
-        self.stiffness * (beta * (xi - 0.5 * ratio)).cos()
+        self.stiffness * (self.fall * (xi - 0.5 * geometry.contact_ratio)).cos()
     }
 
     /// The tooth pairs of position `q` that meet on the line of action.
@@ -156,19 +157,18 @@ impl ContactModel for HertzContact<'_> {
                 self.cycle.pair.relative_radius(pair.path),
                 self.modulus,
             );
-            let mut shape: Vec<f64> = pair
-                .xi
-                .iter()
-                .map(|x| (1.0 - (x / half_width).powi(2)).max(0.0).sqrt())
-                .collect();
-            if shape.iter().all(|s| *s == 0.0) {
+            let own = &mut pressure[pair.offset..pair.offset + pair.xi.len()];
+            for (p, x) in own.iter_mut().zip(&pair.xi) {
+                *p = (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();
+            }
+            if own.iter().all(|p| *p == 0.0) {
                 // narrower than the grid: the nearest node carries it
                 let nearest = |x: &f64| pair.xi.iter().all(|other| x.abs() <= other.abs());
-                shape[pair.xi.iter().position(nearest).unwrap_or(0)] = 1.0;
+                own[pair.xi.iter().position(nearest).unwrap_or(0)] = 1.0;
             }
-            let area: f64 = shape.iter().zip(&pair.length).map(|(s, l)| s * l).sum();
-            for (k, s) in shape.iter().enumerate().filter(|(_, s)| **s > 0.0) {
-                pressure[pair.offset + k] = s * load / area;
+            let area: f64 = own.iter().zip(&pair.length).map(|(p, l)| p * l).sum();
+            for (k, p) in own.iter_mut().enumerate().filter(|(_, p)| **p > 0.0) {
+                *p *= load / area;
                 active.push(pair.offset + k);
             }
         }

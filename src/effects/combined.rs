@@ -7,12 +7,23 @@ use super::local::{Local, ProfileAt};
 #[derive(Default)]
 pub struct Combined {
     entries: Vec<(Hook, Box<dyn Effect>)>,
+    ignores_surroundings: bool,
 }
 
 impl Combined {
     /// Adds an effect that acts through `hook`.
     pub fn push(&mut self, hook: Hook, effect: Box<dyn Effect>) {
         self.entries.push((hook, effect));
+    }
+
+    /// Says that none of the effects asks for film, friction or temperature, which then need not be worked out.
+    pub fn ignore_surroundings(&mut self) {
+        self.ignores_surroundings = true;
+    }
+
+    /// Whether an effect may ask for film, friction or temperature.
+    pub fn feels_surroundings(&self) -> bool {
+        !self.ignores_surroundings
     }
 
     /// Whether any effect acts through `hook`; if not, the hook need not be asked.

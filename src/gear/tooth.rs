@@ -211,6 +211,11 @@ impl Gear {
         (2.0 * self.base_radius * s.max(0.0)).sqrt()
     }
 
+    /// Radius of the flank point at arc `s` from the involute's origin, mm.
+    pub fn radius_at_arc(&self, s: f64) -> f64 {
+        (self.base_radius * (self.base_radius + 2.0 * s.max(0.0))).sqrt()
+    }
+
     /// Curvature radius at radius `r`, mm; 0 on and inside the base circle.
     pub fn rho_at_radius(&self, r: f64) -> f64 {
         ((r - self.base_radius) * (r + self.base_radius))

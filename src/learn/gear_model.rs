@@ -5,13 +5,13 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::effects::{Combined, Local};
+use crate::effects::{Combined, Hook, Local};
 use crate::learn::bench::Bench;
 use crate::learn::observe::Reading;
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::trajectory::Trajectory;
 use crate::measure::Observation;
-use crate::simulate::forward::{Forward, ForwardError};
+use crate::simulate::forward::{Forward, ForwardError, Mounting};
 use crate::wear::acting::Acting;
 
 /// Builds the effects of a model from the values of its free parameters.
@@ -23,10 +23,18 @@ pub struct GearModel<'a> {
     effects: EffectsOf<'a>,
     stretches: bool,
     histories: Mutex<HashMap<Key, Arc<Trajectory>>>,
+    mountings: Mutex<HashMap<usize, Vec<Mounted>>>,
 }
 
 /// What a history belongs to: test, bits of the parameters, bits of the wear coefficient it was worn with.
 type Key = (usize, Vec<u64>, u64);
+
+/// A mounting that effects make, and the bits of the parameters it belongs to.
+type Mounted = (Vec<u64>, Mounting);
+
+/// Mountings kept of each test, those used last: a derivative with respect to k comes after those with respect to parameters, and each
+/// mounting holds a mesh cycle and its compliance.
+const MOUNTINGS: usize = 3;
 
 impl<'a> GearModel<'a> {
     /// The model with `effects`, from parameter values in the order that callers of [`Predictor::predict`] use.
@@ -36,6 +44,7 @@ impl<'a> GearModel<'a> {
             effects,
             stretches: false,
             histories: Mutex::default(),
+            mountings: Mutex::default(),
         }
     }
 
@@ -70,6 +79,41 @@ impl<'a> GearModel<'a> {
         Ok(longer)
     }
 
+    /// A fresh run of a test, on the mounting that one with the same parameters (by their bits) has made if effects change it.
+    fn forward<'b>(
+        &'b self,
+        test: usize,
+        coefficient: f64,
+        bits: &[u64],
+        acting: Option<&'b Acting>,
+    ) -> Result<Forward<'b>, ForwardError> {
+        let template = &self.bench.templates[test];
+        if !acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
+            return template.again([coefficient; 2], acting);
+        }
+        let kept = || {
+            self.mountings
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
+        let known = kept().get_mut(&test).and_then(|mountings| {
+            let at = mountings.iter().position(|(own, _)| own == bits)?;
+            mountings[at..].rotate_left(1);
+            mountings.last().map(|(_, mounting)| mounting.clone())
+        });
+        if let Some(mounting) = known {
+            return template.again_at(&mounting, [coefficient; 2], acting);
+        }
+        let forward = template.again([coefficient; 2], acting)?;
+        let mut all = kept();
+        let mountings = all.entry(test).or_default();
+        if mountings.len() == MOUNTINGS {
+            mountings.remove(0);
+        }
+        mountings.push((bits.to_vec(), forward.mounting()));
+        Ok(forward)
+    }
+
     fn acting(&self, test: usize, effects: Combined) -> Acting {
         let measured = &self.bench.tests[test];
         Acting {
@@ -100,15 +144,14 @@ impl<'a> GearModel<'a> {
             coefficient
         };
         let stretch = coefficient / worn_with;
-        let template = &self.bench.templates[test];
-        let mut forward = template.again([worn_with; 2], acting.as_ref())?;
+        let bits: Vec<u64> = parameters.iter().map(|p| p.to_bits()).collect();
+        let mut forward = self.forward(test, worn_with, &bits, acting.as_ref())?;
         let observed = |row: &usize| stretch * measured.observations[*row].cycles;
         let mut order: Vec<usize> = (0..measured.observations.len()).collect();
         order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
         let Some(last) = order.last() else {
             return Ok(Vec::new());
         };
-        let bits = parameters.iter().map(|p| p.to_bits()).collect();
         let key = (test, bits, worn_with.to_bits());
         let history = self.history(&mut forward, key, observed(last))?;
         let mut values: Vec<(usize, T)> = Vec::with_capacity(order.len());

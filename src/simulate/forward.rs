@@ -21,8 +21,8 @@ use crate::simulate::numerics::Numerics;
 use crate::wear::acting::Acting;
 use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
-pub use preparation::Preparation;
-use preparation::{Altered, Shelf};
+use preparation::{Altered, Prepared, Shelf};
+pub use preparation::{Mounting, Preparation};
 
 /// Conditions of a run or test.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -153,11 +153,20 @@ impl<'a> Forward<'a> {
             pair = set.mount(conditions.misalignment)?;
         }
         let torque = conditions.torque / set.face_width;
-        let spacing = match members {
-            Some(members) => members.spacing(),
-            None => numerics.flank_spacing(&pair, set.modulus(), torque),
+        let modulus = set.modulus();
+        let (spacing, spec) = match members {
+            Some(members) => {
+                let spacing = members.spacing();
+                (spacing, numerics.cycle(&pair, modulus, torque, spacing))
+            }
+            None => {
+                let spacing = numerics.flank_spacing(&pair, modulus, torque);
+                (
+                    spacing,
+                    numerics.analytic_cycle(&pair, modulus, torque, spacing),
+                )
+            }
         };
-        let spec = numerics.cycle(&pair, set.modulus(), torque, spacing);
         let spec = as_before.map_or(spec, |CycleSpec { window, reach, .. }| CycleSpec {
             window,
             reach,
@@ -203,30 +212,48 @@ impl<'a> Forward<'a> {
         coefficient: [f64; 2],
         acting: Option<&'b Acting>,
     ) -> Result<Forward<'b>, ForwardError> {
-        let conditions = Conditions {
-            coefficient,
-            ..self.conditions
-        };
         if acting.is_some_and(|acting| acting.acts(Hook::Operation)) || self.worn.is_some() {
             // another mounting is another mesh cycle
+            let conditions = Conditions {
+                coefficient,
+                ..self.conditions
+            };
             let (members, spec) = (self.members(), Some(self.cycle.spec));
             let mut out =
                 Forward::mounted(self.set, members, conditions, self.numerics, acting, spec)?;
             out.shares = true;
             return Ok(out);
         }
+        self.again_at(&self.mounting(), coefficient, acting)
+    }
+
+    /// As [`Forward::again`], at a mounting where effects with the same parameters have been before.
+    ///
+    /// # Errors
+    /// As [`Forward::with_effects`].
+    pub fn again_at<'b>(
+        &'b self,
+        mounting: &Mounting,
+        coefficient: [f64; 2],
+        acting: Option<&'b Acting>,
+    ) -> Result<Forward<'b>, ForwardError> {
+        let mounting = mounting.clone();
         let mut out = Forward {
             set: self.set,
-            conditions,
+            conditions: Conditions {
+                coefficient,
+                misalignment: mounting.misalignment,
+                ..self.conditions
+            },
             numerics: self.numerics,
             kind: self.kind,
-            members: self.members,
-            cycle: Arc::clone(&self.cycle),
-            compliance: self.compliance.clone(),
+            members: self.members(),
+            cycle: mounting.start.cycle,
+            compliance: mounting.start.compliance,
             condensed_at: None,
             worn: None,
-            extended: self.extended.clone(),
-            prepared: Arc::clone(&self.prepared),
+            extended: mounting.start.extended,
+            prepared: mounting.further,
             shares: true,
             factorisations: 0,
             acting,
@@ -234,6 +261,19 @@ impl<'a> Forward<'a> {
         };
         out.alter()?;
         Ok(out)
+    }
+
+    /// What this run has prepared so far, for further ones at the same mounting; the members are to be unworn.
+    pub fn mounting(&self) -> Mounting {
+        Mounting {
+            misalignment: self.conditions.misalignment,
+            start: Prepared {
+                cycle: Arc::clone(&self.cycle),
+                compliance: self.compliance.clone(),
+                extended: self.extended.clone(),
+            },
+            further: Arc::clone(&self.prepared),
+        }
     }
 
     /// The mesh cycle.

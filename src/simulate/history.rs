@@ -190,7 +190,7 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         }
         progress.rate = rate;
         progress.solves = solves_before + system.solves;
-        progress.warm = system.warm().to_vec();
+        system.warm().clone_into(&mut progress.warm);
         progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
         progress.stand = stand;
         if !observe(progress) {

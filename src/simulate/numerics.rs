@@ -48,6 +48,9 @@ impl Default for Numerics {
 /// Half width of the searched strip, in Hertz half widths of the largest load: room for contacts that wear has flattened.
 const WINDOW: f64 = 2.2;
 
+/// The same of the analytic model, whose contacts keep Hertz's width: room for four times the load, by factors on it.
+const ANALYTIC_WINDOW: f64 = 2.0;
+
 /// Room for corners that wear brings into contact beyond those the load does, mm.
 const WORN_REACH: f64 = 0.008;
 
@@ -62,17 +65,7 @@ impl Numerics {
 
     /// Resolution of the mesh cycle up to the pinion torque per width `torque` (N·mm/mm) with flank edges `spacing` (mm).
     pub fn cycle(&self, pair: &Pair, modulus: f64, torque: f64, spacing: f64) -> CycleSpec {
-        let (start, end) = (pair.rho_a - pair.rho_c, pair.rho_e - pair.rho_c);
-        let widest = (0..=20)
-            .map(|i| {
-                half_width_at(
-                    pair,
-                    start + (end - start) * f64::from(i) / 20.0,
-                    modulus,
-                    torque,
-                )
-            })
-            .fold(0.0, f64::max);
+        let widest = widest(pair, modulus, torque);
         CycleSpec {
             positions: self.positions,
             spacing,
@@ -81,6 +74,29 @@ impl Numerics {
                 + WORN_REACH,
         }
     }
+
+    /// The same for the analytic model: a node without pressure on either side of its contacts is all it needs.
+    pub fn analytic_cycle(
+        &self,
+        pair: &Pair,
+        modulus: f64,
+        torque: f64,
+        spacing: f64,
+    ) -> CycleSpec {
+        CycleSpec {
+            window: ANALYTIC_WINDOW * widest(pair, modulus, torque) + spacing,
+            ..self.cycle(pair, modulus, torque, spacing)
+        }
+    }
+}
+
+/// Largest Hertz half width on the path of contact where one tooth pair carries all, mm.
+fn widest(pair: &Pair, modulus: f64, torque: f64) -> f64 {
+    let (start, end) = (pair.rho_a - pair.rho_c, pair.rho_e - pair.rho_c);
+    let at = |i: i32| start + (end - start) * f64::from(i) / 20.0;
+    (0..=20)
+        .map(|i| half_width_at(pair, at(i), modulus, torque))
+        .fold(0.0, f64::max)
 }
 
 fn half_width_at(pair: &Pair, path: f64, modulus: f64, torque: f64) -> f64 {

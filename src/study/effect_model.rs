@@ -63,6 +63,14 @@ pub struct Parameter {
 /// Variables that tell the time.
 const CLOCKS: &[&str] = &["cycles", "contacts", "hours", "contact_hours"];
 
+/// Variables that oil and heat fill in.
+const SURROUNDINGS: &[&str] = &[
+    "film_ratio",
+    "friction",
+    "flash_temperature",
+    "bulk_temperature",
+];
+
 impl EffectModel {
     /// Of effects in the order in which they act.
     pub fn new(specs: Vec<EffectSpec>) -> Self {
@@ -108,6 +116,9 @@ impl EffectModel {
                 }
             }
         }
+        if !self.specs.iter().any(|spec| speaks_of(spec, SURROUNDINGS)) {
+            combined.ignore_surroundings();
+        }
         combined
     }
 
@@ -119,15 +130,11 @@ impl EffectModel {
     /// Whether the wear coefficient only stretches time: every effect multiplies the wear or the load and none has a clock.
     pub fn stretches_time(&self) -> bool {
         self.specs.iter().all(|spec| {
-            let (hook, expression) = match &spec.law {
-                Law::Card(card) => (card.hook, card.expression()),
-                Law::Formula {
-                    formula,
-                    expression,
-                } => (formula.hook(), expression.as_str()),
+            let hook = match &spec.law {
+                Law::Card(card) => card.hook,
+                Law::Formula { formula, .. } => formula.hook(),
             };
-            let mut words = expression.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-            hook != Hook::AddedDepth && !words.any(|word| CLOCKS.contains(&word))
+            hook != Hook::AddedDepth && !speaks_of(spec, CLOCKS)
         })
     }
 
@@ -166,6 +173,16 @@ impl fmt::Display for EffectSpec {
             .collect();
         write!(f, "{}({})", self.name, values.join(", "))
     }
+}
+
+/// Whether the law of `spec` has one of these variables in it.
+fn speaks_of(spec: &EffectSpec, variables: &[&str]) -> bool {
+    let expression = match &spec.law {
+        Law::Card(card) => card.expression(),
+        Law::Formula { expression, .. } => expression.as_str(),
+    };
+    let mut words = expression.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+    words.any(|word| variables.contains(&word))
 }
 
 impl EffectSpec {

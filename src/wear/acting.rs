@@ -178,7 +178,9 @@ impl Acting {
             flash_temperature: 0.0,
             bulk_temperature: REFERENCE_TEMPERATURE,
         };
-        self.surroundings.complete(&mut local);
+        if self.effects.feels_surroundings() {
+            self.surroundings.complete(&mut local);
+        }
         local
     }
 
@@ -198,7 +200,7 @@ impl Acting {
             Member::Gear => cycle.pair.speed_ratio,
         };
         local.member = member;
-        local.radius = gear.radius_at_rho(gear.rho_at_arc(arc));
+        local.radius = gear.radius_at_arc(arc);
         local.depth = 1e3 * depth;
         local.pressure = pressure;
         local.contacts = local.cycles / per_contact;

@@ -243,11 +243,34 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     }
 
     /// What effects add at every station, mm per pinion cycle.
-    fn added(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added<'_>> {
+    fn added(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added> {
+        self.each_added(view, contacts, |depths, _, _| depths)
+    }
+
+    /// How that changes with the largest pressure there, mm per MPa.
+    fn added_slopes(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added> {
+        const STEP: f64 = 1e-4;
+        self.each_added(view, contacts, |depths, acting, local| {
+            if local.pressure <= 0.0 {
+                return [0.0; 2];
+            }
+            let mut more = *local;
+            more.pressure *= 1.0 + STEP;
+            more.peak_pressure *= 1.0 + STEP;
+            let moved = acting.effects.added_depths(&more);
+            [0, 1].map(|i| (moved[i] - depths[i]) / (STEP * local.pressure))
+        })
+    }
+
+    fn each_added(
+        &self,
+        view: &View,
+        contacts: &[PositionContact],
+        of: impl Fn([f64; 2], &Acting, &crate::effects::Local) -> [f64; 2],
+    ) -> Vec<Added> {
         let (Some(acting), Some(passage)) = (self.acting, &self.passage) else {
             return Vec::new();
         };
-        const STEP: f64 = 1e-4;
         let cycle = self.model.cycle();
         let locals: Vec<_> = (0..passage.order.len())
             .map(|m| {
@@ -266,26 +289,38 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
                 let arc = cycle.stations.arc[side][station];
                 let depth = view.depth[side][station];
                 acting.at_point(&mut local, cycle, member, arc, depth, moment.pressure);
-                let [removed, displaced] = acting.effects.added_depths(&local);
-                let slope = if moment.pressure > 0.0 {
-                    local.pressure *= 1.0 + STEP;
-                    local.peak_pressure *= 1.0 + STEP;
-                    let [more, moved] = acting.effects.added_depths(&local);
-                    per_cycle * (more + moved - removed - displaced) / (STEP * moment.pressure)
-                } else {
-                    0.0
-                };
+                let depths = acting.effects.added_depths(&local);
+                let [removed, displaced] = of(depths, acting, &local);
                 out.push(Added {
                     side,
                     station,
                     removed: per_cycle * removed,
                     displaced: per_cycle * displaced,
-                    slope,
-                    read: &moment.read,
                 });
             }
         }
         out
+    }
+
+    /// What the slopes of added depths put into the Jacobian, by position: unknown, joint station, mm per cycle and MPa.
+    fn reads(&self, view: &View, contacts: &[PositionContact]) -> Vec<Vec<(usize, usize, f64)>> {
+        let cycle = self.model.cycle();
+        let mut reads = vec![Vec::new(); cycle.positions.len()];
+        let Some(passage) = &self.passage else {
+            return reads;
+        };
+        let shift = [0, cycle.stations.arc[0].len()];
+        let unknowns = [0, 1].map(|side| passage.reads(cycle, contacts, side, &self.moments[side]));
+        for added in self.added_slopes(view, contacts) {
+            let at = shift[added.side] + added.station;
+            let slope = added.removed + added.displaced;
+            for &(q, k, weight) in &unknowns[added.side][added.station] {
+                if weight != 0.0 {
+                    reads[q as usize].push((k as usize, at, weight * slope));
+                }
+            }
+        }
+        reads
     }
 }
 
@@ -295,18 +330,14 @@ struct View<'b> {
     age: Age,
 }
 
-/// What effects add at one station.
-struct Added<'b> {
+/// What effects add at one station, or its change with the largest pressure there.
+struct Added {
     side: usize,
     station: usize,
     /// mm per pinion cycle, material lost.
     removed: f64,
     /// mm per pinion cycle, material moved aside.
     displaced: f64,
-    /// Change of both with the largest pressure, mm per MPa.
-    slope: f64,
-    /// The unknowns that pressure is read from.
-    read: &'b [(u32, u32, f64)],
 }
 
 /// Pinion and gear part of the joint depth vector.
@@ -366,23 +397,20 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
             .enumerate()
             .map(|(q, contact)| self.model.sensitivity(q, contact))
             .collect::<Result<_, _>>()?;
+        let Some(blocks) = blocks.into_iter().collect::<Option<Vec<_>>>() else {
+            return Ok(None);
+        };
         let mut jacobian = Mat::zeros(u.len(), u.len());
-        let added = self.added(&view, contacts);
-        for (q, (contact, block)) in contacts.iter().zip(blocks).enumerate() {
-            let Some(block) = block else { return Ok(None) };
+        let reads = self.reads(&view, contacts);
+        for (q, ((contact, block), reads)) in contacts.iter().zip(blocks).zip(reads).enumerate() {
             let position = &cycle.positions[q];
-            let reads = added.iter().flat_map(|a| {
-                let at = shift[a.side] + a.station;
-                let here = a.read.iter().filter(|r| r.0 as usize == q && r.2 != 0.0);
-                here.map(move |&(_, k, weight)| (k as usize, at, weight * a.slope))
-            });
             let local = Local {
                 position,
                 active: &contact.active,
                 shift,
                 scale,
                 slopes: self.pressure_slopes(&view, position, contact),
-                reads: reads.collect(),
+                reads,
             };
             local.add(&block, &mut jacobian);
         }

@@ -14,6 +14,7 @@ use std::borrow::Cow;
 
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::PositionContact;
+use crate::numeric::interpolate;
 
 /// Instants looked at between two positions.
 const INSTANTS: usize = 4;
@@ -25,8 +26,8 @@ pub struct Moment {
     pub pressure: f64,
     /// Number of the tooth pair in the passage: the nearer one of the two around the moment.
     pub pair: usize,
-    /// Where the pressure is read: unknowns as (position, unknown of the position, weight).
-    pub read: Vec<(u32, u32, f64)>,
+    /// When that is: a number of the passage, and the share of the way from there to the next. None if nothing touches the point.
+    instant: Option<(usize, f64)>,
 }
 
 /// The order in which a tooth pair runs through the positions of a mesh cycle: (position, pair).
@@ -34,6 +35,8 @@ pub struct Moment {
 pub struct Passage {
     /// By ascending path.
     pub order: Vec<(usize, usize)>,
+    /// In that order, for pinion and gear: arc at ξ = 0, mm.
+    middles: [Vec<f64>; 2],
     /// In that order, for pinion and gear: weights of the pair's unknowns in the average at each of them. Empty: no average.
     averages: Vec<[Vec<Average>; 2]>,
 }
@@ -49,8 +52,15 @@ impl Passage {
             .collect();
         let path = |&(q, i): &(usize, usize)| cycle.positions[q].pairs[i].path;
         order.sort_by(|a, b| path(a).total_cmp(&path(b)));
+        let middles = [0, 1].map(|side| {
+            let pairs = order.iter().map(|&(q, i)| &cycle.positions[q].pairs[i]);
+            pairs
+                .map(|pair| interpolate(&pair.xi, &pair.arc[side], 0.0))
+                .collect()
+        });
         Self {
             order,
+            middles,
             averages: Vec::new(),
         }
     }
@@ -82,23 +92,12 @@ impl Passage {
         let nothing = Moment {
             pressure: 0.0,
             pair: 0,
-            read: Vec::new(),
+            instant: None,
         };
         let mut moments = vec![nothing; stations.len()];
-        let views: Vec<View> = (self.order.iter().enumerate())
-            .map(|(m, &(q, i))| {
-                let averages = self.averages.get(m).map(|both| both[side].as_slice());
-                View::new(
-                    q,
-                    &cycle.positions[q].pairs[i],
-                    &contacts[q],
-                    side,
-                    averages,
-                )
-            })
+        let views: Vec<View> = (0..self.order.len())
+            .map(|m| self.view(cycle, contacts, side, m))
             .collect();
-        // where each station's largest pressure is read: window, instant
-        let mut found = vec![None; stations.len()];
         for (m, window) in views.windows(2).enumerate() {
             let [from, to] = window else { continue };
             if from.is_empty() && to.is_empty() {
@@ -118,40 +117,72 @@ impl Passage {
                     if pressure > moments[i].pressure {
                         moments[i].pressure = pressure;
                         moments[i].pair = if t < 0.5 { m } else { m + 1 };
-                        found[i] = Some((m, t, centre));
+                        moments[i].instant = Some((m, t));
                     }
                 }
             }
         }
-        for (i, found) in found.into_iter().enumerate() {
-            if let Some((m, t, centre)) = found {
-                moments[i].read = read(&views[m], &views[m + 1], t, stations[i] - centre)
-                    .flat_map(|(view, k, weight)| view.unknowns(k, weight))
-                    .collect();
-            }
-        }
         for (moment, arc) in moments.iter_mut().zip(stations) {
             if moment.pressure == 0.0 {
-                moment.pair = self.nearest(cycle, side, *arc);
+                moment.pair = self.nearest(side, *arc);
             }
         }
         moments
     }
 
-    /// The pair of the passage whose middle passes nearest to the point at `arc`, mm.
-    fn nearest(&self, cycle: &Cycle, side: usize, arc: f64) -> usize {
-        let distance = |m: &usize| {
-            let pair = self.pair(cycle, *m);
-            (middle(pair, side) - arc).abs()
+    /// Where the pressure of each of the `moments` of one flank is read: unknowns as (position, unknown of the position, weight).
+    pub fn reads(
+        &self,
+        cycle: &Cycle,
+        contacts: &[PositionContact],
+        side: usize,
+        moments: &[Moment],
+    ) -> Vec<Vec<(u32, u32, f64)>> {
+        let views: Vec<View> = (0..self.order.len())
+            .map(|m| self.view(cycle, contacts, side, m))
+            .collect();
+        let read = |(moment, arc): (&Moment, &f64)| {
+            let Some((m, t)) = moment.instant else {
+                return Vec::new();
+            };
+            let (from, to) = (&views[m], &views[m + 1]);
+            let offset = arc - ((1.0 - t) * from.centre + t * to.centre);
+            [(from, 1.0 - t), (to, t)]
+                .into_iter()
+                .flat_map(|(view, weight)| {
+                    let both = view.at(offset).into_iter();
+                    both.flat_map(move |(k, share)| view.unknowns(k, weight * share))
+                })
+                .collect()
         };
+        let stations = &cycle.stations.arc[side];
+        moments.iter().zip(stations).map(read).collect()
+    }
+
+    fn view<'a>(
+        &'a self,
+        cycle: &'a Cycle,
+        contacts: &'a [PositionContact],
+        side: usize,
+        m: usize,
+    ) -> View<'a> {
+        let position = self.order[m].0;
+        View::new(
+            position,
+            self.pair(cycle, m),
+            &contacts[position],
+            side,
+            self.middles[side][m],
+            self.averages.get(m).map(|both| both[side].as_slice()),
+        )
+    }
+
+    /// The pair of the passage whose middle passes nearest to the point at `arc`, mm.
+    fn nearest(&self, side: usize, arc: f64) -> usize {
+        let distance = |m: &usize| (self.middles[side][*m] - arc).abs();
         let nearer = |a: &usize, b: &usize| distance(a).total_cmp(&distance(b));
         (0..self.order.len()).min_by(nearer).unwrap_or(0)
     }
-}
-
-/// Arc of one flank at ξ = 0, mm.
-fn middle(pair: &PairContact, side: usize) -> f64 {
-    crate::numeric::interpolate(&pair.xi, &pair.arc[side], 0.0)
 }
 
 /// Weights of values at the nodes `arc` (ascending or descending) in the average over [from, to] of the straight lines through
@@ -182,21 +213,6 @@ fn averaging(arc: &[f64], from: f64, to: f64) -> Average {
     weights
 }
 
-/// What the pressure `offset` (mm of arc) from the middle is read from, the share `t` of the way from one view to the next.
-fn read<'v, 'a>(
-    from: &'v View<'a>,
-    to: &'v View<'a>,
-    t: f64,
-    offset: f64,
-) -> impl Iterator<Item = (&'v View<'a>, usize, f64)> {
-    [(from, 1.0 - t), (to, t)]
-        .into_iter()
-        .flat_map(move |(view, weight)| {
-            view.at(offset)
-                .map(move |(k, share)| (view, k, weight * share))
-        })
-}
-
 /// The pressure of one tooth pair over arc from its middle.
 struct View<'a> {
     position: u32,
@@ -215,15 +231,17 @@ impl<'a> View<'a> {
         pair: &'a PairContact,
         contact: &'a PositionContact,
         side: usize,
+        centre: f64,
         averages: Option<&'a [Average]>,
     ) -> Self {
         let own = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
-        let pressure: Cow<'a, [f64]> = averages.map_or(Cow::Borrowed(own), |averages| {
+        let touches = own.iter().any(|p| *p > 0.0);
+        let averaged = averages.filter(|_| touches);
+        let pressure: Cow<'a, [f64]> = averaged.map_or(Cow::Borrowed(own), |averages| {
             let mean = |average: &Average| average.iter().map(|&(k, weight)| weight * own[k]).sum();
             averages.iter().map(mean).collect()
         });
         let arc = &pair.arc[side];
-        let centre = middle(pair, side);
         let loaded = |k: &usize| pressure[*k] > 0.0;
         let ends = (0..pressure.len())
             .find(loaded)

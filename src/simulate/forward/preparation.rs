@@ -42,9 +42,20 @@ pub(super) type Shelf = Arc<Mutex<HashMap<[u64; 2], Prepared>>>;
 /// A mesh cycle with what belongs to it.
 #[derive(Clone)]
 pub(super) struct Prepared {
-    cycle: Arc<Cycle>,
-    compliance: Option<Arc<CycleCompliance>>,
-    extended: Option<Arc<Members>>,
+    pub(super) cycle: Arc<Cycle>,
+    pub(super) compliance: Option<Arc<CycleCompliance>>,
+    pub(super) extended: Option<Arc<Members>>,
+}
+
+/// What runs at one mounting share.
+#[derive(Clone)]
+pub struct Mounting {
+    /// Radial misalignment with what effects add to it, mm.
+    pub(super) misalignment: f64,
+    /// What a run begins with.
+    pub(super) start: Prepared,
+    /// What runs come to need.
+    pub(super) further: Shelf,
 }
 
 /// The contact as effects change it.
