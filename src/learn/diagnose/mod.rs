@@ -21,6 +21,7 @@ mod judge;
 mod layout;
 mod next;
 mod noise_level;
+mod pair_fit;
 mod pairs;
 mod plan;
 mod rank;

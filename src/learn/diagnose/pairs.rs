@@ -14,8 +14,8 @@ use super::anchored::{Anchored, model, predictions};
 use super::candidate::Candidate;
 use super::fidelity::Fidelity;
 use super::judge::{Base, Judge, Judged, LEAST_AMPLITUDE, linear_gain};
+use super::pair_fit::{self, PairStart};
 use crate::learn::quadratic::State;
-use crate::learn::search::Effort;
 
 /// Log evidence by which a pair must promise to beat the best single effect to be looked at.
 const PROMISE: f64 = 6.0;
@@ -27,15 +27,6 @@ const FITTED: [usize; 2] = [5, 2];
 /// pair which does not lead must leave for that.
 const PARTNERS: usize = 4;
 const LEFT: f64 = 1.0;
-/// Pair fits.
-const EFFORT: Effort = Effort {
-    iterations: 5,
-    tolerance: 0.3,
-    floor: 0.3,
-    carry: 0.7,
-    settle: 0,
-};
-
 /// The fitted pairs that promise more than the best single effect.
 pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<Judged> {
     let Some(best) = singles
@@ -51,10 +42,10 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
         return Vec::new();
     }
     let promising = promising(judge, base, singles, best);
-    let mut fitted: Vec<Judged> = promising
-        .par_iter()
-        .filter_map(|&(a, b)| fit(judge, base, &singles[a], &singles[b]))
-        .collect();
+    let starts = promising
+        .iter()
+        .map(|&(a, b)| PairStart::of(base, &singles[a], &singles[b]));
+    let mut fitted = pair_fit::fit(judge, base, starts.collect());
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     if let Some(pair) = fitted.first() {
         let more: Vec<Judged> = (kept(judge, singles, pair, best).into_iter())
@@ -64,10 +55,13 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     }
     if let Some(leader) = fitted.first_mut().filter(|pair| !pair.converged) {
-        let (pair, start) = (leader.candidate.clone(), leader.found.state.clone());
-        if let Some(further) = fitted_from(judge, base, pair, start, &leader.offset)
-            && further.log_evidence > leader.log_evidence
-        {
+        let start = PairStart {
+            candidate: leader.candidate.clone(),
+            state: leader.found.state.clone(),
+            offset: leader.offset.clone(),
+        };
+        let further = pair_fit::fit(judge, base, vec![start]).pop();
+        if let Some(further) = further.filter(|f| f.log_evidence > leader.log_evidence) {
             *leader = further;
         }
     }
@@ -248,9 +242,12 @@ fn partners(
             chosen.push(gain);
         }
     }
-    (chosen.into_par_iter())
-        .filter_map(|(_, both, start)| fitted_from(judge, base, both, start, &base.judged.offset))
-        .collect()
+    let starts = chosen.into_iter().map(|(_, candidate, state)| PairStart {
+        candidate,
+        state,
+        offset: base.judged.offset.clone(),
+    });
+    pair_fit::fit(judge, base, starts.collect())
 }
 
 /// A fitted pair's state with the parameters of one of its effects only.
@@ -287,48 +284,4 @@ fn joint_gain(a: &DVector<f64>, b: &DVector<f64>, ra: f64, rb: f64) -> f64 {
         }
     }
     alone(ra, aa).max(alone(rb, bb))
-}
-
-/// A pair fitted by the middle fidelity, from both single fits together.
-fn fit(judge: &Judge<'_>, base: &Base, a: &Judged, b: &Judged) -> Option<Judged> {
-    // The stronger effect's fit gives the state, the other's parameters join it.
-    let (first, second) = if a.square <= b.square { (a, b) } else { (b, a) };
-    let candidate: Candidate = first.candidate.with(&second.candidate);
-    let inherited = candidate.inherited;
-    let state = &first.found.state;
-    let added = &second.found.state.theta[inherited..];
-    let start = State {
-        theta: state.theta.iter().chain(added).copied().collect(),
-        ..state.clone()
-    };
-    let offset = if first.offset.is_empty() {
-        &base.judged.offset
-    } else {
-        &first.offset
-    };
-    fitted_from(judge, base, candidate, start, offset)
-}
-
-/// A pair fitted by the middle fidelity from `start`, with `offset` added.
-fn fitted_from(
-    judge: &Judge<'_>,
-    base: &Base,
-    candidate: Candidate,
-    start: State,
-    offset: &[Vec<f64>],
-) -> Option<Judged> {
-    let predictor = Anchored::new(model(judge.middle, &candidate), offset.to_vec());
-    let parameters = &candidate.parameters;
-    let found = judge
-        .ground
-        .fit(&predictor, parameters, start, &EFFORT)
-        .ok()?;
-    let offset = offset.to_vec();
-    Some(judge.judged(
-        candidate.clone(),
-        found,
-        offset,
-        Some(base),
-        Fidelity::Middle,
-    ))
 }
