@@ -180,11 +180,24 @@ fn with(
             })
         }
     };
-    watch(0.8, "looking at pairs".to_owned());
-    let pairs = pairs::pairs(judge, &base, &judged);
+    let pairs = match judge.fidelity {
+        // second effects would mend the analytic model's own error
+        Fidelity::Screening => Vec::new(),
+        Fidelity::Middle | Fidelity::Full => {
+            watch(0.8, "looking at pairs".to_owned());
+            pairs::pairs(judge, &base, &judged)
+        }
+    };
     let failed = not_fitted(&singles, &judged);
     watch(0.93, "weighing".to_owned());
-    let ranking = Ranking::new(&judge.ground, &base.judged, judged, pairs, &flexible);
+    let ranking = Ranking::new(
+        &judge.ground,
+        &base.judged,
+        judged,
+        pairs,
+        &flexible,
+        judge.fidelity,
+    );
     watch(0.95, "held-out tests and the next experiment".to_owned());
     let mut diagnosis =
         verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged, failed);
