@@ -147,6 +147,8 @@ impl Covariance {
                         z[i] -= change / self.sigma[i];
                     }
                 }
+                // a derivative with respect to one test's k is zero in the blocks of all others
+                Block::Dense(rows, _) if rows.iter().all(|&i| v[i] == 0.0) => {}
                 Block::Dense(rows, factor) => {
                     let mut part = DVector::from_iterator(rows.len(), rows.iter().map(|&i| v[i]));
                     factor.l_dirty().solve_lower_triangular_mut(&mut part);

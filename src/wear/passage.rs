@@ -111,7 +111,11 @@ impl Passage {
                     reach.fold((f64::MAX, f64::MIN), |(a, b), (l, h)| (a.min(l), b.max(h)));
                 let first = stations.partition_point(|&s| s < centre + low);
                 let last = stations.partition_point(|&s| s <= centre + high);
+                let most = (1.0 - t) * from.peak + t * to.peak;
                 for i in first..last {
+                    if most <= moments[i].pressure {
+                        continue;
+                    }
                     let offset = stations[i] - centre;
                     let pressure = (1.0 - t) * from.pressure(offset) + t * to.pressure(offset);
                     if pressure > moments[i].pressure {
@@ -220,6 +224,8 @@ struct View<'a> {
     centre: f64,
     arc: &'a [f64],
     pressure: Cow<'a, [f64]>,
+    /// The largest of it, MPa.
+    peak: f64,
     averages: Option<&'a [Average]>,
     /// Arc from the middle between which there is pressure, mm.
     loaded: Option<(f64, f64)>,
@@ -256,6 +262,7 @@ impl<'a> View<'a> {
             first: pair.offset as u32,
             centre,
             arc,
+            peak: pressure.iter().fold(0.0, |m, p| m.max(*p)),
             pressure,
             averages,
             loaded,

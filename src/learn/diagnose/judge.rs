@@ -165,43 +165,40 @@ impl<'a> Judge<'a> {
     /// Fits all candidates by the analytic model: the gain of each start in the linearised model, a first look at each candidate,
     /// then in full those that the look leaves in play.
     pub(super) fn screen(&self, base: &Base, candidates: &[Candidate]) -> Vec<Judged> {
-        let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter())
-            .map(|candidate| self.starts(base, candidate))
+        // one predictor for all that is asked of a candidate: it keeps its histories
+        let predictors: Vec<Anchored> = candidates
+            .iter()
+            .map(|candidate| Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone()))
+            .collect();
+        let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter().zip(&predictors))
+            .map(|(candidate, predictor)| self.starts(base, candidate, predictor))
             .collect();
         let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
         let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
-        let looks: Vec<Option<Found>> = (candidates.par_iter().zip(starts))
-            .map(|(candidate, starts)| {
+        let looks: Vec<Option<Found>> = (candidates.par_iter().zip(&predictors).zip(starts))
+            .map(|((candidate, predictor), starts)| {
                 let behind = leader - best(&starts);
                 let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
-                self.look(
-                    base,
-                    candidate,
-                    starts,
-                    if hopeless { &STAY } else { &LOOK },
-                )
+                let effort = if hopeless { &STAY } else { &LOOK };
+                self.look(candidate, predictor, starts, effort)
             })
             .collect();
         let least = (looks.iter().flatten()).map(|found| found.objective);
         let bar = in_play(base.judged.found.objective, least, IN_PLAY);
-        (candidates.par_iter().zip(looks))
-            .filter_map(|(candidate, found)| {
+        (candidates.par_iter().zip(&predictors).zip(looks))
+            .filter_map(|((candidate, predictor), found)| {
                 let mut found = found?;
-                let offset = base.hertz_offset.clone();
                 if found.objective <= bar && !found.converged {
-                    let predictor = Anchored::new(model(self.hertz, candidate), offset.clone());
                     let state = found.state.clone();
-                    if let Ok(further) =
-                        self.ground
-                            .fit(&predictor, &candidate.parameters, state, &SCREEN)
-                    {
+                    let parameters = &candidate.parameters;
+                    if let Ok(further) = self.ground.fit(predictor, parameters, state, &SCREEN) {
                         found = further;
                     }
                 }
                 Some(self.judged(
                     candidate.clone(),
                     found,
-                    offset,
+                    base.hertz_offset.clone(),
                     Some(base),
                     Fidelity::Screening,
                 ))
@@ -265,14 +262,18 @@ impl<'a> Judge<'a> {
     }
 
     /// A candidate's starts with their gain in the linearised model, the largest first.
-    fn starts(&self, base: &Base, candidate: &Candidate) -> Vec<(f64, State)> {
-        let predictor = Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone());
+    fn starts(
+        &self,
+        base: &Base,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+    ) -> Vec<(f64, State)> {
         let mut starts: Vec<(f64, State)> = candidate
             .starts
             .iter()
             .filter_map(|values| {
                 let state = self.added(base, candidate, values);
-                let predicted = predictions(&self.ground, &predictor, candidate, &state).ok()?;
+                let predicted = predictions(&self.ground, predictor, candidate, &state).ok()?;
                 let joined = self.ground.rescaled(&self.ground.joined(&predicted));
                 let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
                     .map(|(f, b)| f - b)
@@ -289,18 +290,17 @@ impl<'a> Judge<'a> {
     /// A fit from the first of the starts, and from a near second.
     fn look(
         &self,
-        base: &Base,
         candidate: &Candidate,
+        predictor: &Anchored<'_>,
         starts: Vec<(f64, State)>,
         effort: &Effort,
     ) -> Option<Found> {
-        let predictor = Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone());
         let best = starts.first()?.0;
         let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
         let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
         let parameters = &candidate.parameters;
         (starts.into_iter().take(if second { 2 } else { 1 }))
-            .filter_map(|(_, state)| self.ground.fit(&predictor, parameters, state, effort).ok())
+            .filter_map(|(_, state)| self.ground.fit(predictor, parameters, state, effort).ok())
             .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
 
