@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::contact::deposit::{Travel, deposit};
 use crate::contact::frame::{Frame, Touch};
 use crate::contact::mortar::{Facing, Trace, couple};
-use crate::gear::{Pair, ToothContact, contacts_at};
+use crate::gear::{Gear, Pair, ToothContact, contacts_at};
 use crate::numeric::cross;
 use crate::numeric::sparse::SparseRows;
 
@@ -41,15 +41,28 @@ pub struct Stations {
 impl Stations {
     /// Evenly spaced stations, at most `spacing` (mm) apart, from the form circle to the tip.
     pub fn new(pair: &Pair, spacing: f64) -> Self {
-        let even = |gear: &crate::gear::Gear| {
+        let count = |gear: &Gear| {
+            let length = gear.arc(gear.rho_tip) - gear.arc(gear.rho_form);
+            (length / spacing).ceil().max(2.0) as usize
+        };
+        Self::even(pair, [count(&pair.pinion), count(&pair.gear)])
+    }
+
+    /// As many evenly spaced stations for the same gears at another mounting: one more would shift them all, which a fit of the
+    /// mounting sees as a jump.
+    pub fn like(&self, pair: &Pair) -> Self {
+        Self::even(pair, [0, 1].map(|side| self.arc[side].len() - 1))
+    }
+
+    fn even(pair: &Pair, counts: [usize; 2]) -> Self {
+        let even = |gear: &Gear, count: usize| {
             let (from, to) = (gear.arc(gear.rho_form), gear.arc(gear.rho_tip));
-            let count = ((to - from) / spacing).ceil().max(2.0) as usize;
             (0..=count)
                 .map(|i| from + (to - from) * i as f64 / count as f64)
                 .collect()
         };
         Self {
-            arc: [even(&pair.pinion), even(&pair.gear)],
+            arc: [even(&pair.pinion, counts[0]), even(&pair.gear, counts[1])],
         }
     }
 

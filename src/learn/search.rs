@@ -368,8 +368,9 @@ impl Search<'_> {
         Ok(jacobian)
     }
 
-    /// Central differences of all tests in one round, over two posterior standard deviations to each side, but at least half and at most ten
-    /// times as wide as a forward difference.
+    /// Central differences of all tests in one round, over two posterior standard deviations to each side, but at least two and at most ten
+    /// times as wide as a forward difference: a standard deviation that is too small because the last derivatives took roughness for
+    /// change must not make the next ones as rough.
     fn central(
         &self,
         evaluator: &mut Evaluator<'_>,
@@ -386,7 +387,7 @@ impl Search<'_> {
                 let (prior, at) = (&self.layout.parameters[p], state.theta[p]);
                 let usual = self.parameters[p].difference(at).abs();
                 let step = 2.0 * covariance[(p, p)].max(0.0).sqrt();
-                let step = step.clamp(0.5 * usual, 10.0 * usual);
+                let step = step.clamp(2.0 * usual, 10.0 * usual);
                 let [low, high] =
                     [-step, step].map(|step| (at + step).clamp(prior.lower, prior.upper) - at);
                 asked.push((test, p, low, high));

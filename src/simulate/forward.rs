@@ -5,7 +5,7 @@ mod preparation;
 use std::sync::Arc;
 
 use crate::analytic::iso6336;
-use crate::contact::cycle::{Cycle, CycleSpec, Stations};
+use crate::contact::cycle::{Cycle, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
@@ -138,14 +138,14 @@ impl<'a> Forward<'a> {
         Self::mounted(set, members, conditions, numerics, acting, None)
     }
 
-    /// As [`Forward::with_effects`], looking for contact within the window and reach of `as_before`.
+    /// As [`Forward::with_effects`], on as fine grids as those of `as_before` and looking for contact within its window and reach.
     fn mounted(
         set: &'a GearSet,
         members: Option<&'a Members>,
         mut conditions: Conditions,
         numerics: Numerics,
         acting: Option<&'a Acting>,
-        as_before: Option<CycleSpec>,
+        as_before: Option<&Cycle>,
     ) -> Result<Self, ForwardError> {
         let mut pair = set.mount(conditions.misalignment)?;
         if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
@@ -154,25 +154,20 @@ impl<'a> Forward<'a> {
         }
         let torque = conditions.torque / set.face_width;
         let modulus = set.modulus();
-        let (spacing, spec) = match members {
-            Some(members) => {
-                let spacing = members.spacing();
-                (spacing, numerics.cycle(&pair, modulus, torque, spacing))
-            }
-            None => {
-                let spacing = numerics.flank_spacing(&pair, modulus, torque);
-                (
-                    spacing,
-                    numerics.analytic_cycle(&pair, modulus, torque, spacing),
-                )
-            }
+        let spacing = match (as_before, members) {
+            (Some(before), _) => before.spec.spacing,
+            (None, Some(members)) => members.spacing(),
+            (None, None) => numerics.flank_spacing(&pair, modulus, torque),
         };
-        let spec = as_before.map_or(spec, |CycleSpec { window, reach, .. }| CycleSpec {
-            window,
-            reach,
-            ..spec
-        });
-        let stations = Stations::new(&pair, spacing);
+        let spec = match (as_before, members) {
+            (Some(before), _) => before.spec,
+            (None, Some(_)) => numerics.cycle(&pair, modulus, torque, spacing),
+            (None, None) => numerics.analytic_cycle(&pair, modulus, torque, spacing),
+        };
+        let stations = match as_before {
+            Some(before) => before.stations.like(&pair),
+            None => Stations::new(&pair, spacing),
+        };
         let kind = if members.is_some() {
             ContactKind::Fem
         } else {
@@ -218,9 +213,10 @@ impl<'a> Forward<'a> {
                 coefficient,
                 ..self.conditions
             };
-            let (members, spec) = (self.members(), Some(self.cycle.spec));
+            let before = Some(self.cycle.as_ref());
+            let (members, numerics) = (self.members(), self.numerics);
             let mut out =
-                Forward::mounted(self.set, members, conditions, self.numerics, acting, spec)?;
+                Forward::mounted(self.set, members, conditions, numerics, acting, before)?;
             out.shares = true;
             return Ok(out);
         }
