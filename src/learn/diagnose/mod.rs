@@ -23,6 +23,7 @@ mod next;
 mod noise_level;
 mod pair_fit;
 mod pairs;
+mod partners;
 mod plan;
 mod rank;
 mod ranked;

@@ -10,23 +10,17 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::anchored::{Anchored, model, predictions};
-use super::candidate::Candidate;
 use super::fidelity::Fidelity;
-use super::judge::{Base, Judge, Judged, LEAST_AMPLITUDE, linear_gain};
+use super::judge::{Base, Judge, Judged};
 use super::pair_fit::{self, PairStart};
-use crate::learn::quadratic::State;
+use super::partners;
 
 /// Log evidence by which a pair must promise to beat the best single effect to be looked at.
-const PROMISE: f64 = 6.0;
+pub(super) const PROMISE: f64 = 6.0;
 /// The same as a share of the best one's own gain: what adds less is taken for a mending of its form (`SECOND` in `rank`).
 const PROMISE_SHARE: f64 = 0.06;
 /// Pairs fitted by the middle fidelity, and by finite elements.
 const FITTED: [usize; 2] = [5, 2];
-/// Other partners tried for each effect of the best pair, and the χ² per degree of freedom above 1, in standard deviations, that a
-/// pair which does not lead must leave for that.
-const PARTNERS: usize = 4;
-const LEFT: f64 = 1.0;
 /// The fitted pairs that promise more than the best single effect.
 pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<Judged> {
     let Some(best) = singles
@@ -48,8 +42,8 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
     let mut fitted = pair_fit::fit(judge, base, starts.collect());
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     if let Some(pair) = fitted.first() {
-        let more: Vec<Judged> = (kept(judge, singles, pair, best).into_iter())
-            .flat_map(|kept| partners(judge, base, singles, &fitted, pair, kept))
+        let more: Vec<Judged> = (partners::kept(judge, singles, pair, best).into_iter())
+            .flat_map(|kept| partners::fit(judge, base, singles, &fitted, pair, kept))
             .collect();
         fitted.extend(more);
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
@@ -152,117 +146,6 @@ fn promising(
         }
     }
     chosen
-}
-
-/// The effects of a fitted pair that are to be tried with other partners: both if the pair beats the best single effect, for one
-/// of them may stand for a look-alike that was not followed alone; the stronger one if the pair leaves more than noise.
-fn kept<'j>(
-    judge: &Judge<'_>,
-    singles: &'j [Judged],
-    pair: &Judged,
-    best: &Judged,
-) -> Vec<&'j Judged> {
-    let part = |s: &&Judged| {
-        let (own, joint) = (&s.candidate, &pair.candidate);
-        let mut effects = joint.names.iter().zip(&joint.forms);
-        effects.any(|effect| effect == (&own.names[0], &own.forms[0]))
-    };
-    let mut parts: Vec<&Judged> = singles.iter().filter(part).collect();
-    parts.sort_by(|a, b| a.square.total_cmp(&b.square));
-    let rows = judge.ground.len() as f64;
-    let leaves = pair.square > rows + LEFT * (2.0 * rows).sqrt();
-    parts.truncate(if pair.log_evidence > best.log_evidence {
-        2
-    } else {
-        usize::from(leaves)
-    });
-    parts
-}
-
-/// One effect of a fitted pair with other partners: those whose starts gain most, in the linearised analytic model, on what it
-/// leaves with its values of the pair.
-fn partners(
-    judge: &Judge<'_>,
-    base: &Base,
-    singles: &[Judged],
-    fitted: &[Judged],
-    pair: &Judged,
-    kept: &Judged,
-) -> Vec<Judged> {
-    let Some(state) = state_in(&kept.candidate, pair) else {
-        return Vec::new();
-    };
-    let predicted = |bench, offset: &[Vec<f64>], candidate: &Candidate, state: &State| {
-        let predictor = Anchored::new(model(bench, candidate), offset.to_vec());
-        let values = predictions(&judge.ground, &predictor, candidate, state).ok()?;
-        Some(judge.ground.joined(&values))
-    };
-    let alone = predicted(judge.middle, &base.judged.offset, &kept.candidate, &state);
-    let analytic = predicted(judge.hertz, &[], &kept.candidate, &state);
-    let analytic = analytic.map(|model| judge.ground.rescaled(&model));
-    let (Some(alone), Some(analytic)) = (alone, analytic) else {
-        return Vec::new();
-    };
-    let left = judge.ground.residual(&alone);
-    let left = DVector::from_vec(judge.ground.covariance.whiten(&left));
-    let known = |s: &Judged| {
-        let both = [s.candidate.names[0], kept.candidate.names[0]];
-        (fitted.iter()).any(|f| both.iter().all(|name| f.candidate.names.contains(name)))
-    };
-    let mut gains: Vec<(f64, Candidate, State)> = (singles.par_iter())
-        .filter(|s| s.candidate.names != kept.candidate.names && !known(s))
-        .flat_map_iter(|s| s.candidate.starts.iter().map(move |values| (s, values)))
-        .filter_map(|(s, values)| {
-            let both = kept.candidate.with(&s.candidate);
-            let own = &s.candidate.parameters[s.candidate.inherited..];
-            let with = |values: &[f64]| State {
-                theta: (state.theta.iter().copied())
-                    .chain(own.iter().zip(values).map(|(p, &x)| p.natural_start(x)))
-                    .collect(),
-                ..state.clone()
-            };
-            let predicted =
-                judge
-                    .ground
-                    .rescaled(&predicted(judge.hertz, &[], &both, &with(values))?);
-            let change: Vec<f64> = predicted
-                .iter()
-                .zip(&analytic)
-                .map(|(f, a)| f - a)
-                .collect();
-            let (gain, amplitude) = linear_gain(&judge.visible(base, &change), &left);
-            let scaled = s.candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE));
-            (gain > PROMISE).then(|| (gain, both, with(&scaled)))
-        })
-        .collect();
-    gains.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut chosen: Vec<(f64, Candidate, State)> = Vec::new();
-    for gain in gains {
-        if chosen.len() < PARTNERS && chosen.iter().all(|c| c.1.names != gain.1.names) {
-            chosen.push(gain);
-        }
-    }
-    let starts = chosen.into_iter().map(|(_, candidate, state)| PairStart {
-        candidate,
-        state,
-        offset: base.judged.offset.clone(),
-    });
-    pair_fit::fit(judge, base, starts.collect())
-}
-
-/// A fitted pair's state with the parameters of one of its effects only.
-fn state_in(candidate: &Candidate, pair: &Judged) -> Option<State> {
-    let value = |name: &str| {
-        let at = (pair.candidate.parameters.iter()).position(|p| p.name == name)?;
-        Some(pair.found.state.theta[at])
-    };
-    let theta: Option<Vec<f64>> = (candidate.parameters.iter())
-        .map(|p| value(&p.name))
-        .collect();
-    Some(State {
-        theta: theta?,
-        ..pair.found.state.clone()
-    })
 }
 
 /// ½ of the fall of χ² by two changes with amplitudes that are not negative.
