@@ -269,16 +269,25 @@ fn weak_ratio(free: &FreeParameter) -> Option<f64> {
     }
 }
 
-/// Values one standard deviation from the middle of a parameter's prior.
+/// Values one standard deviation from the middle of a parameter's prior, and for a scale beyond which nothing happens much smaller ones
+/// too: conditions may lie far below what is usual, and from too large a scale no search sees a slope.
 fn far(free: &FreeParameter) -> Vec<f64> {
     let values = match free.prior {
-        Prior::Uniform { low, high } => [0.2, 0.8].map(|share| low + share * (high - low)),
-        Prior::LogNormal { median, spread } => [median / spread, median * spread],
-        Prior::Normal { .. } | Prior::HalfNormal { .. } => return Vec::new(),
+        Prior::Uniform { low, high } => [0.2, 0.8].map(|share| low + share * (high - low)).to_vec(),
+        Prior::LogNormal { median, spread } => {
+            let small: &[i32] = match free.neutral {
+                Some(f64::INFINITY) => &[-3, -5],
+                _ => &[],
+            };
+            let sigmas = [-1, 1].iter().chain(small);
+            sigmas.map(|&sigmas| median * spread.powi(sigmas)).collect()
+        }
+        Prior::Normal { .. } | Prior::HalfNormal { .. } => Vec::new(),
     };
-    values
-        .map(|value| value.clamp(free.lower, free.upper))
-        .to_vec()
+    let inside = values
+        .into_iter()
+        .map(|value| value.clamp(free.lower, free.upper));
+    inside.collect()
 }
 
 /// The other side of the value without effect, for a parameter that can lie on both.
