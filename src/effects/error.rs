@@ -22,7 +22,7 @@ pub enum EffectError {
         nearest: String,
     },
     /// A value outside the range.
-    #[error("{effect}.{parameter} = {value} {unit} is outside {least} to {most}")]
+    #[error("{effect}.{parameter} = {value}{} is outside {least} to {most}", spaced(.unit))]
     OutOfRange {
         /// The effect.
         effect: String,
@@ -52,4 +52,12 @@ pub(super) fn nearest<'a>(
         }
     }
     best.map(|(_, candidate)| candidate)
+}
+
+/// A unit after its number; nothing for a pure one.
+fn spaced(unit: &str) -> String {
+    match unit {
+        "-" => String::new(),
+        unit => format!(" {unit}"),
+    }
 }

@@ -299,13 +299,19 @@ fn no_position(cell: Cell<'_, '_>, quantity: Quantity) -> Result<Option<f64>> {
         .into())
 }
 
+/// In the unit of any quantity.
+const LEAST_SIGMA: f64 = 1e-9;
+
 fn sigma(cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
     let allowed = format!("one standard deviation, above 0, {}", quantity.unit());
     let sigma = cell.number(&allowed)?;
-    if sigma <= 0.0 {
-        return Err(cell
-            .fault(Fault::BadValue, "sigma is not above 0", &allowed)
-            .into());
+    if sigma < LEAST_SIGMA {
+        let reason = if sigma > 0.0 {
+            "sigma is below what any instrument resolves"
+        } else {
+            "sigma is not above 0"
+        };
+        return Err(cell.fault(Fault::BadValue, reason, &allowed).into());
     }
     Ok(sigma)
 }

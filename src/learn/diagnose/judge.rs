@@ -77,6 +77,9 @@ const HOPELESS_SHARE: f64 = 0.05;
 /// where all starts lie far from the truth: a coating with a small ratio was given up so.
 const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
+/// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond.
+const EXCUSED: f64 = 1.2;
+const EXCUSED_AT_LEAST: f64 = 5.0;
 /// Starts are scaled to the amplitude that gains most in the linearised model, but to no less than this.
 pub(super) const LEAST_AMPLITUDE: f64 = 0.02;
 /// Second starts are followed if their linear gain is this share of the best one's.
@@ -90,6 +93,8 @@ pub(super) struct Judge<'a> {
     pub(super) exact: &'a Bench<'a>,
     /// By which candidates are compared at last.
     pub(super) fidelity: Fidelity,
+    /// Whether that is the analytic model in place of the study's finite elements.
+    pub(super) approximate: bool,
 }
 
 /// A fitted candidate.
@@ -408,9 +413,15 @@ impl<'a> Judge<'a> {
         let (mut log_evidence, covariance) =
             self.ground.evidence(&found, &candidate.parameters, own);
         let square = self.ground.square(&found.model);
-        // the tolerance of a large change must not pay for a fit that is worse than without it
-        if let Some(b) = base.map(|base| &base.judged).filter(|b| b.square < square) {
-            log_evidence = log_evidence.min(b.log_evidence - 0.5 * (square - b.square));
+        // the tolerance of a large change may excuse some of what a fit leaves, but not stand for what it does not explain
+        if let Some(before) = base.map(|base| &base.judged) {
+            let gain = 0.5 * (before.square - square);
+            let most = if gain > 0.0 {
+                EXCUSED * gain + EXCUSED_AT_LEAST
+            } else {
+                gain
+            };
+            log_evidence = log_evidence.min(before.log_evidence + most);
         }
         Judged {
             square,

@@ -28,6 +28,7 @@ mod plan;
 mod rank;
 mod ranked;
 mod sparse;
+mod suspects;
 mod table;
 mod telling;
 mod verdict;
@@ -36,10 +37,10 @@ mod words;
 
 use crate::learn::bench::Workshop;
 use crate::learn::measured::Measured;
-use crate::learn::noise::NoiseModel;
+use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::predictor::PredictError;
 use crate::simulate::forward::{ContactKind, ForwardError};
-use crate::study::Role;
+use crate::study::{ContactKind as StudiedContact, Role};
 
 pub use candidate::NotJudged;
 pub use drivers::{
@@ -102,8 +103,16 @@ pub fn diagnose(
     watch: Watch<'_>,
 ) -> Result<Diagnosis, DiagnoseError> {
     watch(0.0, "preparing the gears".to_owned());
+    // a study whose own model is the analytic one is decided by it at the study's own resolution
+    let own = fidelity == Fidelity::Screening && measured.study().contact == StudiedContact::Hertz;
+    let approximate = fidelity == Fidelity::Screening && !own;
+    let error = if own {
+        ModelError::default()
+    } else {
+        fidelity.model_error()
+    };
     let noise = NoiseModel {
-        model_error: Some(fidelity.model_error()),
+        model_error: Some(error),
         ..NoiseModel::of(&measured.study().noise)
     };
     let ground = Ground::new(measured, noise, Role::Fit);
@@ -117,14 +126,20 @@ pub fn diagnose(
     };
     let analytic = workshop(ContactKind::Hertz, Fidelity::Screening)?;
     let hertz = measured.bench(&analytic)?;
-    let elastic = match fidelity {
-        Fidelity::Screening => None,
-        Fidelity::Middle | Fidelity::Full => Some((
-            workshop(ContactKind::Fem, Fidelity::Middle)?,
-            measured.workshop(ContactKind::Fem)?,
-        )),
+    let deciding = if own {
+        ContactKind::Hertz
+    } else {
+        ContactKind::Fem
     };
-    let benches = match &elastic {
+    let finer = if approximate {
+        None
+    } else {
+        Some((
+            workshop(deciding, Fidelity::Middle)?,
+            measured.workshop(deciding)?,
+        ))
+    };
+    let benches = match &finer {
         Some((middle, fine)) => Some((measured.bench(middle)?, measured.bench(fine)?)),
         None => None,
     };
@@ -138,6 +153,7 @@ pub fn diagnose(
         middle,
         exact,
         fidelity,
+        approximate,
     };
     watch(0.08, "fitting the base model".to_owned());
     let mut base = judge.base(Candidate::base(measured.study()))?;
@@ -181,13 +197,12 @@ fn with(
             })
         }
     };
-    let pairs = match judge.fidelity {
+    let pairs = if judge.approximate {
         // second effects would mend the analytic model's own error
-        Fidelity::Screening => Vec::new(),
-        Fidelity::Middle | Fidelity::Full => {
-            watch(0.8, "looking at pairs".to_owned());
-            pairs::pairs(judge, &base, &judged)
-        }
+        Vec::new()
+    } else {
+        watch(0.8, "looking at pairs".to_owned());
+        pairs::pairs(judge, &base, &judged)
     };
     let failed = not_fitted(&singles, &judged);
     watch(0.93, "weighing".to_owned());
@@ -197,7 +212,7 @@ fn with(
         judged,
         pairs,
         &flexible,
-        judge.fidelity,
+        judge.approximate,
     );
     watch(0.95, "held-out tests and the next experiment".to_owned());
     let mut diagnosis =

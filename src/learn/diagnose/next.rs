@@ -139,16 +139,20 @@ fn sentence(
     told: &Told,
     repetition: f64,
 ) -> String {
+    let place = match told.place.largest {
+        0.0 => "with the quantities measured so far".to_owned(),
+        largest => format!(
+            "the largest difference, {largest:.2} µm, is on the {} after {:.2e} cycles",
+            told.place.member, told.place.cycles
+        ),
+    };
     format!(
-        "A test with {} separates {} from {}: after refitting they differ there by χ² {:.0}, {} (a repetition of a test made already: {:.0}); the largest difference, {:.2} µm, is on the {} after {:.2e} cycles.",
+        "A test with {} separates {} from {}: after refitting they differ there by χ² {:.0}, {} (a repetition of a test made already: {:.0}); {place}.",
         changes(test, &judge.ground.measured.study().operation),
         names[0],
         names[1],
         told.chi2,
         strength(told.chi2),
-        repetition,
-        told.place.largest,
-        told.place.member,
-        told.place.cycles
+        repetition
     )
 }

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::fidelity::Fidelity;
 use super::flexible::Flexible;
 use super::ground::Ground;
 use super::judge::Judged;
@@ -21,7 +20,7 @@ const PRIOR_PAIRS: f64 = 0.05;
 /// On blind data single effects explained at most 78 % of discrepancies that the catalogue lacks, and the catalogue's own, in other forms
 /// too, at least 90 %, but for a pressure exponent with a threshold (71 %).
 const SHARE: f64 = 0.85;
-/// The same where the analytic model decides: what it leaves of an effect is partly its own error (the hidden running-in of the example
+/// The same where the analytic model decides in place of finite elements: what it leaves of an effect is partly its own error (the hidden running-in of the example
 /// explains 87 % by it and all by finite elements).
 const SHARE_OF_SCREENING: f64 = 0.75;
 const SHARE_WIDTH: f64 = 0.03;
@@ -53,11 +52,12 @@ impl Ranking {
         singles: Vec<Judged>,
         pairs: Vec<Judged>,
         flexible: &Flexible,
-        fidelity: Fidelity,
+        approximate: bool,
     ) -> Self {
-        let least_share = match fidelity {
-            Fidelity::Screening => SHARE_OF_SCREENING,
-            Fidelity::Middle | Fidelity::Full => SHARE,
+        let least_share = if approximate {
+            SHARE_OF_SCREENING
+        } else {
+            SHARE
         };
         let mut names: Vec<&str> = singles
             .iter()

@@ -55,6 +55,7 @@ pub(super) fn next_tests(
         middle: &hertz,
         exact: &hertz,
         fidelity: Fidelity::Screening,
+        approximate: true,
     };
     watch(0.0, "fitting the base model".to_owned());
     let base = judge.base(Candidate::base(study))?;

@@ -10,7 +10,7 @@ use super::flexible::{Driver, Flexible, MapPoint};
 use super::judge::{Base, Judge};
 use super::rank::Ranking;
 use super::ranked::{Ranked, form, parameters, ranked};
-use super::warnings::warnings;
+use super::warnings::{few, warnings};
 use super::{NOTHING, UNKNOWN};
 use super::{next, words};
 use crate::learn::bench::Workshop;
@@ -23,6 +23,9 @@ const DOUBT: f64 = 0.2;
 const ALIKE: f64 = 0.03;
 /// Log evidence between two candidates from which no experiment is needed to separate them.
 const SETTLED: f64 = 10.0;
+
+/// χ² between two candidates below which a test is not worth proposing.
+const WORTH_MAKING: f64 = 1.0;
 
 /// What is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -156,7 +159,7 @@ pub(super) fn diagnosis(
     failed: Vec<String>,
 ) -> Diagnosis {
     let ground = &judge.ground;
-    let mut warnings = warnings(ground, base, &ranking);
+    let mut warnings = warnings(judge, base, &ranking);
     if !failed.is_empty() {
         warnings.push(format!(
             "could not be fitted and are not judged: {}",
@@ -207,7 +210,7 @@ pub(super) fn diagnosis(
         Verdict::Effect | Verdict::Effects if group.len() > 1 => vec![group],
         _ => Vec::new(),
     };
-    let smooth = if flexible.is_real() {
+    let smooth = if flexible.is_real() && !few(ground, base) {
         flexible.drivers(ground, &base.judged.found.model)
     } else {
         Vec::new()
@@ -291,5 +294,5 @@ fn next_experiment(
     if settled && diagnosis.verdict != Verdict::Ambiguous {
         return None;
     }
-    next::experiment(judge, shop, a, b)
+    next::experiment(judge, shop, a, b).filter(|told| told.expected_chi2 >= WORTH_MAKING)
 }

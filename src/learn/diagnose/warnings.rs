@@ -1,33 +1,27 @@
 //! What keeps an answer from being trusted.
 
 use super::ground::Ground;
-use super::judge::Base;
+use super::judge::{Base, Judge};
 use super::rank::Ranking;
 use super::ranked::parameters;
+use super::suspects;
 
 /// What keeps an answer from being trusted.
-pub(super) fn warnings(ground: &Ground<'_>, base: &Base, ranking: &Ranking) -> Vec<String> {
+pub(super) fn warnings(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<String> {
+    let ground = &judge.ground;
     let mut warnings = Vec::new();
+    if judge.approximate {
+        warnings.push(
+            "decided by the analytic contact model, whose curves differ by 1 to 2 % from finite elements and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
+        );
+    }
     let factor = ground.noise.sigma_factor;
     if factor > 1.0 {
         warnings.push(format!(
             "neighbouring points of a trace scatter {factor:.1} times as much as their stated sigma: it was taken that much larger here"
         ));
     }
-    let data = &ground.measured.data;
-    let mut alone = Vec::new();
-    for &test in &ground.tests {
-        let mut cycles: Vec<u64> = (0..ground.len())
-            .map(|i| ground.observation(i))
-            .filter(|o| o.test == test)
-            .map(|o| o.cycles.to_bits())
-            .collect();
-        cycles.sort_unstable();
-        cycles.dedup();
-        if cycles.len() < 2 {
-            alone.push(data.tests[test].as_str());
-        }
-    }
+    let alone = measured_once(ground);
     if alone.len() == ground.tests.len() {
         warnings.push(
             "every test was measured at one number of cycles only: what changes over life (running-in, debris, ageing, polishing) cannot be told from a constant".to_owned(),
@@ -43,14 +37,19 @@ pub(super) fn warnings(ground: &Ground<'_>, base: &Base, ranking: &Ranking) -> V
             "there is one test only: what depends on torque, speed or misalignment cannot be told from what does not".to_owned(),
         );
     }
-    let free = 1 + base.judged.candidate.parameters.len() + ground.tests.len();
-    if ground.len() < 4 * (free + 2) {
+    let unknowns = unknowns(ground, base);
+    if ground.len() <= unknowns {
         warnings.push(format!(
-            "{} measured values are few for about {} unknowns: only strong effects can show",
-            ground.len(),
-            free + 2
+            "there are about {unknowns} unknowns and no more measured values ({}): no effect can show",
+            ground.len()
+        ));
+    } else if few(ground, base) {
+        warnings.push(format!(
+            "{} measured values are few for about {unknowns} unknowns: only strong effects can show",
+            ground.len()
         ));
     }
+    warnings.extend(suspects::suspects(ground, &base.judged.found.model));
     if !base.judged.converged {
         warnings
             .push("the fit of the base model did not converge: probabilities are rough".to_owned());
@@ -73,4 +72,30 @@ pub(super) fn warnings(ground: &Ground<'_>, base: &Base, ranking: &Ranking) -> V
         }
     }
     warnings
+}
+
+/// Ids of the tests that were measured at one number of cycles only.
+pub(super) fn measured_once<'a>(ground: &'a Ground<'_>) -> Vec<&'a str> {
+    let at_once = |test: &&usize| {
+        let all = (0..ground.len()).map(|i| ground.observation(i));
+        let mut cycles: Vec<u64> = (all.filter(|o| o.test == **test))
+            .map(|o| o.cycles.to_bits())
+            .collect();
+        cycles.sort_unstable();
+        cycles.dedup();
+        cycles.len() < 2
+    };
+    let names = &ground.measured.data.tests;
+    let once = ground.tests.iter().filter(at_once);
+    once.map(|&test| names[test].as_str()).collect()
+}
+
+/// Whether there are too few values for any answer.
+pub(super) fn few(ground: &Ground<'_>, base: &Base) -> bool {
+    ground.len() < 4 * unknowns(ground, base)
+}
+
+/// k, k of each test, the base model's own parameters, and two of an effect.
+fn unknowns(ground: &Ground<'_>, base: &Base) -> usize {
+    3 + base.judged.candidate.parameters.len() + ground.tests.len()
 }

@@ -4,6 +4,7 @@ use super::judge::{Base, Judge, Judged};
 use super::rank::Ranking;
 use super::ranked::parameters;
 use super::verdict::{Diagnosis, Verdict};
+use super::warnings::{few, measured_once};
 use super::{NOTHING, UNKNOWN};
 use crate::effects::find;
 
@@ -32,8 +33,19 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                     after(j)
                 ));
             }
-            d.next_step = "no effect need be added; a weak effect could still hide below the noise"
-                .to_owned();
+            let ground = &judge.ground;
+            d.next_step = if few(ground, base) {
+                d.sentence = format!(
+                    "These {} values cannot tell whether anything is missing: the base model stands at χ² {chi2:.2} per point (1 is the noise).",
+                    ground.len()
+                );
+                "measure more before concluding anything: gearwear plan STUDY proposes tests"
+            } else if measured_once(ground).len() == ground.tests.len() {
+                "no effect need be added for what these data show; what changes over life they cannot show: measure at several numbers of cycles"
+            } else {
+                "no effect need be added; a weak effect could still hide below the noise"
+            }
+            .to_owned();
         }
         Verdict::Unknown => {
             d.sentence = format!(
@@ -80,7 +92,18 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 "The data cannot tell apart: {}. The base model stands at χ² {chi2:.2} per point.",
                 list.join(", ")
             );
-            d.next_step = "make the proposed test before adding one of them".to_owned();
+            if let (true, Some(share)) = (group.iter().any(|g| g == UNKNOWN), d.explained_share) {
+                d.reasons.push(format!(
+                    "{} explains {} of what there is to explain: too much to pass over, too little to rule out something that the catalogue does not hold, or a spoiled measurement.",
+                    group[0],
+                    percent(share.max(0.0))
+                ));
+            }
+            d.next_step = match d.next_experiment {
+                Some(_) => "make the proposed test before adding one of them",
+                None => "no single test made like these tells them apart: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error",
+            }
+            .to_owned();
         }
     }
     if let Some(driver) = &d.driver {
@@ -115,7 +138,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
         d.reasons.push(format!(
             "Not judged: {}, which needs {} in the study.",
             missing.effect,
-            missing.needs.join(" and ")
+            missing.needs.join(", ")
         ));
     }
 }

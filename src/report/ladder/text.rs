@@ -39,8 +39,11 @@ pub fn conclusion(result: &Result<'_>) -> String {
             "Least error on {of}: {with}, {change}; 1 is the noise floor."
         ));
     }
-    for pair in steps.windows(2) {
+    for (pair, noted) in steps.windows(2).zip(result.notes.iter().skip(1)) {
         let (before, after) = (&pair[0], &pair[1]);
+        if !noted.is_empty() {
+            continue;
+        }
         let (Some(a), Some(b)) = (judge(before), judge(after)) else {
             continue;
         };

@@ -1,0 +1,72 @@
+//! Measured curves that may be at fault themselves, before any physics is blamed.
+
+use std::collections::BTreeMap;
+
+use super::ground::Ground;
+
+/// Misfit beyond the noise, in its standard deviations, from which curves are looked at.
+const REAL: f64 = 5.0;
+/// Share of the misfit that one curve alone must carry, and that constants must explain, to be suspected.
+const ONE: f64 = 0.5;
+const CONSTANTS: f64 = 0.85;
+/// Among fewer curves one says nothing.
+const CURVES: usize = 6;
+
+/// Rows of one test, member, quantity and number of cycles: their number, Σ z², Σ z, and whether they have a datum.
+#[derive(Default)]
+struct Curve {
+    name: String,
+    count: f64,
+    square: f64,
+    sum: f64,
+    has_datum: bool,
+}
+
+/// What looks wrong about the measurements where the base model leaves more than noise.
+pub(super) fn suspects(ground: &Ground<'_>, model: &[f64]) -> Vec<String> {
+    let mut curves: BTreeMap<_, Curve> = BTreeMap::new();
+    for (row, z) in ground.standardised(model).into_iter().enumerate() {
+        let o = ground.observation(row);
+        let key = (o.test, o.member, o.quantity, o.cycles.to_bits());
+        let curve = curves.entry(key).or_default();
+        if curve.count == 0.0 {
+            curve.name = format!(
+                "{} of test {}, {}, after {:.4e} cycles",
+                o.quantity.name(),
+                ground.measured.data.tests[o.test],
+                o.member.name(),
+                o.cycles
+            );
+        }
+        curve.count += 1.0;
+        curve.square += z * z;
+        curve.sum += z;
+        curve.has_datum |= o.trace.is_some();
+    }
+    let curves: Vec<Curve> = curves.into_values().collect();
+    let (count, square) = (curves.iter()).fold((0.0, 0.0), |(n, s), c| (n + c.count, s + c.square));
+    let excess = square - count;
+    if excess < REAL * (2.0 * count).sqrt() {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    let own = |c: &Curve| (c.square - c.count) / excess;
+    if let Some(worst) = curves.iter().max_by(|a, b| own(a).total_cmp(&own(b)))
+        && curves.len() >= CURVES
+        && own(worst) > ONE
+    {
+        found.push(format!(
+            "one curve carries {:.0} % of what the base model leaves ({}): look at that measurement before any physics",
+            100.0 * own(worst).min(1.0),
+            worst.name
+        ));
+    }
+    let loose = curves.iter().filter(|c| !c.has_datum && c.count > 2.0);
+    let by_constants: f64 = loose.map(|c| c.sum * c.sum / c.count - 1.0).sum();
+    if by_constants > CONSTANTS * excess {
+        found.push(
+            "a constant for each curve explains nearly all that the base model leaves: if the instrument's zero changes between traces, name these in the column trace, and a datum is fitted to each".to_owned(),
+        );
+    }
+    found
+}
