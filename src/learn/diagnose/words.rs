@@ -59,7 +59,12 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                     percent(share.max(0.0))
                 ));
             }
-            d.next_step = "write the suspected law as an [[effect]] with kind = \"formula\" and diagnose again".to_owned();
+            d.next_step = if judge.approximate {
+                "repeat with --fidelity middle: what is left may be the analytic model's own error"
+            } else {
+                "look at the measurements named in the warnings, if any; else write the suspected law as an [[effect]] with kind = \"formula\" and diagnose again"
+            }
+            .to_owned();
         }
         Verdict::Effect | Verdict::Effects => {
             let Some(j) = leader else { return };
