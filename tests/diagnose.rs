@@ -40,12 +40,13 @@ impl Random {
 
 const LAYOUT: &str = "validation/challenges/none_L2";
 
-/// The study of the independent data with effects added to its text.
+/// The study of the independent data, by the analytic contact model, with effects added to its text.
 fn study(effects: &str) -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join(LAYOUT)
         .join("study.toml");
     let text = std::fs::read_to_string(&path).unwrap();
+    let text = text.replace("contact = \"fem\"", "contact = \"hertz\"");
     Study::parse(&format!("{text}\n{effects}"), &path.display().to_string()).unwrap()
 }
 
