@@ -13,7 +13,15 @@
 //! Optimization, 2006, Alg. 16.3), which cannot cycle on a strictly convex problem. The multipliers returned are always
 //! computed from the sorted final set alone, so they do not depend on the way there.
 
-use nalgebra::{DMatrix, DVector};
+mod one_by_one;
+mod sensitivity;
+mod trial;
+
+use nalgebra::DMatrix;
+
+use one_by_one::one_by_one;
+pub use sensitivity::sensitivity;
+use trial::Trial;
 
 /// The rigid motion that presses the bodies together.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -173,190 +181,6 @@ fn first_guess(problem: &Problem) -> Result<Vec<usize>, UnilateralError> {
     }
 }
 
-/// Equality-constrained solution on one set.
-struct Trial {
-    active: Vec<usize>,
-    pressure: DVector<f64>,
-    approach: f64,
-}
-
-impl Trial {
-    fn on(problem: &Problem, mut active: Vec<usize>) -> Result<Self, UnilateralError> {
-        active.sort_unstable();
-        let reduced = Reduced::new(problem, &active)?;
-        let approach = match problem.drive {
-            Drive::Load(load) => {
-                (load + reduced.lever.dot(&reduced.y)) / reduced.lever.dot(&reduced.x)
-            }
-            Drive::Approach(phi) => phi,
-        };
-        let pressure = &reduced.x * approach - &reduced.y;
-        Ok(Self {
-            active,
-            pressure,
-            approach,
-        })
-    }
-
-    /// Residual r of every point.
-    fn residual(&self, problem: &Problem) -> Vec<f64> {
-        let mut r: Vec<f64> = problem
-            .gap
-            .iter()
-            .zip(problem.arm)
-            .map(|(g, a)| g - self.approach * a)
-            .collect();
-        for (&l, &p) in self.active.iter().zip(self.pressure.iter()) {
-            for (rk, w) in r.iter_mut().zip(problem.w.column(l).iter()) {
-                *rk += w * p;
-            }
-        }
-        r
-    }
-
-    fn primal_dual_set(&self, problem: &Problem) -> Vec<usize> {
-        let mut keep = vec![false; problem.gap.len()];
-        let residual = self.residual(problem);
-        let scale = self.scale(problem);
-        for (k, flag) in keep.iter_mut().enumerate() {
-            *flag = residual[k] < -1e-12 * scale * problem.arm[k].abs();
-        }
-        for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
-            keep[k] = p > 0.0;
-        }
-        (0..keep.len()).filter(|&k| keep[k]).collect()
-    }
-
-    /// A length typical of the approach, for tolerances relative to it.
-    fn scale(&self, problem: &Problem) -> f64 {
-        let least = problem
-            .gap
-            .iter()
-            .zip(problem.arm)
-            .map(|(g, a)| g / a)
-            .fold(f64::INFINITY, f64::min);
-        (self.approach - least).abs().max(f64::MIN_POSITIVE)
-    }
-
-    fn into_solution(self, problem: &Problem, iterations: usize) -> Solution {
-        let residual = self.residual(problem);
-        let scale = self.scale(problem);
-        let penetration = residual
-            .iter()
-            .zip(problem.arm)
-            .map(|(r, a)| -r / (a.abs() * scale))
-            .fold(0.0, f64::max);
-        let mut pressure = vec![0.0; problem.gap.len()];
-        for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
-            pressure[k] = p;
-        }
-        Solution {
-            pressure,
-            approach: self.approach,
-            active: self.active,
-            iterations,
-            penetration,
-        }
-    }
-}
-
-/// The two solves on a set: x = W⁻¹ a, y = W⁻¹ g.
-struct Reduced {
-    lever: DVector<f64>,
-    x: DVector<f64>,
-    y: DVector<f64>,
-}
-
-impl Reduced {
-    fn new(problem: &Problem, active: &[usize]) -> Result<Self, UnilateralError> {
-        let m = active.len();
-        let w = DMatrix::from_fn(m, m, |i, j| problem.w[(active[i], active[j])]);
-        let mut rhs = DMatrix::from_fn(m, 2, |i, c| [problem.arm, problem.gap][c][active[i]]);
-        let singular = UnilateralError::Singular { active: m };
-        if problem.symmetric {
-            w.cholesky().ok_or(singular)?.solve_mut(&mut rhs);
-        } else if !w.lu().solve_mut(&mut rhs) {
-            return Err(singular);
-        }
-        let lever = DVector::from_fn(m, |i, _| problem.lever[active[i]]);
-        Ok(Self {
-            lever,
-            x: rhs.column(0).into(),
-            y: rhs.column(1).into(),
-        })
-    }
-}
-
-/// Primal active-set method, one change per iteration.
-fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError> {
-    let n = problem.gap.len();
-    let limit = 50 * n + 100;
-    let (start, _) = problem
-        .gap
-        .iter()
-        .zip(problem.arm)
-        .map(|(g, a)| g / a)
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .ok_or(UnilateralError::Separated {
-            gap: f64::NAN,
-            approach: 0.0,
-        })?;
-    let mut feasible = vec![0.0; n];
-    let mut active = vec![start];
-    if let Drive::Load(load) = problem.drive {
-        feasible[start] = load / problem.lever[start];
-    }
-    let mut last = Vec::new();
-    for iteration in 1..=limit {
-        let trial = Trial::on(problem, active.clone())?;
-        // largest step towards the trial that keeps every pressure ≥ 0
-        let mut step = 1.0;
-        let mut blocking = None;
-        for (&k, &p) in trial.active.iter().zip(trial.pressure.iter()) {
-            if p < 0.0 {
-                let t = feasible[k] / (feasible[k] - p);
-                if t < step {
-                    step = t;
-                    blocking = Some(k);
-                }
-            }
-        }
-        for (&k, &p) in trial.active.iter().zip(trial.pressure.iter()) {
-            feasible[k] += step * (p - feasible[k]);
-        }
-        if let Some(k) = blocking {
-            feasible[k] = 0.0;
-            active.retain(|&a| a != k);
-            last = vec![k];
-            if active.is_empty() {
-                return Err(UnilateralError::Separated {
-                    gap: 0.0,
-                    approach: trial.approach,
-                });
-            }
-            continue;
-        }
-        let residual = trial.residual(problem);
-        let scale = trial.scale(problem);
-        let worst = (0..n)
-            .filter(|k| trial.active.binary_search(k).is_err())
-            .map(|k| (k, residual[k] / problem.arm[k].abs()))
-            .min_by(|a, b| a.1.total_cmp(&b.1));
-        match worst {
-            Some((k, violation)) if violation < -1e-12 * scale => {
-                active.push(k);
-                last = vec![k];
-            }
-            _ => return Ok(trial.into_solution(problem, PRIMAL_DUAL_LIMIT + iteration)),
-        }
-    }
-    Err(UnilateralError::NotSettled {
-        iterations: limit,
-        flipping: last,
-    })
-}
-
 fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {
     let only = |x: &[usize], y: &[usize]| {
         x.iter()
@@ -368,31 +192,6 @@ fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {
     all.extend(only(b, a));
     all.sort_unstable();
     all
-}
-
-/// Sensitivity of the pressures on the active set to their weighted gaps at fixed load:
-/// dλ = −S dg with S = W⁻¹ − x (W⁻ᵀ b)ᵀ/(b·x), x = W⁻¹ a (at fixed approach S = W⁻¹). Rows and columns follow `active`.
-///
-/// # Errors
-/// [`UnilateralError::Singular`] if the set's compliance cannot be inverted.
-pub fn sensitivity(problem: &Problem, active: &[usize]) -> Result<DMatrix<f64>, UnilateralError> {
-    let m = active.len();
-    let singular = UnilateralError::Singular { active: m };
-    let w = DMatrix::from_fn(m, m, |i, j| problem.w[(active[i], active[j])]);
-    let arm = DVector::from_fn(m, |i, _| problem.arm[active[i]]);
-    let mut s = if problem.symmetric {
-        w.cholesky().ok_or(singular)?.inverse()
-    } else {
-        w.try_inverse().ok_or(singular)?
-    };
-    if matches!(problem.drive, Drive::Load(_)) {
-        let x = &s * &arm;
-        let lever = DVector::from_fn(m, |i, _| problem.lever[active[i]]);
-        let left = s.tr_mul(&lever);
-        let scale = 1.0 / lever.dot(&x);
-        s.ger(-scale, &x, &left, 1.0);
-    }
-    Ok(s)
 }
 
 #[cfg(test)]

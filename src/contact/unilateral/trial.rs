@@ -1,0 +1,121 @@
+//! The contact problem with one set of points taken to touch: a linear one.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Drive, Problem, Solution, UnilateralError};
+
+/// Equality-constrained solution on one set.
+pub(super) struct Trial {
+    /// Ascending.
+    pub(super) active: Vec<usize>,
+    /// In that order; may be negative.
+    pub(super) pressure: DVector<f64>,
+    pub(super) approach: f64,
+}
+
+impl Trial {
+    pub(super) fn on(problem: &Problem, mut active: Vec<usize>) -> Result<Self, UnilateralError> {
+        active.sort_unstable();
+        let reduced = Reduced::new(problem, &active)?;
+        let approach = match problem.drive {
+            Drive::Load(load) => {
+                (load + reduced.lever.dot(&reduced.y)) / reduced.lever.dot(&reduced.x)
+            }
+            Drive::Approach(phi) => phi,
+        };
+        let pressure = &reduced.x * approach - &reduced.y;
+        Ok(Self {
+            active,
+            pressure,
+            approach,
+        })
+    }
+
+    /// Residual r of every point.
+    pub(super) fn residual(&self, problem: &Problem) -> Vec<f64> {
+        let mut r: Vec<f64> = problem
+            .gap
+            .iter()
+            .zip(problem.arm)
+            .map(|(g, a)| g - self.approach * a)
+            .collect();
+        for (&l, &p) in self.active.iter().zip(self.pressure.iter()) {
+            for (rk, w) in r.iter_mut().zip(problem.w.column(l).iter()) {
+                *rk += w * p;
+            }
+        }
+        r
+    }
+
+    pub(super) fn primal_dual_set(&self, problem: &Problem) -> Vec<usize> {
+        let mut keep = vec![false; problem.gap.len()];
+        let residual = self.residual(problem);
+        let scale = self.scale(problem);
+        for (k, flag) in keep.iter_mut().enumerate() {
+            *flag = residual[k] < -1e-12 * scale * problem.arm[k].abs();
+        }
+        for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
+            keep[k] = p > 0.0;
+        }
+        (0..keep.len()).filter(|&k| keep[k]).collect()
+    }
+
+    /// A length typical of the approach, for tolerances relative to it.
+    pub(super) fn scale(&self, problem: &Problem) -> f64 {
+        let least = problem
+            .gap
+            .iter()
+            .zip(problem.arm)
+            .map(|(g, a)| g / a)
+            .fold(f64::INFINITY, f64::min);
+        (self.approach - least).abs().max(f64::MIN_POSITIVE)
+    }
+
+    pub(super) fn into_solution(self, problem: &Problem, iterations: usize) -> Solution {
+        let residual = self.residual(problem);
+        let scale = self.scale(problem);
+        let penetration = residual
+            .iter()
+            .zip(problem.arm)
+            .map(|(r, a)| -r / (a.abs() * scale))
+            .fold(0.0, f64::max);
+        let mut pressure = vec![0.0; problem.gap.len()];
+        for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
+            pressure[k] = p;
+        }
+        Solution {
+            pressure,
+            approach: self.approach,
+            active: self.active,
+            iterations,
+            penetration,
+        }
+    }
+}
+
+/// The two solves on a set: x = W⁻¹ a, y = W⁻¹ g.
+struct Reduced {
+    lever: DVector<f64>,
+    x: DVector<f64>,
+    y: DVector<f64>,
+}
+
+impl Reduced {
+    fn new(problem: &Problem, active: &[usize]) -> Result<Self, UnilateralError> {
+        let m = active.len();
+        let w = DMatrix::from_fn(m, m, |i, j| problem.w[(active[i], active[j])]);
+        let mut rhs = DMatrix::from_fn(m, 2, |i, c| [problem.arm, problem.gap][c][active[i]]);
+        let singular = UnilateralError::Singular { active: m };
+        if problem.symmetric {
+            w.cholesky().ok_or(singular)?.solve_mut(&mut rhs);
+        } else if !w.lu().solve_mut(&mut rhs) {
+            return Err(singular);
+        }
+        let lever = DVector::from_fn(m, |i, _| problem.lever[active[i]]);
+        Ok(Self {
+            lever,
+            x: rhs.column(0).into(),
+            y: rhs.column(1).into(),
+        })
+    }
+}

@@ -1,0 +1,175 @@
+//! Derivatives of predictions that are simulations: forward differences on the way, central ones where a search comes to rest, and
+//! Broyden's formula in between.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+
+use super::{DIFFERENCE_K, Search, Values};
+use crate::learn::evaluate::{Evaluator, Point};
+use crate::learn::predictor::PredictError;
+use crate::learn::quadratic::{Quadratic, State};
+use crate::study::Scatter;
+
+impl Search<'_> {
+    /// Forward differences of all tests in one round; where a prediction fails, the other side is tried.
+    pub(super) fn derivatives(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        let params = self.layout.parameters.len();
+        let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
+        let mut asked = Vec::new();
+        for test in 0..self.tests.len() {
+            for p in 0..params {
+                let step = self.parameters[p].difference(state.theta[p]);
+                asked.push((test, p, step));
+            }
+            if moves_k {
+                asked.push((test, params + test, DIFFERENCE_K));
+            }
+        }
+        let shifted = |&(test, column, step): &(usize, usize, f64)| {
+            let mut state = state.clone();
+            match state.theta.get_mut(column).filter(|_| column < params) {
+                Some(theta) => *theta += step,
+                None => state.epsilon[test] += step,
+            }
+            self.point(&state, test)
+        };
+        let points: Vec<Point> = asked.iter().map(shifted).collect();
+        let mut found = evaluator.all(&points);
+        let failed: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_err()).collect();
+        if !failed.is_empty() {
+            failed.iter().for_each(|&i| asked[i].2 *= -1.0);
+            let again: Vec<Point> = failed.iter().map(|&i| shifted(&asked[i])).collect();
+            for (i, second) in failed.into_iter().zip(evaluator.all(&again)) {
+                found[i] = second;
+            }
+        }
+        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        for ((test, column, step), found) in asked.into_iter().zip(found) {
+            let divisor = match self.parameters.get(column).filter(|_| column < params) {
+                Some(parameter) => parameter.divisor(step),
+                None => step.exp_m1(),
+            };
+            for ((&row, after), before) in self.rows[test]
+                .iter()
+                .zip(found?.iter())
+                .zip(values[test].iter())
+            {
+                jacobian[(row, column)] = (after - before) / divisor;
+            }
+        }
+        Ok(jacobian)
+    }
+
+    /// Central differences of all tests in one round, over two posterior standard deviations to each side, but at least two and at most ten
+    /// times as wide as a forward difference: a standard deviation that is too small because the last derivatives took roughness for
+    /// change must not make the next ones as rough.
+    pub(super) fn central(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+        quadratic: &Quadratic,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        let params = self.layout.parameters.len();
+        let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
+        let covariance = quadratic.mapped_covariance();
+        let mut asked = Vec::new();
+        for test in 0..self.tests.len() {
+            for p in 0..params {
+                let (prior, at) = (&self.layout.parameters[p], state.theta[p]);
+                let usual = self.parameters[p].difference(at).abs();
+                let step = 2.0 * covariance[(p, p)].max(0.0).sqrt();
+                let step = step.clamp(2.0 * usual, 10.0 * usual);
+                let [low, high] =
+                    [-step, step].map(|step| (at + step).clamp(prior.lower, prior.upper) - at);
+                asked.push((test, p, low, high));
+            }
+            if moves_k {
+                asked.push((test, params + test, -DIFFERENCE_K, DIFFERENCE_K));
+            }
+        }
+        let shifted = |test: usize, column: usize, step: f64| {
+            let mut state = state.clone();
+            match state.theta.get_mut(column).filter(|_| column < params) {
+                Some(theta) => *theta += step,
+                None => state.epsilon[test] += step,
+            }
+            self.point(&state, test)
+        };
+        let sides = asked.iter().flat_map(|&(test, column, low, high)| {
+            [low, high].map(|step| shifted(test, column, step))
+        });
+        let points: Vec<Point> = sides.collect();
+        let found = evaluator.all(&points);
+        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        for (&(test, column, low, high), pair) in asked.iter().zip(found.chunks_exact(2)) {
+            // a side without an answer is replaced by the middle
+            let ends = match (&pair[0], &pair[1]) {
+                (Err(error), Err(_)) => return Err(error.clone()),
+                (low_side, high_side) => {
+                    [(low_side, low), (high_side, high)].map(|(side, step)| {
+                        let known = side.as_ref().ok().map(|values| (Arc::clone(values), step));
+                        known.unwrap_or_else(|| (Arc::clone(&values[test]), 0.0))
+                    })
+                }
+            };
+            let divided = |step: f64| match self.parameters.get(column).filter(|_| column < params)
+            {
+                Some(parameter) => parameter.divisor(step),
+                None => step.exp_m1(),
+            };
+            let [(before, low), (after, high)] = ends;
+            let divisor = divided(high) - divided(low);
+            for ((&row, after), before) in
+                self.rows[test].iter().zip(after.iter()).zip(before.iter())
+            {
+                jacobian[(row, column)] = (after - before) / divisor;
+            }
+        }
+        Ok(jacobian)
+    }
+
+    /// Each test's derivatives changed least, in the priors' scales, so that they give the change seen from one state to the next.
+    pub(super) fn broyden(
+        &self,
+        jacobian: &mut DMatrix<f64>,
+        states: [&State; 2],
+        values: [&Values; 2],
+    ) {
+        let params = self.layout.parameters.len();
+        let moves = |p: usize| states[1].theta[p] - states[0].theta[p];
+        for (test, rows) in self.rows.iter().enumerate() {
+            let scales = self.layout.parameters.iter().map(|prior| prior.scale());
+            let mut moved: Vec<(usize, f64, f64)> = scales
+                .enumerate()
+                .map(|(p, scale)| (p, moves(p), scale))
+                .collect();
+            let log_k = |s: &State| s.log_k + s.epsilon[test];
+            moved.push((params + test, log_k(states[1]) - log_k(states[0]), 1.0));
+            let length: f64 = moved
+                .iter()
+                .map(|(_, by, scale)| (by / scale).powi(2))
+                .sum();
+            if length == 0.0 {
+                continue;
+            }
+            let [before, after] = values.map(|values| &values[test]);
+            for (&row, (before, after)) in rows.iter().zip(before.iter().zip(after.iter())) {
+                let told: f64 = moved
+                    .iter()
+                    .map(|&(column, by, _)| jacobian[(row, column)] * by)
+                    .sum();
+                for &(column, by, scale) in &moved {
+                    jacobian[(row, column)] +=
+                        (after - before - told) * by / (scale * scale) / length;
+                }
+            }
+        }
+    }
+}
