@@ -10,6 +10,7 @@
 //! its own form (`OWN_FORM` in `ground`). Priors: nothing missing 0.5, unknown 0.1, single effects share 0.35, pairs 0.05.
 
 mod anchored;
+mod binned;
 mod campaign;
 mod candidate;
 mod drivers;
@@ -42,10 +43,10 @@ use crate::learn::predictor::PredictError;
 use crate::simulate::forward::{ContactKind, ForwardError};
 use crate::study::{ContactKind as StudiedContact, Role};
 
+pub use binned::{BinMean, Explained};
 pub use candidate::NotJudged;
 pub use drivers::{
-    BinMean, DRIVER_KINDS, DRIVERS, DriverBin, DriverKind, DriverRow, Explained, ResidualDriver,
-    ResidualDrivers,
+    DRIVER_KINDS, DRIVERS, DriverBin, DriverKind, DriverRow, ResidualDriver, ResidualDrivers,
 };
 pub use fidelity::Fidelity;
 pub use flexible::{Driver, MapPoint};
