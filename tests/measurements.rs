@@ -168,13 +168,13 @@ refusals! {
     value_missing: with("3.42", "")
         => MissingKey "value" at 3:34, "nothing", "a number, um", "value is missing";
     sigma_zero: with("182.0,4.0", "182.0,0.0")
-        => BadValue "sigma" at 7:35, "`0.0`", "above 0, mg", "sigma is not above 0";
+        => BadValue "sigma" at 7:35, "`0.0`", "at least 1e-9, mg", "sigma is not above 0";
     sigma_negative: with("182.0,4.0", "182.0,-4.0")
-        => BadValue "sigma" at 7:35, "`-4.0`", "above 0, mg", "sigma is not above 0";
+        => BadValue "sigma" at 7:35, "`-4.0`", "at least 1e-9, mg", "sigma is not above 0";
     sigma_nan: with("182.0,4.0", "182.0,nan")
-        => BadValue "sigma" at 7:35, "`nan`", "above 0, mg", "not a finite number";
+        => BadValue "sigma" at 7:35, "`nan`", "at least 1e-9, mg", "not a finite number";
     sigma_missing: with("182.0,4.0", "182.0,")
-        => MissingKey "sigma" at 7:35, "nothing", "above 0, mg", "sigma is missing";
+        => MissingKey "sigma" at 7:35, "nothing", "at least 1e-9, mg", "sigma is missing";
     nanometres: with("3.42", "3420")
         => BadValue "value" at 3:34, "`3420`", "at most 1000 um", "looks like nm";
     millimetres: GOOD.replace("3.42,0.15", "0.00342,0.00015").replace("2.1,0.15", "0.0021,0.00015").replace("0.1,0.15", "0.0001,0.00015")

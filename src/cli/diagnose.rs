@@ -22,7 +22,8 @@ pub struct DiagnoseArgs {
     /// Decide by the analytic contact model alone: seconds instead of a minute, and 1 to 2 % model error that may look like an effect
     #[arg(long, conflicts_with = "fidelity")]
     fast: bool,
-    /// By which model candidates are compared at last; --fast is --fidelity screening
+    /// By which model candidates are compared at last; --fast is --fidelity screening. A study with `contact = "hertz"` is always
+    /// decided by its own model
     #[arg(long, value_enum, value_name = "MODEL")]
     fidelity: Option<Deciding>,
 }

@@ -21,6 +21,9 @@ pub enum Touch {
 /// Newton's method on an involute ends with a step below this, mm: what is left is its square over twice the curvature radius.
 const NEWTON_STEP: f64 = 1e-5;
 
+/// Newton's method starts no nearer to the base circle than this share of the squared curvature radius at the frame's own point.
+const NEAREST_BASE: f64 = 1e-2;
+
 /// Contact frame of one tooth pair at one mesh position, in the fixed frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -113,7 +116,9 @@ impl Frame {
             let curve = &self.flanks[side];
             // an arc of length ξ from the frame's own point: the flank turns so little that it is nearly there
             let turn = [2.0, -2.0][side] * curve.base_radius * xi;
-            rho[side] = (rho[side] * rho[side] + turn).max(0.0).sqrt();
+            // (but on the base circle itself the involute has no tangent to go on along)
+            let square = rho[side] * rho[side];
+            rho[side] = (square + turn).max(NEAREST_BASE * square).sqrt();
             // Newton's method on the tangent coordinate; an involute is smooth and monotone here
             let mut offset = Vec2::zeros();
             for _ in 0..20 {
@@ -248,6 +253,27 @@ mod tests {
                     (gap / expected - 1.0).abs() < third,
                     "{gap} against {expected}"
                 );
+            }
+        }
+    }
+
+    /// Down to the base circle, where an involute's curvature radius vanishes: the points found lie at ξ, on their involutes.
+    #[test]
+    fn facing_points_lie_at_xi_down_to_the_base_circle() {
+        let pair = reference();
+        for path in [-5.0, 0.0, 4.5] {
+            let frame = Frame::new(&pair, path).unwrap();
+            // how far along the tangent the pinion's involute begins
+            let base = (frame.flanks[0].point(0.0) - frame.origin).dot(&frame.tangent);
+            for share in [-0.3, 0.2, 0.7, 0.95, 0.99] {
+                let xi = share * base;
+                let (rho, _) = frame.facing_rho(xi);
+                for (side, rho) in rho.into_iter().enumerate() {
+                    assert!(rho.is_finite() && rho > 0.0, "{rho} at {xi}");
+                    let at = frame.flanks[side].point(rho) - frame.origin;
+                    let off = at.dot(&frame.tangent) - xi;
+                    assert!(off.abs() < 1e-9, "{off} mm at {xi} mm, side {side}");
+                }
             }
         }
     }

@@ -299,11 +299,14 @@ fn no_position(cell: Cell<'_, '_>, quantity: Quantity) -> Result<Option<f64>> {
         .into())
 }
 
-/// In the unit of any quantity.
+/// Least standard deviation that is believed, in the unit of any quantity.
 const LEAST_SIGMA: f64 = 1e-9;
 
 fn sigma(cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
-    let allowed = format!("one standard deviation, above 0, {}", quantity.unit());
+    let allowed = format!(
+        "one standard deviation, at least {LEAST_SIGMA:e}, {}",
+        quantity.unit()
+    );
     let sigma = cell.number(&allowed)?;
     if sigma < LEAST_SIGMA {
         let reason = if sigma > 0.0 {

@@ -10,7 +10,7 @@ use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
 
 /// The first look at each pair.
-const LOOK: Effort = Effort {
+pub(super) const LOOK: Effort = Effort {
     iterations: 2,
     tolerance: 0.3,
     floor: 0.3,

@@ -19,10 +19,7 @@ const LEFT: f64 = 1.0;
 const FOLLOWED: usize = 2;
 const LOOK: Effort = Effort {
     iterations: 4,
-    tolerance: 0.3,
-    floor: 0.3,
-    carry: 0.7,
-    settle: 0,
+    ..pair_fit::LOOK
 };
 
 /// The effects of a fitted pair that are to be tried with other partners: both if the pair beats the best single effect, for one

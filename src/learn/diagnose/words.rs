@@ -36,7 +36,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
             let ground = &judge.ground;
             d.next_step = if few(ground, base) {
                 d.sentence = format!(
-                    "These {} values cannot tell whether anything is missing: the base model stands at χ² {chi2:.2} per point (1 is the noise).",
+                    "Too few measured values ({}) to tell whether anything is missing: the base model stands at χ² {chi2:.2} per point (1 is the noise).",
                     ground.len()
                 );
                 "measure more before concluding anything: gearwear plan STUDY proposes tests"
