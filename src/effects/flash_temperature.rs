@@ -69,6 +69,7 @@ pub(super) const CARD: Card = Card {
         name: "softening",
         settings: &[("shape", 1.0)],
         frees: &[],
+        grown: &[],
     }],
     build: |p| {
         Box::new(FlashTemperature {

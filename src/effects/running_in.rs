@@ -64,11 +64,13 @@ pub(super) const CARD: Card = Card {
             name: "hyperbolic",
             settings: &[("shape", 1.0)],
             frees: &[],
+            grown: &[],
         },
         Form {
             name: "steep hyperbolic",
             settings: &[("shape", 2.0)],
             frees: &[],
+            grown: &[],
         },
     ],
     build: |p| {

@@ -56,6 +56,7 @@ pub(super) const CARD: Card = Card {
         name: "steep",
         settings: &[("steepness", 3.0)],
         frees: &[],
+        grown: &[],
     }],
     build: |p| {
         Box::new(SurfaceLayer {

@@ -76,6 +76,29 @@ impl Pair {
         centre_distance: f64,
         misalignment: f64,
     ) -> Result<Pair, PairError> {
+        let pair = Pair::with_any_backlash(pinion, gear, centre_distance, misalignment)?;
+        if pair.backlash < -JAM_TOLERANCE * pair.pinion.rack.module {
+            let min = Pair::tight_centre_distance(&pair.pinion, &pair.gear);
+            return Err(PairError::Jam {
+                centre_distance: pair.centre_distance,
+                backlash_um: 1e3 * pair.backlash,
+                min,
+                min_misalignment: min - centre_distance,
+            });
+        }
+        Ok(pair)
+    }
+
+    /// The same where the backlash is not known: the teeth may be thinner than stated, and only their driving flanks touch.
+    ///
+    /// # Errors
+    /// A [`PairError`] if the members cannot run together there however thin their teeth are.
+    pub fn with_any_backlash(
+        pinion: Gear,
+        gear: Gear,
+        centre_distance: f64,
+        misalignment: f64,
+    ) -> Result<Pair, PairError> {
         for (quantity, value) in [
             ("centre distance", centre_distance),
             ("misalignment", misalignment),
@@ -93,17 +116,14 @@ impl Pair {
         }
         let a = centre_distance + misalignment;
         let base_sum = pinion.base_radius + gear.base_radius;
-        let jam = |backlash: f64| {
+        if a <= base_sum {
             let min = Pair::tight_centre_distance(&pinion, &gear);
-            PairError::Jam {
+            return Err(PairError::Jam {
                 centre_distance: a,
-                backlash_um: 1e3 * backlash,
+                backlash_um: f64::NEG_INFINITY,
                 min,
                 min_misalignment: min - centre_distance,
-            }
-        };
-        if a <= base_sum {
-            return Err(jam(f64::NEG_INFINITY));
+            });
         }
         let (z1, z2) = (f64::from(pinion.spec.teeth), f64::from(gear.spec.teeth));
         let pitch_radius_pinion = a * z1 / (z1 + z2);
@@ -111,9 +131,6 @@ impl Pair {
         let backlash = pitch_radius_pinion * pinion.pitch_angle()
             - pinion.thickness(pitch_radius_pinion)
             - gear.thickness(pitch_radius_gear);
-        if backlash < -JAM_TOLERANCE * pinion.rack.module {
-            return Err(jam(backlash));
-        }
         for (member, tip, root) in [
             (Member::Pinion, pinion.tip_radius, gear.root_radius),
             (Member::Gear, gear.tip_radius, pinion.root_radius),

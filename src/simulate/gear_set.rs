@@ -29,10 +29,22 @@ pub(super) const MOST_UNKNOWNS: usize = 16_000;
 impl GearSet {
     /// The pair mounted with a radial misalignment (mm).
     ///
+    /// Conditions that a study states are refused by the study if the teeth would jam. What an effect adds to them may be of
+    /// either sign: gears without a stated thickness reduction are taken to have the backlash that they need.
+    ///
     /// # Errors
     /// [`PairError`] if the gears cannot run so.
     pub fn mount(&self, misalignment: f64) -> Result<Pair, PairError> {
-        Pair::new(
+        let stated = self
+            .gears
+            .iter()
+            .any(|gear| gear.spec.thickness_reduction > 0.0);
+        let mounted = if stated {
+            Pair::new
+        } else {
+            Pair::with_any_backlash
+        };
+        mounted(
             self.gears[0].clone(),
             self.gears[1].clone(),
             self.centre_distance,

@@ -1,6 +1,6 @@
 //! What could be missing: every effect of the catalogue in each accepted form, alone or several together.
 
-use crate::effects::{CATALOGUE, Card, Hook, Prior};
+use crate::effects::{CATALOGUE, Card, Form, Hook, Prior};
 use crate::learn::measured::{ModelVersion, parameter};
 use crate::learn::parameters::Parameter;
 use crate::numeric::halton::halton;
@@ -110,6 +110,25 @@ impl Candidate {
         }
     }
 
+    /// The forms that grow out of this one, a single effect's own, with the values that its parameters were fitted to.
+    pub(super) fn grown(&self, base: &Candidate, values: &[f64]) -> Vec<Self> {
+        let card = CATALOGUE.iter().find(|card| self.names == [card.name]);
+        let Some(card) = card.filter(|_| self.is_own_form()) else {
+            return Vec::new();
+        };
+        let forms = card.forms.iter().filter(|form| !form.grown.is_empty());
+        forms
+            .filter_map(|form| {
+                let (candidate, _) = of_form(card, Some(form), base)?;
+                let starts = form.grown.iter().map(|place| [values, place].concat());
+                Some(Self {
+                    starts: starts.collect(),
+                    ..candidate
+                })
+            })
+            .collect()
+    }
+
     /// Values of a start with `amplitude` times the effect, as far as that is linear in the parameters that have a value without
     /// effect.
     pub(super) fn scaled(&self, values: &[f64], amplitude: f64) -> Vec<f64> {
@@ -157,40 +176,48 @@ fn place(name: &str) -> usize {
     place.unwrap_or(CATALOGUE.len())
 }
 
-/// The card's effect in its own form and every other accepted one.
+/// The card's effect in its own form and every other accepted one that is fitted for itself.
 fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
-    let own = std::iter::once((OWN, [].as_slice(), [].as_slice()));
-    let others = (card.forms.iter()).map(|form| (form.name, form.settings, form.frees));
-    let all: Vec<Candidate> = own
-        .chain(others)
-        .filter_map(|(form, settings, frees)| {
-            // A form's settings lie in the ranges of its card: tests walk the catalogue.
-            let spec = EffectSpec {
-                freed: frees,
-                ..EffectSpec::of_card(card, settings).ok()?
-            };
-            let fitted = spec.fitted();
-            let version = base.version.with(spec);
-            let parameters = parameters(&version.free);
-            let mut starts = starts(&fitted);
-            if fitted.len() > 1 && card.hook == Hook::WearFactor {
-                starts.extend(spread(&parameters[base.inherited..], &fitted));
-            }
-            Some(Candidate {
-                names: vec![card.name],
-                forms: vec![form],
-                siblings: 1 + card.forms.len(),
-                parameters,
-                inherited: base.inherited,
-                version,
-                starts,
-                strengths: (fitted.iter())
-                    .map(|f| (f.lower, f.upper, f.neutral.filter(|none| none.is_finite())))
-                    .collect(),
-            })
-        })
-        .collect();
-    all
+    let others = card.forms.iter().filter(|form| form.grown.is_empty());
+    let all = std::iter::once(None).chain(others.map(Some));
+    all.filter_map(|form| {
+        let (mut candidate, fitted) = of_form(card, form, base)?;
+        candidate.starts = starts(&fitted);
+        if fitted.len() > 1 && card.hook == Hook::WearFactor {
+            let own = &candidate.parameters[base.inherited..];
+            candidate.starts.extend(spread(own, &fitted));
+        }
+        Some(candidate)
+    })
+    .collect()
+}
+
+/// The card's effect in one of its forms, None the own one, without starts; and its fitted parameters.
+fn of_form(
+    card: &'static Card,
+    form: Option<&'static Form>,
+    base: &Candidate,
+) -> Option<(Candidate, Vec<FreeParameter>)> {
+    // A form's settings lie in the ranges of its card: tests walk the catalogue.
+    let spec = EffectSpec {
+        freed: form.map_or(&[], |form| form.frees),
+        ..EffectSpec::of_card(card, form.map_or(&[], |form| form.settings)).ok()?
+    };
+    let fitted = spec.fitted();
+    let version = base.version.with(spec);
+    let candidate = Candidate {
+        names: vec![card.name],
+        forms: vec![form.map_or(OWN, |form| form.name)],
+        siblings: 1 + card.forms.len(),
+        parameters: parameters(&version.free),
+        inherited: base.inherited,
+        version,
+        starts: Vec::new(),
+        strengths: (fitted.iter())
+            .map(|f| (f.lower, f.upper, f.neutral.filter(|none| none.is_finite())))
+            .collect(),
+    };
+    Some((candidate, fitted))
 }
 
 /// The defaults, the priors' medians, the mirror image of each where both signs are possible, and a weak effect.

@@ -13,19 +13,13 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::ground::{Ground, whiten};
-use crate::learn::region::Map;
 
 /// Terms along the position and over the cycles that are tried.
 const TERMS: [(usize, usize); 7] = [(1, 1), (1, 3), (3, 1), (4, 2), (7, 3), (12, 3), (18, 4)];
 /// Prior precision of the whitened coefficients, so that terms the data do not hold stay finite.
 const RIDGE: f64 = 1e-6;
-/// Bins of a continuous driver.
-const BINS: usize = 10;
-/// Share by which traces must explain more than test, member and cycles do to count as a driver of their own.
-const CLEARLY: f64 = 0.1;
 
 /// What a flexible discrepancy found.
 #[derive(Debug, Clone)]
@@ -36,15 +30,6 @@ pub(super) struct Flexible {
     pub(super) terms: usize,
     /// Its values, model minus what is missing: to be added to the model, per row.
     pub(super) values: Vec<f64>,
-}
-
-/// How much of a discrepancy one driver explains.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Driver {
-    /// position, member, cycles, depth, torque, speed, misalignment or trace.
-    pub name: String,
-    /// Share of the discrepancy's variance (in units of the noise) that depends on it alone.
-    pub variance_share: f64,
 }
 
 /// One place of the map of a smooth discrepancy.
@@ -143,140 +128,11 @@ impl Flexible {
         };
         self.values.iter().enumerate().map(of).collect()
     }
-
-    /// Shares of the variance by driver, the largest first.
-    ///
-    /// ```text
-    /// share = [Σ_bins (Σ m f/σ²)²/Σ f²/σ²]/Σ m²/σ²      f: the model's value, a factor on it; or 1, a constant added to it
-    /// ```
-    /// The larger of both; `m` is first freed of what a factor per test explains, since k is free.
-    pub(super) fn drivers(&self, ground: &Ground<'_>, model: &[f64]) -> Vec<Driver> {
-        let map = Map::new(ground.measured.study(), &ground.measured.data);
-        let m: Vec<f64> = self.values.clone();
-        let weight: Vec<f64> = (0..ground.len())
-            .map(|i| ground.observation(i).sigma.powi(-2))
-            .collect();
-        let total: f64 = m.iter().zip(&weight).map(|(m, w)| m * m * w).sum();
-        if total <= 0.0 {
-            return Vec::new();
-        }
-        let tests = &ground.measured.study().tests;
-        let conditions = |i: usize| &tests[ground.observation(i).test].conditions;
-        let by = |of: &dyn Fn(usize) -> Option<f64>| -> Vec<Option<f64>> {
-            (0..ground.len()).map(of).collect()
-        };
-        let place = |i: usize| {
-            let o = ground.observation(i);
-            map.path(o).or(o.position)
-        };
-        let all: [(&str, Vec<Option<f64>>); 7] = [
-            ("position", by(&place)),
-            (
-                "member",
-                by(&|i| Some(ground.observation(i).member as u8 as f64)),
-            ),
-            ("cycles", by(&|i| Some(ground.observation(i).cycles.ln()))),
-            ("depth", by(&|i| Some(model[i]))),
-            ("torque", by(&|i| Some(conditions(i).torque_nmm))),
-            ("speed", by(&|i| Some(conditions(i).speed_rpm))),
-            ("misalignment", by(&|i| Some(conditions(i).misalignment_mm))),
-        ];
-        let explained = |bins: &[usize]| {
-            let share = |f: &dyn Fn(usize) -> f64| explained(&m, &weight, bins, f) / total;
-            share(&|i| model[i]).max(share(&|_| 1.0)).min(1.0)
-        };
-        let mut drivers: Vec<Driver> = all
-            .into_iter()
-            .map(|(name, of)| Driver {
-                name: name.to_owned(),
-                variance_share: explained(&binned(&of)),
-            })
-            .collect();
-        let cells: Vec<[u64; 3]> = (0..ground.len())
-            .map(|i| ground.observation(i))
-            .map(|o| [o.test as u64, o.member as u64, o.cycles.to_bits()])
-            .collect();
-        let traces: Vec<Option<usize>> = (0..ground.len())
-            .map(|i| ground.observation(i).trace)
-            .collect();
-        drivers.push(Driver {
-            name: "trace".to_owned(),
-            variance_share: of_trace(&traces, &cells, &explained),
-        });
-        drivers.sort_by(|a, b| b.variance_share.total_cmp(&a.variance_share));
-        drivers
-    }
 }
 
 fn best(tried: &[Flexible], value: impl Fn(&Flexible) -> f64) -> &Flexible {
     (tried.iter().max_by(|a, b| value(a).total_cmp(&value(b))))
         .expect("some numbers of terms are tried")
-}
-
-/// Σ over bins of (Σ m f/σ²)²/Σ f²/σ².
-fn explained(m: &[f64], weight: &[f64], bins: &[usize], f: &dyn Fn(usize) -> f64) -> f64 {
-    let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
-    for (i, bin) in bins.iter().enumerate() {
-        let sum = sums.entry(*bin).or_default();
-        sum[0] += m[i] * f(i) * weight[i];
-        sum[1] += f(i) * f(i) * weight[i];
-    }
-    let seen = sums.values().filter(|s| s[1] > 0.0);
-    seen.map(|s| s[0] * s[0] / s[1]).sum()
-}
-
-/// Share that the traces explain: all of it where they explain clearly more than test, member and cycles, alone or together, do
-/// with no more bins; else only what they explain beyond those. One trace for each test, member and time so explains nothing.
-fn of_trace(
-    traces: &[Option<usize>],
-    cells: &[[u64; 3]],
-    explained: &dyn Fn(&[usize]) -> f64,
-) -> f64 {
-    let bins: Vec<usize> = traces.iter().map(|t| t.map_or(0, |t| 1 + t)).collect();
-    let count = |bins: &[usize]| {
-        let distinct: std::collections::BTreeSet<usize> = bins.iter().copied().collect();
-        distinct.len()
-    };
-    let (own, most) = (explained(&bins), count(&bins));
-    if most < 2 {
-        return 0.0;
-    }
-    // Every set of test, member and cycles by the bits of its number; what is not in the set is made alike.
-    let others = (1..8).filter_map(|set| {
-        let mut numbers: BTreeMap<[u64; 3], usize> = BTreeMap::new();
-        let bins: Vec<usize> = cells
-            .iter()
-            .map(|cell| {
-                let key = [0, 1, 2].map(|i| if set >> i & 1 == 1 { cell[i] } else { 0 });
-                let next = numbers.len();
-                *numbers.entry(key).or_insert(next)
-            })
-            .collect();
-        (numbers.len() <= most).then(|| explained(&bins))
-    });
-    let beyond = own - others.fold(0.0, f64::max);
-    if beyond > CLEARLY {
-        own
-    } else {
-        beyond.max(0.0)
-    }
-}
-
-/// Numbers of bins of about equal size; few different values are bins of their own.
-fn binned(values: &[Option<f64>]) -> Vec<usize> {
-    let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
-    sorted.sort_by(f64::total_cmp);
-    let mut distinct = sorted.clone();
-    distinct.dedup();
-    let edges = if distinct.len() <= BINS {
-        distinct
-    } else {
-        (0..BINS).map(|i| sorted[i * sorted.len() / BINS]).collect()
-    };
-    values
-        .iter()
-        .map(|v| v.map_or(0, |v| 1 + edges.iter().filter(|edge| **edge <= v).count()))
-        .collect()
 }
 
 /// Rows of one test, member and quantity.
@@ -341,47 +197,4 @@ fn groups(ground: &Ground<'_>) -> Vec<Group> {
             }
         })
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two tests, two members, four times, three places each, with one trace for each of them all.
-    fn cells() -> Vec<[u64; 3]> {
-        (0..48).map(|i| [i / 24, i / 12 % 2, i / 3 % 4]).collect()
-    }
-
-    fn share(m: &[f64], traces: &[Option<usize>]) -> f64 {
-        let weight = vec![1.0; m.len()];
-        let total: f64 = m.iter().map(|m| m * m).sum();
-        of_trace(traces, &cells(), &|bins| {
-            explained(m, &weight, bins, &|_| 1.0) / total
-        })
-    }
-
-    #[test]
-    fn a_trace_for_each_test_member_and_time_explains_nothing_of_its_own() {
-        let traces: Vec<Option<usize>> = (0..48).map(|i| Some(i / 3)).collect();
-        let m: Vec<f64> = (0..48).map(|i| ((i / 3 * 7) % 16) as f64).collect();
-        // every trace has another constant, but so has every cell
-        assert!(share(&m, &traces) < 1e-12);
-        // the same with a trace for each test and member
-        let traces: Vec<Option<usize>> = (0..48).map(|i| Some(i / 12)).collect();
-        let m: Vec<f64> = (0..48).map(|i| (1 + i / 12) as f64).collect();
-        assert!(share(&m, &traces) < 1e-12);
-    }
-
-    #[test]
-    fn traces_that_cut_across_tests_and_times_are_a_driver() {
-        // two instruments that take turns, the other way round in the second test: no test, member or time explains them
-        let label = |c: &[u64; 3]| (c[0] + c[2]) % 2;
-        let traces: Vec<Option<usize>> = cells().iter().map(|c| Some(label(c) as usize)).collect();
-        let m: Vec<f64> = cells()
-            .iter()
-            .map(|c| 2.0 * label(c) as f64 - 1.0)
-            .collect();
-        assert!((share(&m, &traces) - 1.0).abs() < 1e-12);
-        assert_eq!(share(&m, &vec![None; 48]), 0.0);
-    }
 }

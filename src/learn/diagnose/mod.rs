@@ -13,11 +13,13 @@ mod anchored;
 mod binned;
 mod campaign;
 mod candidate;
+mod dependence;
 mod drivers;
 mod feasible;
 mod fidelity;
 mod flexible;
 mod ground;
+mod grown;
 mod judge;
 mod layout;
 mod next;
@@ -32,6 +34,7 @@ mod sparse;
 mod suspects;
 mod table;
 mod telling;
+mod unknown;
 mod verdict;
 mod warnings;
 mod words;
@@ -45,11 +48,12 @@ use crate::study::{ContactKind as StudiedContact, Role};
 
 pub use binned::{BinMean, Explained};
 pub use candidate::NotJudged;
+pub use dependence::Driver;
 pub use drivers::{
     DRIVER_KINDS, DRIVERS, DriverBin, DriverKind, DriverRow, ResidualDriver, ResidualDrivers,
 };
 pub use fidelity::Fidelity;
-pub use flexible::{Driver, MapPoint};
+pub use flexible::MapPoint;
 pub use plan::{
     AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
     plan_after, plan_first,
@@ -183,6 +187,8 @@ fn with(
     let screened = judge.screen(&base, &singles);
     let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
     let sparse = sparse::selection(judge, &base, &screened);
+    let grown = grown::of(judge, &base, &screened, &flexible);
+    let screened: Vec<Judged> = screened.into_iter().chain(grown).collect();
     let screened = match judge.fidelity {
         Fidelity::Screening => screened,
         Fidelity::Middle | Fidelity::Full => {
@@ -207,14 +213,7 @@ fn with(
     };
     let failed = not_fitted(&singles, &judged);
     watch(0.93, "weighing".to_owned());
-    let ranking = Ranking::new(
-        &judge.ground,
-        &base.judged,
-        judged,
-        pairs,
-        &flexible,
-        judge.approximate,
-    );
+    let ranking = Ranking::new(judge, &base, judged, pairs, &flexible);
     watch(0.95, "held-out tests and the next experiment".to_owned());
     let mut diagnosis =
         verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged, failed);

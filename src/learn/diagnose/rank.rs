@@ -2,13 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::flexible::Flexible;
-use super::ground::Ground;
-use super::judge::Judged;
+use super::judge::{Base, Judge, Judged};
 use super::{NOTHING, UNKNOWN};
-use crate::learn::noise::ModelError;
 
 /// Prior probabilities.
 const PRIOR_NOTHING: f64 = 0.5;
@@ -47,14 +43,13 @@ pub(super) struct Ranking {
 
 impl Ranking {
     pub(super) fn new(
-        ground: &Ground<'_>,
-        base: &Judged,
+        judge: &Judge<'_>,
+        base: &Base,
         singles: Vec<Judged>,
         pairs: Vec<Judged>,
         flexible: &Flexible,
-        approximate: bool,
     ) -> Self {
-        let least_share = if approximate {
+        let least_share = if judge.approximate {
             SHARE_OF_SCREENING
         } else {
             SHARE
@@ -67,7 +62,8 @@ impl Ranking {
         names.dedup();
         let count = names.len().max(1) as f64;
         let all_pairs = (0.5 * count * (count - 1.0)).max(1.0);
-        let unknown = unknown_evidence(ground, base);
+        let unknown = super::unknown::log_evidence(judge, base);
+        let base = &base.judged;
         let mut judged: Vec<Judged> = singles.into_iter().chain(pairs).collect();
         judged.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let share = |j: &Judged| {
@@ -162,47 +158,4 @@ fn stronger_alone(base: &Judged, judged: &[Judged], pair: &Judged) -> Option<(St
     let alone = base.square - stronger.square;
     let added = stronger.square - pair.square;
     (alone > 0.0).then(|| (stronger.candidate.name(), added / alone))
-}
-
-/// Log evidence of the base model with a smooth discrepancy of unknown size and lengths (Kennedy and O'Hagan 2001): the mean
-/// over a grid of those.
-fn unknown_evidence(ground: &Ground<'_>, base: &Judged) -> f64 {
-    let size = curve_sizes(ground);
-    let mut grid = Vec::new();
-    for relative in [0.02, 0.05, 0.12, 0.3] {
-        for along in [0.08, 0.25] {
-            for over_cycles in [0.7, 3.0] {
-                grid.push(ModelError {
-                    relative,
-                    along,
-                    over_cycles,
-                });
-            }
-        }
-    }
-    let logs: Vec<f64> = grid
-        .par_iter()
-        .map(|error| {
-            let parameters = &base.candidate.parameters;
-            ground
-                .evidence_with(&base.found, parameters, Some((&size, *error)))
-                .0
-        })
-        .collect();
-    let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    top + (logs.iter().map(|l| (l - top).exp()).sum::<f64>() / logs.len() as f64).ln()
-}
-
-/// The largest magnitude measured in each row's curve.
-fn curve_sizes(ground: &Ground<'_>) -> Vec<f64> {
-    let mut largest = BTreeMap::new();
-    let key = |i: usize| {
-        let o = ground.observation(i);
-        (o.test, o.member, o.quantity, o.cycles.to_bits())
-    };
-    for i in 0..ground.len() {
-        let entry: &mut f64 = largest.entry(key(i)).or_insert(0.0);
-        *entry = entry.max(ground.observation(i).value.abs());
-    }
-    (0..ground.len()).map(|i| largest[&key(i)]).collect()
 }

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::candidate::NotJudged;
+use super::dependence::{self, Driver};
 use super::drivers::{self, ResidualDrivers};
-use super::flexible::{Driver, Flexible, MapPoint};
+use super::flexible::{Flexible, MapPoint};
 use super::judge::{Base, Judge};
 use super::rank::Ranking;
 use super::ranked::{Ranked, form, parameters, ranked};
@@ -210,8 +211,9 @@ pub(super) fn diagnosis(
         Verdict::Effect | Verdict::Effects if group.len() > 1 => vec![group],
         _ => Vec::new(),
     };
-    let smooth = if flexible.is_real() && !few(ground, base) {
-        flexible.drivers(ground, &base.judged.found.model)
+    let follows = (flexible.is_real() || verdict == Verdict::Unknown) && !few(ground, base);
+    let smooth = if follows {
+        dependence::drivers(ground, &base.judged.found.model, flexible.drop)
     } else {
         Vec::new()
     };

@@ -1,0 +1,319 @@
+//! What a discrepancy depends on: how much of it a function of one driver alone explains.
+//!
+//! ```text
+//! m = g(row) Σ_j a_j φ_j(driver)      g: 1, or the model's own value, of which most missing effects are a share
+//! share = (fall of χ² by the a_j − their number − what a factor on the model gains)/attainable fall of χ²
+//! ```
+//! The fall is that of the whitened residual, in which datums and the model's own error are no discrepancy, and the factor on the
+//! model (the wear coefficient is free) is none of a driver's. The functions φ are common to all tests: a driver is what the
+//! discrepancy follows wherever it takes the same value. φ of the position may differ between the members, as far as it explains
+//! more than the members do.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+use super::ground::{Ground, whiten};
+use crate::learn::region::Map;
+use crate::measure::Observation;
+
+/// Most functions of the position, of the cycles, of the depth, and of a condition of the tests.
+const ALONG: usize = 24;
+const OVER_CYCLES: usize = 8;
+const OVER_DEPTH: usize = 4;
+const OVER_CONDITIONS: usize = 3;
+/// Prior precision of the coefficients, in shares of what the data hold.
+const RIDGE: f64 = 1e-6;
+/// Share by which traces must explain more than test, member and cycles do to count as a driver of their own.
+const CLEARLY: f64 = 0.1;
+
+/// How much of a discrepancy one driver explains.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Driver {
+    /// position, member, cycles, depth, torque, speed, misalignment or trace.
+    pub name: String,
+    /// Share of the discrepancy (of the χ² that it makes) that follows it alone.
+    pub variance_share: f64,
+}
+
+/// Shares of the discrepancy between measurements and `model` by driver, the largest first; `attainable`: the fall of χ² that
+/// anything smooth could reach.
+pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Vec<Driver> {
+    let white = DVector::from_vec(ground.covariance.whiten(&ground.residual(model)));
+    let seen = Seen {
+        ground,
+        model,
+        kinds: numbered((0..ground.len()).map(|i| ground.observation(i).quantity)),
+        white,
+        attainable: attainable.max(f64::MIN_POSITIVE),
+    };
+    let rows = ground.len();
+    let all = vec![0; rows];
+    let members: Vec<usize> = (0..rows)
+        .map(|i| ground.observation(i).member as usize)
+        .collect();
+    let map = Map::new(ground.measured.study(), &ground.measured.data);
+    let tests = &ground.measured.study().tests;
+    let by = |of: &dyn Fn(&Observation) -> f64| -> Vec<f64> {
+        (0..rows).map(|i| of(ground.observation(i))).collect()
+    };
+    let condition = |of: &dyn Fn(&crate::study::Operation) -> f64| {
+        let values = by(&|o| of(&tests[o.test].conditions));
+        seen.share(&all, &polynomials(&seen.kinds, &values, OVER_CONDITIONS))
+    };
+    let member = seen.share(&members, &constant(rows));
+    let place = by(&|o| map.path(o).or(o.position).unwrap_or(0.0));
+    let waves = waves(&seen.kinds, &place, ALONG);
+    let position = seen
+        .share(&all, &waves)
+        .max(seen.share(&members, &waves) - member);
+    let cycles = [f64::ln, |n| n]
+        .map(|scale| polynomials(&seen.kinds, &by(&|o| scale(o.cycles)), OVER_CYCLES))
+        .map(|functions| seen.share(&all, &functions));
+    let depth = seen.share(&all, &polynomials(&seen.kinds, model, OVER_DEPTH));
+    let shares = [
+        ("position", position),
+        ("member", member),
+        ("cycles", cycles[0].max(cycles[1])),
+        ("depth", depth),
+        ("torque", condition(&|at| at.torque_nmm.ln())),
+        ("speed", condition(&|at| at.speed_rpm.ln())),
+        ("misalignment", condition(&|at| at.misalignment_mm)),
+        ("trace", seen.share_of_traces()),
+    ];
+    let mut drivers: Vec<Driver> = shares
+        .into_iter()
+        .map(|(name, share)| Driver {
+            name: name.to_owned(),
+            variance_share: share.clamp(0.0, 1.0),
+        })
+        .collect();
+    drivers.sort_by(|a, b| b.variance_share.total_cmp(&a.variance_share));
+    drivers
+}
+
+/// Functions of a driver: their values at each row, none where all are zero.
+pub(super) type Functions = Vec<Vec<f64>>;
+
+/// A discrepancy as the data see it.
+struct Seen<'a> {
+    ground: &'a Ground<'a>,
+    model: &'a [f64],
+    /// Number of each row's quantity: functions are none of different quantities' in common.
+    kinds: Vec<usize>,
+    white: DVector<f64>,
+    attainable: f64,
+}
+
+impl Seen<'_> {
+    /// Share that functions of one driver explain, one set of them for each group of rows.
+    fn share(&self, groups: &[usize], functions: &Functions) -> f64 {
+        let groups = numbered(groups.iter().zip(&self.kinds));
+        let ones = vec![1.0; self.model.len()];
+        let free = self.columns(&self.kinds, self.model, &constant(self.model.len()));
+        let (at_first, before) = self.fall(&free);
+        [ones.as_slice(), self.model]
+            .map(|g| {
+                let mut columns = free.clone();
+                columns.extend(self.columns(&groups, g, functions));
+                let (fall, count) = self.fall(&columns);
+                (fall - at_first - (count - before) as f64) / self.attainable
+            })
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    /// g φ_j at the rows of each group.
+    fn columns(&self, groups: &[usize], g: &[f64], functions: &Functions) -> Vec<Vec<f64>> {
+        let count = groups.iter().max().map_or(0, |last| last + 1);
+        let at = |group: usize, of: &Vec<f64>| -> Vec<f64> {
+            (0..g.len())
+                .map(|i| {
+                    if groups[i] == group {
+                        g[i] * of[i]
+                    } else {
+                        0.0
+                    }
+                })
+                .collect()
+        };
+        (0..count)
+            .flat_map(|group| functions.iter().map(move |of| at(group, of)))
+            .filter(|column| column.iter().any(|v| *v != 0.0))
+            .collect()
+    }
+
+    /// Fall of χ² by columns, and how many of them the data tell apart.
+    fn fall(&self, columns: &[Vec<f64>]) -> (f64, usize) {
+        let rows = self.model.len();
+        let matrix = DMatrix::from_fn(rows, columns.len(), |i, j| columns[j][i]);
+        let mut white = whiten(&self.ground.covariance, &matrix);
+        for mut column in white.column_iter_mut() {
+            let size = column.norm();
+            if size > 0.0 {
+                column /= size;
+            }
+        }
+        let right = white.tr_mul(&self.white);
+        let eigen = white.tr_mul(&white).symmetric_eigen();
+        let (mut fall, mut count) = (0.0, 0);
+        for (value, vector) in eigen
+            .eigenvalues
+            .iter()
+            .zip(eigen.eigenvectors.column_iter())
+        {
+            if *value > RIDGE {
+                fall += vector.dot(&right).powi(2) / value;
+                count += 1;
+            }
+        }
+        (fall, count)
+    }
+
+    /// Share that the traces explain, each by a constant, a factor and a slope: all of it where they explain clearly more than
+    /// test, member and cycles, alone or together, do with no more of them; else only what they explain beyond those. One trace
+    /// for each test, member and time so explains nothing.
+    fn share_of_traces(&self) -> f64 {
+        let of = |i: usize| self.ground.observation(i);
+        let rows = self.model.len();
+        let traces: Vec<Option<usize>> = (0..rows).map(|i| of(i).trace).collect();
+        let cells: Vec<[u64; 3]> = (0..rows)
+            .map(of)
+            .map(|o| [o.test as u64, o.member as u64, o.cycles.to_bits()])
+            .collect();
+        let places: Vec<f64> = (0..rows).map(|i| of(i).position.unwrap_or(0.0)).collect();
+        let functions = polynomials(&self.kinds, &places, 2);
+        of_traces(&traces, &cells, &|groups| self.share(groups, &functions))
+    }
+}
+
+/// What [`Seen::share_of_traces`] says, with the share that groups of rows explain.
+fn of_traces(
+    traces: &[Option<usize>],
+    cells: &[[u64; 3]],
+    explained: &dyn Fn(&[usize]) -> f64,
+) -> f64 {
+    let count = |groups: &[usize]| groups.iter().copied().collect::<BTreeSet<_>>().len();
+    let own = numbered(traces.iter());
+    let most = count(&own);
+    if most < 2 {
+        return 0.0;
+    }
+    let share = explained(&own);
+    // Every set of test, member and cycles by the bits of its number; what is not in the set is made alike.
+    let others = (1..8).filter_map(|set| {
+        let of = |cell: &[u64; 3]| [0, 1, 2].map(|i| if set >> i & 1 == 1 { cell[i] } else { 0 });
+        let groups = numbered(cells.iter().map(of));
+        (count(&groups) <= most).then(|| explained(&groups))
+    });
+    let beyond = share - others.fold(0.0, f64::max);
+    if beyond > CLEARLY {
+        share
+    } else {
+        beyond.max(0.0)
+    }
+}
+
+/// Numbers from 0 for values, alike where they are.
+pub(super) fn numbered<T: Ord>(values: impl Iterator<Item = T>) -> Vec<usize> {
+    let mut numbers = BTreeMap::new();
+    values
+        .map(|value| {
+            let next = numbers.len();
+            *numbers.entry(value).or_insert(next)
+        })
+        .collect()
+}
+
+fn constant(rows: usize) -> Functions {
+    vec![vec![1.0; rows]]
+}
+
+/// Chebyshev's polynomials over the range of the values, fewer than there are different values.
+pub(super) fn polynomials(kinds: &[usize], values: &[f64], most: usize) -> Functions {
+    let (x, distinct) = ranged(kinds, values);
+    let chebyshev = |degree: usize, x: f64| (degree as f64 * (2.0 * x - 1.0).acos()).cos();
+    (0..most.min(distinct))
+        .map(|degree| x.iter().map(|&x| chebyshev(degree, x)).collect())
+        .collect()
+}
+
+/// Cosines over the range of the values, fewer than there are different values.
+pub(super) fn waves(kinds: &[usize], values: &[f64], most: usize) -> Functions {
+    let (x, distinct) = ranged(kinds, values);
+    (0..most.min(distinct))
+        .map(|p| x.iter().map(|x| (p as f64 * PI * x).cos()).collect())
+        .collect()
+}
+
+/// Values as shares of the range that those of their kind have, and how many are different in a kind at most.
+fn ranged(kinds: &[usize], values: &[f64]) -> (Vec<f64>, usize) {
+    let mut shares = vec![0.0; values.len()];
+    let mut most = 0;
+    for kind in 0..kinds.iter().max().map_or(0, |last| last + 1) {
+        let own: Vec<usize> = (0..values.len()).filter(|&i| kinds[i] == kind).collect();
+        let mut distinct: Vec<f64> = own.iter().map(|&i| values[i]).collect();
+        distinct.sort_by(f64::total_cmp);
+        distinct.dedup();
+        let (low, high) = (distinct[0], distinct[distinct.len() - 1]);
+        let width = if high > low { high - low } else { 1.0 };
+        for i in own {
+            shares[i] = ((values[i] - low) / width).clamp(0.0, 1.0);
+        }
+        most = most.max(distinct.len());
+    }
+    (shares, most)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two tests, two members, four times, three places each, with one trace for each of them all.
+    fn cells() -> Vec<[u64; 3]> {
+        (0..48).map(|i| [i / 24, i / 12 % 2, i / 3 % 4]).collect()
+    }
+
+    /// Share of the variance of `m` between groups.
+    fn between(m: &[f64], groups: &[usize]) -> f64 {
+        let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for (m, group) in m.iter().zip(groups) {
+            let sum = sums.entry(*group).or_default();
+            sum[0] += m;
+            sum[1] += 1.0;
+        }
+        let total: f64 = m.iter().map(|m| m * m).sum();
+        sums.values().map(|s| s[0] * s[0] / s[1]).sum::<f64>() / total
+    }
+
+    fn share(m: &[f64], traces: &[Option<usize>]) -> f64 {
+        of_traces(traces, &cells(), &|groups| between(m, groups))
+    }
+
+    #[test]
+    fn a_trace_for_each_test_member_and_time_explains_nothing_of_its_own() {
+        let traces: Vec<Option<usize>> = (0..48).map(|i| Some(i / 3)).collect();
+        let m: Vec<f64> = (0..48).map(|i| ((i / 3 * 7) % 16) as f64).collect();
+        // every trace has another constant, but so has every cell
+        assert!(share(&m, &traces) < 1e-12);
+        // the same with a trace for each test and member
+        let traces: Vec<Option<usize>> = (0..48).map(|i| Some(i / 12)).collect();
+        let m: Vec<f64> = (0..48).map(|i| (1 + i / 12) as f64).collect();
+        assert!(share(&m, &traces) < 1e-12);
+    }
+
+    #[test]
+    fn traces_that_cut_across_tests_and_times_are_a_driver() {
+        // two instruments that take turns, the other way round in the second test: no test, member or time explains them
+        let label = |c: &[u64; 3]| (c[0] + c[2]) % 2;
+        let traces: Vec<Option<usize>> = cells().iter().map(|c| Some(label(c) as usize)).collect();
+        let m: Vec<f64> = cells()
+            .iter()
+            .map(|c| 2.0 * label(c) as f64 - 1.0)
+            .collect();
+        assert!((share(&m, &traces) - 1.0).abs() < 1e-12);
+        assert_eq!(share(&m, &[None; 48]), 0.0);
+    }
+}
