@@ -1,7 +1,8 @@
 //! `gearwear add`: one more effect in a study.
 //!
 //! ```text
-//! study + effect -> draft (the effect with set or default values, free where not set) -> fit what is free -> new study file
+//! study + effect -> drafts (the effect in each form, with set or default values, free where not set) -> fit what is free
+//!       -> the draft that fits best -> new study file
 //! ```
 
 use std::fmt::Write as _;
@@ -13,15 +14,15 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::{CliError, Context, Outcome};
-use crate::effects::{Card, find};
-use crate::learn::{Compared, ModelVersion, Share, contact_of};
+use crate::effects::{Card, Form, find};
+use crate::learn::{AddedForm, Addition, ModelVersion, Share};
 use crate::measure::Dataset;
 use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded};
 
 /// Arguments of `add`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10"
+    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10\n  gearwear add study.toml running_in --form hyperbolic"
 )]
 pub struct AddArgs {
     /// Study file (TOML); it stays as it is
@@ -39,14 +40,40 @@ pub struct AddArgs {
     /// Give a parameter of the effect, or wear.coefficient, this value instead of fitting it; may be repeated
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, f64)>,
+    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists [default: its own, and the others too if that
+    /// leaves more than noise and no parameter of the effect is set]
+    #[arg(long, value_name = "FORM")]
+    form: Option<String>,
     /// Overwrite the new study file
     #[arg(long)]
     force: bool,
 }
 
+/// Name of the form that the card's own values make.
+const OWN: &str = "own";
+
+/// The study with the effect in it, in one form.
+#[derive(Debug)]
+pub(super) struct Draft {
+    /// The form; None for the effect's own.
+    pub(super) form: Option<&'static Form>,
+    /// The study with every fitted parameter stated, free unless set.
+    pub(super) study: Study,
+    /// What is to be adjusted.
+    pub(super) free: Vec<FreeParameter>,
+}
+
+impl Draft {
+    fn form(&self) -> &'static str {
+        self.form.map_or(OWN, |form| form.name)
+    }
+}
+
 /// What a fit found: a value for each parameter that it was asked for, and what else it has to say.
 #[derive(Debug)]
 pub(super) struct Fitted {
+    /// Which of the drafts.
+    pub(super) draft: usize,
     /// Names and values.
     pub(super) values: Vec<(String, f64)>,
     /// Joins the command's document under `fit`.
@@ -57,23 +84,32 @@ pub(super) struct Fitted {
 
 /// Adds the effect, fits what is free, writes the new study.
 pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliError> {
-    add(args, |study, data, free| fit(study, data, free, context))
+    add(args, |drafts, data| fit(drafts, data, context))
 }
 
-/// Fits the free parameters of a study to its measurements.
-fn fit(
-    study: &Study,
-    data: &Dataset,
-    free: &[FreeParameter],
-    context: &Context,
-) -> Result<Fitted, CliError> {
-    contact_of(study)?;
-    let version = ModelVersion {
-        effects: study.effect_model().clone(),
-        free: free.to_vec(),
-    };
-    let Compared { fit, comparison } =
-        super::fitting::fitted(study, data, &version, context, "add")?;
+/// Fits the free parameters of the drafts to their measurements.
+fn fit(drafts: &[Draft], data: &Dataset, context: &Context) -> Result<Fitted, CliError> {
+    let forms: Vec<AddedForm> = drafts
+        .iter()
+        .map(|draft| AddedForm {
+            version: ModelVersion {
+                effects: draft.study.effect_model().clone(),
+                free: draft.free.clone(),
+            },
+            grown: draft.form.map_or(&[], |form| form.grown),
+        })
+        .collect();
+    let progress = context.progress("add");
+    let addition = crate::learn::add(&drafts[0].study, data, &forms, &|doing, form| {
+        super::fitting::show_form(&progress, doing, drafts[form].form());
+    })?;
+    Ok(told(drafts, &addition))
+}
+
+/// A fit in words and in the command's document.
+fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
+    let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
+    let chosen = drafts[addition.form].form();
     let mut text = String::new();
     for p in &fit.parameters {
         let [low, high] = p.interval;
@@ -91,14 +127,42 @@ fn fit(
     if let Some(chi2) = chi2(&comparison.holdout) {
         let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
     }
+    let tried: Vec<Value> = (drafts.iter().zip(&addition.tried))
+        .filter_map(|(draft, tried)| {
+            let tried = (*tried)?;
+            Some(json!({
+                "form": draft.form(),
+                "log_evidence": tried.log_evidence,
+                "chi2_per_point": tried.chi2_per_point,
+            }))
+        })
+        .collect();
+    if tried.len() > 1 {
+        let each = drafts
+            .iter()
+            .zip(&addition.tried)
+            .filter_map(|(draft, tried)| {
+                let chi2 = (*tried)?.chi2_per_point?;
+                Some(format!("{} {chi2:.3}", draft.form()))
+            });
+        let each: Vec<String> = each.collect();
+        let _ = writeln!(
+            text,
+            "  form of the law: {chosen} (chi2 per point by form: {})",
+            each.join(", ")
+        );
+    }
     for warning in &comparison.warnings {
         let _ = writeln!(text, "  warning: {warning}");
     }
-    Ok(Fitted {
+    Fitted {
+        draft: addition.form,
         values: (fit.parameters.iter())
             .map(|p| (p.name.clone(), p.value))
             .collect(),
         json: json!({
+            "form": chosen,
+            "forms": tried,
             "parameters": comparison.parameters,
             "fit": comparison.fit,
             "holdout": comparison.holdout,
@@ -106,36 +170,34 @@ fn fit(
             "warnings": comparison.warnings,
         }),
         text,
-    })
+    }
 }
 
-/// The command with its fit, which is asked only if a parameter has no set value: the study has the effect in it, `free` is
-/// what to adjust.
+/// The command with its fit, which is asked only if a parameter has no set value.
 fn add(
     args: &AddArgs,
-    fit: impl FnOnce(&Study, &Dataset, &[FreeParameter]) -> Result<Fitted, CliError>,
+    fit: impl FnOnce(&[Draft], &Dataset) -> Result<Fitted, CliError>,
 ) -> Result<Outcome, CliError> {
     let card = card(&args.effect)?;
     let study = Study::load(&args.study)?;
     let target = target(args)?;
-    let (draft, set) = draft(args, card, &study, &target)?;
-    let free: Vec<FreeParameter> = draft
-        .free()
-        .iter()
-        .filter(|free| !set.iter().any(|(name, _)| *name == free.name))
-        .cloned()
-        .collect();
+    let set = settings(args, card)?;
+    let own_is_set = set.iter().any(|(name, _)| name != WEAR_COEFFICIENT);
+    let mut drafts = Vec::new();
+    for form in forms(card, args.form.as_deref(), own_is_set)? {
+        drafts.push(draft(args, card, form, &study, &target, &set)?);
+    }
     let mut report = Report {
         values: set,
         fit: None,
         text: String::new(),
     };
-    let new = if free.is_empty() {
-        draft
+    let new = if drafts[0].free.is_empty() {
+        drafts.swap_remove(0).study
     } else {
-        let data = draft.dataset()?;
-        let fitted = fit(&draft, &data, &free)?;
-        let mut edit = draft.edit();
+        let data = drafts[0].study.dataset()?;
+        let fitted = fit(&drafts, &data)?;
+        let mut edit = drafts[fitted.draft].study.edit();
         for (name, value) in fitted.values {
             let value = rounded(value);
             edit.set(&name, value);
@@ -151,6 +213,35 @@ fn add(
         source,
     })?;
     Ok(report.outcome(&target))
+}
+
+/// The forms to fit: the one asked for; else the own one first, and the others unless the effect's own parameters are set.
+fn forms(
+    card: &'static Card,
+    asked: Option<&str>,
+    set: bool,
+) -> Result<Vec<Option<&'static Form>>, CliError> {
+    let others = card.forms.iter().map(Some);
+    match asked {
+        None if set => Ok(vec![None]),
+        None => Ok(std::iter::once(None).chain(others).collect()),
+        Some(OWN) => Ok(vec![None]),
+        Some(name) => {
+            let form = card.forms.iter().find(|form| form.name == name);
+            let form = form.ok_or_else(|| {
+                let names: Vec<String> = std::iter::once(OWN)
+                    .chain(card.forms.iter().map(|form| form.name))
+                    .map(|name| format!("\"{name}\""))
+                    .collect();
+                CliError::Unusable(format!(
+                    "{} has no form `{name}`, allowed: {}",
+                    card.name,
+                    names.join(", ")
+                ))
+            })?;
+            Ok(vec![Some(form)])
+        }
+    }
 }
 
 /// What the command tells.
@@ -186,23 +277,15 @@ impl Report {
     }
 }
 
-/// The study with the effect in it, every fitted parameter stated and free unless set; and all that was set, by full names.
-fn draft(
-    args: &AddArgs,
-    card: &'static Card,
-    study: &Study,
-    target: &Path,
-) -> Result<(Study, Vec<(String, f64)>), CliError> {
+/// All that was set, by full names.
+fn settings(args: &AddArgs, card: &Card) -> Result<Vec<(String, f64)>, CliError> {
     let prefix = format!("{}.", card.name);
-    let (mut coefficient, mut own) = (None, Vec::new());
     let mut set: Vec<(String, f64)> = Vec::new();
     for (name, value) in args.set.iter().chain(&args.more) {
         let short = name.strip_prefix(&prefix).unwrap_or(name);
         let full = if name == WEAR_COEFFICIENT {
-            coefficient = Some(*value);
             name.clone()
         } else {
-            own.push((short, *value));
             format!("{prefix}{short}")
         };
         if set.iter().any(|(above, _)| *above == full) {
@@ -212,27 +295,58 @@ fn draft(
         }
         set.push((full, *value));
     }
-    let spec = EffectSpec::of_card(card, &own)?;
+    Ok(set)
+}
+
+/// The study with the effect in it in one form, every fitted parameter stated and free unless set.
+fn draft(
+    args: &AddArgs,
+    card: &'static Card,
+    form: Option<&'static Form>,
+    study: &Study,
+    target: &Path,
+    set: &[(String, f64)],
+) -> Result<Draft, CliError> {
+    let prefix = format!("{}.", card.name);
+    let own = (set.iter()).filter_map(|(name, value)| Some((name.strip_prefix(&prefix)?, *value)));
+    let own: Vec<(&str, f64)> = own.collect();
+    let is_set = |short: &str| own.iter().any(|(name, _)| *name == short);
+    let settings = form.map_or(&[] as &[_], |form| form.settings).iter();
+    let stated: Vec<(&str, f64)> = (own.iter().copied())
+        .chain(settings.copied().filter(|(name, _)| !is_set(name)))
+        .collect();
+    let spec = EffectSpec {
+        freed: form.map_or(&[], |form| form.frees),
+        ..EffectSpec::of_card(card, &stated)?
+    };
+    let fitted = spec.fitted();
+    let is_fitted = |name: &str| fitted.iter().any(|free| free.name == name);
     let values: Vec<(String, f64)> = spec
         .parameters
         .iter()
-        .filter(|parameter| parameter.stated || parameter.card.is_some_and(|card| card.fitted))
+        .filter(|parameter| parameter.stated || is_fitted(&parameter.name))
         .map(|parameter| (parameter.short().to_owned(), parameter.value))
         .collect();
-    let free: Vec<String> = spec
-        .fitted()
-        .into_iter()
-        .map(|free| free.name)
+    let free: Vec<String> = (fitted.iter().map(|free| free.name.clone()))
         .filter(|name| !set.iter().any(|(set, _)| set == name))
         .collect();
     let mut edit = study.edit();
     edit.add_effect(card.name, &values)?;
     edit.free(&free);
-    if let Some(coefficient) = coefficient {
-        edit.set(WEAR_COEFFICIENT, coefficient);
+    if let Some((_, coefficient)) = set.iter().find(|(name, _)| name == WEAR_COEFFICIENT) {
+        edit.set(WEAR_COEFFICIENT, *coefficient);
     }
     edit.move_between(folder(&args.study), folder(target))?;
-    Ok((edit.finish(&target.display().to_string())?, set))
+    let study = edit.finish(&target.display().to_string())?;
+    let free = study.free().iter();
+    Ok(Draft {
+        form,
+        free: free
+            .filter(|free| !set.iter().any(|(name, _)| *name == free.name))
+            .cloned()
+            .collect(),
+        study,
+    })
 }
 
 fn folder(file: &Path) -> &Path {

@@ -29,6 +29,12 @@ pub(super) fn show(progress: &Progress, doing: Doing) {
     progress.show(done, what);
 }
 
+/// Shows what fitting one form of an effect is at.
+pub(super) fn show_form(progress: &Progress, doing: Doing, form: &str) {
+    let (done, what) = state(doing);
+    progress.show(done, format!("form {form}: {what}"));
+}
+
 /// Shows what the comparison `number` (from 0) of `count` is at.
 pub(super) fn show_one_of(progress: &Progress, doing: Doing, number: usize, count: usize) {
     let (done, what) = state(doing);

@@ -1,114 +1,130 @@
-//! Adds an effect: its parameters and everything else that is free are fitted anew, from where the base model's fit ended.
+//! Adds an effect: fitted in its own form, and in its other accepted ones if that leaves more than noise.
+//!
+//! Nature does not use our formulas. A running-in that decays as a hyperbola is a running-in, but fitted by an exponential it leaves
+//! a misfit behind, in which the next effect would be looked for in vain.
 
-use super::fit::{Coefficient, Fit, FitError, Problem};
-use super::search::Effort;
-use crate::study::Role;
+use super::compare::{CompareError, Compared, Doing, contact_of};
+use super::fit::Fit;
+use super::measured::{Measured, ModelVersion};
+use crate::measure::Dataset;
+use crate::study::{Study, WEAR_COEFFICIENT};
 
-/// A base model with an effect more, in the form that fits best.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Addition {
-    /// Which of the forms.
-    pub form: usize,
-    /// Its fit.
-    pub fit: Fit,
-    /// Log evidence of every form, in their order; None where a form could not be fitted.
-    pub log_evidence: Vec<Option<f64>>,
-    /// How much the logarithm of the marginal likelihood rises over the base model's.
-    pub evidence_gain: f64,
+/// χ² per point beyond 1, in standard deviations of noise, with which another form is tried.
+const LEFT: f64 = 2.0;
+/// Gain of log evidence for which another form is preferred to the effect's own.
+const BETTER: f64 = 3.0;
+
+/// A base model with an effect more, in one of its forms.
+#[derive(Debug, Clone)]
+pub struct AddedForm {
+    /// The model.
+    pub version: ModelVersion,
+    /// Values of its last parameters, each a place to begin from beside what the own form was fitted to; none: it begins from its own
+    /// values, or from what the own form was fitted to where that is nearer.
+    pub grown: &'static [&'static [f64]],
 }
 
-/// Fits a base model with an effect added, in each accepted form of it, and returns the form of the highest evidence.
-///
-/// Each form is a problem whose parameters include the base model's. k and parameters that the base fit knows by name start from
-/// where it ended, the effect's own from their starts (the card's defaults); from their priors' medians too, if the first fit does not
-/// converge, ends on a bound or gains nothing.
+/// What fitting an added effect found.
+#[derive(Debug, Clone)]
+pub struct Addition {
+    /// Which of the forms is preferred.
+    pub form: usize,
+    /// Its fit.
+    pub compared: Compared,
+    /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
+    pub tried: Vec<Option<Tried>>,
+}
+
+/// One form's fit in short.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tried {
+    /// Logarithm of its marginal likelihood.
+    pub log_evidence: f64,
+    /// χ² per point of the fit tests.
+    pub chi2_per_point: Option<f64>,
+}
+
+/// Fits a study's measurements with an effect in its own form (the first one), and in the others if that leaves more than noise.
+/// `watch` is told the number of the form.
 ///
 /// # Errors
-/// The first form's [`FitError`] if no form can be fitted.
-pub fn add(base: &Fit, forms: Vec<Problem<'_>>, effort: &Effort) -> Result<Addition, FitError> {
-    let mut best: Option<(usize, Fit)> = None;
-    let mut failure = FitError::NoObservations;
-    let mut log_evidence = Vec::with_capacity(forms.len());
-    for (form, problem) in forms.into_iter().enumerate() {
-        match problem.starting_from(base).fit_added(base, effort) {
-            Ok(fit) => {
-                log_evidence.push(Some(fit.log_evidence));
-                if best
-                    .as_ref()
-                    .is_none_or(|(_, b)| fit.log_evidence > b.log_evidence)
-                {
-                    best = Some((form, fit));
-                }
-            }
-            Err(error) => {
-                if form == 0 {
-                    failure = error;
-                }
-                log_evidence.push(None);
+/// [`CompareError`] if the first form cannot be fitted.
+pub fn add(
+    study: &Study,
+    data: &Dataset,
+    forms: &[AddedForm],
+    watch: &(dyn Fn(Doing, usize) + Sync),
+) -> Result<Addition, CompareError> {
+    let kind = contact_of(study)?;
+    let measured = Measured::new(study, data.clone());
+    watch(Doing::Members, 0);
+    let workshop = measured.workshop(kind)?;
+    watch(Doing::Tests, 0);
+    let bench = measured.bench(&workshop)?;
+    let (own, others) = forms
+        .split_first()
+        .expect("an effect has a form of its own");
+    let own = measured.compare(&bench, &own.version, &|doing| watch(doing, 0))?;
+    let mut tried = vec![Some(in_short(&own))];
+    let mut best = (0, own.clone());
+    for (i, form) in others.iter().enumerate() {
+        let fitted = leaves_something(&own).then(|| {
+            let places = places(form, &own.fit);
+            measured.compare_from(&bench, &form.version, places, &|doing| watch(doing, i + 1))
+        });
+        // a form that cannot be fitted is no reason against the others
+        let fitted = fitted.and_then(Result::ok);
+        tried.push(fitted.as_ref().map(in_short));
+        if let Some(fitted) = fitted {
+            let margin = if best.0 == 0 { BETTER } else { 0.0 };
+            if fitted.fit.log_evidence > best.1.fit.log_evidence + margin {
+                best = (i + 1, fitted);
             }
         }
     }
-    let (form, fit) = best.ok_or(failure)?;
+    let (form, compared) = best;
     Ok(Addition {
-        evidence_gain: fit.log_evidence - base.log_evidence,
         form,
-        fit,
-        log_evidence,
+        compared,
+        tried,
     })
 }
 
-impl Fit {
-    /// Sum of the squared standardised residuals of the fit tests.
-    fn fit_square(&self) -> f64 {
-        let tests = self.tests.iter().filter(|test| test.role == Role::Fit);
-        let rows = tests.flat_map(|test| &test.uncertainty.rows);
-        rows.map(|&row| self.rows[row].standardised.powi(2)).sum()
+/// Whether χ² per point of the fit tests is beyond that of noise.
+fn leaves_something(own: &Compared) -> bool {
+    let fit = &own.comparison.fit;
+    let noise = (2.0 / fit.points.max(1) as f64).sqrt();
+    fit.chi2_per_point
+        .is_some_and(|chi2| chi2 > 1.0 + LEFT * noise)
+}
+
+fn in_short(compared: &Compared) -> Tried {
+    Tried {
+        log_evidence: compared.fit.log_evidence,
+        chi2_per_point: compared.comparison.fit.chi2_per_point,
     }
 }
 
-impl Problem<'_> {
-    /// The same with k and the parameters that `base` knows by name starting where it ended. Priors stay.
-    #[must_use]
-    pub fn starting_from(mut self, base: &Fit) -> Self {
-        if let Coefficient::Free(parameter) = &mut self.coefficient {
-            parameter.start = base.coefficient;
-        }
-        for parameter in &mut self.parameters {
-            if let Some(known) = base.parameters.iter().find(|p| p.name == parameter.name) {
-                parameter.start = known.value;
-            }
-        }
-        self
+/// Values of a form's parameters to begin from, those that the own form has taken from its fit.
+fn places(form: &AddedForm, own: &Fit) -> Vec<Vec<f64>> {
+    let free = form.version.free.iter();
+    let names = free.filter(|free| free.name != WEAR_COEFFICIENT);
+    let fitted: Vec<f64> = names
+        .map(|free| {
+            let known = own.parameters.iter().find(|p| p.name == free.name);
+            known.map_or(free.value, |p| p.value.clamp(free.lower, free.upper))
+        })
+        .collect();
+    if form.grown.is_empty() {
+        return vec![fitted];
     }
-
-    fn fit_added(&self, base: &Fit, effort: &Effort) -> Result<Fit, FitError> {
-        let fit = self.fit(effort);
-        // Two units of χ² are one of ln posterior.
-        let enough = |fit: &Fit| {
-            fit.converged
-                && fit.parameters.iter().all(|p| !p.at_bound)
-                && fit.fit_square() < base.fit_square() - 2.0
-        };
-        if fit.as_ref().is_ok_and(enough) {
-            return fit;
-        }
-        let known = |name: &str| base.parameters.iter().any(|p| p.name == name);
-        let medians: Vec<f64> = self
-            .parameters
-            .iter()
-            .map(|p| {
-                if known(&p.name) {
-                    p.start
-                } else {
-                    p.prior.median().clamp(p.lower, p.upper)
-                }
-            })
-            .collect();
-        let second = self.fit_from(&[medians], effort);
-        match (fit, second) {
-            (Ok(fit), Ok(second)) if fit.log_posterior >= second.log_posterior => Ok(fit),
-            (Ok(fit), Err(_)) => Ok(fit),
-            (_, second) => second,
-        }
-    }
+    let grown = form.grown.iter();
+    grown
+        .map(|place| {
+            let mut values = fitted.clone();
+            let first = values.len() - place.len();
+            values[first..].copy_from_slice(place);
+            values
+        })
+        .collect()
 }

@@ -119,6 +119,20 @@ impl Measured<'_> {
         version: &ModelVersion,
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
+        self.compare_from(bench, version, Vec::new(), watch)
+    }
+
+    /// The same from the nearest of some places too, each a value for every free parameter but k.
+    ///
+    /// # Errors
+    /// [`FitError`].
+    pub fn compare_from(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        places: Vec<Vec<f64>>,
+        watch: Watch<'_>,
+    ) -> Result<Compared, FitError> {
         let noise = NoiseModel::of(&self.study().noise);
         let effort = Effort::for_simulations();
         let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
@@ -131,11 +145,8 @@ impl Measured<'_> {
         told(0);
         let free = version.free.iter();
         let many = free.filter(|free| free.name != WEAR_COEFFICIENT).count() >= MANY;
-        let others = if many {
-            self.other_starts(bench, version, noise, PLACES, &told)
-        } else {
-            Vec::new()
-        };
+        let spread = if many { PLACES } else { [0, PLACES[1]] };
+        let others = self.other_starts(bench, version, noise, places, spread, &told);
         let first = self.fit_watched(bench, version, noise, &others, &effort, &told)?;
         let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
         let fit = if settled || version.effects.is_empty() {

@@ -180,11 +180,21 @@ impl Problem<'_> {
         self.finish(&fit, found, &mut evaluator, effort)
     }
 
-    /// Of other places in the priors, those from which a search is worth while: up to `keep` at which the model is nearest to the
-    /// measurements, with k scaled to fit, and nearer than at the parameters' starts. `count` places are looked at.
+    /// Places spread over the priors.
+    pub fn places(&self, count: usize) -> Vec<Vec<f64>> {
+        let place = |i: usize| -> Vec<f64> {
+            let point = halton(i, self.parameters.len());
+            let each = self.parameters.iter().zip(point);
+            each.map(|(p, share)| p.quantile(share)).collect()
+        };
+        (0..count).map(place).collect()
+    }
+
+    /// Of some places, those from which a search is worth while: up to `keep` at which the model is nearest to the measurements,
+    /// with k scaled to fit, and nearer than at the parameters' starts.
     ///
     /// A search goes downhill. Phases, wave numbers and resonances have several valleys.
-    pub fn other_starts(&self, count: usize, keep: usize) -> Vec<Vec<f64>> {
+    pub fn nearest(&self, places: Vec<Vec<f64>>, keep: usize) -> Vec<Vec<f64>> {
         let search = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
         let mut evaluator = self.evaluator();
         let mut misfit = |start: &[f64]| {
@@ -193,13 +203,8 @@ impl Problem<'_> {
         };
         let own: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
         let most = misfit(&own).unwrap_or(f64::INFINITY);
-        let place = |i: usize| -> Vec<f64> {
-            let point = halton(i, self.parameters.len());
-            let each = self.parameters.iter().zip(point);
-            each.map(|(p, share)| p.quantile(share)).collect()
-        };
-        let mut found: Vec<(f64, Vec<f64>)> = (0..count)
-            .map(place)
+        let mut found: Vec<(f64, Vec<f64>)> = places
+            .into_iter()
             .filter_map(|start| Some((misfit(&start)?, start)))
             .filter(|(misfit, _)| *misfit < most)
             .collect();

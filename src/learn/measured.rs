@@ -168,17 +168,23 @@ impl<'a> Measured<'a> {
         })
     }
 
-    /// Where else than at the parameters' values a fit of this version is worth starting ([`Problem::other_starts`]).
+    /// Where else than at the parameters' values a fit of this version is worth starting: of `places`, each a value for every free
+    /// parameter but k, and of `count` more that are spread over the priors, the `keep` nearest ([`Problem::nearest`]).
     pub fn other_starts(
         &self,
         bench: &Bench,
         version: &ModelVersion,
         noise: NoiseModel,
+        mut places: Vec<Vec<f64>>,
         [count, keep]: [usize; 2],
         watch: &(dyn Fn(usize) + Sync),
     ) -> Vec<Vec<f64>> {
         self.with_problem(bench, version, noise, watch, |problem| {
-            problem.other_starts(count, keep)
+            places.extend(problem.places(count));
+            if places.is_empty() {
+                return Vec::new();
+            }
+            problem.nearest(places, keep)
         })
     }
 

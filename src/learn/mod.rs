@@ -3,7 +3,7 @@
 //! ```text
 //! Dataset, Predictor, Parameter .. -> Problem -> search (quadratic, scatter, noise) -> Fit -> Comparison -> LadderStep
 //!                                                                                       |-> Curve (pictures)
-//!                                                                                       `-> add: the next Problem's start
+//!                                                                                       `-> add: an effect more, in the form that fits
 //! ```
 //!
 //! The probability model, on natural scales (logarithms of positive parameters):
@@ -41,7 +41,7 @@ mod uncertainty;
 mod versions;
 mod worst;
 
-pub use add::{Addition, add};
+pub use add::{AddedForm, Addition, Tried, add};
 pub use bench::{Bench, MeasuredTest, Workshop};
 pub use compare::{CompareError, Compared, Doing, Watch, compare, contact_of};
 pub use comparison::{Comparison, Outlier, ParameterRecord, TestRecord};

@@ -21,6 +21,7 @@ fn args(home: &tempfile::TempDir, set: &[(&str, f64)]) -> AddArgs {
             .iter()
             .map(|(name, value)| ((*name).to_owned(), *value))
             .collect(),
+        form: None,
         force: false,
     }
 }
@@ -28,11 +29,16 @@ fn args(home: &tempfile::TempDir, set: &[(&str, f64)]) -> AddArgs {
 #[test]
 fn the_fit_is_asked_for_what_is_free_and_its_values_are_written() {
     let home = home();
-    let outcome = add(&args(&home, &[("amplitude", 2.0)]), |study, data, free| {
+    let outcome = add(&args(&home, &[("amplitude", 2.0)]), |drafts, data| {
+        let [draft] = drafts else {
+            panic!("with a parameter set the form is: {drafts:?}")
+        };
+        let (study, free) = (&draft.study, &draft.free);
         assert!(study.effect_model().has("running_in") && !data.observations.is_empty());
         let names: Vec<&str> = free.iter().map(|p| p.name.as_str()).collect();
         assert_eq!(names, ["wear.coefficient", "running_in.decay_cycles"]);
         Ok(Fitted {
+            draft: 0,
             values: vec![
                 ("wear.coefficient".into(), 1.234_567_89e-10),
                 ("running_in.decay_cycles".into(), 123_456.789),
@@ -72,7 +78,7 @@ fn the_fit_is_asked_for_what_is_free_and_its_values_are_written() {
 fn without_measurements_there_is_nothing_to_fit() {
     let home = home();
     fs::remove_file(home.path().join("measurements.csv")).unwrap();
-    let error = add(&args(&home, &[]), |_, _, _| unreachable!()).unwrap_err();
+    let error = add(&args(&home, &[]), |_, _| unreachable!()).unwrap_err();
     assert_eq!(error.exit_code(), 2);
     assert!(!home.path().join("study+running_in.toml").exists());
 }
@@ -80,7 +86,7 @@ fn without_measurements_there_is_nothing_to_fit() {
 #[test]
 fn a_failed_fit_writes_nothing() {
     let home = home();
-    let failed = add(&args(&home, &[]), |_, _, _| {
+    let failed = add(&args(&home, &[]), |_, _| {
         Err(CliError::Unusable("the fit failed".to_owned()))
     });
     assert!(failed.is_err());

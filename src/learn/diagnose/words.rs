@@ -82,8 +82,13 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
             );
             d.reasons.extend(signatures(j));
             let study = "STUDY";
-            d.next_step = (j.candidate.names.iter())
-                .map(|name| format!("gearwear add {study} {name}"))
+            let several = j.candidate.names.len() > 1;
+            d.next_step = (j.candidate.names.iter().zip(&j.candidate.forms))
+                .map(|(name, form)| match *form {
+                    "" if several => format!("gearwear add {study} {name} --form own"),
+                    "" => format!("gearwear add {study} {name}"),
+                    form => format!("gearwear add {study} {name} --form \"{form}\""),
+                })
                 .collect::<Vec<_>>()
                 .join(", then the same with the new study: ");
         }
