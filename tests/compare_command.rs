@@ -97,6 +97,47 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 #[test]
+fn add_finds_the_form_of_the_law_and_one_asked_for_is_the_only_one() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let crowned = "[[effect]]\nkind = \"profile_slope\"\nslope = 1.0\ncrowning = 7.0\n";
+    write("truth.toml", format!("{BASE}{crowned}"));
+    succeed(&home, "synthesize truth.toml -o data --seed 6");
+    let file = FILE.replace("measurements.csv", "data/measurements.csv");
+    write("base.toml", format!("{BASE}{file}"));
+    let add = |options: &str| -> Value {
+        let told = succeed(
+            &home,
+            &format!("add base.toml profile_slope --json {options}"),
+        );
+        serde_json::from_str(&told).unwrap()
+    };
+
+    let any = add("-o any.toml");
+    assert_eq!(any["fit"]["form"], "crowned", "{any}");
+    let tried = any["fit"]["forms"].as_array().unwrap();
+    assert_eq!(tried.len(), 2, "{any}");
+    assert!(number(&tried[0], "/chi2_per_point") > 1.3, "{any}");
+    let chi2 = number(&any, "/fit/fit/chi2_per_point");
+    assert!((0.8..1.2).contains(&chi2), "{any}");
+    let parameters = any["fit"]["parameters"].as_array().unwrap();
+    let crowning = parameters
+        .iter()
+        .find(|p| p["name"] == "profile_slope.crowning");
+    let crowning = number(crowning.unwrap(), "/value");
+    assert!((crowning - 7.0).abs() < 0.7, "{any}");
+    // what is written is what was fitted, and stays free
+    let again = succeed(&home, "compare any.toml --json");
+    let again: Value = serde_json::from_str(&again).unwrap();
+    let of_again = number(&again, "/fit/chi2_per_point");
+    assert!((of_again - chi2).abs() < 0.01, "{chi2} {again}");
+
+    let own = add("-o own.toml --form own");
+    assert_eq!(own["fit"]["form"], "own");
+    assert_eq!(own["fit"]["forms"].as_array().unwrap().len(), 1);
+}
+
+#[test]
 fn what_was_put_in_is_found_and_only_the_right_effect_helps() {
     let home = home();
     let base = succeed(&home, "compare try/base.toml");

@@ -18,6 +18,7 @@ use gearwear::study::Study;
 mod diagnosis {
     pub(crate) mod command;
     pub(crate) mod plan;
+    pub(crate) mod spoiled;
 }
 
 /// Random numbers: splitmix64 (Steele, Lea and Flood 2014) and Box and Muller's transform.
@@ -94,12 +95,30 @@ fn synthetic(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Dataset {
 }
 
 fn diagnosed(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Diagnosis {
+    diagnosed_of(synthetic(hidden, scatter, relative, seed))
+}
+
+/// The diagnosis of measurements, and what holds for every one.
+fn diagnosed_of(data: Dataset) -> Diagnosis {
     let base = study("");
-    let data = synthetic(hidden, scatter, relative, seed);
     let measured = Measured::new(&base, data);
     let found = diagnose(&measured, Fidelity::Screening, &|_, _| {}).unwrap();
     let total: f64 = found.probabilities.values().sum();
     assert!((total - 1.0).abs() < 1e-9, "{total}");
+    for one in &found.screened {
+        // no fit's evidence may rise by much more than the misfit that it explains
+        let explained = 0.5 * one.chi2_drop;
+        let most = if explained > 0.0 {
+            1.2 * explained + 5.0
+        } else {
+            explained
+        };
+        assert!(one.evidence_gain < most + 1e-6, "{one:?}");
+    }
+    if let Some(next) = &found.next_experiment {
+        // less could not be told from noise
+        assert!(next.expected_chi2 >= 1.0, "{next:?}");
+    }
     found
 }
 
@@ -128,6 +147,10 @@ fn nothing_is_missing_where_only_the_coefficient_scatters() {
         .iter()
         .filter(|r| r.effect != "nothing_missing");
     assert!(largest.map(|r| r.probability).fold(0.0, f64::max) < 0.5);
+    // judged by the model that made the data: nothing is left but the noise
+    let base = found.ranking.iter().find(|r| r.effect == "nothing_missing");
+    let chi2 = base.unwrap().fit_chi2_per_point;
+    assert!((0.9..1.1).contains(&chi2), "{chi2}");
     let left = &found.residual_drivers;
     assert_eq!(left.after, None);
     for driver in &left.drivers {
@@ -173,6 +196,74 @@ fn what_the_catalogue_lacks_is_called_unknown() {
         "position",
         "{:?}",
         found.drivers
+    );
+}
+
+#[test]
+fn what_follows_the_calendar_is_called_unknown_and_follows_the_cycles() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"weather\"\nwear_factor = \"1 + 0.8*sin(2*pi*cycles/3.3e5)\"\n";
+    let found = diagnosed(hidden, 0.05, 0.02, 8);
+    assert!(
+        found.probabilities.get("unknown").is_some_and(|p| *p > 0.2),
+        "{}",
+        says(&found)
+    );
+    let driver = &found.driver.as_ref().unwrap().name;
+    assert!(
+        matches!(driver.as_str(), "cycles" | "depth"),
+        "{:?}",
+        found.drivers
+    );
+}
+
+#[test]
+fn what_is_weak_everywhere_but_alike_in_all_tests_is_seen() {
+    // waves of hardness along one member, 6 % of its wear: no single curve shows them
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"waves\"\nwear_factor = \"1 + (1 - pinion)*0.09*sin(2*pi*s/1.7)\"\n";
+    let found = diagnosed(hidden, 0.05, 0.04, 9);
+    assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
+    let driver = &found.driver.as_ref().unwrap().name;
+    assert!(
+        matches!(driver.as_str(), "position" | "member"),
+        "{:?}",
+        found.drivers
+    );
+}
+
+#[test]
+fn a_smaller_centre_distance_is_found_too() {
+    let hidden = "[[effect]]\nkind = \"radial_misalignment\"\namount = -0.06\n";
+    let found = diagnosed(hidden, 0.05, 0.03, 10);
+    assert!(names(&found, "radial_misalignment"), "{}", says(&found));
+    let screened = found.screened.iter();
+    let fitted = screened
+        .filter(|s| s.effect == "radial_misalignment")
+        .map(|s| s.values[0]);
+    for amount in fitted {
+        assert!((amount + 0.06).abs() < 0.01, "{amount}");
+    }
+}
+
+#[test]
+fn a_profile_of_two_waves_grows_out_of_one() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"waviness\"\nprofile = \"pinion*(4 + 2.2*cos(2*pi*s/8.1 + 0.4) + 1.8*cos(2*pi*s/3.3 + 2))\"\n";
+    let found = diagnosed(hidden, 0.05, 0.03, 11);
+    assert!(names(&found, "profile_form"), "{}", says(&found));
+    let best = found
+        .screened
+        .iter()
+        .filter(|s| s.effect == "profile_form")
+        .max_by(|a, b| a.chi2_drop.total_cmp(&b.chi2_drop))
+        .unwrap();
+    assert_eq!(
+        best.form, "two waves",
+        "{best:?} of {}",
+        found.attainable_drop
+    );
+    assert!(
+        best.chi2_drop > 0.9 * found.attainable_drop,
+        "{best:?} of {}",
+        found.attainable_drop
     );
 }
 

@@ -409,3 +409,28 @@ impl Motion {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::frame::tests::reference;
+
+    #[test]
+    fn stations_at_another_mounting_are_as_many_and_end_at_its_flanks() {
+        let pair = reference();
+        let stations = Stations::new(&pair, 0.013);
+        let moved = Pair::new(pair.pinion.clone(), pair.gear.clone(), 80.0, 0.7).unwrap();
+        let like = stations.like(&moved);
+        assert_eq!(like.count(), stations.count());
+        for (arc, gear) in like.arc.iter().zip([&moved.pinion, &moved.gear]) {
+            let ends = [gear.arc(gear.rho_form), gear.arc(gear.rho_tip)];
+            let off = [arc[0] - ends[0], arc[arc.len() - 1] - ends[1]];
+            assert!(off.iter().all(|off| off.abs() < 1e-12), "{off:?}");
+            let step = (ends[1] - ends[0]) / (arc.len() - 1) as f64;
+            assert!(step <= 0.013 + 1e-12);
+            for two in arc.windows(2) {
+                assert!((two[1] - two[0] - step).abs() < 1e-9);
+            }
+        }
+    }
+}

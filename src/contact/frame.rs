@@ -221,11 +221,11 @@ impl PlacedInvolute {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::gear::{BasicRack, Gear, ToothSpec};
 
-    fn reference() -> Pair {
+    pub(in crate::contact) fn reference() -> Pair {
         let rack = BasicRack {
             module: 2.0,
             pressure_angle: 20f64.to_radians(),

@@ -1,0 +1,82 @@
+//! Claim: measurements that are at fault themselves, or too few, are said to be so, and lead to no confident name.
+
+use gearwear::measure::{Dataset, Quantity};
+
+use crate::{diagnosed_of, says, synthetic};
+
+/// Rows of wear depth by curve (test, member, cycles).
+fn curves(data: &Dataset) -> Vec<Vec<usize>> {
+    let mut curves = std::collections::BTreeMap::new();
+    for (row, o) in data.observations.iter().enumerate() {
+        if o.quantity == Quantity::WearDepth {
+            let curve: &mut Vec<usize> = curves
+                .entry((o.test, o.member, o.cycles.to_bits()))
+                .or_default();
+            curve.push(row);
+        }
+    }
+    curves.into_values().collect()
+}
+
+#[test]
+fn one_spoiled_curve_is_named_and_no_effect() {
+    let mut data = synthetic("", 0.05, 0.03, 21);
+    let spoiled = curves(&data)[3].clone();
+    for (place, &row) in spoiled.iter().enumerate() {
+        let o = &mut data.observations[row];
+        // a tilt, from -12 to 12 sigma
+        o.value += o.sigma * (24.0 * place as f64 / spoiled.len() as f64 - 12.0);
+    }
+    let found = diagnosed_of(data);
+    assert!(
+        found
+            .warnings
+            .iter()
+            .any(|w| w.contains("one curve carries") && w.contains("look at that measurement")),
+        "{:?}",
+        found.warnings
+    );
+    for (name, p) in &found.probabilities {
+        let sure = *p > 0.95 && name != "unknown" && name != "nothing_missing";
+        assert!(!sure, "{name} {p}\n{}", says(&found));
+    }
+}
+
+#[test]
+fn zeros_that_change_between_curves_without_traces_are_suspected() {
+    let mut data = synthetic("", 0.05, 0.03, 22);
+    for (number, curve) in curves(&data).into_iter().enumerate() {
+        for row in curve {
+            let o = &mut data.observations[row];
+            o.trace = None;
+            // 10 sigma up and down in turn
+            o.value += o.sigma * if number % 2 == 0 { 10.0 } else { -10.0 };
+        }
+    }
+    let found = diagnosed_of(data);
+    assert!(
+        found
+            .warnings
+            .iter()
+            .any(|w| w.contains("a constant for each curve") && w.contains("column trace")),
+        "{:?}",
+        found.warnings
+    );
+}
+
+#[test]
+fn a_handful_of_values_is_said_to_be_too_few() {
+    let mut data = synthetic("", 0.05, 0.03, 23);
+    let mut kept = 0;
+    data.observations.retain(|o| {
+        kept += usize::from(o.quantity == Quantity::WearDepth);
+        o.quantity == Quantity::WearDepth && kept % 200 == 1
+    });
+    let found = diagnosed_of(data);
+    assert!(
+        found.sentence.starts_with("Too few measured values ("),
+        "{}",
+        says(&found)
+    );
+    assert!(found.driver.is_none() && found.effect.is_none());
+}
