@@ -66,7 +66,7 @@ fn document(card: &Card) -> Value {
                 .iter()
                 .map(|(name, value)| ((*name).to_owned(), number(*value)))
                 .collect();
-            json!({"name": form.name, "settings": settings})
+            json!({"name": form.name, "settings": settings, "fits": form.frees})
         })
         .collect();
     json!({
@@ -118,12 +118,11 @@ fn details(card: &Card) -> String {
         parameter(&mut text, param);
     }
     for form in card.forms {
-        let settings: Vec<String> = form
-            .settings
-            .iter()
-            .map(|(name, value)| format!("{name} = {value}"))
-            .collect();
-        let line = format!("also accepted, {}: {}", form.name, settings.join(", "));
+        let settings = form.settings.iter();
+        let settings = settings.map(|(name, value)| format!("{name} = {value}"));
+        let freed = form.frees.iter().map(|name| format!("{name} fitted"));
+        let all: Vec<String> = settings.chain(freed).collect();
+        let line = format!("also accepted, {}: {}", form.name, all.join(", "));
         wrap(&mut text, "  ", "    ", &line);
     }
     if !card.needs.is_empty() {

@@ -155,17 +155,11 @@ fn effect(text: &mut String, card: &Card) {
     }
     text.push('\n');
     for form in card.forms {
-        let settings: Vec<String> = form
-            .settings
-            .iter()
-            .map(|(name, value)| format!("`{name} = {value}`"))
-            .collect();
-        let _ = writeln!(
-            text,
-            "- *also accepted, {}*: {}",
-            form.name,
-            settings.join(", ")
-        );
+        let settings = form.settings.iter();
+        let settings = settings.map(|(name, value)| format!("`{name} = {value}`"));
+        let freed = form.frees.iter().map(|name| format!("`{name}` fitted"));
+        let all: Vec<String> = settings.chain(freed).collect();
+        let _ = writeln!(text, "- *also accepted, {}*: {}", form.name, all.join(", "));
     }
     if !card.needs.is_empty() {
         let _ = writeln!(text, "- *needs from the study*: {}", code_list(card.needs));
