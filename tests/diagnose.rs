@@ -231,6 +231,14 @@ fn what_is_weak_everywhere_but_alike_in_all_tests_is_seen() {
 }
 
 #[test]
+fn running_in_that_remembers_the_depth_is_not_only_called_a_soft_skin() {
+    // the same law as a surface layer of a quarter of the hardness: no data of one material can tell
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"hidden\"\nwear_factor = \"1 + 3*exp(-depth/1.5)\"\n";
+    let found = diagnosed(hidden, 0.05, 0.03, 12);
+    assert!(names(&found, "running_in"), "{}", says(&found));
+}
+
+#[test]
 fn a_smaller_centre_distance_is_found_too() {
     let hidden = "[[effect]]\nkind = \"radial_misalignment\"\namount = -0.06\n";
     let found = diagnosed(hidden, 0.05, 0.03, 10);

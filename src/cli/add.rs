@@ -317,6 +317,7 @@ fn draft(
         .collect();
     let spec = EffectSpec {
         freed: form.map_or(&[], |form| form.frees),
+        idle: form.map_or(&[], |form| form.idle),
         ..EffectSpec::of_card(card, &stated)?
     };
     let fitted = spec.fitted();

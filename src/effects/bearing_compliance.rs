@@ -55,6 +55,7 @@ pub(super) const CARD: Card = Card {
         name: "clearance",
         settings: &[("clearance", 20.0)],
         frees: &[],
+        idle: &[],
         grown: &[],
     }],
     build: |p| {

@@ -63,7 +63,9 @@ pub struct Form {
     pub settings: &'static [(&'static str, f64)],
     /// Parameters that a fit adjusts in this form although the card fixes them.
     pub frees: &'static [&'static str],
-    /// Values of those, which stand behind all that the own form fits, each a place from which this form is tried beside what the
+    /// Parameters that it does not use, which a fit leaves alone although the card says otherwise.
+    pub idle: &'static [&'static str],
+    /// Values of those that it frees, which stand behind all that the own form fits, each a place from which this form is tried beside what the
     /// own one was fitted to. None: it is fitted for itself.
     pub grown: &'static [&'static [f64]],
 }

@@ -49,6 +49,7 @@ pub(super) const CARD: Card = Card {
         name: "near the piecewise linear law",
         settings: &[("lambda0", 2.2), ("exponent", 3.0)],
         frees: &[],
+        idle: &[],
         grown: &[],
     }],
     build: |p| {

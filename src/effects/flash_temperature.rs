@@ -3,6 +3,7 @@
 //! ```text
 //! T_c = T_bulk + ΔT,   f = exp(β (T_c − T_ref))              ΔT Blok's flash temperature
 //!                      f = (1 − β (T_c − T_ref)/n)^−n        n = 1: hardness falls linearly; n → ∞ is the exponential
+//!                      f = 1 + (Q − 1)/(1 + exp((T_t − T_c)/w))          activated: the film fails about T_t
 //! ```
 //! The exponent is kept within ±30 and the base above 1e-3, so that no state gives an infinite factor.
 
@@ -64,18 +65,68 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::new(
+            "ratio",
+            "-",
+            "wear above a transition temperature over that below",
+            1.0,
+            (0.01, 300.0),
+            Prior::LogNormal {
+                median: 5.0,
+                spread: 2.5,
+            },
+        )
+        .neutral(1.0)
+        .fixed(),
+        Param::new(
+            "transition",
+            "degC",
+            "contact temperature of the transition",
+            80.0,
+            (-50.0, 500.0),
+            Prior::Normal {
+                mean: 80.0,
+                sd: 30.0,
+            },
+        )
+        .fixed(),
+        Param::new(
+            "transition_width",
+            "K",
+            "scale of the transition",
+            5.0,
+            (0.1, 100.0),
+            Prior::LogNormal {
+                median: 5.0,
+                spread: 2.0,
+            },
+        )
+        .fixed(),
     ],
-    forms: &[Form {
-        name: "softening",
-        settings: &[("shape", 1.0)],
-        frees: &[],
-        grown: &[],
-    }],
+    forms: &[
+        Form {
+            name: "softening",
+            settings: &[("shape", 1.0)],
+            frees: &[],
+            idle: &[],
+            grown: &[],
+        },
+        Form {
+            name: "activated",
+            settings: &[("sensitivity", 0.0), ("ratio", 5.0)],
+            frees: &["ratio", "transition", "transition_width"],
+            idle: &["sensitivity"],
+            grown: &[],
+        },
+    ],
     build: |p| {
         Box::new(FlashTemperature {
             sensitivity: p[0],
             reference_temperature: p[1],
             shape: p[2],
+            ratio: p[3],
+            transition: p[4],
+            transition_width: p[5],
         })
     },
 };
@@ -84,17 +135,22 @@ struct FlashTemperature {
     sensitivity: f64,
     reference_temperature: f64,
     shape: f64,
+    ratio: f64,
+    transition: f64,
+    transition_width: f64,
 }
 
 impl Effect for FlashTemperature {
     fn wear_factor(&self, at: &Local) -> f64 {
-        let x = self.sensitivity
-            * (at.bulk_temperature + at.flash_temperature - self.reference_temperature);
+        let contact = at.bulk_temperature + at.flash_temperature;
+        let x = self.sensitivity * (contact - self.reference_temperature);
         let exponent = if self.shape.is_infinite() {
             x
         } else {
             -self.shape * (1.0 - x / self.shape).max(1e-3).ln()
         };
-        exponent.clamp(-30.0, 30.0).exp()
+        let short_of = (self.transition - contact) / self.transition_width;
+        let activated = 1.0 + (self.ratio - 1.0) / (1.0 + short_of.exp());
+        exponent.clamp(-30.0, 30.0).exp() * activated
     }
 }

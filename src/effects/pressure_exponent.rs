@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! dh = k p_ref (p/p_ref)^m v dt,   so k is multiplied by (p/p_ref)^(m − 1)      p MPa, here and now
+//!                                  or  by 1 + g max(0, p − p_t)/p_ref, linear above a threshold
 //! ```
 //! Below [`LEAST_PRESSURE`] the factor stays what it is there: with m < 1 it would grow without bound as p goes to zero, while
 //! the wear p^m goes to zero.
 
-use super::{Card, Effect, Hook, Local, Param, Prior};
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 /// Pressure below which the factor no longer changes, MPa.
 const LEAST_PRESSURE: f64 = 1e-3;
@@ -50,12 +51,45 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::new(
+            "gain",
+            "-",
+            "growth above a threshold: of the factor, over the reference pressure",
+            0.0,
+            (0.0, 100.0),
+            Prior::LogNormal {
+                median: 3.0,
+                spread: 2.5,
+            },
+        )
+        .neutral(0.0)
+        .fixed(),
+        Param::new(
+            "threshold",
+            "MPa",
+            "pressure from which that growth sets in",
+            500.0,
+            (1.0, 5000.0),
+            Prior::LogNormal {
+                median: 500.0,
+                spread: 1.6,
+            },
+        )
+        .fixed(),
     ],
-    forms: &[],
+    forms: &[Form {
+        name: "linear above a threshold",
+        settings: &[("exponent", 1.0), ("gain", 3.0)],
+        frees: &["gain", "threshold"],
+        idle: &["exponent"],
+        grown: &[],
+    }],
     build: |p| {
         Box::new(PressureExponent {
             exponent: p[0],
             reference_pressure: p[1],
+            gain: p[2],
+            threshold: p[3],
         })
     },
 };
@@ -63,10 +97,15 @@ pub(super) const CARD: Card = Card {
 struct PressureExponent {
     exponent: f64,
     reference_pressure: f64,
+    gain: f64,
+    threshold: f64,
 }
 
 impl Effect for PressureExponent {
     fn wear_factor(&self, at: &Local) -> f64 {
-        (at.pressure.max(LEAST_PRESSURE) / self.reference_pressure).powf(self.exponent - 1.0)
+        let power =
+            (at.pressure.max(LEAST_PRESSURE) / self.reference_pressure).powf(self.exponent - 1.0);
+        let above = (at.pressure - self.threshold).max(0.0) / self.reference_pressure;
+        power * (1.0 + self.gain * above)
     }
 }

@@ -101,6 +101,7 @@ pub(super) const CARD: Card = Card {
         name: "two waves",
         settings: &[],
         frees: &["second_amplitude", "second_phase", "second_waves"],
+        idle: &[],
         grown: &SECOND_WAVES,
     }],
     build: |p| {

@@ -3,6 +3,7 @@
 //! ```text
 //! k(n) = k (1 + A exp(−n/N))              A (-) excess at n = 0, N pinion cycles
 //! k(n) = k (1 + A (1 + n/(q N))^−q)       the same start, a longer tail; q → ∞ is the exponential
+//! k(h) = k (1 + A exp(−h/h_r))            local memory: gone with the depth worn, h_r (µm) about Rz
 //! ```
 
 use super::{Card, Effect, Form, Hook, Local, Param, Prior};
@@ -58,18 +59,39 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::new(
+            "decay_depth",
+            "um",
+            "depth worn in which the excess falls to 1/e; inf if it does not follow the depth",
+            f64::INFINITY,
+            (1e-2, f64::INFINITY),
+            Prior::LogNormal {
+                median: 3.0,
+                spread: 2.0,
+            },
+        )
+        .fixed(),
     ],
     forms: &[
         Form {
             name: "hyperbolic",
             settings: &[("shape", 1.0)],
             frees: &[],
+            idle: &[],
             grown: &[],
         },
         Form {
             name: "steep hyperbolic",
             settings: &[("shape", 2.0)],
             frees: &[],
+            idle: &[],
+            grown: &[],
+        },
+        Form {
+            name: "local memory",
+            settings: &[("decay_cycles", 1e9), ("decay_depth", 3.0)],
+            frees: &["decay_depth"],
+            idle: &["decay_cycles"],
             grown: &[],
         },
     ],
@@ -78,6 +100,7 @@ pub(super) const CARD: Card = Card {
             amplitude: p[0],
             decay_cycles: p[1],
             shape: p[2],
+            decay_depth: p[3],
         })
     },
 };
@@ -86,6 +109,7 @@ struct RunningIn {
     amplitude: f64,
     decay_cycles: f64,
     shape: f64,
+    decay_depth: f64,
 }
 
 impl Effect for RunningIn {
@@ -96,6 +120,6 @@ impl Effect for RunningIn {
         } else {
             (1.0 + x / self.shape).powf(-self.shape)
         };
-        1.0 + self.amplitude * left
+        1.0 + self.amplitude * left * (-at.depth / self.decay_depth).exp()
     }
 }

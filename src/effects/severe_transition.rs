@@ -67,6 +67,7 @@ pub(super) const CARD: Card = Card {
         name: "pressure times speed",
         settings: &[("speed_exponent", 1.0), ("limit", 500.0)],
         frees: &[],
+        idle: &[],
         grown: &[],
     }],
     build: |p| {

@@ -56,6 +56,7 @@ pub(super) const CARD: Card = Card {
         name: "steep",
         settings: &[("steepness", 3.0)],
         frees: &[],
+        idle: &[],
         grown: &[],
     }],
     build: |p| {

@@ -56,6 +56,7 @@ pub(super) const CARD: Card = Card {
         name: "parabolic",
         settings: &[("exponent", 2.0)],
         frees: &[],
+        idle: &[],
         grown: &[],
     }],
     build: |p| {

@@ -110,6 +110,7 @@ fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
         parameters,
         span: table.header(),
         freed: &[],
+        idle: &[],
     })
 }
 

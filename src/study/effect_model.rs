@@ -29,6 +29,8 @@ pub struct EffectSpec {
     pub span: Range<usize>,
     /// Short names of parameters that a fit adjusts although their card fixes them.
     pub freed: &'static [&'static str],
+    /// Short names of parameters that a fit leaves alone although their card says otherwise.
+    pub idle: &'static [&'static str],
 }
 
 /// What an effect computes.
@@ -210,6 +212,7 @@ impl EffectSpec {
             parameters: parameters.collect(),
             span: 0..0,
             freed: &[],
+            idle: &[],
         })
     }
 
@@ -218,7 +221,10 @@ impl EffectSpec {
         self.parameters
             .iter()
             .filter(|parameter| {
-                (parameter.card).is_none_or(|card| card.fitted || self.freed.contains(&card.name))
+                (parameter.card).is_none_or(|card| {
+                    let fitted = card.fitted || self.freed.contains(&card.name);
+                    fitted && !self.idle.contains(&card.name)
+                })
             })
             .map(Parameter::free)
             .collect()

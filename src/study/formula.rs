@@ -62,6 +62,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
         parameters,
         span: table.header(),
         freed: &[],
+        idle: &[],
     })
 }
 

@@ -19,6 +19,12 @@ fn running_in() {
         effect("running_in", &[("shape", 2.0)]).wear_factor(&at),
         1.592_592_592_592_592_6,
     );
+    // local memory: 1 + 3 exp(-2.5e5/1e9) exp(-4/3)
+    let memory = [("decay_cycles", 1e9), ("decay_depth", 3.0)];
+    same(
+        effect("running_in", &memory).wear_factor(&at),
+        1.790593741203766,
+    );
     // worn depth over k D: N + A N_r (1 − exp(−N/N_r)), by the midpoint rule
     let (end, steps) = (4e5, 40_000);
     let law = effect("running_in", &[]);
@@ -45,6 +51,14 @@ fn pressure_exponent() {
     let at = ordinary();
     let law = effect("pressure_exponent", &[("exponent", 2.46)]);
     same(law.wear_factor(&at), 0.521_222_028_407_028_9);
+    // 140 MPa above a threshold of 500: 1 + 3 140/1000
+    let above = effect("pressure_exponent", &[("exponent", 1.0), ("gain", 3.0)]);
+    same(above.wear_factor(&at), 1.42);
+    let below = Local {
+        pressure: 499.0,
+        ..at
+    };
+    assert_eq!(above.wear_factor(&below), 1.0);
     // Over a Hertz passage of half width a and peak p0: ∫ p f dx = B_m 2a p0^m p_ref^(1−m),
     // B_m = (√π/2) Γ(m/2 + 1)/Γ(m/2 + 3/2): π/4 for m = 1, 2/3 for m = 2, 3π/16 for m = 3.
     let (half_width, peak, n) = (0.087, 876.0, 200_000);
@@ -135,6 +149,11 @@ fn flash_temperature() {
     same(
         effect("flash_temperature", &[("shape", 1.0)]).wear_factor(&at),
         1.351_351_351_351_351_3,
+    );
+    // 12.5 K above the transition, of width 5 K: 1 + 4/(1 + exp(-2.5))
+    same(
+        effect("flash_temperature", &[("sensitivity", 0.0), ("ratio", 5.0)]).wear_factor(&at),
+        4.696567279915026,
     );
 }
 
@@ -370,6 +389,9 @@ fn roughness_polish_and_plastic_deformation() {
         ..at
     };
     same(dent.added_depth(&at), 7.581_633_246_407_918e-5);
+    // exp(-1/2)/2000 of 1/(1 + e)
+    let smooth = effect("plastic_deformation", &[("smooth", 1.0)]);
+    same(smooth.added_depth(&at), 8.156060886379824e-05);
     assert_eq!(
         dent.added_depth(&Local {
             peak_pressure: 800.0,
@@ -547,6 +569,16 @@ fn flanks_as_made() {
     same(
         effect("profile_form", &[("phase", 0.4)]).profile(&wave),
         -1.032_519_276_846_017_2,
+    );
+    let two = [
+        ("phase", 0.4),
+        ("second_amplitude", 1.5),
+        ("second_phase", 0.7),
+        ("second_waves", 5.0),
+    ];
+    same(
+        effect("profile_form", &two).profile(&wave),
+        -2.179782557772751,
     );
     let pitch = effect("pitch_error", &[("deviation", -7.0)]);
     assert_eq!(

@@ -201,6 +201,7 @@ fn of_form(
     // A form's settings lie in the ranges of its card: tests walk the catalogue.
     let spec = EffectSpec {
         freed: form.map_or(&[], |form| form.frees),
+        idle: form.map_or(&[], |form| form.idle),
         ..EffectSpec::of_card(card, form.map_or(&[], |form| form.settings)).ok()?
     };
     let fitted = spec.fitted();
