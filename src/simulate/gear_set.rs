@@ -38,7 +38,7 @@ impl GearSet {
         let stated = self
             .gears
             .iter()
-            .any(|gear| gear.spec.thickness_reduction > 0.0);
+            .any(|gear| gear.spec.thickness_reduction != 0.0);
         let mounted = if stated {
             Pair::new
         } else {
