@@ -380,6 +380,16 @@ fn target(args: &AddArgs) -> Result<PathBuf, CliError> {
             target.display()
         )));
     }
+    let same = |a: &Path, b: &Path| {
+        a.canonicalize()
+            .is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
+    };
+    if same(&target, &args.study) {
+        return Err(CliError::Unusable(format!(
+            "{} is the study itself, which stays as it is; name another file for the new one",
+            target.display()
+        )));
+    }
     if target.exists() && !args.force {
         return Err(CliError::Exists { path: target });
     }

@@ -80,3 +80,28 @@ fn a_handful_of_values_is_said_to_be_too_few() {
     );
     assert!(found.driver.is_none() && found.effect.is_none());
 }
+
+#[test]
+fn filtered_traces_are_warned_of() {
+    let mut data = synthetic("", 0.05, 0.03, 24);
+    let exact = data.clone();
+    for curve in curves(&data) {
+        for (place, &row) in curve.iter().enumerate() {
+            // the mean of seven neighbours, as a profile filter leaves them
+            let near = &curve[place.saturating_sub(3)..curve.len().min(place + 4)];
+            let sum: f64 = near.iter().map(|&r| exact.observations[r].value).sum();
+            data.observations[row].value = sum / near.len() as f64;
+        }
+    }
+    let found = diagnosed_of(data);
+    assert!(
+        found
+            .warnings
+            .iter()
+            .any(|w| w.contains("too bold") && w.contains("filtered")),
+        "{:?}",
+        found.warnings
+    );
+    let plain = diagnosed_of(exact);
+    assert!(!plain.warnings.iter().any(|w| w.contains("too bold")));
+}

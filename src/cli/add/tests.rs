@@ -92,3 +92,16 @@ fn a_failed_fit_writes_nothing() {
     assert!(failed.is_err());
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
 }
+
+#[test]
+fn the_study_itself_is_never_overwritten() {
+    let home = home();
+    let mut args = args(&home, &[("amplitude", 2.0), ("decay_cycles", 1e5)]);
+    args.output = Some(home.path().join(".").join("study.toml"));
+    args.force = true;
+    let error = add(&args, |_, _| unreachable!()).unwrap_err();
+    assert_eq!(error.exit_code(), 2);
+    assert!(error.to_string().contains("stays as it is"), "{error}");
+    let study = fs::read_to_string(home.path().join("study.toml")).unwrap();
+    assert_eq!(study, STUDY);
+}

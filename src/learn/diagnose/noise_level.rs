@@ -1,4 +1,4 @@
-//! Whether measurements scatter more than their stated σ.
+//! Whether measurements scatter more, or much less, than their stated σ.
 //!
 //! ```text
 //! d_i = (x_i − x_{i−1})/(s_i − s_{i−1}) − (x_{i+1} − x_i)/(s_{i+1} − s_i)      x: measured minus model, s: position
@@ -19,8 +19,23 @@ const MEDIAN: f64 = 0.454_936;
 /// Scatter over stated σ below which the stated σ stands: three standard errors of some hundred differences.
 const TOLERATED: f64 = 1.2;
 
+/// Scatter over stated σ below which neighbours are too smooth to be independent, or σ is overstated.
+const SMOOTH: f64 = 0.67;
+
 /// The factor on the stated σ that the scatter along traces calls for: 1 or above [`TOLERATED`].
 pub(super) fn sigma_factor(ground: &Ground<'_>, model: &[f64]) -> f64 {
+    scatter(ground, model)
+        .filter(|found| *found > TOLERATED)
+        .unwrap_or(1.0)
+}
+
+/// Scatter over stated σ where that is far too little for independent points.
+pub(super) fn too_smooth(ground: &Ground<'_>, model: &[f64]) -> Option<f64> {
+    scatter(ground, model).filter(|found| *found < SMOOTH)
+}
+
+/// Scatter along traces over stated σ; None if there is too little to tell.
+fn scatter(ground: &Ground<'_>, model: &[f64]) -> Option<f64> {
     let residual = ground.residual(model);
     let mut curves: BTreeMap<_, Vec<[f64; 3]>> = BTreeMap::new();
     for (i, x) in residual.iter().enumerate() {
@@ -31,11 +46,11 @@ pub(super) fn sigma_factor(ground: &Ground<'_>, model: &[f64]) -> f64 {
             points.push([position, *x, o.sigma]);
         }
     }
-    factor(curves.into_values().collect())
+    over_stated(curves.into_values().collect())
 }
 
 /// Of curves of (position, residual, stated σ).
-fn factor(curves: Vec<Vec<[f64; 3]>>) -> f64 {
+fn over_stated(curves: Vec<Vec<[f64; 3]>>) -> Option<f64> {
     let mut squares = Vec::new();
     for mut curve in curves {
         curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -57,11 +72,10 @@ fn factor(curves: Vec<Vec<[f64; 3]>>) -> f64 {
         }
     }
     if squares.len() < LEAST {
-        return 1.0;
+        return None;
     }
     squares.sort_by(f64::total_cmp);
-    let found = (squares[squares.len() / 2] / MEDIAN).sqrt();
-    if found > TOLERATED { found } else { 1.0 }
+    Some((squares[squares.len() / 2] / MEDIAN).sqrt())
 }
 
 #[cfg(test)]
@@ -69,7 +83,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
 
-    use super::factor;
+    use super::over_stated;
 
     /// Eight traces, unevenly spaced, with a smooth misfit of 30 stated sigmas and normal noise of `level` of them.
     fn curves(level: f64) -> Vec<Vec<[f64; 3]>> {
@@ -85,15 +99,16 @@ mod tests {
 
     #[test]
     fn noise_counts_and_a_smooth_misfit_does_not() {
-        assert_eq!(factor(curves(1.0)), 1.0);
-        assert_eq!(factor(curves(0.3)), 1.0);
-        let found = factor(curves(2.0));
         // 384 differences: a standard error of some 5 %
-        assert!((found / 2.0 - 1.0).abs() < 0.15, "{found}");
+        for level in [0.3, 1.0, 2.0] {
+            let found = over_stated(curves(level)).unwrap();
+            assert!((found / level - 1.0).abs() < 0.15, "{found} of {level}");
+        }
     }
 
     #[test]
     fn few_points_say_nothing() {
-        assert_eq!(factor(curves(3.0).into_iter().take(2).collect()), 1.0);
+        let few = curves(3.0).into_iter().take(2).collect();
+        assert_eq!(over_stated(few), None);
     }
 }

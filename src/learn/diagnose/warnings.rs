@@ -2,6 +2,7 @@
 
 use super::ground::Ground;
 use super::judge::{Base, Judge};
+use super::noise_level;
 use super::rank::Ranking;
 use super::ranked::parameters;
 use super::suspects;
@@ -19,6 +20,11 @@ pub(super) fn warnings(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec
     if factor > 1.0 {
         warnings.push(format!(
             "neighbouring points of a trace scatter {factor:.1} times as much as their stated sigma: it was taken that much larger here"
+        ));
+    }
+    if let Some(smooth) = noise_level::too_smooth(ground, &base.judged.found.model) {
+        warnings.push(format!(
+            "neighbouring points of a trace scatter only {smooth:.2} times their stated sigma: if the traces were filtered their points are not independent and every probability here is too bold; if sigma is overstated, weak effects stay hidden"
         ));
     }
     let alone = measured_once(ground);
