@@ -67,7 +67,7 @@ def probabilities(found, rule):
         share = s["chi2_drop"] / attainable if real else 1.0
         doubt = spread / max(attainable, 1.0)
         if len(names) == 1:
-            odds = (rule["SHARE"] - share - 2 * doubt) / SHARE_WIDTH
+            odds = (rule["SHARE"] - share - doubt) / SHARE_WIDTH
         else:
             odds = (rule["PAIR_SHARE"] - share - doubt) / PAIR_SHARE_WIDTH
         stronger = max(names, key=lambda n: alone[n])

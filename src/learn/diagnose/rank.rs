@@ -13,8 +13,8 @@ const PRIOR_SINGLES: f64 = 0.35;
 const PRIOR_PAIRS: f64 = 0.05;
 /// Share of the attainable fall of χ² below which an effect is thought not to be the missing one, and how sharply.
 ///
-/// On blind data single effects explained at most 78 % of discrepancies that the catalogue lacks, and the catalogue's own, in other forms
-/// too, at least 90 %, but for a pressure exponent with a threshold (71 %).
+/// On 95 blind sets of d ≥ 6, coarse elements, single effects explained at most 83 % of 41 of 44 discrepancies that the catalogue lacks, and the
+/// catalogue's own, in other forms too, at least 86 % of 47 of 51. The share's standard deviation, 1 to 18 %, counts in the effect's favour.
 const SHARE: f64 = 0.85;
 /// The same where the analytic model decides in place of finite elements: what it leaves of an effect is partly its own error (the hidden running-in of the example
 /// explains 87 % by it and all by finite elements).
@@ -87,7 +87,7 @@ impl Ranking {
             let spread = flexible.spread() / flexible.drop.max(1.0);
             // ln of (1 − named)/named, named the probability that such a share is the missing effect's own.
             let odds = match j.candidate.names.len() {
-                1 => (least_share - share - 2.0 * spread) / SHARE_WIDTH,
+                1 => (least_share - share - spread) / SHARE_WIDTH,
                 _ => (PAIR_SHARE - share - spread) / PAIR_SHARE_WIDTH,
             };
             match stronger_alone(base, &judged, j) {
