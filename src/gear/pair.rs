@@ -76,17 +76,8 @@ impl Pair {
         centre_distance: f64,
         misalignment: f64,
     ) -> Result<Pair, PairError> {
-        let pair = Pair::with_any_backlash(pinion, gear, centre_distance, misalignment)?;
-        if pair.backlash < -JAM_TOLERANCE * pair.pinion.rack.module {
-            let min = Pair::tight_centre_distance(&pair.pinion, &pair.gear);
-            return Err(PairError::Jam {
-                centre_distance: pair.centre_distance,
-                backlash_um: 1e3 * pair.backlash,
-                min,
-                min_misalignment: min - centre_distance,
-            });
-        }
-        Ok(pair)
+        let least = -JAM_TOLERANCE * pinion.rack.module;
+        Pair::mounted(pinion, gear, centre_distance, misalignment, least)
     }
 
     /// The same where the backlash is not known: the teeth may be thinner than stated, and only their driving flanks touch.
@@ -98,6 +89,23 @@ impl Pair {
         gear: Gear,
         centre_distance: f64,
         misalignment: f64,
+    ) -> Result<Pair, PairError> {
+        Pair::mounted(
+            pinion,
+            gear,
+            centre_distance,
+            misalignment,
+            f64::NEG_INFINITY,
+        )
+    }
+
+    /// The pair with no less than some backlash, mm.
+    fn mounted(
+        pinion: Gear,
+        gear: Gear,
+        centre_distance: f64,
+        misalignment: f64,
+        least_backlash: f64,
     ) -> Result<Pair, PairError> {
         for (quantity, value) in [
             ("centre distance", centre_distance),
@@ -116,14 +124,17 @@ impl Pair {
         }
         let a = centre_distance + misalignment;
         let base_sum = pinion.base_radius + gear.base_radius;
-        if a <= base_sum {
+        let jam = |backlash: f64| {
             let min = Pair::tight_centre_distance(&pinion, &gear);
-            return Err(PairError::Jam {
+            PairError::Jam {
                 centre_distance: a,
-                backlash_um: f64::NEG_INFINITY,
+                backlash_um: 1e3 * backlash,
                 min,
                 min_misalignment: min - centre_distance,
-            });
+            }
+        };
+        if a <= base_sum {
+            return Err(jam(f64::NEG_INFINITY));
         }
         let (z1, z2) = (f64::from(pinion.spec.teeth), f64::from(gear.spec.teeth));
         let pitch_radius_pinion = a * z1 / (z1 + z2);
@@ -131,6 +142,9 @@ impl Pair {
         let backlash = pitch_radius_pinion * pinion.pitch_angle()
             - pinion.thickness(pitch_radius_pinion)
             - gear.thickness(pitch_radius_gear);
+        if backlash < least_backlash {
+            return Err(jam(backlash));
+        }
         for (member, tip, root) in [
             (Member::Pinion, pinion.tip_radius, gear.root_radius),
             (Member::Gear, gear.tip_radius, pinion.root_radius),
