@@ -1,4 +1,5 @@
-//! Claim: measurements that are at fault themselves, or too few, are said to be so, and lead to no confident name.
+//! Claim: measurements that are at fault themselves, or too few, are said to be so, and lead to no confident name; curves of unworn
+//! flanks do no harm.
 
 use gearwear::learn::diagnose::Diagnosis;
 use gearwear::measure::{Dataset, Quantity};
@@ -93,4 +94,18 @@ fn filtered_traces_are_warned_of() {
     assert!(warns(&found, &words), "{:?}", found.warnings);
     let plain = diagnosed_of(exact);
     assert!(!warns(&plain, &["too bold"]), "{:?}", plain.warnings);
+}
+
+#[test]
+fn traces_from_before_the_first_cycle_are_welcome() {
+    let mut data = synthetic("", 0.05, 0.03, 25);
+    let first = curves(&data)[0].clone();
+    for row in first {
+        let o = &mut data.observations[row];
+        o.cycles = 0.0;
+        o.value = 0.0;
+    }
+    let found = diagnosed_of(data);
+    assert!(found.probabilities.values().all(|p| p.is_finite()));
+    assert!(found.effect.is_none(), "{}", says(&found));
 }

@@ -69,7 +69,7 @@ pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Ve
     let position = seen
         .share(&all, &waves)
         .max(seen.share(&members, &waves) - member);
-    let cycles = [f64::ln, |n| n]
+    let cycles = [f64::ln_1p, |n| n]
         .map(|scale| polynomials(&seen.kinds, &by(&|o| scale(o.cycles)), OVER_CYCLES))
         .map(|functions| seen.share(&all, &functions));
     let depth = seen.share(&all, &polynomials(&seen.kinds, model, OVER_DEPTH));

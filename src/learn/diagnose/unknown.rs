@@ -89,7 +89,7 @@ fn common(judge: &Judge<'_>, base: &Base) -> Vec<f64> {
     }
     let quantities: Vec<(usize, usize)> =
         observations().map(|o| (0, o.quantity as usize)).collect();
-    for scale in [f64::ln, |n| n] {
+    for scale in [f64::ln_1p, |n| n] {
         let cycles: Vec<f64> = observations().map(|o| scale(o.cycles)).collect();
         let functions = polynomials(&kinds, &cycles, OVER_CYCLES);
         let seen = Seen::new(judge, base, &quantities, &functions, model);
