@@ -279,11 +279,30 @@ fn dense_blocks(
             }
             matrix[(a, a)] += sigma[i].powi(2);
         }
-        // Positive definite: a sum of positive semi-definite parts and diag σ² > 0.
-        let factor = Cholesky::new(matrix).expect("σ is above 0");
-        Block::Dense(rows, Box::new(factor))
+        Block::Dense(rows, Box::new(factor(matrix)))
     };
     blocks.into_values().map(block).collect()
+}
+
+/// Cholesky's factor of a covariance: a sum of positive semi-definite parts and diag σ² > 0.
+///
+/// An error a million times the noise leaves σ² below the rounding of the sum: then as much is added to the diagonal as the factor needs,
+/// from 1e-14 of its largest element on.
+///
+/// # Panics
+/// If an element is not finite.
+fn factor(matrix: DMatrix<f64>) -> Cholesky<f64, Dyn> {
+    let largest = matrix.diagonal().max();
+    let mut rounding = 1e-14 * largest;
+    let mut raised = matrix.clone();
+    loop {
+        if let Some(factor) = Cholesky::new(raised) {
+            return factor;
+        }
+        assert!(largest.is_finite(), "a covariance is not finite");
+        raised = &matrix + DMatrix::identity(matrix.nrows(), matrix.nrows()) * rounding;
+        rounding *= 10.0;
+    }
 }
 
 /// The largest magnitude measured in each row's curve.
@@ -313,4 +332,25 @@ fn shares(picked: &[&Observation], groups: &[Vec<usize>]) -> Vec<f64> {
         }
     }
     shares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_far_above_the_noise_has_a_factor_too() {
+        // rank one of size 1e20 over a variance of 1e-3: below the rounding of the sum
+        let matrix = DMatrix::from_fn(30, 30, |i, j| {
+            let size = |k: usize| 1e10 * (1.0 + 0.3 * k as f64).sin();
+            size(i) * size(j) + if i == j { 1e-3 } else { 0.0 }
+        });
+        assert!(Cholesky::new(matrix.clone()).is_none());
+        let back = factor(matrix.clone());
+        let product = back.l() * back.l().transpose();
+        assert!((product - &matrix).abs().max() < 1e-9 * matrix.abs().max());
+        // and what needs nothing gets nothing
+        let plain = DMatrix::identity(3, 3) * 4.0;
+        assert_eq!(factor(plain.clone()).l(), plain / 2.0);
+    }
 }
