@@ -49,6 +49,33 @@ fn published_pair() -> GearSet {
     gears([27, 53], BasicRack::iso53_a(2.0), [25.0, 40.0], 80.0)
 }
 
+/// Stated conditions at which teeth of full thickness jam are refused; an effect may move the axes there, unless the thickness that is
+/// taken off is stated.
+#[test]
+fn only_an_effect_brings_the_centres_closer_than_full_teeth_allow() {
+    let mut set = published_pair();
+    assert!(set.mount(-0.05).is_err());
+    let moved = set.mount_moved(-0.05).unwrap();
+    // the backlash of the reference pair changes by 2 tan(alpha) of the centre distance, to first order
+    let expected = -2.0 * 20f64.to_radians().tan() * 0.05;
+    assert!(
+        (moved.backlash / expected - 1.0).abs() < 0.02,
+        "{}",
+        moved.backlash
+    );
+    assert!((moved.centre_distance - 79.95).abs() < 1e-12);
+    // members' roots still bound it
+    assert!(set.mount_moved(-0.6).is_err());
+    let pinion = &set.gears[0];
+    let spec = gearwear::gear::ToothSpec {
+        thickness_reduction: 0.01,
+        ..pinion.spec
+    };
+    set.gears[0] = gearwear::gear::Gear::new(pinion.rack, spec).unwrap();
+    assert!(set.mount_moved(-0.05).is_err());
+    assert!(set.mount_moved(-0.01).is_ok());
+}
+
 fn conditions(misalignment: f64) -> Conditions {
     Conditions {
         torque: 100e3,

@@ -72,7 +72,7 @@ impl Workshop {
         for test in tests {
             let own = test.conditions.misalignment;
             let around = [own - MISALIGNMENT_MARGIN, own, own + MISALIGNMENT_MARGIN];
-            misalignments.extend(around.iter().filter(|m| set.mount(**m).is_ok()));
+            misalignments.extend(around.iter().filter(|m| set.mount_moved(**m).is_ok()));
         }
         let members = match kind {
             ContactKind::Fem => Some(set.members(&numerics, &torques, &misalignments)?),

@@ -150,7 +150,7 @@ impl<'a> Forward<'a> {
         let mut pair = set.mount(conditions.misalignment)?;
         if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
             conditions.misalignment += acting.added_centre_distance(&pair);
-            pair = set.mount(conditions.misalignment)?;
+            pair = set.mount_moved(conditions.misalignment)?;
         }
         let torque = conditions.torque / set.face_width;
         let modulus = set.modulus();

@@ -29,27 +29,33 @@ pub(super) const MOST_UNKNOWNS: usize = 16_000;
 impl GearSet {
     /// The pair mounted with a radial misalignment (mm).
     ///
-    /// Conditions that a study states are refused by the study if the teeth would jam. What an effect adds to them may be of
-    /// either sign: gears without a stated thickness reduction are taken to have the backlash that they need.
-    ///
     /// # Errors
     /// [`PairError`] if the gears cannot run so.
     pub fn mount(&self, misalignment: f64) -> Result<Pair, PairError> {
-        let stated = self
-            .gears
-            .iter()
-            .any(|gear| gear.spec.thickness_reduction != 0.0);
-        let mounted = if stated {
-            Pair::new
+        self.mounted(misalignment, Pair::new)
+    }
+
+    /// The pair where an effect has moved its axes to a radial misalignment (mm): of either sign, since gears without a stated
+    /// thickness reduction are taken to have the backlash that they need.
+    ///
+    /// # Errors
+    /// [`PairError`] if the gears cannot run so.
+    pub fn mount_moved(&self, misalignment: f64) -> Result<Pair, PairError> {
+        let stated = |gear: &Gear| gear.spec.thickness_reduction != 0.0;
+        if self.gears.iter().any(stated) {
+            self.mount(misalignment)
         } else {
-            Pair::with_any_backlash
-        };
-        mounted(
-            self.gears[0].clone(),
-            self.gears[1].clone(),
-            self.centre_distance,
-            misalignment,
-        )
+            self.mounted(misalignment, Pair::with_any_backlash)
+        }
+    }
+
+    fn mounted(
+        &self,
+        misalignment: f64,
+        pair: fn(Gear, Gear, f64, f64) -> Result<Pair, PairError>,
+    ) -> Result<Pair, PairError> {
+        let [pinion, gear] = self.gears.clone();
+        pair(pinion, gear, self.centre_distance, misalignment)
     }
 
     /// Contact modulus E*, MPa.
@@ -122,7 +128,7 @@ impl GearSet {
         let least = torques.iter().fold(f64::INFINITY, |m, t| m.min(*t)) / self.face_width;
         let pairs = misalignments
             .iter()
-            .map(|m| self.mount(*m))
+            .map(|m| self.mount_moved(*m))
             .collect::<Result<Vec<Pair>, PairError>>()?;
         let spacing = pairs
             .iter()
