@@ -310,16 +310,7 @@ fn draft(
     let prefix = format!("{}.", card.name);
     let own = (set.iter()).filter_map(|(name, value)| Some((name.strip_prefix(&prefix)?, *value)));
     let own: Vec<(&str, f64)> = own.collect();
-    let is_set = |short: &str| own.iter().any(|(name, _)| *name == short);
-    let settings = form.map_or(&[] as &[_], |form| form.settings).iter();
-    let stated: Vec<(&str, f64)> = (own.iter().copied())
-        .chain(settings.copied().filter(|(name, _)| !is_set(name)))
-        .collect();
-    let spec = EffectSpec {
-        freed: form.map_or(&[], |form| form.frees),
-        idle: form.map_or(&[], |form| form.idle),
-        ..EffectSpec::of_card(card, &stated)?
-    };
+    let spec = EffectSpec::of_form(card, form, &own)?;
     let fitted = spec.fitted();
     let is_fitted = |name: &str| fitted.iter().any(|free| free.name == name);
     let values: Vec<(String, f64)> = spec

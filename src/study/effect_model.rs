@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::free::FreeParameter;
 use crate::effects::formula::Formula;
-use crate::effects::{self, Card, Combined, EffectError, Hook, Param, Prior};
+use crate::effects::{self, Card, Combined, EffectError, Form, Hook, Param, Prior};
 
 /// The effects of a model in their order. Formulas are read once; [`EffectModel::build`] only binds numbers, so a fit may call
 /// it as often as it likes.
@@ -213,6 +213,28 @@ impl EffectSpec {
             span: 0..0,
             freed: &[],
             idle: &[],
+        })
+    }
+
+    /// The same in one of its forms, None the own one; stated values go before the form's.
+    ///
+    /// # Errors
+    /// As [`EffectSpec::of_card`].
+    pub fn of_form(
+        card: &'static Card,
+        form: Option<&'static Form>,
+        stated: &[(&str, f64)],
+    ) -> Result<Self, EffectError> {
+        let Some(form) = form else {
+            return Self::of_card(card, stated);
+        };
+        let is_stated = |name: &str| stated.iter().any(|(stated, _)| *stated == name);
+        let settings = form.settings.iter().filter(|(name, _)| !is_stated(name));
+        let all: Vec<(&str, f64)> = stated.iter().chain(settings).copied().collect();
+        Ok(Self {
+            freed: form.frees,
+            idle: form.idle,
+            ..Self::of_card(card, &all)?
         })
     }
 

@@ -199,11 +199,7 @@ fn of_form(
     base: &Candidate,
 ) -> Option<(Candidate, Vec<FreeParameter>)> {
     // A form's settings lie in the ranges of its card: tests walk the catalogue.
-    let spec = EffectSpec {
-        freed: form.map_or(&[], |form| form.frees),
-        idle: form.map_or(&[], |form| form.idle),
-        ..EffectSpec::of_card(card, form.map_or(&[], |form| form.settings)).ok()?
-    };
+    let spec = EffectSpec::of_form(card, form, &[]).ok()?;
     let fitted = spec.fitted();
     let version = base.version.with(spec);
     let candidate = Candidate {
