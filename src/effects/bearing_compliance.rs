@@ -54,9 +54,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "clearance",
         settings: &[("clearance", 20.0)],
-        frees: &[],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(BearingCompliance {

@@ -70,6 +70,17 @@ pub struct Form {
     pub grown: &'static [&'static [f64]],
 }
 
+impl Form {
+    /// One that changes nothing, to be built upon.
+    pub(super) const PLAIN: Form = Form {
+        name: "",
+        settings: &[],
+        frees: &[],
+        idle: &[],
+        grown: &[],
+    };
+}
+
 impl Param {
     /// A fitted parameter without a neutral value.
     pub(super) const fn new(

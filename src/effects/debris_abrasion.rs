@@ -57,8 +57,7 @@ pub(super) const CARD: Card = Card {
         name: "saturating",
         settings: &[("saturation_volume", 30.0)],
         frees: &["saturation_volume"],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(DebrisAbrasion {

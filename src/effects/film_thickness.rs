@@ -48,9 +48,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "near the piecewise linear law",
         settings: &[("lambda0", 2.2), ("exponent", 3.0)],
-        frees: &[],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(FilmThickness {

@@ -107,16 +107,14 @@ pub(super) const CARD: Card = Card {
         Form {
             name: "softening",
             settings: &[("shape", 1.0)],
-            frees: &[],
-            idle: &[],
-            grown: &[],
+            ..Form::PLAIN
         },
         Form {
             name: "activated",
             settings: &[("sensitivity", 0.0), ("ratio", 5.0)],
             frees: &["ratio", "transition", "transition_width"],
             idle: &["sensitivity"],
-            grown: &[],
+            ..Form::PLAIN
         },
     ],
     build: |p| {

@@ -97,8 +97,7 @@ pub(super) const CARD: Card = Card {
         name: "part of the wear",
         settings: &[("part", 0.3)],
         frees: &["part"],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(Oxidative {

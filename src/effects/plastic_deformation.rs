@@ -88,8 +88,7 @@ pub(super) const CARD: Card = Card {
         name: "smooth",
         settings: &[("smooth", 1.0)],
         frees: &["width"],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(PlasticDeformation {

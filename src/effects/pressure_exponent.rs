@@ -82,7 +82,7 @@ pub(super) const CARD: Card = Card {
         settings: &[("exponent", 1.0), ("gain", 3.0)],
         frees: &["gain", "threshold"],
         idle: &["exponent"],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(PressureExponent {

@@ -99,10 +99,9 @@ pub(super) const CARD: Card = Card {
     ],
     forms: &[Form {
         name: "two waves",
-        settings: &[],
         frees: &["second_amplitude", "second_phase", "second_waves"],
-        idle: &[],
         grown: &SECOND_WAVES,
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(ProfileForm {

@@ -21,7 +21,7 @@ pub(super) const CARD: Card = Card {
         Param::new("slope", "um", "deviation from the start to the end of the path, positive with material missing at the end", 5.0, (-100.0, 100.0), Prior::Normal { mean: 0.0, sd: 8.0 }).neutral(0.0),
         Param::new("crowning", "um", "material missing at both ends against the middle", 0.0, (-50.0, 50.0), Prior::Normal { mean: 0.0, sd: 4.0 }).neutral(0.0).fixed(),
     ],
-    forms: &[Form { name: "crowned", settings: &[("crowning", 4.0)], frees: &["crowning"], idle: &[], grown: &[] }],
+    forms: &[Form { name: "crowned", settings: &[("crowning", 4.0)], frees: &["crowning"], ..Form::PLAIN }],
     build: |p| Box::new(ProfileSlope { slope: p[0], crowning: p[1] }),
 };
 

@@ -76,23 +76,19 @@ pub(super) const CARD: Card = Card {
         Form {
             name: "hyperbolic",
             settings: &[("shape", 1.0)],
-            frees: &[],
-            idle: &[],
-            grown: &[],
+            ..Form::PLAIN
         },
         Form {
             name: "steep hyperbolic",
             settings: &[("shape", 2.0)],
-            frees: &[],
-            idle: &[],
-            grown: &[],
+            ..Form::PLAIN
         },
         Form {
             name: "local memory",
             settings: &[("decay_cycles", 1e9), ("decay_depth", 3.0)],
             frees: &["decay_depth"],
             idle: &["decay_cycles"],
-            grown: &[],
+            ..Form::PLAIN
         },
     ],
     build: |p| {

@@ -66,9 +66,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "pressure times speed",
         settings: &[("speed_exponent", 1.0), ("limit", 500.0)],
-        frees: &[],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(SevereTransition {

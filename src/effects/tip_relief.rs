@@ -55,9 +55,7 @@ pub(super) const CARD: Card = Card {
     forms: &[Form {
         name: "parabolic",
         settings: &[("exponent", 2.0)],
-        frees: &[],
-        idle: &[],
-        grown: &[],
+        ..Form::PLAIN
     }],
     build: |p| {
         Box::new(TipRelief {

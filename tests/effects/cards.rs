@@ -158,6 +158,18 @@ fn cards_are_complete() {
         }
         for form in card.forms {
             card.values(form.settings).unwrap();
+            for name in form.frees.iter().chain(form.idle) {
+                let known = card.params.iter().find(|param| param.name == *name);
+                let freed = form.frees.contains(name);
+                assert_eq!(known.map(|param| param.fitted), Some(!freed), "{name}");
+            }
+            // places are joined to what the own form fits: the freed parameters stand behind all of these
+            if let Some(place) = form.grown.first() {
+                assert!(form.grown.iter().all(|other| other.len() == place.len()));
+                let last: Vec<&str> = card.params.iter().map(|p| p.name).collect();
+                assert_eq!(last[last.len() - place.len()..], *form.frees);
+                assert!(form.idle.is_empty());
+            }
         }
     }
 }
