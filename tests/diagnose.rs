@@ -129,6 +129,12 @@ fn says(found: &Diagnosis) -> String {
     )
 }
 
+/// The discrepancy follows one of these most.
+fn follows(found: &Diagnosis, names: &[&str]) {
+    let driver = found.driver.as_ref().unwrap();
+    assert!(names.contains(&driver.name.as_str()), "{:?}", found.drivers);
+}
+
 /// Whether `name` is the answer or in the group that is.
 fn names(found: &Diagnosis, name: &str) -> bool {
     match (&found.verdict, &found.effect) {
@@ -191,12 +197,7 @@ fn what_the_catalogue_lacks_is_called_unknown() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"band\"\nwear_factor = \"1 + 1.5*exp(-((radius - 27.9)/0.2)^2)\"\n";
     let found = diagnosed(hidden, 0.1, 0.02, 5);
     assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
-    assert_eq!(
-        found.driver.as_ref().unwrap().name,
-        "position",
-        "{:?}",
-        found.drivers
-    );
+    follows(&found, &["position"]);
 }
 
 #[test]
@@ -208,12 +209,7 @@ fn what_follows_the_calendar_is_called_unknown_and_follows_the_cycles() {
         "{}",
         says(&found)
     );
-    let driver = &found.driver.as_ref().unwrap().name;
-    assert!(
-        matches!(driver.as_str(), "cycles" | "depth"),
-        "{:?}",
-        found.drivers
-    );
+    follows(&found, &["cycles", "depth"]);
 }
 
 #[test]
@@ -222,12 +218,7 @@ fn what_is_weak_everywhere_but_alike_in_all_tests_is_seen() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"waves\"\nwear_factor = \"1 + (1 - pinion)*0.09*sin(2*pi*s/1.7)\"\n";
     let found = diagnosed(hidden, 0.05, 0.04, 9);
     assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
-    let driver = &found.driver.as_ref().unwrap().name;
-    assert!(
-        matches!(driver.as_str(), "position" | "member"),
-        "{:?}",
-        found.drivers
-    );
+    follows(&found, &["position", "member"]);
 }
 
 #[test]

@@ -306,7 +306,7 @@ fn factor(matrix: DMatrix<f64>) -> Cholesky<f64, Dyn> {
 }
 
 /// The largest magnitude measured in each row's curve.
-fn amplitudes(picked: &[&Observation]) -> Vec<f64> {
+pub(super) fn amplitudes(picked: &[&Observation]) -> Vec<f64> {
     let key = |o: &Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
     let mut largest = BTreeMap::new();
     for o in picked {

@@ -9,12 +9,12 @@
 //! discrepancy follows wherever it takes the same value. φ of the position may differ between the members, as far as it explains
 //! more than the members do.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::PI;
+use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+use super::basis::{Functions, numbered, polynomials, waves};
 use super::ground::{Ground, whiten};
 use crate::learn::region::Map;
 use crate::measure::Observation;
@@ -93,9 +93,6 @@ pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Ve
     drivers.sort_by(|a, b| b.variance_share.total_cmp(&a.variance_share));
     drivers
 }
-
-/// Functions of a driver: their values at each row, none where all are zero.
-pub(super) type Functions = Vec<Vec<f64>>;
 
 /// A discrepancy as the data see it.
 struct Seen<'a> {
@@ -216,59 +213,14 @@ fn of_traces(
     }
 }
 
-/// Numbers from 0 for values, alike where they are.
-pub(super) fn numbered<T: Ord>(values: impl Iterator<Item = T>) -> Vec<usize> {
-    let mut numbers = BTreeMap::new();
-    values
-        .map(|value| {
-            let next = numbers.len();
-            *numbers.entry(value).or_insert(next)
-        })
-        .collect()
-}
-
 fn constant(rows: usize) -> Functions {
     vec![vec![1.0; rows]]
 }
 
-/// Chebyshev's polynomials over the range of the values, fewer than there are different values.
-pub(super) fn polynomials(kinds: &[usize], values: &[f64], most: usize) -> Functions {
-    let (x, distinct) = ranged(kinds, values);
-    let chebyshev = |degree: usize, x: f64| (degree as f64 * (2.0 * x - 1.0).acos()).cos();
-    (0..most.min(distinct))
-        .map(|degree| x.iter().map(|&x| chebyshev(degree, x)).collect())
-        .collect()
-}
-
-/// Cosines over the range of the values, fewer than there are different values.
-pub(super) fn waves(kinds: &[usize], values: &[f64], most: usize) -> Functions {
-    let (x, distinct) = ranged(kinds, values);
-    (0..most.min(distinct))
-        .map(|p| x.iter().map(|x| (p as f64 * PI * x).cos()).collect())
-        .collect()
-}
-
-/// Values as shares of the range that those of their kind have, and how many are different in a kind at most.
-fn ranged(kinds: &[usize], values: &[f64]) -> (Vec<f64>, usize) {
-    let mut shares = vec![0.0; values.len()];
-    let mut most = 0;
-    for kind in 0..kinds.iter().max().map_or(0, |last| last + 1) {
-        let own: Vec<usize> = (0..values.len()).filter(|&i| kinds[i] == kind).collect();
-        let mut distinct: Vec<f64> = own.iter().map(|&i| values[i]).collect();
-        distinct.sort_by(f64::total_cmp);
-        distinct.dedup();
-        let (low, high) = (distinct[0], distinct[distinct.len() - 1]);
-        let width = if high > low { high - low } else { 1.0 };
-        for i in own {
-            shares[i] = ((values[i] - low) / width).clamp(0.0, 1.0);
-        }
-        most = most.max(distinct.len());
-    }
-    (shares, most)
-}
-
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
 
     /// Two tests, two members, four times, three places each, with one trace for each of them all.

@@ -10,6 +10,7 @@
 //! its own form (`OWN_FORM` in `ground`). Priors: nothing missing 0.5, unknown 0.1, single effects share 0.35, pairs 0.05.
 
 mod anchored;
+mod basis;
 mod binned;
 mod campaign;
 mod candidate;

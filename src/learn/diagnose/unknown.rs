@@ -9,15 +9,16 @@
 //! it is weak; but so is what the model itself computes a little wrong at the same place in every test: only what is gained beyond a
 //! discrepancy of the size of the model's own error counts.
 
-use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::dependence::{numbered, polynomials, waves};
+use super::basis::{numbered, polynomials, waves};
 use super::judge::{Base, Judge};
-use crate::learn::noise::ModelError;
+use crate::learn::noise::{ModelError, amplitudes};
 use crate::learn::region::Map;
+use crate::measure::Observation;
 
 /// Sizes of the discrepancy relative to the curve or the model.
 const SIZES: [f64; 4] = [0.02, 0.05, 0.12, 0.3];
@@ -30,15 +31,17 @@ const RATIOS: [f64; 2] = [0.3, 0.7];
 
 /// Log evidence of the base model with a discrepancy: the mean over its kinds and sizes.
 pub(super) fn log_evidence(judge: &Judge<'_>, base: &Base) -> f64 {
-    let of_common = common(judge, base);
+    let ground = &judge.ground;
+    let observations: Vec<&Observation> =
+        (0..ground.len()).map(|i| ground.observation(i)).collect();
+    let size = amplitudes(&observations);
     let before = base.judged.log_evidence;
-    let common = before + log_mean(&of_common);
-    log_mean(&[log_mean(&each_its_own(judge, base)), common])
+    let common = before + log_mean(&common(judge, base, &observations, &size));
+    log_mean(&[log_mean(&each_its_own(judge, base, &size)), common])
 }
 
 /// Each curve with a discrepancy of its own.
-fn each_its_own(judge: &Judge<'_>, base: &Base) -> Vec<f64> {
-    let size = curve_sizes(judge);
+fn each_its_own(judge: &Judge<'_>, base: &Base, size: &[f64]) -> Vec<f64> {
     let mut grid = Vec::new();
     for relative in SIZES {
         for along in [0.08, 0.25] {
@@ -55,19 +58,18 @@ fn each_its_own(judge: &Judge<'_>, base: &Base) -> Vec<f64> {
     grid.par_iter()
         .map(|error| {
             let parameters = &base.candidate.parameters;
-            let error = Some((size.as_slice(), *error));
+            let error = Some((size, *error));
             judge.ground.evidence_with(&base.found, parameters, error).0
         })
         .collect()
 }
 
 /// Gains of log evidence by functions common to all tests.
-fn common(judge: &Judge<'_>, base: &Base) -> Vec<f64> {
+fn common(judge: &Judge<'_>, base: &Base, observations: &[&Observation], size: &[f64]) -> Vec<f64> {
     let ground = &judge.ground;
-    let observations = || (0..ground.len()).map(|i| ground.observation(i));
+    let observations = || observations.iter().copied();
     let map = Map::new(ground.measured.study(), &ground.measured.data);
     let kinds = numbered(observations().map(|o| o.quantity));
-    let size = curve_sizes(judge);
     let model = base.judged.found.model.as_slice();
     let places: Vec<f64> = observations()
         .map(|o| map.path(o).or(o.position).unwrap_or(0.0))
@@ -77,11 +79,11 @@ fn common(judge: &Judge<'_>, base: &Base) -> Vec<f64> {
         .collect();
     let of_place = waves(&kinds, &places, ALONG);
     let mut gains = Vec::new();
-    for g in [model, size.as_slice()] {
+    for g in [model, size] {
         let seen = Seen::new(judge, base, &groups, &of_place, g);
         for length in LENGTHS {
             let weight = |p: usize| {
-                let exponent = 0.5 * (std::f64::consts::PI * length * p as f64).powi(2);
+                let exponent = 0.5 * (PI * length * p as f64).powi(2);
                 (-exponent).exp()
             };
             gains.extend(seen.gains(weight));
@@ -187,21 +189,6 @@ fn log_gain(normal: &DMatrix<f64>, right: &DVector<f64>, roots: &DVector<f64>) -
     0.5 * scaled.dot(&factor.solve(&scaled)) - half_log_determinant
 }
 
-/// The largest magnitude measured in each row's curve.
-fn curve_sizes(judge: &Judge<'_>) -> Vec<f64> {
-    let ground = &judge.ground;
-    let mut largest = BTreeMap::new();
-    let key = |i: usize| {
-        let o = ground.observation(i);
-        (o.test, o.member, o.quantity, o.cycles.to_bits())
-    };
-    for i in 0..ground.len() {
-        let entry: &mut f64 = largest.entry(key(i)).or_insert(0.0);
-        *entry = entry.max(ground.observation(i).value.abs());
-    }
-    (0..ground.len()).map(|i| largest[&key(i)]).collect()
-}
-
 /// ln of the mean of what these are logarithms of.
 fn log_mean(logs: &[f64]) -> f64 {
     let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -227,7 +214,7 @@ mod tests {
         let integral: f64 = (0..steps)
             .map(|i| {
                 let x = -reach + (i as f64 + 0.5) * width;
-                let prior = (-0.5 * x * x / v).exp() / (2.0 * std::f64::consts::PI * v).sqrt();
+                let prior = (-0.5 * x * x / v).exp() / (2.0 * PI * v).sqrt();
                 (b * x - 0.5 * a * x * x).exp() * prior * width
             })
             .sum();
