@@ -193,6 +193,30 @@ fn micropitting_is_named_though_its_law_is_of_another_form() {
 }
 
 #[test]
+fn micropitting_under_a_thin_film_is_named() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"hidden\"\nadded_depth = \"2e-5*(p_max/1000)^3*max(0, 1 - film_ratio/0.45)*(1 + 0.6*dedendum)\"\n";
+    let found = diagnosed(hidden, 0.1, 0.02, 4);
+    assert_eq!(found.verdict, Verdict::Effect, "{}", says(&found));
+    assert!(names(&found, "micropitting"), "{}", says(&found));
+    let best = &found.ranking[0];
+    let truth = [("exponent", 3.0), ("lambda_c", 0.45), ("asymmetry", 0.6)];
+    for (name, truth) in truth {
+        let fitted = best.parameters.iter().find(|p| p.name == name).unwrap();
+        assert!(
+            (fitted.value - truth).abs() < 3.0 * fitted.sigma,
+            "{best:?}"
+        );
+    }
+}
+
+#[test]
+fn debris_that_levels_off_is_named_though_its_law_is_of_another_form() {
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"hidden\"\nwear_factor = \"1 + 2.5*(1 - exp(-worn_volume/12))\"\n";
+    let found = diagnosed(hidden, 0.1, 0.03, 4);
+    assert!(names(&found, "debris_abrasion"), "{}", says(&found));
+}
+
+#[test]
 fn what_the_catalogue_lacks_is_called_unknown() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"band\"\nwear_factor = \"1 + 1.5*exp(-((radius - 27.9)/0.2)^2)\"\n";
     let found = diagnosed(hidden, 0.1, 0.02, 5);

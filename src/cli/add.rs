@@ -184,7 +184,7 @@ fn add(
     let set = settings(args, card)?;
     let own_is_set = set.iter().any(|(name, _)| name != WEAR_COEFFICIENT);
     let mut drafts = Vec::new();
-    for form in forms(card, args.form.as_deref(), own_is_set)? {
+    for form in forms(card, args.form.as_deref(), own_is_set, &study)? {
         drafts.push(draft(args, card, form, &study, &target, &set)?);
     }
     let mut report = Report {
@@ -215,13 +215,19 @@ fn add(
     Ok(report.outcome(&target))
 }
 
-/// The forms to fit: the one asked for; else the own one first, and the others unless the effect's own parameters are set.
+/// The forms to fit: the one asked for; else the own one first, and the others that the study states enough for unless the effect's own
+/// parameters are set.
 fn forms(
     card: &'static Card,
     asked: Option<&str>,
     set: bool,
+    study: &Study,
 ) -> Result<Vec<Option<&'static Form>>, CliError> {
-    let others = card.forms.iter().map(Some);
+    let suits = |form: &'static Form| {
+        let spec = EffectSpec::of_form(card, Some(form), &[]);
+        spec.is_ok_and(|spec| study.suits(&spec))
+    };
+    let others = card.forms.iter().filter(|form| suits(form)).map(Some);
     match asked {
         None if set => Ok(vec![None]),
         None => Ok(std::iter::once(None).chain(others).collect()),

@@ -6,6 +6,10 @@
 
 use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
+/// Spread of what is thought beforehand of anything per worn volume: tests of small gears wear off a hundredth of what those of large
+/// ones do.
+const VOLUMES: f64 = 8.0;
+
 pub(super) const CARD: Card = Card {
     name: "debris_abrasion",
     hook: Hook::WearFactor,
@@ -21,10 +25,10 @@ pub(super) const CARD: Card = Card {
             "-",
             "relative growth of wear by the reference volume",
             1.0,
-            (0.0, 100.0),
+            (0.0, 1e4),
             Prior::LogNormal {
                 median: 1.0,
-                spread: 2.5,
+                spread: VOLUMES,
             },
         )
         .neutral(0.0),
@@ -48,7 +52,7 @@ pub(super) const CARD: Card = Card {
             (1e-3, f64::INFINITY),
             Prior::LogNormal {
                 median: 100.0,
-                spread: 3.0,
+                spread: VOLUMES,
             },
         )
         .fixed(),

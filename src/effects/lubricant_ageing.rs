@@ -37,7 +37,7 @@ pub(super) const CARD: Card = Card {
             (0.01, 1e5),
             Prior::LogNormal {
                 median: 100.0,
-                spread: 3.0,
+                spread: 5.0,
             },
         ),
     ],

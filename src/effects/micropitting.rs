@@ -5,7 +5,7 @@
 //! g  = 1 + γ where the flank slides against its rolling (dedendum), 1 elsewhere
 //! ```
 
-use super::{Card, Effect, Hook, Local, Param, Prior};
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 /// Pressure beyond which the damage no longer grows, MPa: steel yields.
 const CAP: f64 = 2000.0;
@@ -23,12 +23,26 @@ pub(super) const CARD: Card = Card {
         Param::new("rate", "um per 1e6 contacts", "depth at the reference pressure without a film", 3.0, (0.0, 1000.0), Prior::LogNormal { median: 5.0, spread: 3.0 }).neutral(0.0),
         Param::new("exponent", "-", "power of the peak pressure", 4.0, (0.5, 15.0), Prior::Uniform { low: 2.0, high: 8.0 }),
         Param::new("reference_pressure", "MPa", "peak pressure at which the depth is the rate", 1000.0, (100.0, 1e4), Prior::LogNormal { median: 1000.0, spread: 1.5 }).fixed(),
+        Param::new("onset", "contacts", "contacts of that member before it begins", 0.0, (0.0, 1e9), Prior::HalfNormal { sd: 1e6 }).fixed(),
         Param::new("lambda_c", "-", "film ratio above which there is none; inf: the film does not matter (finite needs [lubricant])", f64::INFINITY, (0.05, f64::INFINITY), Prior::LogNormal { median: 0.6, spread: 1.6 }).fixed(),
         Param::new("asymmetry", "-", "excess in the dedendum", 0.0, (0.0, 5.0), Prior::HalfNormal { sd: 0.5 }).fixed(),
-        Param::new("onset", "contacts", "contacts of that member before it begins", 0.0, (0.0, 1e9), Prior::HalfNormal { sd: 1e6 }).fixed(),
     ],
-    forms: &[],
-    build: |p| Box::new(Micropitting { rate: p[0], exponent: p[1], reference_pressure: p[2], lambda_c: p[3], asymmetry: p[4], onset: p[5] }),
+    forms: &[
+        Form {
+            name: "more in the dedendum",
+            frees: &["asymmetry"],
+            grown: &[&[0.5]],
+            ..Form::PLAIN
+        },
+        Form {
+            name: "under a thin film",
+            settings: &[("lambda_c", 0.6)],
+            frees: &["lambda_c", "asymmetry"],
+            grown: &[&[0.5, 0.3], &[1.0, 0.3], &[2.0, 0.3]],
+            ..Form::PLAIN
+        },
+    ],
+    build: |p| Box::new(Micropitting { rate: p[0], exponent: p[1], reference_pressure: p[2], onset: p[3], lambda_c: p[4], asymmetry: p[5] }),
 };
 
 struct Micropitting {

@@ -1,6 +1,6 @@
 //! What the forward model needs of a study.
 
-use super::{Materials, Operation, Order, Study, Wear, effect};
+use super::{EffectSpec, Materials, Operation, Order, Study, Wear, effect};
 use crate::effects::Surroundings;
 use crate::gear::Member;
 use crate::material::contact_modulus;
@@ -70,6 +70,11 @@ impl Study {
     /// (`lubricant.viscosity`).
     pub fn states(&self, key: &str) -> bool {
         effect::is_stated(key, self.lubricant, self.thermal)
+    }
+
+    /// Whether the study states every optional key that an effect needs with its values.
+    pub fn suits(&self, effect: &EffectSpec) -> bool {
+        effect.needs().iter().all(|key| self.states(key))
     }
 
     /// The study's effects with their stated values under some conditions; `None` if it has none.

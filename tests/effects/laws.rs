@@ -321,6 +321,22 @@ fn corrosive_loss() {
         ..at
     };
     same(law.added_depth(&gear), 1.635_802_469_135_802_7e-8);
+    // after three times the protective hours half of that: √(1 + 3) = 2; later with √t: x² + A x = B t of Deal and Grove
+    let slowed = effect("corrosive_loss", &[("protective_hours", 10.0)]);
+    same(slowed.added_depth(&at), 0.5 * law.added_depth(&at));
+    let depth: f64 = (0..40_000)
+        .map(|i| {
+            let hours = 0.01 * (f64::from(i) + 0.5);
+            let at = Local { hours, ..at };
+            slowed.added_depth(&at) * 0.01 / at.contact_hours
+        })
+        .sum();
+    let (linear, parabolic) = (1e-3, 4.0 * 10.0 * 1e-6);
+    close(
+        depth * depth + parabolic / linear * depth,
+        parabolic * 400.0,
+        1e-4,
+    );
 }
 
 #[test]

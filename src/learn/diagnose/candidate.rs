@@ -79,7 +79,7 @@ impl Candidate {
             let missing = card.needs.iter().filter(|key| !study.states(key));
             let needs: Vec<String> = missing.map(|key| (*key).to_owned()).collect();
             if needs.is_empty() {
-                judged.extend(forms(card, &base));
+                judged.extend(forms(card, &base, study));
             } else {
                 let effect = card.name.to_owned();
                 not_judged.push(NotJudged { effect, needs });
@@ -111,7 +111,7 @@ impl Candidate {
     }
 
     /// The forms that grow out of this one, a single effect's own, with the values that its parameters were fitted to.
-    pub(super) fn grown(&self, base: &Candidate, values: &[f64]) -> Vec<Self> {
+    pub(super) fn grown(&self, study: &Study, base: &Candidate, values: &[f64]) -> Vec<Self> {
         let card = CATALOGUE.iter().find(|card| self.names == [card.name]);
         let Some(card) = card.filter(|_| self.is_own_form()) else {
             return Vec::new();
@@ -119,7 +119,7 @@ impl Candidate {
         let forms = card.forms.iter().filter(|form| !form.grown.is_empty());
         forms
             .filter_map(|form| {
-                let (candidate, _) = of_form(card, Some(form), base)?;
+                let (candidate, _) = of_form(card, Some(form), base, study)?;
                 let starts = form.grown.iter().map(|place| [values, place].concat());
                 Some(Self {
                     starts: starts.collect(),
@@ -177,11 +177,11 @@ fn place(name: &str) -> usize {
 }
 
 /// The card's effect in its own form and every other accepted one that is fitted for itself.
-fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
+fn forms(card: &'static Card, base: &Candidate, study: &Study) -> Vec<Candidate> {
     let others = card.forms.iter().filter(|form| form.grown.is_empty());
     let all = std::iter::once(None).chain(others.map(Some));
     all.filter_map(|form| {
-        let (mut candidate, fitted) = of_form(card, form, base)?;
+        let (mut candidate, fitted) = of_form(card, form, base, study)?;
         candidate.starts = starts(&fitted);
         if fitted.len() > 1 && card.hook == Hook::WearFactor {
             let own = &candidate.parameters[base.inherited..];
@@ -192,14 +192,19 @@ fn forms(card: &'static Card, base: &Candidate) -> Vec<Candidate> {
     .collect()
 }
 
-/// The card's effect in one of its forms, None the own one, without starts; and its fitted parameters.
+/// The card's effect in one of its forms, None the own one, without starts; and its fitted parameters. None: the study does not state
+/// all that the form needs.
 fn of_form(
     card: &'static Card,
     form: Option<&'static Form>,
     base: &Candidate,
+    study: &Study,
 ) -> Option<(Candidate, Vec<FreeParameter>)> {
     // A form's settings lie in the ranges of its card: tests walk the catalogue.
     let spec = EffectSpec::of_form(card, form, &[]).ok()?;
+    if !study.suits(&spec) {
+        return None;
+    }
     let fitted = spec.fitted();
     let version = base.version.with(spec);
     let candidate = Candidate {

@@ -19,6 +19,7 @@ pub(super) fn of(
     if !flexible.is_real() {
         return Vec::new();
     }
+    let study = judge.ground.measured.study();
     let gain = |j: &Judged| j.log_evidence - base.judged.log_evidence;
     let best = screened.iter().map(gain).fold(0.0, f64::max);
     let bar = LEAST.max(WORTH * best);
@@ -31,7 +32,7 @@ pub(super) fn of(
             let own = j.candidate.parameters.iter().zip(&j.found.state.theta);
             let values: Vec<f64> = own.map(|(p, &x)| p.value(x)).collect();
             let added = &values[j.candidate.inherited..];
-            j.candidate.grown(&base.judged.candidate, added)
+            j.candidate.grown(study, &base.judged.candidate, added)
         })
         .collect();
     judge.screen(base, &candidates)
