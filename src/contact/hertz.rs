@@ -13,7 +13,6 @@ use nalgebra::DMatrix;
 use crate::analytic::hertz_line;
 use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, PairContact};
-use crate::contact::frame::Touch;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::numeric::interpolate;
 
@@ -58,11 +57,11 @@ impl<'a> HertzContact<'a> {
         self.stiffness * (self.fall * (xi - 0.5 * geometry.contact_ratio)).cos()
     }
 
-    /// The tooth pairs of position `q` that meet on the line of action.
+    /// The tooth pairs that meet on the line of action while the mesh passes position `q`.
     fn springs(&self, q: usize, depth: [&[f64]; 2]) -> Vec<Spring> {
         let position = &self.cycle.positions[q];
-        let on_line = |(_, pair): &(usize, &PairContact)| pair.frame.touch == Touch::Flanks;
         let spring = |(index, pair): (usize, &PairContact)| {
+            let present = self.present(pair)?;
             let mut stiffness = self.stiffness_at(pair);
             let mut gap = self.deviation(pair, depth);
             let mut factor = 1.0;
@@ -75,20 +74,55 @@ impl<'a> HertzContact<'a> {
                 }
                 factor = alteration.factor(q, index);
             }
-            Spring {
+            Some(Spring {
                 index,
                 stiffness,
                 gap,
                 factor,
-            }
+                present,
+            })
         };
         let pairs = position.pairs.iter().enumerate();
-        pairs.filter(on_line).map(spring).collect()
+        pairs.filter_map(spring).collect()
+    }
+
+    /// From when to when a pair is on the path of contact, of the time from −½ to ½ for which its position stands.
+    fn present(&self, pair: &PairContact) -> Option<(f64, f64)> {
+        let geometry = &self.cycle.pair;
+        let step = geometry.base_pitch / self.cycle.spec.positions as f64;
+        let until = |rho: f64| (rho - geometry.rho_c - pair.path) / step;
+        let (from, to) = (
+            until(geometry.rho_a).max(-0.5),
+            until(geometry.rho_e).min(0.5),
+        );
+        (from < to).then_some((from, to))
+    }
+
+    /// Mean line loads of `springs` (N/mm) and approach (mm) over the time for which their position stands.
+    ///
+    /// Pairs come and go within it. Were they there for all of it or not at all, the wear next to the ends of the path would jump wherever
+    /// another mounting moves an end past a position.
+    fn loads(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
+        let ends = springs.iter().flat_map(|s| [s.present.0, s.present.1]);
+        let mut times: Vec<f64> = ends.collect();
+        times.sort_by(f64::total_cmp);
+        let mut mean = (vec![0.0; springs.len()], 0.0);
+        for (from, to) in times.iter().zip(&times[1..]).filter(|(a, b)| a < b) {
+            let there = |s: &&Spring| s.present.0 <= *from && *to <= s.present.1;
+            let now: Vec<Spring> = springs.iter().filter(there).copied().collect();
+            let (loads, delta) = self.loads_of(&now);
+            for (mean, spring) in mean.0.iter_mut().zip(springs) {
+                let at = now.iter().position(|s| s.index == spring.index);
+                *mean += (to - from) * at.map_or(0.0, |at| loads[at]);
+            }
+            mean.1 += (to - from) * delta;
+        }
+        mean
     }
 
     /// Line loads of `springs` (N/mm) and the approach (mm); where teeth differ, each pair's with its own tooth measured,
     /// and the mean approach.
-    fn loads(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
+    fn loads_of(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
         let carried = |springs: &[Spring]| {
             let delta = share(springs, self.load);
             let loads: Vec<f64> = (springs.iter())
@@ -117,7 +151,7 @@ impl<'a> HertzContact<'a> {
 
     /// What separates the flanks of a pair where they should touch, mm.
     fn deviation(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
-        pair.facing.gap + self.worn(pair, depth)
+        pair.facing.gap - pair.frame.separation + self.worn(pair, depth)
     }
 
     /// Missing material (mm at the stations of both flanks) where the flanks of a pair should touch, mm.
@@ -201,6 +235,8 @@ struct Spring {
     gap: f64,
     /// Its load counts 1/factor in the torque balance.
     factor: f64,
+    /// From when to when it is there, of the time from −½ to ½ for which its position stands.
+    present: (f64, f64),
 }
 
 /// The approach δ at which springs with gaps carry `load` together: Σ c_i (δ − g_i)/f_i = load over those that touch.
@@ -223,6 +259,41 @@ fn share(springs: &[Spring], load: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::cycle::{CycleSpec, Stations};
+    use crate::contact::frame::tests::reference;
+    use crate::gear::Pair;
+
+    /// Over a mesh cycle as many pairs are there in the mean as the contact ratio says, wherever its positions lie; each position carries
+    /// the whole load.
+    #[test]
+    fn pairs_are_there_for_the_contact_ratio() {
+        for misalignment in [0.0, 0.011, 0.0137, 0.21, 0.5] {
+            let Pair { pinion, gear, .. } = reference();
+            let pair = Pair::new(pinion, gear, 80.0, misalignment).unwrap();
+            let spec = CycleSpec {
+                positions: 17,
+                spacing: 0.02,
+                window: 0.2,
+                reach: 0.02,
+            };
+            let cycle = Cycle::new(&pair, &Stations::new(&pair, 0.02), spec);
+            let hertz = HertzContact::new(&cycle, 3000.0, 1.15e5, 14.0);
+            let fresh = [0, 1].map(|i| vec![0.0; cycle.stations.arc[i].len()]);
+            let depth = [fresh[0].as_slice(), fresh[1].as_slice()];
+            let mut there = 0.0;
+            for q in 0..spec.positions {
+                let springs = hertz.springs(q, depth);
+                there += springs
+                    .iter()
+                    .map(|s| s.present.1 - s.present.0)
+                    .sum::<f64>();
+                let (loads, _) = hertz.loads(&springs);
+                assert!((loads.iter().sum::<f64>() / hertz.load - 1.0).abs() < 1e-12);
+            }
+            let mean = there / spec.positions as f64;
+            assert!((mean - pair.contact_ratio).abs() < 1e-9, "{mean}");
+        }
+    }
 
     #[test]
     fn springs_share_the_load() {
@@ -233,12 +304,14 @@ mod tests {
                     stiffness: 10.0,
                     gap: 0.0,
                     factor: 1.0,
+                    present: (-0.5, 0.5),
                 },
                 Spring {
                     index: 1,
                     stiffness: 30.0,
                     gap: 0.2,
                     factor: 1.0,
+                    present: (-0.5, 0.5),
                 },
             ]
         };
