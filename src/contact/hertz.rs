@@ -103,6 +103,9 @@ impl<'a> HertzContact<'a> {
     /// Pairs come and go within it. Were they there for all of it or not at all, the wear next to the ends of the path would jump wherever
     /// another mounting moves an end past a position.
     fn loads(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
+        if springs.iter().all(|s| s.present == (-0.5, 0.5)) {
+            return self.loads_of(springs);
+        }
         let ends = springs.iter().flat_map(|s| [s.present.0, s.present.1]);
         let mut times: Vec<f64> = ends.collect();
         times.sort_by(f64::total_cmp);

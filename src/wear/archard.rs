@@ -106,9 +106,11 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     pub fn contacts(&mut self, u: &[f64]) -> Result<&[PositionContact], ContactError> {
         if self.last.as_ref().is_none_or(|(at, _)| at != u) {
             let depth = split(self.model, u);
+            // analytic contacts are too cheap to be handed out one by one
             let solved: Vec<PositionContact> = self
                 .warm
                 .par_iter()
+                .with_min_len(4)
                 .enumerate()
                 .map(|(q, start)| self.model.solve(q, depth, start))
                 .collect::<Result<_, _>>()?;
@@ -355,7 +357,7 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
         let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
         let view = self.view(n, u);
         let cycle = self.model.cycle();
-        let factors: Vec<_> = (cycle.positions.par_iter().zip(contacts))
+        let factors: Vec<_> = (cycle.positions.iter().zip(contacts))
             .map(|(position, contact)| self.wear_factors(&view, position, contact))
             .collect();
         let mut rate = vec![0.0; u.len()];
