@@ -342,6 +342,32 @@ fn made_up_measurements_depend_on_the_seed_alone() {
     assert_eq!(compared["holdout"]["points"], 0);
 }
 
+/// The published pair has no backlash at its centre distance: 0.05 mm less makes full teeth overlap by 2 tan 20° of that.
+#[test]
+fn axes_that_effects_bring_too_close_are_told() {
+    let home = home();
+    let closer = "[[effect]]\nkind = \"radial_misalignment\"\namount = -0.05\n";
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    write("try/closer.toml", format!("{BASE}{closer}{FILE}"));
+    succeed(&home, "compare try/closer.toml -o closer");
+    let found = document(&home.path().join("closer"), "comparison.json");
+    let warnings: Vec<&str> = found["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(Value::as_str)
+        .collect();
+    assert!(
+        warnings.iter().any(|w| w.contains("overlap by 36.")),
+        "{warnings:?}"
+    );
+    let told = succeed(&home, "run try/closer.toml -o run");
+    assert!(told.contains("overlap by 36."), "{told}");
+    succeed(&home, "compare try/base.toml -o plain");
+    let found = document(&home.path().join("plain"), "comparison.json");
+    assert_eq!(found["warnings"].as_array().unwrap().len(), 0);
+}
+
 #[test]
 fn unusable_input_writes_nothing() {
     let home = tempfile::tempdir().unwrap();

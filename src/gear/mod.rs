@@ -27,7 +27,7 @@ pub use error::{GearError, PairError};
 pub use fillet::Trochoid;
 pub use involute::{inv, inverse_inv};
 pub use outline::{ProfileResolution, polygon_area};
-pub use pair::Pair;
+pub use pair::{JAM_TOLERANCE, Pair};
 pub use rack::BasicRack;
 pub use tip::TipRounding;
 pub use tooth::{Gear, MIN_TEETH, ToothSpec};

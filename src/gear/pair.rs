@@ -19,7 +19,7 @@ use crate::numeric::{Vec2, rotate};
 
 /// Overlap of the unloaded flanks that counts as rounding of the stated centre distance, modules (FZG type C: 91.5 mm is
 /// stated where 91.5001 mm is free of backlash).
-const JAM_TOLERANCE: f64 = 2e-4;
+pub const JAM_TOLERANCE: f64 = 2e-4;
 
 /// A working pair. Lengths mm, angles rad.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::effects::Surroundings;
+use crate::effects::{Combined, Hook, Surroundings};
 use crate::measure::Observation;
 use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, GearSet};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
+use crate::wear::acting::Acting;
 
 /// One measured test.
 #[derive(Debug, Clone)]
@@ -144,6 +145,32 @@ impl<'a> Bench<'a> {
     /// The gears.
     pub fn set(&self) -> &'a GearSet {
         &self.shop.set
+    }
+
+    /// Effects at the conditions of a test.
+    pub(super) fn acting(&self, test: usize, effects: Combined) -> Acting {
+        let measured = &self.tests[test];
+        Acting {
+            effects,
+            surroundings: measured.surroundings,
+            torque: 1e-3 * measured.conditions.torque,
+            speed: measured.conditions.speed,
+            reversed: measured.reversed,
+            face_width: self.set().face_width,
+        }
+    }
+
+    /// The backlash that effects leave in a test, mm: negative where teeth of full thickness would overlap. None: they do not move the
+    /// axes, or not to where the gears can run.
+    pub(super) fn moved_backlash(&self, test: usize, effects: Combined) -> Option<f64> {
+        let acting = self.acting(test, effects);
+        if !acting.acts(Hook::Operation) {
+            return None;
+        }
+        let own = self.tests[test].conditions.misalignment;
+        let pair = self.set().mount(own).ok()?;
+        let moved = own + acting.added_centre_distance(&pair);
+        Some(self.set().mount_moved(moved).ok()?.backlash)
     }
 
     /// The same tests with finer wear steps; none if the steps are the finest.

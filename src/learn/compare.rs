@@ -10,6 +10,7 @@ use super::fit::{Fit, FitError};
 use super::measured::{Measured, ModelVersion};
 use super::noise::NoiseModel;
 use super::search::Effort;
+use crate::gear::JAM_TOLERANCE;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
 use crate::study::{ContactKind, Study, StudyError, WEAR_COEFFICIENT};
@@ -160,8 +161,39 @@ impl Measured<'_> {
                 .unwrap_or(first)
         };
         let fit = self.refined(bench, version, noise, fit, &effort, &told);
-        let comparison = Comparison::new(self.study(), &self.data, &fit);
+        let mut comparison = Comparison::new(self.study(), &self.data, &fit);
+        let closed = self.closed_backlash(bench, version, &fit);
+        comparison.warnings.extend(closed);
         Ok(Compared { fit, comparison })
+    }
+
+    /// What to say where the fitted effects bring the axes so close that teeth of full thickness would jam.
+    fn closed_backlash(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        fit: &Fit,
+    ) -> Option<String> {
+        let fitted = |name: &str| {
+            let parameter = fit.parameters.iter().find(|p| p.name == name);
+            parameter.map(|p| p.value)
+        };
+        let of_test = |test| {
+            Some((
+                test,
+                bench.moved_backlash(test, version.effects.build(&fitted))?,
+            ))
+        };
+        let all = (0..bench.tests.len()).filter_map(of_test);
+        let (test, least) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        (-least > JAM_TOLERANCE * bench.set().gears[0].rack.module).then(|| {
+            format!(
+                "the effects bring the axes so close in test {} that teeth of full thickness would overlap by {:.1} um: the model takes \
+                 them to be thinner; state thickness_reduction if they are",
+                self.study().tests[test].id,
+                -1e3 * least
+            )
+        })
     }
 
     /// The fit with wear steps as fine as the measurements call for: ever finer, until they would not move it any more.

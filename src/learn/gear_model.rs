@@ -114,18 +114,6 @@ impl<'a> GearModel<'a> {
         Ok(forward)
     }
 
-    fn acting(&self, test: usize, effects: Combined) -> Acting {
-        let measured = &self.bench.tests[test];
-        Acting {
-            effects,
-            surroundings: measured.surroundings,
-            torque: 1e-3 * measured.conditions.torque,
-            speed: measured.conditions.speed,
-            reversed: measured.reversed,
-            face_width: self.bench.set().face_width,
-        }
-    }
-
     /// What `of` reads of every observation of a test.
     fn read<T>(
         &self,
@@ -136,7 +124,7 @@ impl<'a> GearModel<'a> {
     ) -> Result<Vec<T>, ForwardError> {
         let measured = &self.bench.tests[test];
         let effects = (self.effects)(parameters);
-        let acting = (!effects.is_empty()).then(|| self.acting(test, effects));
+        let acting = (!effects.is_empty()).then(|| self.bench.acting(test, effects));
         // one history in a coefficient of the test's own serves all others
         let worn_with = if self.stretches {
             measured.conditions.coefficient[0]
@@ -176,7 +164,7 @@ impl<'a> GearModel<'a> {
         coefficient: f64,
         parameters: &[f64],
     ) -> Result<Vec<Option<Local>>, PredictError> {
-        let acting = self.acting(test, Combined::default());
+        let acting = self.bench.acting(test, Combined::default());
         self.read(test, coefficient, parameters, |reading, observation| {
             reading.local(&acting, observation)
         })

@@ -2,6 +2,7 @@
 use std::path::Path;
 
 use super::format::{count, duration, percent, plain, significant, whole};
+use crate::gear::JAM_TOLERANCE;
 use crate::simulate::result::{Member, Run, State};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
@@ -54,6 +55,7 @@ pub fn summary(run: &Run, folder: &Path) -> String {
         "area balance",
         percent(run.balance_error, 2)
     ));
+    lines.extend(jammed(run).map(|words| format!("  note: {words}")));
     let failed: Vec<_> = run.checks.iter().filter(|check| !check.passed()).collect();
     for check in &failed {
         lines.push(format!(
@@ -91,6 +93,17 @@ pub fn summary(run: &Run, folder: &Path) -> String {
     }
     lines.push(String::new());
     lines.join("\n")
+}
+
+/// What to say of gears whose axes effects have moved closer than teeth of full thickness allow.
+pub(super) fn jammed(run: &Run) -> Option<String> {
+    let overlap = -run.geometry.backlash_um;
+    (overlap > 1e3 * JAM_TOLERANCE * run.geometry.module).then(|| {
+        format!(
+            "the effects bring the axes so close that teeth of full thickness would overlap by {} µm; they are taken to be thinner",
+            significant(overlap, 3)
+        )
+    })
 }
 
 /// What was run, in one line.

@@ -168,6 +168,11 @@ fn inputs(run: &Run) -> Section {
     Section::new("Inputs").table(table)
 }
 
+fn backlash(run: &Run) -> String {
+    let words = text::jammed(run).map_or_else(String::new, |words| format!(": {words}"));
+    format!("{} µm{words}", significant(run.geometry.backlash_um, 4))
+}
+
 fn geometry(run: &Run) -> Section {
     let g = &run.geometry;
     let mm = |value: f64| format!("{} mm", significant(value, 6));
@@ -187,7 +192,7 @@ fn geometry(run: &Run) -> Section {
                 "A, B, D, E from the pitch point",
                 format!("{a}, {b}, {d}, {e} mm"),
             ),
-            ("backlash", format!("{} µm", significant(g.backlash_um, 4))),
+            ("backlash", backlash(run)),
             ("speed ratio", significant(g.speed_ratio, 6)),
         ],
     );
