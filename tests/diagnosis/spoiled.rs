@@ -1,7 +1,7 @@
 //! Claim: measurements that are at fault themselves, or too few, are said to be so, and lead to no confident name; curves of unworn
 //! flanks do no harm.
 
-use gearwear::learn::diagnose::Diagnosis;
+use gearwear::learn::diagnose::{Diagnosis, Verdict};
 use gearwear::measure::{Dataset, Quantity};
 
 use crate::{diagnosed_of, says, synthetic};
@@ -58,6 +58,31 @@ fn zeros_that_change_between_curves_without_traces_are_suspected() {
     let found = diagnosed_of(data);
     let words = ["a constant for each curve", "column trace"];
     assert!(warns(&found, &words), "{:?}", found.warnings);
+}
+
+#[test]
+fn traces_that_are_tilted_each_by_itself_are_seen_to_be() {
+    let mut data = synthetic("", 0.05, 0.03, 24);
+    let mut seed = 1_u32;
+    for curve in curves(&data) {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        // up to 1 µm over the flank, one way or the other
+        let tilt = f64::from(seed) / f64::from(u32::MAX) - 0.5;
+        for (place, &row) in curve.iter().enumerate() {
+            let along = place as f64 / curve.len() as f64 - 0.5;
+            data.observations[row].value += 2.0 * tilt * along;
+        }
+    }
+    let found = diagnosed_of(data);
+    assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
+    assert_eq!(
+        found.driver.as_ref().unwrap().name,
+        "trace",
+        "{:?}",
+        found.drivers
+    );
+    let told = |reason: &String| reason.contains("measuring machine");
+    assert!(found.reasons.iter().any(told), "{}", says(&found));
 }
 
 #[test]

@@ -28,6 +28,8 @@ const OVER_CONDITIONS: usize = 3;
 const RIDGE: f64 = 1e-6;
 /// Share by which traces must explain more than test, member and cycles do to count as a driver of their own.
 const CLEARLY: f64 = 0.1;
+/// Share by which they must explain more than what grows evenly, and than any other driver, where each is a test, member and time.
+const ALONE: f64 = 0.2;
 
 /// How much of a discrepancy one driver explains.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -73,7 +75,7 @@ pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Ve
         .map(|scale| polynomials(&seen.kinds, &by(&|o| scale(o.cycles)), OVER_CYCLES))
         .map(|functions| seen.share(&all, &functions));
     let depth = seen.share(&all, &polynomials(&seen.kinds, model, OVER_DEPTH));
-    let shares = [
+    let others = [
         ("position", position),
         ("member", member),
         ("cycles", cycles[0].max(cycles[1])),
@@ -81,10 +83,11 @@ pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Ve
         ("torque", condition(&|at| at.torque_nmm.ln())),
         ("speed", condition(&|at| at.speed_rpm.ln())),
         ("misalignment", condition(&|at| at.misalignment_mm)),
-        ("trace", seen.share_of_traces()),
     ];
-    let mut drivers: Vec<Driver> = shares
-        .into_iter()
+    let most = others.iter().fold(0.0, |most, (_, share)| share.max(most));
+    let traces = seen.share_of_traces(&by(&|o| o.cycles), most);
+    let mut drivers: Vec<Driver> = (others.into_iter())
+        .chain([("trace", traces)])
         .map(|(name, share)| Driver {
             name: name.to_owned(),
             variance_share: share.clamp(0.0, 1.0),
@@ -171,8 +174,9 @@ impl Seen<'_> {
 
     /// Share that the traces explain, each by a constant, a factor and a slope: all of it where they explain clearly more than
     /// test, member and cycles, alone or together, do with no more of them; else only what they explain beyond those. One trace
-    /// for each test, member and time so explains nothing.
-    fn share_of_traces(&self) -> f64 {
+    /// for each test, member and time so explains nothing, unless its slopes go up and down: more than slopes that change evenly with
+    /// the cycles explain, and than any other driver does (`most`).
+    fn share_of_traces(&self, cycles: &[f64], most: f64) -> f64 {
         let of = |i: usize| self.ground.observation(i);
         let rows = self.model.len();
         let traces: Vec<Option<usize>> = (0..rows).map(|i| of(i).trace).collect();
@@ -182,7 +186,14 @@ impl Seen<'_> {
             .collect();
         let places: Vec<f64> = (0..rows).map(|i| of(i).position.unwrap_or(0.0)).collect();
         let functions = polynomials(&self.kinds, &places, 2);
-        of_traces(&traces, &cells, &|groups| self.share(groups, &functions))
+        let explained = |groups: &[usize]| self.share(groups, &functions);
+        let alone = explained(&numbered(traces.iter()));
+        let series = numbered(cells.iter().map(|[test, member, _]| (test, member)));
+        let even = products(&functions, &polynomials(&self.kinds, cycles, 2));
+        if alone > ALONE + most && alone > ALONE + self.share(&series, &even) {
+            return alone;
+        }
+        of_traces(&traces, &cells, &explained)
     }
 }
 
@@ -211,6 +222,14 @@ fn of_traces(
     } else {
         beyond.max(0.0)
     }
+}
+
+/// Every function of the one times every function of the other.
+fn products(one: &Functions, other: &Functions) -> Functions {
+    let times = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect();
+    one.iter()
+        .flat_map(|a| other.iter().map(move |b| times(a, b)))
+        .collect()
 }
 
 fn constant(rows: usize) -> Functions {

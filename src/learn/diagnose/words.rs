@@ -122,6 +122,9 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
             driver.name,
             percent(driver.variance_share)
         ));
+        if driver.name == "trace" {
+            d.reasons.push("Each trace is shifted or tilted by itself, which no wear does: look at centring, base radius, datum and temperature of the measuring machine.".to_owned());
+        }
     }
     if let Some(j) = leader.filter(|_| matches!(d.verdict, Verdict::Effect | Verdict::Effects)) {
         let runner = effects
