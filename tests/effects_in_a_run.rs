@@ -10,7 +10,7 @@ use gearwear::simulate::history::{WearState, worn_area};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::Study;
-use gearwear::wear::acting::Acting;
+use gearwear::wear::acting::{Acting, Age, PairLoad};
 
 const STUDY: &str = include_str!("../validation/paper/study.toml");
 
@@ -181,4 +181,48 @@ fn displaced_material_has_no_mass() {
     assert!(state.displaced.iter().all(|area| *area > 1e-4));
     let base = worn(&set, None, conditions(5e4), None);
     assert_eq!(base.displaced, [0.0; 2]);
+}
+
+/// Hertz's pressure as effects see it against the peak of the analytic model's contacts away from the path's ends, where a grid of some
+/// nodes per half width samples the ellipse; and Johnson's p0 = √(w E*/(π R)).
+#[test]
+fn effects_see_the_hertz_pressure() {
+    let set = set();
+    let acting = acting(
+        find("running_in").unwrap(),
+        &[2.0, 1e5, f64::INFINITY, f64::INFINITY],
+    );
+    let fine = Numerics {
+        elements_per_half_width: 12.0,
+        ..numerics()
+    };
+    let forward = Forward::new(&set, None, conditions(0.0), fine).unwrap();
+    let cycle = forward.cycle();
+    let age = Age {
+        cycles: 0.0,
+        worn_volume: 0.0,
+    };
+    let fresh = vec![0.0; cycle.stations.count()];
+    let contacts = forward.contacts_at(&fresh).unwrap();
+    let mut compared = 0;
+    for (position, contact) in cycle.positions.iter().zip(&contacts) {
+        for pair in &position.pairs {
+            let load = PairLoad::of(pair, contact);
+            if load.line_load == 0.0 || !(-4.8..4.5).contains(&pair.path) {
+                continue;
+            }
+            let seen = acting.at_pair(cycle, pair, load, age).hertz_pressure;
+            let [rho1, rho2] = pair.frame.rho;
+            let closed = (load.line_load * 115_385.0 / std::f64::consts::PI
+                * (1.0 / rho1 + 1.0 / rho2))
+                .sqrt();
+            assert!((seen / closed - 1.0).abs() < 1e-12, "{seen} {closed}");
+            assert!(
+                (seen / load.peak_pressure - 1.0).abs() < 0.02,
+                "{seen} {load:?}"
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared > 40);
 }

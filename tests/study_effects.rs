@@ -27,6 +27,7 @@ fn local() -> Local {
         rolling: [1.5, 2.0],
         pressure: 800.0,
         peak_pressure: 900.0,
+        hertz_pressure: 880.0,
         line_load: 100.0,
         half_width: 0.05,
         normal_load: 120.0,

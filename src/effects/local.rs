@@ -21,6 +21,8 @@ pub struct Local {
     pub pressure: f64,
     /// Largest pressure this point sees in the passage, averaged over 30 µm of flank, MPa.
     pub peak_pressure: f64,
+    /// Largest pressure of Hertz's ellipse under the load of this tooth pair on the unworn flanks, MPa.
+    pub hertz_pressure: f64,
     /// Load of this tooth pair per face width, N/mm.
     pub line_load: f64,
     /// Half width of the contact, mm.

@@ -2,8 +2,10 @@
 //!
 //! ```text
 //! dh = k p_ref (p/p_ref)^m v dt,   so k is multiplied by (p/p_ref)^(m − 1)      p MPa, here and now
+//!                                  or  by (p_H/p_ref)^(m − 1)      p_H MPa, Hertz's for the load of the pair, alike over the contact
 //!                                  or  by 1 + g max(0, p − p_t)/p_ref, linear above a threshold
 //! ```
+//! Over Hertz's ellipse the first two are the same but for a constant; where wear or a corner makes another shape they are not.
 //! Below [`LEAST_PRESSURE`] the factor stays what it is there: with m < 1 it would grow without bound as p goes to zero, while
 //! the wear p^m goes to zero.
 
@@ -65,6 +67,18 @@ pub(super) const CARD: Card = Card {
         .neutral(0.0)
         .fixed(),
         Param::new(
+            "hertz",
+            "-",
+            "1: the pressure of the power is Hertz's for the load of the pair; 0: that here and now",
+            0.0,
+            (0.0, 1.0),
+            Prior::Uniform {
+                low: 0.0,
+                high: 1.0,
+            },
+        )
+        .fixed(),
+        Param::new(
             "threshold",
             "MPa",
             "pressure from which that growth sets in",
@@ -77,19 +91,27 @@ pub(super) const CARD: Card = Card {
         )
         .fixed(),
     ],
-    forms: &[Form {
-        name: "linear above a threshold",
-        settings: &[("exponent", 1.0), ("gain", 3.0)],
-        frees: &["gain", "threshold"],
-        idle: &["exponent"],
-        ..Form::PLAIN
-    }],
+    forms: &[
+        Form {
+            name: "Hertz pressure",
+            settings: &[("hertz", 1.0)],
+            ..Form::PLAIN
+        },
+        Form {
+            name: "linear above a threshold",
+            settings: &[("exponent", 1.0), ("gain", 3.0)],
+            frees: &["gain", "threshold"],
+            idle: &["exponent"],
+            ..Form::PLAIN
+        },
+    ],
     build: |p| {
         Box::new(PressureExponent {
             exponent: p[0],
             reference_pressure: p[1],
             gain: p[2],
-            threshold: p[3],
+            hertz: p[3] >= 0.5,
+            threshold: p[4],
         })
     },
 };
@@ -98,13 +120,19 @@ struct PressureExponent {
     exponent: f64,
     reference_pressure: f64,
     gain: f64,
+    hertz: bool,
     threshold: f64,
 }
 
 impl Effect for PressureExponent {
     fn wear_factor(&self, at: &Local) -> f64 {
+        let pressure = if self.hertz {
+            at.hertz_pressure
+        } else {
+            at.pressure
+        };
         let power =
-            (at.pressure.max(LEAST_PRESSURE) / self.reference_pressure).powf(self.exponent - 1.0);
+            (pressure.max(LEAST_PRESSURE) / self.reference_pressure).powf(self.exponent - 1.0);
         let above = (at.pressure - self.threshold).max(0.0) / self.reference_pressure;
         power * (1.0 + self.gain * above)
     }

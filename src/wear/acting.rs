@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::analytic::hertz_line;
 use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::deposit::tributary;
@@ -35,6 +36,9 @@ pub struct Age {
     /// Volume worn off both members, mm³.
     pub worn_volume: f64,
 }
+
+/// Least relative radius that a Hertz pressure is taken for, mm: a sharp corner has none.
+const LEAST_RADIUS: f64 = 1e-3;
 
 /// Load of one tooth pair as effects see it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -160,6 +164,7 @@ impl Acting {
             rolling: [mean + 0.5 * sliding, mean - 0.5 * sliding],
             pressure: 0.0,
             peak_pressure: load.peak_pressure,
+            hertz_pressure: 0.0,
             line_load: load.line_load,
             half_width: load.half_width,
             normal_load: 1e3 * self.torque / (gears.pinion.base_radius * self.face_width),
@@ -178,6 +183,11 @@ impl Acting {
             flash_temperature: 0.0,
             bulk_temperature: REFERENCE_TEMPERATURE,
         };
+        local.hertz_pressure = hertz_line::peak_pressure(
+            load.line_load,
+            local.relative_radius().max(LEAST_RADIUS),
+            self.surroundings.contact_modulus,
+        );
         if self.effects.feels_surroundings() {
             self.surroundings.complete(&mut local);
         }

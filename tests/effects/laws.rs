@@ -51,6 +51,9 @@ fn pressure_exponent() {
     let at = ordinary();
     let law = effect("pressure_exponent", &[("exponent", 2.46)]);
     same(law.wear_factor(&at), 0.521_222_028_407_028_9);
+    let alike = effect("pressure_exponent", &[("exponent", 2.46), ("hertz", 1.0)]);
+    // 0.82^1.46
+    same(alike.wear_factor(&at), 0.7484593609856252);
     // 140 MPa above a threshold of 500: 1 + 3 140/1000
     let above = effect("pressure_exponent", &[("exponent", 1.0), ("gain", 3.0)]);
     same(above.wear_factor(&at), 1.42);

@@ -15,6 +15,7 @@ pub(crate) fn ordinary() -> Local {
         rolling: [1.61, 2.10],
         pressure: 640.0,
         peak_pressure: 850.0,
+        hertz_pressure: 820.0,
         line_load: 110.0,
         half_width: 0.085,
         normal_load: 119.44,
@@ -77,7 +78,7 @@ prop_compose! {
         bulk in -60.0..400.0f64, u1 in up_to(300.0), u2 in up_to(300.0), rho1 in up_to(500.0), rho2 in up_to(500.0),
     ) -> Local {
         Local {
-            pressure, peak_pressure: peak, line_load, half_width, normal_load, film_ratio, friction,
+            pressure, peak_pressure: peak, hertz_pressure: peak, line_load, half_width, normal_load, film_ratio, friction,
             flash_temperature: flash, bulk_temperature: bulk, rolling: [u1, u2], curvature: [rho1, rho2],
             ..ordinary()
         }
