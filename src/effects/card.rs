@@ -103,6 +103,15 @@ impl Param {
         }
     }
 
+    /// From 0, one way of a law, to 1, another; left alone by fits.
+    pub(super) const fn either(name: &'static str, meaning: &'static str) -> Self {
+        let prior = Prior::Uniform {
+            low: 0.0,
+            high: 1.0,
+        };
+        Self::new(name, "-", meaning, 0.0, (0.0, 1.0), prior).fixed()
+    }
+
     /// Neutral at `value`.
     pub(super) const fn neutral(mut self, value: f64) -> Self {
         self.neutral = Some(value);

@@ -71,18 +71,10 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
-        Param::new(
+        Param::either(
             "smooth",
-            "-",
             "0 for a straight rise over the width, 1 for a logistic one of the same slope",
-            0.0,
-            (0.0, 1.0),
-            Prior::Uniform {
-                low: 0.0,
-                high: 1.0,
-            },
-        )
-        .fixed(),
+        ),
     ],
     forms: &[Form {
         name: "smooth",

@@ -17,7 +17,7 @@ const LEAST_PRESSURE: f64 = 1e-3;
 pub(super) const CARD: Card = Card {
     name: "pressure_exponent",
     hook: Hook::WearFactor,
-    formula: "wear_factor = (max(p, 0.001)/reference_pressure)^(exponent - 1)",
+    formula: "wear_factor = (max((1 - hertz)*p + hertz*p_hertz, 0.001)/reference_pressure)^(exponent - 1)",
     source: "generalised Archard law with a power of the pressure, after S.K. Rhee, Wear equation for polymers sliding against metal surfaces, Wear 16 (1970) 431-445 (W = K P^a v^b t^c); slow-speed gear wear about sigma_H^1.4 after Plewe (1980), quoted in AGMA 925-A03. Neither re-read: the power law is used, no figure of theirs.",
     signature: "single contact and pinion root wear more than the tip (exponent above 1); wear grows with torque as T^((m+1)/2), no dependence on speed, none on time except by conformity",
     confounded_with: &[
@@ -66,18 +66,10 @@ pub(super) const CARD: Card = Card {
         )
         .neutral(0.0)
         .fixed(),
-        Param::new(
+        Param::either(
             "hertz",
-            "-",
-            "1: the pressure of the power is Hertz's for the load of the pair; 0: that here and now",
-            0.0,
-            (0.0, 1.0),
-            Prior::Uniform {
-                low: 0.0,
-                high: 1.0,
-            },
-        )
-        .fixed(),
+            "0 for the pressure here and now, 1 for Hertz's under the load of the pair",
+        ),
         Param::new(
             "threshold",
             "MPa",
@@ -110,7 +102,7 @@ pub(super) const CARD: Card = Card {
             exponent: p[0],
             reference_pressure: p[1],
             gain: p[2],
-            hertz: p[3] >= 0.5,
+            hertz: p[3],
             threshold: p[4],
         })
     },
@@ -120,17 +112,13 @@ struct PressureExponent {
     exponent: f64,
     reference_pressure: f64,
     gain: f64,
-    hertz: bool,
+    hertz: f64,
     threshold: f64,
 }
 
 impl Effect for PressureExponent {
     fn wear_factor(&self, at: &Local) -> f64 {
-        let pressure = if self.hertz {
-            at.hertz_pressure
-        } else {
-            at.pressure
-        };
+        let pressure = (1.0 - self.hertz) * at.pressure + self.hertz * at.hertz_pressure;
         let power =
             (pressure.max(LEAST_PRESSURE) / self.reference_pressure).powf(self.exponent - 1.0);
         let above = (at.pressure - self.threshold).max(0.0) / self.reference_pressure;
