@@ -186,21 +186,20 @@ impl Seen<'_> {
             .collect();
         let places: Vec<f64> = (0..rows).map(|i| of(i).position.unwrap_or(0.0)).collect();
         let functions = polynomials(&self.kinds, &places, 2);
-        let explained = |groups: &[usize]| self.share(groups, &functions);
-        let alone = explained(&numbered(traces.iter()));
         let series = numbered(cells.iter().map(|[test, member, _]| (test, member)));
         let even = products(&functions, &polynomials(&self.kinds, cycles, 2));
-        if alone > ALONE + most && alone > ALONE + self.share(&series, &even) {
-            return alone;
-        }
-        of_traces(&traces, &cells, &explained)
+        let alone = |share: f64| share > ALONE + most && share > ALONE + self.share(&series, &even);
+        of_traces(&traces, &cells, &alone, &|groups| {
+            self.share(groups, &functions)
+        })
     }
 }
 
-/// What [`Seen::share_of_traces`] says, with the share that groups of rows explain.
+/// What [`Seen::share_of_traces`] says, with the share that groups of rows explain, and whether the traces' own is theirs alone.
 fn of_traces(
     traces: &[Option<usize>],
     cells: &[[u64; 3]],
+    alone: &dyn Fn(f64) -> bool,
     explained: &dyn Fn(&[usize]) -> f64,
 ) -> f64 {
     let count = |groups: &[usize]| groups.iter().copied().collect::<BTreeSet<_>>().len();
@@ -210,6 +209,9 @@ fn of_traces(
         return 0.0;
     }
     let share = explained(&own);
+    if alone(share) {
+        return share;
+    }
     // Every set of test, member and cycles by the bits of its number; what is not in the set is made alike.
     let others = (1..8).filter_map(|set| {
         let of = |cell: &[u64; 3]| [0, 1, 2].map(|i| if set >> i & 1 == 1 { cell[i] } else { 0 });
@@ -260,7 +262,7 @@ mod tests {
     }
 
     fn share(m: &[f64], traces: &[Option<usize>]) -> f64 {
-        of_traces(traces, &cells(), &|groups| between(m, groups))
+        of_traces(traces, &cells(), &|_| false, &|groups| between(m, groups))
     }
 
     #[test]

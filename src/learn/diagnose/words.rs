@@ -123,7 +123,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
             percent(driver.variance_share)
         ));
         if driver.name == "trace" {
-            d.reasons.push("Each trace is shifted or tilted by itself, which no wear does: look at centring, base radius, datum and temperature of the measuring machine.".to_owned());
+            d.reasons.push("Traces are shifted or tilted each by itself, as wear of the same teeth is not: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth.".to_owned());
         }
     }
     if let Some(j) = leader.filter(|_| matches!(d.verdict, Verdict::Effect | Verdict::Effects)) {
