@@ -270,14 +270,20 @@ mod tests {
     /// the whole load.
     #[test]
     fn pairs_are_there_for_the_contact_ratio() {
-        for misalignment in [0.0, 0.011, 0.0137, 0.21, 0.5] {
+        for (misalignment, positions, reach) in [
+            (0.0, 17, 0.02),
+            (0.011, 17, 0.008),
+            (0.0137, 40, 0.008),
+            (0.21, 50, 0.012),
+            (0.5, 100, 0.008),
+        ] {
             let Pair { pinion, gear, .. } = reference();
             let pair = Pair::new(pinion, gear, 80.0, misalignment).unwrap();
             let spec = CycleSpec {
-                positions: 17,
+                positions,
                 spacing: 0.02,
                 window: 0.2,
-                reach: 0.02,
+                reach,
             };
             let cycle = Cycle::new(&pair, &Stations::new(&pair, 0.02), spec);
             let hertz = HertzContact::new(&cycle, 3000.0, 1.15e5, 14.0);
