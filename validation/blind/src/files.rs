@@ -71,7 +71,7 @@ fn study(set: &DataSet) -> String {
     s
 }
 
-fn table(set: &DataSet, rows: &[Row]) -> String {
+pub fn table(set: &DataSet, rows: &[Row]) -> String {
     let mut s = String::from("test,member,cycles,quantity,position,value,sigma,trace\n");
     for r in rows {
         let id = set.rig.tests.get(r.test).map_or("S", |p| p.id.as_str());

@@ -7,6 +7,7 @@ mod contact;
 mod detect;
 mod dice;
 mod draw;
+mod extend;
 mod files;
 mod hidden;
 mod involute;
@@ -75,6 +76,14 @@ enum Command {
         /// Also look which known causes of other names could explain the data (in truth.json; some seconds more).
         #[arg(long)]
         rivals: bool,
+    },
+    /// Measure one more test of a set that is there; the whole is written anew.
+    Extend {
+        set: PathBuf,
+        #[command(flatten)]
+        test: extend::Test,
+        #[arg(long)]
+        out: PathBuf,
     },
     /// Judge diagnosis.json files against the answers.
     Score {
@@ -159,6 +168,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                     start.elapsed().as_secs_f64()
                 );
             }
+        }
+        Command::Extend { set, test, out } => {
+            let set = extend::extend(&set, &test)?;
+            files::write(&set, &out.join(files::name(&set)))?;
         }
         Command::Score {
             data,

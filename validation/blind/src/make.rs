@@ -1,5 +1,6 @@
 //! Draws a data set: gears, tests, the hidden cause and its strength, noise.
 
+use clap::ValueEnum;
 use rayon::prelude::*;
 
 use crate::bench::{self, Bench, Rival};
@@ -10,7 +11,7 @@ use crate::laws::{Class, Law};
 use crate::rig::{Rig, Row};
 use crate::wear::{History, Run};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
     None,
     Single,
@@ -22,6 +23,13 @@ pub enum Kind {
 impl Kind {
     pub fn name(self) -> &'static str {
         ["none", "single", "foreign", "outside", "pair"][self as usize]
+    }
+
+    pub fn named(name: &str) -> Option<Self> {
+        Self::value_variants()
+            .iter()
+            .copied()
+            .find(|k| k.name() == name)
     }
 }
 
@@ -208,19 +216,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let mut rows: Vec<Row> = rows.into_iter().flatten().collect();
     let mut dice = root.branch(77 + attempt as u64 * 131);
     let mut datums: Vec<(String, f64)> = Vec::new();
-    for r in &mut rows {
-        let mut offset = 0.0;
-        if r.radius.is_some() {
-            if datums.last().is_none_or(|l| l.0 != r.trace) {
-                datums.push((
-                    r.trace.clone(),
-                    ((datum * dice.normal()) * 1e4).round() / 1e4,
-                ));
-            }
-            offset = datums[datums.len() - 1].1;
-        }
-        r.value = r.free + offset + r.sigma * dice.normal();
-    }
+    measure(&mut rows, datum, &mut datums, &mut dice);
     if wish.outlier {
         let name = datums[dice.below(datums.len())].0.clone();
         let tilt = dice.uniform(4.0, 9.0) * dice.sign();
@@ -258,6 +254,23 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         rivals,
         rig,
     })
+}
+
+/// Values with noise, and a datum for each trace.
+pub fn measure(rows: &mut [Row], datum: f64, datums: &mut Vec<(String, f64)>, dice: &mut Dice) {
+    for r in rows {
+        let mut offset = 0.0;
+        if r.radius.is_some() {
+            if datums.last().is_none_or(|l| l.0 != r.trace) {
+                datums.push((
+                    r.trace.clone(),
+                    ((datum * dice.normal()) * 1e4).round() / 1e4,
+                ));
+            }
+            offset = datums[datums.len() - 1].1;
+        }
+        r.value = r.free + offset + r.sigma * dice.normal();
+    }
 }
 
 fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static str)> {

@@ -1,0 +1,95 @@
+//! One more test of a set that is there: its gears, its causes and its k, under other conditions.
+
+use std::error::Error;
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::bench;
+use crate::dice::Dice;
+use crate::files;
+use crate::hidden::Conditions;
+use crate::laws::Law;
+use crate::make::{self, DataSet, Kind, Wish};
+use crate::rig::Plan;
+
+#[derive(clap::Args)]
+pub struct Test {
+    /// Nm
+    #[arg(long)]
+    torque: f64,
+    /// rpm
+    #[arg(long)]
+    speed: f64,
+    /// mm
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    misalignment: f64,
+    #[arg(long)]
+    cycles: f64,
+}
+
+/// The set in `folder` with one more test.
+///
+/// # Errors
+/// No answer in the folder, or the set made again is another one.
+pub fn extend(folder: &Path, test: &Test) -> Result<DataSet, Box<dyn Error>> {
+    let mut set = make::make(&wish(folder)?);
+    if fs::read_to_string(folder.join("measurements.csv"))? != files::table(&set, &set.rows) {
+        return Err(format!("{}: this program makes another set of it", folder.display()).into());
+    }
+    measure(&mut set, test);
+    Ok(set)
+}
+
+fn wish(folder: &Path) -> Result<Wish, Box<dyn Error>> {
+    let truth: Value = serde_json::from_str(&fs::read_to_string(folder.join("truth.json"))?)?;
+    let number = |key: &str| truth[key].as_u64().ok_or(format!("no {key} in truth.json"));
+    let class = truth["class"].as_str().unwrap_or_default();
+    Ok(Wish {
+        seed: number("seed")?,
+        index: number("index")?,
+        kind: Some(Kind::named(class).ok_or(format!("class {class}"))?),
+        noise: None,
+        paper: None,
+        law: None,
+        outlier: false,
+        missing: 0.0,
+        understate: 1.0,
+        rivals: false,
+    })
+}
+
+fn measure(set: &mut DataSet, test: &Test) {
+    let (number, first) = (set.rig.tests.len(), &set.rig.tests[0]);
+    let plan = Plan {
+        id: char::from(b'A' + number as u8).to_string(),
+        conditions: Conditions {
+            torque: test.torque,
+            speed: test.speed,
+            misalignment: test.misalignment,
+            ..first.conditions.clone()
+        },
+        cycles: test.cycles,
+        checkpoints: first
+            .checkpoints
+            .iter()
+            .map(|c| (c / first.cycles * test.cycles).round())
+            .collect(),
+    };
+    let mut dice = Dice::new(set.wish.seed).branch(set.wish.index).branch(4242);
+    let k = set.k * (set.scatter * dice.normal()).exp();
+    let (run, history) = set.rig.run(&plan, k, &set.laws, plan.cycles);
+    let weigh = !set.laws.iter().any(Law::moves_material);
+    let mut rows = set.rig.rows(&plan, number);
+    rows.retain(|r| weigh || r.radius.is_some());
+    let values = set.rig.observe(&run, &history, &rows, 1.0);
+    bench::sigmas(&mut rows, &values, set.noise);
+    make::measure(&mut rows, set.datum, &mut set.datums, &mut dice);
+    set.k_tests.push(k);
+    set.rows.append(&mut rows);
+    set.rig.tests.push(plan);
+    for r in &mut set.sealed {
+        r.test = set.rig.tests.len();
+    }
+}
