@@ -4,7 +4,7 @@
 //! a misfit behind, in which the next effect would be looked for in vain.
 
 use super::compare::{CompareError, Compared, Doing, contact_of};
-use super::fit::Fit;
+use super::fitted::Fit;
 use super::measured::{Measured, ModelVersion};
 use crate::measure::Dataset;
 use crate::study::{Study, WEAR_COEFFICIENT};

@@ -6,7 +6,8 @@
 
 use super::bench::Bench;
 use super::comparison::Comparison;
-use super::fit::{Fit, FitError};
+use super::fit::FitError;
+use super::fitted::Fit;
 use super::measured::{Measured, ModelVersion};
 use super::noise::NoiseModel;
 use super::search::Effort;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::Fit;
+use super::fitted::Fit;
 use super::parameters::Estimate;
 use super::ratio::{Ratio, ratios};
 use super::region::Map;
@@ -215,7 +215,7 @@ fn warnings(fit: &Fit) -> Vec<String> {
 }
 
 fn test_records(study: &Study, fit: &Fit, rows: &[Fitted<'_>]) -> Vec<TestRecord> {
-    let record = |fitted: &super::fit::TestFit| {
+    let record = |fitted: &super::fitted::TestFit| {
         let own: Vec<Fitted<'_>> = rows
             .iter()
             .copied()

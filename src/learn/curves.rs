@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::fit::Fit;
+use super::fitted::Fit;
 use super::region::Map;
 use super::tally::fitted;
 use crate::measure::{Dataset, Quantity, Subject};

@@ -3,7 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::learn::bench::{Bench, MeasuredTest, Workshop};
-use crate::learn::fit::{Coefficient, Fit, FitError, Problem};
+use crate::learn::fit::{Coefficient, FitError, Problem};
+use crate::learn::fitted::Fit;
 use crate::learn::gear_model::GearModel;
 use crate::learn::noise::NoiseModel;
 use crate::learn::parameters::Parameter;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::{Fit, RowFit};
+use super::fitted::{Fit, RowFit};
 use super::region::Map;
 use crate::gear::Region;
 use crate::measure::{Dataset, Observation, Quantity, Subject};

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::fit::Fit;
+use super::fitted::Fit;
 use super::tally::{Fitted, role_name};
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Role;

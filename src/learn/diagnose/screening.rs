@@ -1,0 +1,202 @@
+//! Which candidates matter: all are fitted by the analytic model, those that may matter by coarse finite elements.
+
+use rayon::prelude::*;
+
+use super::anchored::{Anchored, model, predictions};
+use super::candidate::Candidate;
+use super::fidelity::Fidelity;
+use super::judge::{Base, Judge, Judged, STAY, linear_gain};
+use crate::learn::quadratic::State;
+use crate::learn::search::{Effort, Found};
+
+/// The first look at a candidate: two steps with the derivatives of its start.
+const LOOK: Effort = Effort {
+    iterations: 2,
+    tolerance: 0.2,
+    floor: 0.3,
+    carry: 1.0,
+    settle: 0,
+};
+/// The screening fit of those that the first look leaves in play.
+const SCREEN: Effort = Effort {
+    iterations: 6,
+    tolerance: 0.1,
+    floor: 0.3,
+    carry: 0.4,
+    settle: 0,
+};
+/// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
+/// of the leader's gain.
+const IN_PLAY: usize = 8;
+const IN_PLAY_REFINED: usize = 4;
+const IN_PLAY_SHARE: f64 = 0.5;
+/// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
+/// gain as much as this at all.
+const REFINED: usize = 3;
+const REFINED_SHARE: f64 = 0.4;
+const MEANT: f64 = 1.0;
+/// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
+const SHARP_SHARE: f64 = 0.15;
+/// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at. Not safe
+/// where all starts lie far from the truth: a coating with a small ratio was given up so.
+const FAR_BEHIND: f64 = 20.0;
+const FAR_BEHIND_SHARE: f64 = 0.8;
+/// Starts are scaled to the amplitude that gains most in the linearised model, but to no less than this.
+pub(super) const LEAST_AMPLITUDE: f64 = 0.02;
+/// Second starts are followed if their linear gain is this share of the best one's.
+const SECOND_START: f64 = 0.6;
+
+impl Judge<'_> {
+    /// Fits all candidates by the analytic model: the gain of each start in the linearised model, a first look at each candidate,
+    /// then in full those that the look leaves in play.
+    pub(super) fn screen(&self, base: &Base, candidates: &[Candidate]) -> Vec<Judged> {
+        // one predictor for all that is asked of a candidate: it keeps its histories
+        let predictors: Vec<Anchored> = candidates
+            .iter()
+            .map(|candidate| Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone()))
+            .collect();
+        let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter().zip(&predictors))
+            .map(|(candidate, predictor)| self.starts(base, candidate, predictor))
+            .collect();
+        let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
+        let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
+        let looks: Vec<Option<Found>> = (candidates.par_iter().zip(&predictors).zip(starts))
+            .map(|((candidate, predictor), starts)| {
+                let behind = leader - best(&starts);
+                let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
+                let effort = if hopeless { &STAY } else { &LOOK };
+                self.look(candidate, predictor, starts, effort)
+            })
+            .collect();
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.judged.found.objective, least, IN_PLAY);
+        (candidates.par_iter().zip(&predictors).zip(looks))
+            .filter_map(|((candidate, predictor), found)| {
+                let mut found = found?;
+                if found.objective <= bar && !found.converged {
+                    let state = found.state.clone();
+                    let parameters = &candidate.parameters;
+                    if let Ok(further) = self.ground.fit(predictor, parameters, state, &SCREEN) {
+                        found = further;
+                    }
+                }
+                Some(self.judged(
+                    candidate.clone(),
+                    found,
+                    base.hertz_offset.clone(),
+                    Some(base),
+                    Fidelity::Screening,
+                ))
+            })
+            .collect()
+    }
+
+    /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
+    /// leaders, and where the discrepancy is real all whose rate is sharp in the local pressure, of which the analytic model
+    /// knows least.
+    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
+        let before = base.judged.log_evidence;
+        let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
+        gains.sort_by(|a, b| b.total_cmp(a));
+        let Some(best) = gains.first() else {
+            return screened;
+        };
+        let bar = gains[(REFINED - 1).min(gains.len() - 1)]
+            .min(REFINED_SHARE * best)
+            .max(MEANT);
+        let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
+        let offset = &base.judged.offset;
+        let fit = |candidate: &Candidate, state: State, effort: &Effort| {
+            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+            let parameters = &candidate.parameters;
+            self.ground.fit(&predictor, parameters, state, effort).ok()
+        };
+        let looks: Vec<Option<Found>> = (screened.par_iter())
+            .map(|judged| {
+                let candidate = &judged.candidate;
+                let bar = if candidate.sharp() {
+                    bar_of_sharp.min(bar)
+                } else {
+                    bar
+                };
+                let wanted = judged.log_evidence - before >= bar;
+                wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
+            })
+            .collect();
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.judged.found.objective, least, IN_PLAY_REFINED);
+        (screened.into_par_iter().zip(looks))
+            .map(|(judged, look)| {
+                let Some(mut found) = look else {
+                    return judged;
+                };
+                let candidate = judged.candidate;
+                if found.objective <= bar && !found.converged {
+                    let further = fit(&candidate, found.state.clone(), &SCREEN);
+                    found = further.unwrap_or(found);
+                }
+                self.judged(
+                    candidate,
+                    found,
+                    offset.clone(),
+                    Some(base),
+                    Fidelity::Middle,
+                )
+            })
+            .collect()
+    }
+
+    /// A candidate's starts with their gain in the linearised model, the largest first.
+    fn starts(
+        &self,
+        base: &Base,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+    ) -> Vec<(f64, State)> {
+        let mut starts: Vec<(f64, State)> = candidate
+            .starts
+            .iter()
+            .filter_map(|values| {
+                let state = self.added(base, candidate, values);
+                let predicted = predictions(&self.ground, predictor, candidate, &state).ok()?;
+                let joined = self.ground.rescaled(&self.ground.joined(&predicted));
+                let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
+                    .map(|(f, b)| f - b)
+                    .collect();
+                let (gain, amplitude) = linear_gain(&self.visible(base, &change), &base.residual);
+                let scaled = candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE));
+                Some((gain, self.added(base, candidate, &scaled)))
+            })
+            .collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        starts
+    }
+
+    /// A fit from the first of the starts, and from a near second.
+    fn look(
+        &self,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+        starts: Vec<(f64, State)>,
+        effort: &Effort,
+    ) -> Option<Found> {
+        let best = starts.first()?.0;
+        let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
+        let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
+        let parameters = &candidate.parameters;
+        (starts.into_iter().take(if second { 2 } else { 1 }))
+            .filter_map(|(_, state)| self.ground.fit(predictor, parameters, state, effort).ok())
+            .min_by(|a, b| a.objective.total_cmp(&b.objective))
+    }
+}
+
+/// The objective up to which candidates stay in play after a first look: the best `count`, and those near the leader.
+fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
+    let mut objectives: Vec<f64> = looks.collect();
+    objectives.sort_by(f64::total_cmp);
+    let Some(leader) = objectives.first() else {
+        return before;
+    };
+    let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
+    objectives[(count - 1).min(objectives.len() - 1)].max(share)
+}
