@@ -324,22 +324,32 @@ fn corrosive_loss() {
         ..at
     };
     same(law.added_depth(&gear), 1.635_802_469_135_802_7e-8);
-    // after three times the protective hours half of that: √(1 + 3) = 2; later with √t: x² + A x = B t of Deal and Grove
+    // after three times the protective hours half of that of a fresh surface: √(1 + 3) = 2
     let slowed = effect("corrosive_loss", &[("protective_hours", 10.0)]);
-    same(slowed.added_depth(&at), 0.5 * law.added_depth(&at));
-    let depth: f64 = (0..40_000)
-        .map(|i| {
-            let hours = 0.01 * (f64::from(i) + 0.5);
-            let at = Local { hours, ..at };
-            slowed.added_depth(&at) * 0.01 / at.contact_hours
-        })
-        .sum();
-    let (linear, parabolic) = (1e-3, 4.0 * 10.0 * 1e-6);
+    let rate = |law: &dyn gearwear::effects::Effect, hours: f64| {
+        let at = Local { hours, ..at };
+        law.added_depth(&at) / at.contact_hours
+    };
+    let fresh = rate(&*slowed, 0.0);
+    same(rate(&*slowed, 30.0), 0.5 * fresh);
+    let depth = |law: &dyn gearwear::effects::Effect, until: f64| -> f64 {
+        let step = until / 40_000.0;
+        let middles = (0..40_000).map(|i| step * (f64::from(i) + 0.5));
+        middles.map(|hours| rate(law, hours) * step).sum()
+    };
+    // x² + A x = B t of Deal and Grove, linear first with B/A, then with √t
+    let after = depth(&*slowed, 400.0);
+    let parabolic = 4.0 * 10.0 * fresh * fresh;
     close(
-        depth * depth + parabolic / linear * depth,
+        after * after + parabolic / fresh * after,
         parabolic * 400.0,
         1e-4,
     );
+    // the rate is what the first 100 h take
+    for protective in [0.1, 10.0, 1000.0] {
+        let slowed = effect("corrosive_loss", &[("protective_hours", protective)]);
+        close(depth(&*slowed, 100.0), 0.1, 1e-3);
+    }
 }
 
 #[test]
