@@ -18,7 +18,7 @@ use crate::learn::bench::Workshop;
 
 /// Probability from which a single effect or set is named.
 const CLAIM: f64 = 0.9;
-/// Probability of nothing missing from which an effect is not claimed, and above which it is the answer.
+/// Probability of nothing missing from which an effect is not claimed; of that or of the unknown, from which a group holds it.
 const DOUBT: f64 = 0.2;
 /// Candidates this much less probable than the leader are no look-alikes.
 const ALIKE: f64 = 0.03;
@@ -190,15 +190,16 @@ pub(super) fn diagnosis(
             Verdict::Effect
         }
     } else {
-        if nothing >= DOUBT {
-            group.push(NOTHING.to_owned());
+        let others = [(NOTHING, nothing), (UNKNOWN, unknown)];
+        let doubted = others.iter().filter(|other| other.1 >= DOUBT);
+        group.extend(doubted.map(|other| other.0.to_owned()));
+        if group.len() < 2 {
+            // What keeps the leader from being named is then the more probable of these.
+            let most = if nothing > unknown { NOTHING } else { UNKNOWN };
+            group.push(most.to_owned());
         }
         Verdict::Ambiguous
     };
-    if verdict == Verdict::Ambiguous && group.len() < 2 {
-        // What keeps the leader from being named is then the unknown.
-        group.push(UNKNOWN.to_owned());
-    }
     let effect = match verdict {
         Verdict::Effect => Some(Named::One(leader.0.to_owned())),
         Verdict::Effects => Some(Named::Several(

@@ -93,7 +93,8 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 .join(", then the same with the new study: ");
         }
         Verdict::Ambiguous => {
-            let group = d.indistinguishable.first().cloned().unwrap_or_default();
+            let mut group = d.indistinguishable.first().cloned().unwrap_or_default();
+            group.sort_by(|a, b| probability(b).total_cmp(&probability(a)));
             let list: Vec<String> = group
                 .iter()
                 .map(|name| format!("{name} ({})", percent(probability(name))))
@@ -102,10 +103,11 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 "The data cannot tell apart: {}. The base model stands at χ² {chi2:.2} per point.",
                 list.join(", ")
             );
-            if let (true, Some(share)) = (group.iter().any(|g| g == UNKNOWN), d.explained_share) {
+            let doubted = group.iter().any(|name| name == UNKNOWN);
+            if let (true, Some(j), Some(share)) = (doubted, leader, d.explained_share) {
                 d.reasons.push(format!(
                     "{} explains {} of what there is to explain: too much to pass over, too little to rule out something that the catalogue does not hold, or a spoiled measurement.",
-                    group[0],
+                    j.candidate.name(),
                     percent(share.max(0.0))
                 ));
             }
