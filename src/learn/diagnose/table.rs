@@ -64,7 +64,8 @@ pub(super) fn next_tests(
     let screened = judge.screen(&base, &singles);
     let leaders = leaders(&base.judged, &screened);
     watch(0.6, "trying feasible tests".to_owned());
-    let tests = grid(&plain(&judge));
+    let plainest = plain(&judge);
+    let tests = grid(&plainest);
     let made = existing(&judge);
     let all: Vec<Operation> = (tests.iter().map(|(_, operation)| *operation))
         .chain(made)
@@ -95,7 +96,7 @@ pub(super) fn next_tests(
                 format!(
                     "Next: {} with {}; {}",
                     best.quantity.replace('_', " "),
-                    changes(&best.test, &study.operation),
+                    changes(&best.test, &plainest),
                     best.why
                 )
             },
@@ -240,10 +241,7 @@ fn row(
             )
         });
     RankedTest {
-        why: format!(
-            "{}{weakest}{depth}",
-            purpose(&test, &judge.ground.measured.study().operation)
-        ),
+        why: format!("{}{weakest}{depth}", purpose(&test, &plain(judge))),
         quantity: told.quantity.map_or("", Quantity::name).to_owned(),
         changes,
         expected_chi2: told.score(),
