@@ -565,6 +565,11 @@ fn mounting() {
     same(change("thermal_expansion", &[("heating", 0.0)]), 0.0368);
     same(state.power(), 20.943_951_023_931_95);
     same(change("thermal_expansion", &[]), 0.056_068_434_942_017_395);
+    // stated for the oil's temperature: 1.15e-5 · 80 mm · 20.94 kW · 1 K/kW
+    same(
+        change("thermal_expansion", &[("warm", 1.0)]),
+        0.019_268_434_942_017_4,
+    );
     assert!(change("thermal_expansion", &[("expansion", -1e-5)]) < 0.0);
     assert_eq!(effect("extra_flexibility", &[]).compliance(), 0.02);
 }
