@@ -226,3 +226,41 @@ fn effects_see_the_hertz_pressure() {
     }
     assert!(compared > 40);
 }
+
+/// What a deviation of the profile changes of the pinion's wear, as a share of what it is without it: finite elements know the flank's slopes
+/// and curvatures, the analytic model reckons with them. Off the ends of the path, beyond which only finite elements go. Measured, root mean
+/// squares of the change and of the difference between the models: 0.24 and 0.039 (wave), 0.58 and 0.054 (slope), 0.41 and 0.066 (relief);
+/// by load sharing alone the wave's difference is 0.111.
+#[test]
+fn profiles_change_the_wear_alike_by_both_models() {
+    let set = set();
+    let members = members(&set);
+    let stated: [(&str, &[(&str, f64)]); 3] = [
+        (
+            "profile_form",
+            &[("amplitude", 2.0), ("waves", 2.0), ("phase", 1.0)],
+        ),
+        ("profile_slope", &[("slope", 8.0)]),
+        ("tip_relief", &[("amount", 8.0)]),
+    ];
+    for (name, values) in stated {
+        let card = find(name).unwrap();
+        let acting = acting(card, &card.values(values).unwrap());
+        let change = [None, Some(&members)].map(|model| {
+            let depth = |acting| worn(&set, model, conditions(2e4), acting).depth;
+            let (base, with) = (depth(None), depth(Some(&acting)));
+            let ratio = with[0].iter().zip(&base[0]).map(|(w, b)| w / b - 1.0);
+            let deepest = base[0].iter().fold(0.0f64, |m, d| m.max(*d));
+            let counts: Vec<bool> = base[0].iter().map(|b| *b > 0.15 * deepest).collect();
+            (ratio.collect::<Vec<f64>>(), counts)
+        });
+        let [(hertz, seen), (fem, also)] = &change;
+        let inside: Vec<usize> = (0..fem.len()).filter(|&i| seen[i] && also[i]).collect();
+        let inside = &inside[8..inside.len() - 8];
+        let rms = |f: &dyn Fn(usize) -> f64| {
+            (inside.iter().map(|&i| f(i) * f(i)).sum::<f64>() / inside.len() as f64).sqrt()
+        };
+        let (all, off) = (rms(&|i| fem[i]), rms(&|i| fem[i] - hertz[i]));
+        assert!(off < 0.4 * all, "{name}: {all} {off}");
+    }
+}

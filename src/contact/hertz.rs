@@ -5,7 +5,7 @@
 //! β₀ = [½ (1.11 + ε_α/2)² − 1.17]^(−1/2)                  c_max = c'_th E/E_St of ISO 6336-1, N/(mm·µm)
 //! ```
 //! The stiffness curve is Pedrero, Pleguezuelos, Artés & Antona, Mech. Mach. Theory 45 (2010), as refined by Sánchez et
-//! al. (2013); e_i are worn depth and profile deviations where the pair touches. Assumed away: contact outside the path
+//! al. (2013); e_i are worn depth and profile deviations where the pair touches (`touch`). Assumed away: contact outside the path
 //! of contact, the wear's influence on the pressure's shape, and the bodies beyond the teeth.
 
 use nalgebra::DMatrix;
@@ -14,6 +14,7 @@ use crate::analytic::hertz_line;
 use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::touch::Touch;
 use crate::numeric::interpolate;
 
 /// Analytic contact over one mesh cycle.
@@ -29,6 +30,8 @@ pub struct HertzContact<'a> {
     /// How it falls along the path of contact: β₀, rad per base pitch.
     fall: f64,
     alteration: Option<&'a Alteration>,
+    /// Where pairs touch, by position and pair; None: on the line of action, the flanks being involutes.
+    touches: Option<Vec<Vec<Touch>>>,
 }
 
 impl<'a> HertzContact<'a> {
@@ -42,12 +45,20 @@ impl<'a> HertzContact<'a> {
             stiffness: 1e3 * stiffness,
             fall: (0.5 * (1.11 + 0.5 * cycle.pair.contact_ratio).powi(2) - 1.17).powf(-0.5),
             alteration: None,
+            touches: None,
         }
     }
 
     /// The same with what effects change.
     pub fn with(mut self, alteration: &'a Alteration) -> Self {
         self.alteration = Some(alteration);
+        self.touches = alteration.profile.as_ref().map(|profile| {
+            let positions = self.cycle.positions.iter();
+            let touch = |pair: &PairContact| Touch::of(self.cycle, pair, profile);
+            positions
+                .map(|position| position.pairs.iter().map(touch).collect())
+                .collect()
+        });
         self
     }
 
@@ -69,9 +80,7 @@ impl<'a> HertzContact<'a> {
                 if alteration.flexibility != 0.0 {
                     stiffness /= 1.0 + alteration.flexibility * stiffness;
                 }
-                if let Some([pinion, gear]) = &alteration.profile {
-                    gap += self.worn(pair, [pinion, gear]);
-                }
+                gap += self.touch(q, index).map_or(0.0, |touch| touch.gap);
                 factor = alteration.factor(q, index);
             }
             Some(Spring {
@@ -84,6 +93,10 @@ impl<'a> HertzContact<'a> {
         };
         let pairs = position.pairs.iter().enumerate();
         pairs.filter_map(spring).collect()
+    }
+
+    fn touch(&self, q: usize, index: usize) -> Option<Touch> {
+        self.touches.as_ref().map(|touches| touches[q][index])
     }
 
     /// From when to when a pair is on the path of contact, of the time from −½ to ½ for which its position stands.
@@ -189,18 +202,19 @@ impl ContactModel for HertzContact<'_> {
         let (loads, delta) = self.loads(&springs);
         for (spring, load) in springs.iter().zip(loads).filter(|(_, load)| *load > 0.0) {
             let pair = &position.pairs[spring.index];
-            let half_width = hertz_line::half_width(
-                load,
-                self.cycle.pair.relative_radius(pair.path),
-                self.modulus,
+            let (centre, radius) = self.touch(q, spring.index).map_or_else(
+                || (0.0, self.cycle.pair.relative_radius(pair.path)),
+                |touch| (touch.centre, touch.radius),
             );
+            let half_width = hertz_line::half_width(load, radius, self.modulus);
             let own = &mut pressure[pair.offset..pair.offset + pair.xi.len()];
             for (p, x) in own.iter_mut().zip(&pair.xi) {
-                *p = (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();
+                *p = (1.0 - ((x - centre) / half_width).powi(2)).max(0.0).sqrt();
             }
             if own.iter().all(|p| *p == 0.0) {
                 // narrower than the grid: the nearest node carries it
-                let nearest = |x: &f64| pair.xi.iter().all(|other| x.abs() <= other.abs());
+                let off = |x: &f64| (x - centre).abs();
+                let nearest = |x: &f64| pair.xi.iter().all(|other| off(x) <= off(other));
                 own[pair.xi.iter().position(nearest).unwrap_or(0)] = 1.0;
             }
             let area: f64 = own.iter().zip(&pair.length).map(|(p, l)| p * l).sum();

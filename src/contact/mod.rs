@@ -8,4 +8,5 @@ pub mod frame;
 pub mod hertz;
 pub mod model;
 pub mod mortar;
+mod touch;
 pub mod unilateral;

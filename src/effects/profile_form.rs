@@ -11,17 +11,31 @@ use super::{Card, Effect, Form, Hook, Param, Prior, ProfileAt};
 use crate::gear::Member;
 
 /// Amplitude, phase and waves of second waves to begin with: an amplitude of either sign makes the other half of the phases.
-const SECOND_WAVES: [&[f64]; 10] = [
+const SECOND_WAVES: [&[f64]; 24] = [
     &[1.0, 0.0, 1.0],
+    &[-1.0, 0.0, 1.0],
     &[1.0, FRAC_PI_2, 1.0],
+    &[-1.0, FRAC_PI_2, 1.0],
+    &[1.0, 0.0, 1.5],
+    &[-1.0, 0.0, 1.5],
+    &[1.0, FRAC_PI_2, 1.5],
+    &[-1.0, FRAC_PI_2, 1.5],
     &[1.0, 0.0, 2.0],
+    &[-1.0, 0.0, 2.0],
     &[1.0, FRAC_PI_2, 2.0],
+    &[-1.0, FRAC_PI_2, 2.0],
     &[1.0, 0.0, 3.0],
+    &[-1.0, 0.0, 3.0],
     &[1.0, FRAC_PI_2, 3.0],
+    &[-1.0, FRAC_PI_2, 3.0],
     &[1.0, 0.0, 4.5],
+    &[-1.0, 0.0, 4.5],
     &[1.0, FRAC_PI_2, 4.5],
+    &[-1.0, FRAC_PI_2, 4.5],
     &[1.0, 0.0, 6.5],
+    &[-1.0, 0.0, 6.5],
     &[1.0, FRAC_PI_2, 6.5],
+    &[-1.0, FRAC_PI_2, 6.5],
 ];
 
 pub(super) const CARD: Card = Card {

@@ -44,8 +44,9 @@ const SHARP: [&str; 4] = [
     "plastic_deformation",
 ];
 
-/// How many places of the priors are looked at besides.
+/// How many places of the priors are looked at besides; for waves, which have a valley for every phase and length, more.
 const SPREAD: usize = 8;
+const SPREAD_OF_WAVES: usize = 24;
 
 /// Name of the form with a card's own settings.
 const OWN: &str = "";
@@ -183,9 +184,13 @@ fn forms(card: &'static Card, base: &Candidate, study: &Study) -> Vec<Candidate>
     all.filter_map(|form| {
         let (mut candidate, fitted) = of_form(card, form, base, study)?;
         candidate.starts = starts(&fitted);
-        if fitted.len() > 1 && card.hook == Hook::WearFactor {
-            let own = &candidate.parameters[base.inherited..];
-            candidate.starts.extend(spread(own, &fitted));
+        let own = &candidate.parameters[base.inherited..];
+        if has_phase(&fitted) {
+            candidate
+                .starts
+                .extend(spread(own, &fitted, SPREAD_OF_WAVES));
+        } else if fitted.len() > 1 && card.hook == Hook::WearFactor {
+            candidate.starts.extend(spread(own, &fitted, SPREAD));
         }
         Some(candidate)
     })
@@ -259,9 +264,9 @@ fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
 }
 
 /// Places spread over the priors, for laws of several parameters that cost little to look at, and each with a weak effect.
-fn spread(parameters: &[Parameter], fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
+fn spread(parameters: &[Parameter], fitted: &[FreeParameter], count: usize) -> Vec<Vec<f64>> {
     let mut places = Vec::new();
-    for i in 0..SPREAD {
+    for i in 0..count {
         let shares = parameters.iter().zip(halton(i, parameters.len()));
         let place: Vec<f64> = shares.map(|(p, share)| p.quantile(share)).collect();
         let weak = place.iter().zip(fitted);
@@ -272,6 +277,11 @@ fn spread(parameters: &[Parameter], fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
         places.push(place);
     }
     places
+}
+
+/// Whether one of the parameters is the phase of a wave.
+fn has_phase(fitted: &[FreeParameter]) -> bool {
+    fitted.iter().any(|f| f.unit == "rad")
 }
 
 /// The prior's median; one standard deviation up where the median is no effect.
