@@ -4,7 +4,7 @@ use super::flexible::Flexible;
 use super::judge::{Base, Judge, Judged};
 
 /// Share of the attainable fall of χ² with which a form needs no richer one.
-const ENOUGH: f64 = 0.9;
+const ENOUGH: f64 = 0.97;
 /// Share of the best gain of log evidence from which a form is worth another, and the least gain.
 const WORTH: f64 = 0.3;
 const LEAST: f64 = 5.0;
