@@ -134,3 +134,29 @@ fn traces_from_before_the_first_cycle_are_welcome() {
     assert!(found.probabilities.values().all(|p| p.is_finite()));
     assert!(found.effect.is_none(), "{}", says(&found));
 }
+
+/// A tilt that is small beside the noise of all curves together, with a true effect beside it.
+#[test]
+fn a_slightly_tilted_curve_is_named_too() {
+    let hidden = "[[effect]]\nkind = \"running_in\"\namplitude = 2.0\ndecay_cycles = 1.2e5\n";
+    for (hidden, seed) in [("", 31), (hidden, 32)] {
+        let mut data = synthetic(hidden, 0.05, 0.03, seed);
+        let spoiled = curves(&data)[5].clone();
+        let o = data.observations[spoiled[0]].clone();
+        for (place, &row) in spoiled.iter().enumerate() {
+            let o = &mut data.observations[row];
+            // from -4 to 4 sigma
+            o.value += o.sigma * (8.0 * place as f64 / spoiled.len() as f64 - 4.0);
+        }
+        let test = format!("test {}, {}", data.tests[o.test], o.member.name());
+        let cycles = format!("after {:.4e} cycles", o.cycles);
+        let found = diagnosed_of(data);
+        let words = ["one curve", &test, &cycles];
+        assert!(
+            warns(&found, &words),
+            "{:?}\n{}",
+            found.warnings,
+            says(&found)
+        );
+    }
+}

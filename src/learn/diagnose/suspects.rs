@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::DVector;
+
 use super::ground::Ground;
+use super::judge::{Base, Judge};
 
 /// Misfit beyond the noise, in its standard deviations, from which curves are looked at.
 const REAL: f64 = 5.0;
@@ -11,6 +14,9 @@ const ONE: f64 = 0.5;
 const CONSTANTS: f64 = 0.85;
 /// Among fewer curves one says nothing.
 const CURVES: usize = 6;
+/// χ² that an offset and a tilt of its own must explain of one curve, and how often what they explain of any other.
+const OWN: f64 = 30.0;
+const OFTEN: f64 = 3.0;
 
 /// Rows of one test, member, quantity and number of cycles: their number, Σ z², Σ z, and whether they have a datum.
 #[derive(Default)]
@@ -30,13 +36,7 @@ pub(super) fn suspects(ground: &Ground<'_>, model: &[f64]) -> Vec<String> {
         let key = (o.test, o.member, o.quantity, o.cycles.to_bits());
         let curve = curves.entry(key).or_default();
         if curve.count == 0.0 {
-            curve.name = format!(
-                "{} of test {}, {}, after {:.4e} cycles",
-                o.quantity.name(),
-                ground.measured.data.tests[o.test],
-                o.member.name(),
-                o.cycles
-            );
+            curve.name = name(ground, row);
         }
         curve.count += 1.0;
         curve.square += z * z;
@@ -69,4 +69,63 @@ pub(super) fn suspects(ground: &Ground<'_>, model: &[f64]) -> Vec<String> {
         );
     }
     found
+}
+
+/// The curve that departs by itself from `model`: shifted or tilted, as no law of wear would one alone.
+pub(super) fn alone(judge: &Judge<'_>, base: &Base, model: &[f64]) -> Option<String> {
+    let ground = &judge.ground;
+    let mut curves: BTreeMap<_, Vec<(usize, f64)>> = BTreeMap::new();
+    for row in 0..ground.len() {
+        let o = ground.observation(row);
+        if let Some(position) = o.position {
+            let key = (o.test, o.member, o.quantity, o.cycles.to_bits());
+            curves.entry(key).or_default().push((row, position));
+        }
+    }
+    let residual = judge.visible(base, &ground.residual(model));
+    let mut gains: Vec<(f64, usize)> = (curves.values())
+        .filter(|rows| rows.len() > 2)
+        .map(|rows| (of_line(judge, base, rows, &residual), rows[0].0))
+        .collect();
+    gains.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let [(worst, row), (next, _), ..] = gains[..] else {
+        return None;
+    };
+    (gains.len() >= CURVES && worst > OWN && worst > OFTEN * next).then(|| {
+        format!(
+            "one curve departs by itself, shifted or tilted ({}: χ² {worst:.0} of its own, {next:.0} the next): look at that measurement before any physics, and diagnose again without its rows",
+            name(ground, row)
+        )
+    })
+}
+
+/// Fall of χ² by a straight line over the position on some rows alone.
+fn of_line(judge: &Judge<'_>, base: &Base, rows: &[(usize, f64)], residual: &DVector<f64>) -> f64 {
+    let mean = rows.iter().map(|(_, x)| x).sum::<f64>() / rows.len() as f64;
+    let seen = |f: &dyn Fn(f64) -> f64| {
+        let mut change = vec![0.0; judge.ground.len()];
+        for &(row, x) in rows {
+            change[row] = f(x - mean);
+        }
+        judge.visible(base, &change)
+    };
+    let (shift, mut tilt) = (seen(&|_| 1.0), seen(&|x| x));
+    tilt -= &shift * (shift.dot(&tilt) / shift.norm_squared());
+    [shift, tilt]
+        .iter()
+        .filter(|v| v.norm_squared() > 0.0)
+        .map(|v| v.dot(residual).powi(2) / v.norm_squared())
+        .sum()
+}
+
+/// A curve by one of its rows.
+fn name(ground: &Ground<'_>, row: usize) -> String {
+    let o = ground.observation(row);
+    format!(
+        "{} of test {}, {}, after {:.4e} cycles",
+        o.quantity.name(),
+        ground.measured.data.tests[o.test],
+        o.member.name(),
+        o.cycles
+    )
 }

@@ -55,13 +55,23 @@ pub(super) fn warnings(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec
             ground.len()
         ));
     }
-    warnings.extend(suspects::suspects(ground, &base.judged.found.model));
+    let leader = ranking.effects().first().and_then(|e| ranking.best_of(e.0));
+    let leader = leader.map(|place| &ranking.judged[place]);
+    let suspects = suspects::suspects(ground, &base.judged.found.model);
+    if suspects.is_empty() {
+        let models = std::iter::once(&base.judged).chain(leader);
+        warnings.extend(
+            models
+                .filter_map(|j| suspects::alone(judge, base, &j.found.model))
+                .next(),
+        );
+    }
+    warnings.extend(suspects);
     if !base.judged.converged {
         warnings
             .push("the fit of the base model did not converge: probabilities are rough".to_owned());
     }
-    if let Some(leader) = ranking.effects().first().and_then(|e| ranking.best_of(e.0)) {
-        let leader = &ranking.judged[leader];
+    if let Some(leader) = leader {
         if !leader.converged {
             warnings.push(format!(
                 "the fit with {} did not converge: its parameters are rough",
