@@ -41,13 +41,15 @@ impl Touch {
         };
         let [e0, e1, e2] = parabola(&pair.xi, deviation);
         let radius = cycle.pair.relative_radius(pair.path);
-        let curvature = (1.0 / radius + e2).max(LEAST_CURVATURE / radius);
+        // without a deviation the involutes' own radius, to the bit
+        let bend = (1.0 + radius * e2).max(LEAST_CURVATURE);
+        let curvature = bend / radius;
         let reach = pair.xi.iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let centre = (-e1 / curvature).clamp(-FARTHEST * reach, FARTHEST * reach);
         Self {
             centre,
             gap: e0 + e1 * centre + 0.5 * curvature * centre * centre,
-            radius: 1.0 / curvature,
+            radius: radius / bend,
         }
     }
 }
