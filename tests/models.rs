@@ -14,6 +14,7 @@
 
 use std::sync::OnceLock;
 
+use gearwear::contact::contact_point::ContactPoint;
 use gearwear::contact::frame::Touch;
 use gearwear::contact::hertz::HertzContact;
 use gearwear::contact::model::ContactModel;
@@ -362,7 +363,9 @@ fn a_pass_of_the_hertz_model_does_the_work_of_its_loads() {
                 ..numerics()
             };
             let forward = Forward::new(&set, None, conditions(misalignment), at).unwrap();
-            let hertz = HertzContact::new(forward.cycle(), forward.torque(), set.modulus(), 14.0);
+            let (cycle, torque) = (forward.cycle(), forward.torque());
+            let points = ContactPoint::all(cycle, None);
+            let hertz = HertzContact::new(cycle, &points, torque, set.modulus(), 14.0);
             let fresh = vec![0.0; forward.cycle().stations.count()];
             let area = ArchardSystem::new(&hertz, [1.0, 1.0])
                 .area_rate(0.0, &fresh)
@@ -385,7 +388,8 @@ fn prescribed_loads_give_the_pressures_of_the_model_they_come_from() {
     };
     let forward = Forward::new(&set, None, conditions(0.5), coarse).unwrap();
     let cycle = forward.cycle();
-    let hertz = HertzContact::new(cycle, forward.torque(), set.modulus(), 14.0);
+    let points = ContactPoint::all(cycle, None);
+    let hertz = HertzContact::new(cycle, &points, forward.torque(), set.modulus(), 14.0);
     let fresh = [0, 1].map(|i| vec![0.0; cycle.stations.arc[i].len()]);
     let depth = [fresh[0].as_slice(), fresh[1].as_slice()];
     let contacts: Vec<_> = (0..20)

@@ -5,16 +5,16 @@
 //! β₀ = [½ (1.11 + ε_α/2)² − 1.17]^(−1/2)                  c_max = c'_th E/E_St of ISO 6336-1, N/(mm·µm)
 //! ```
 //! The stiffness curve is Pedrero, Pleguezuelos, Artés & Antona, Mech. Mach. Theory 45 (2010), as refined by Sánchez et
-//! al. (2013); e_i are worn depth and profile deviations where the pair touches (`touch`). Assumed away: contact outside the path
+//! al. (2013); e_i are worn depth and profile deviations where the pair touches (`contact_point`). Assumed away: contact outside the path
 //! of contact, the wear's influence on the pressure's shape, and the bodies beyond the teeth.
 
 use nalgebra::DMatrix;
 
 use crate::analytic::hertz_line;
 use crate::contact::alteration::Alteration;
+use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
-use crate::contact::touch::Touch;
 use crate::numeric::interpolate;
 
 /// Analytic contact over one mesh cycle.
@@ -30,14 +30,20 @@ pub struct HertzContact<'a> {
     /// How it falls along the path of contact: β₀, rad per base pitch.
     fall: f64,
     alteration: Option<&'a Alteration>,
-    /// Where pairs touch, by position and pair; None: on the line of action, the flanks being involutes.
-    touches: Option<Vec<Vec<Touch>>>,
+    /// Where pairs touch, by position and pair.
+    points: &'a [Vec<ContactPoint>],
 }
 
 impl<'a> HertzContact<'a> {
-    /// Contact under a pinion torque per face width (N·mm/mm) with the contact modulus E* (MPa) and the largest tooth
-    /// pair stiffness `stiffness` (N/(mm·µm)).
-    pub fn new(cycle: &'a Cycle, torque: f64, modulus: f64, stiffness: f64) -> Self {
+    /// Contact of pairs that touch at `points`, under a pinion torque per face width (N·mm/mm) with the contact modulus E* (MPa) and the
+    /// largest tooth pair stiffness `stiffness` (N/(mm·µm)).
+    pub fn new(
+        cycle: &'a Cycle,
+        points: &'a [Vec<ContactPoint>],
+        torque: f64,
+        modulus: f64,
+        stiffness: f64,
+    ) -> Self {
         Self {
             cycle,
             load: torque / cycle.pair.pinion.base_radius,
@@ -45,20 +51,13 @@ impl<'a> HertzContact<'a> {
             stiffness: 1e3 * stiffness,
             fall: (0.5 * (1.11 + 0.5 * cycle.pair.contact_ratio).powi(2) - 1.17).powf(-0.5),
             alteration: None,
-            touches: None,
+            points,
         }
     }
 
-    /// The same with what effects change.
+    /// The same with what effects change besides the contact points.
     pub fn with(mut self, alteration: &'a Alteration) -> Self {
         self.alteration = Some(alteration);
-        self.touches = alteration.profile.as_ref().map(|profile| {
-            let positions = self.cycle.positions.iter();
-            let touch = |pair: &PairContact| Touch::of(self.cycle, pair, profile);
-            positions
-                .map(|position| position.pairs.iter().map(touch).collect())
-                .collect()
-        });
         self
     }
 
@@ -74,13 +73,12 @@ impl<'a> HertzContact<'a> {
         let spring = |(index, pair): (usize, &PairContact)| {
             let present = self.present(pair)?;
             let mut stiffness = self.stiffness_at(pair);
-            let mut gap = self.deviation(pair, depth);
+            let gap = self.points[q][index].gap + self.worn(pair, depth);
             let mut factor = 1.0;
             if let Some(alteration) = self.alteration {
                 if alteration.flexibility != 0.0 {
                     stiffness /= 1.0 + alteration.flexibility * stiffness;
                 }
-                gap += self.touch(q, index).map_or(0.0, |touch| touch.gap);
                 factor = alteration.factor(q, index);
             }
             Some(Spring {
@@ -93,10 +91,6 @@ impl<'a> HertzContact<'a> {
         };
         let pairs = position.pairs.iter().enumerate();
         pairs.filter_map(spring).collect()
-    }
-
-    fn touch(&self, q: usize, index: usize) -> Option<Touch> {
-        self.touches.as_ref().map(|touches| touches[q][index])
     }
 
     /// From when to when a pair is on the path of contact, of the time from −½ to ½ for which its position stands.
@@ -165,11 +159,6 @@ impl<'a> HertzContact<'a> {
         joint
     }
 
-    /// What separates the flanks of a pair where they should touch, mm.
-    fn deviation(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
-        pair.facing.gap - pair.frame.separation + self.worn(pair, depth)
-    }
-
     /// Missing material (mm at the stations of both flanks) where the flanks of a pair should touch, mm.
     fn worn(&self, pair: &PairContact, depth: [&[f64]; 2]) -> f64 {
         (0..2)
@@ -202,10 +191,7 @@ impl ContactModel for HertzContact<'_> {
         let (loads, delta) = self.loads(&springs);
         for (spring, load) in springs.iter().zip(loads).filter(|(_, load)| *load > 0.0) {
             let pair = &position.pairs[spring.index];
-            let (centre, radius) = self.touch(q, spring.index).map_or_else(
-                || (0.0, self.cycle.pair.relative_radius(pair.path)),
-                |touch| (touch.centre, touch.radius),
-            );
+            let ContactPoint { centre, radius, .. } = self.points[q][spring.index];
             let half_width = hertz_line::half_width(load, radius, self.modulus);
             let own = &mut pressure[pair.offset..pair.offset + pair.xi.len()];
             for (p, x) in own.iter_mut().zip(&pair.xi) {
@@ -276,6 +262,7 @@ fn share(springs: &[Spring], load: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::contact_point::ContactPoint;
     use crate::contact::cycle::{CycleSpec, Stations};
     use crate::contact::frame::tests::reference;
     use crate::gear::Pair;
@@ -300,7 +287,8 @@ mod tests {
                 reach,
             };
             let cycle = Cycle::new(&pair, &Stations::new(&pair, 0.02), spec);
-            let hertz = HertzContact::new(&cycle, 3000.0, 1.15e5, 14.0);
+            let points = ContactPoint::all(&cycle, None);
+            let hertz = HertzContact::new(&cycle, &points, 3000.0, 1.15e5, 14.0);
             let fresh = [0, 1].map(|i| vec![0.0; cycle.stations.arc[i].len()]);
             let depth = [fresh[0].as_slice(), fresh[1].as_slice()];
             let mut there = 0.0;

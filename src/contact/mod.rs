@@ -1,6 +1,7 @@
 //! Floor 4: contact between two flanks: mortar coupling, unilateral contact, load sharing.
 
 pub mod alteration;
+pub mod contact_point;
 pub mod cycle;
 pub mod deposit;
 pub mod fem;
@@ -8,5 +9,4 @@ pub mod frame;
 pub mod hertz;
 pub mod model;
 pub mod mortar;
-mod touch;
 pub mod unilateral;

@@ -5,6 +5,7 @@ mod preparation;
 use std::sync::Arc;
 
 use crate::analytic::iso6336;
+use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
@@ -97,6 +98,8 @@ pub struct Forward<'a> {
     members: Option<&'a Members>,
     cycle: Arc<Cycle>,
     compliance: Option<Arc<CycleCompliance>>,
+    /// Where tooth pairs touch, analytically only.
+    points: Vec<Vec<ContactPoint>>,
     condensed_at: Option<Vec<f64>>,
     worn: Option<Box<Members>>,
     /// Members with more fine teeth than those given, once wear has brought these into reach.
@@ -181,6 +184,7 @@ impl<'a> Forward<'a> {
             members,
             cycle: Arc::new(Cycle::new(&pair, &stations, spec)),
             compliance: None,
+            points: Vec::new(),
             condensed_at: None,
             worn: None,
             extended: None,
@@ -246,6 +250,7 @@ impl<'a> Forward<'a> {
             members: self.members(),
             cycle: mounting.start.cycle,
             compliance: mounting.start.compliance,
+            points: Vec::new(),
             condensed_at: None,
             worn: None,
             extended: mounting.start.extended,
@@ -331,7 +336,9 @@ impl<'a> Forward<'a> {
                 let stiffness = teeth.theoretical()
                     * iso6336::material_factor(self.set.materials.map(|m| m.youngs_modulus));
                 let modulus = self.set.modulus();
-                let model = HertzContact::new(&self.cycle, self.torque(), modulus, stiffness);
+                let torque = self.torque();
+                let model =
+                    HertzContact::new(&self.cycle, &self.points, torque, modulus, stiffness);
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration)),
                     None => work(&model),

@@ -17,6 +17,8 @@ const CURVES: usize = 6;
 /// χ² that an offset and a tilt of its own must explain of one curve, and how often what they explain of any other.
 const OWN: f64 = 30.0;
 const OFTEN: f64 = 3.0;
+/// A tilt of which less than this share is left beside the shift is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// Rows of one test, member, quantity and number of cycles: their number, Σ z², Σ z, and whether they have a datum.
 #[derive(Default)]
@@ -109,13 +111,14 @@ fn of_line(judge: &Judge<'_>, base: &Base, rows: &[(usize, f64)], residual: &DVe
         }
         judge.visible(base, &change)
     };
-    let (shift, mut tilt) = (seen(&|_| 1.0), seen(&|x| x));
-    tilt -= &shift * (shift.dot(&tilt) / shift.norm_squared());
-    [shift, tilt]
-        .iter()
-        .filter(|v| v.norm_squared() > 0.0)
-        .map(|v| v.dot(residual).powi(2) / v.norm_squared())
-        .sum()
+    let fall = |v: &DVector<f64>| v.dot(residual).powi(2) / v.norm_squared();
+    let (shift, tilt) = (seen(&|_| 1.0), seen(&|x| x));
+    if shift.norm_squared() == 0.0 {
+        return 0.0;
+    }
+    let own = &tilt - &shift * (shift.dot(&tilt) / shift.norm_squared());
+    let seen_apart = own.norm_squared() > ROUNDING * tilt.norm_squared();
+    fall(&shift) + if seen_apart { fall(&own) } else { 0.0 }
 }
 
 /// A curve by one of its rows.

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Forward, ForwardError};
+use super::{ContactKind, Forward, ForwardError};
 use crate::contact::alteration::Alteration;
+use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, CycleSpec};
 use crate::contact::fem::CycleCompliance;
 use crate::effects::Effect;
@@ -213,18 +214,22 @@ impl Forward<'_> {
     /// Lets the effects change the contact.
     pub(super) fn alter(&mut self) -> Result<(), ForwardError> {
         self.altered = None;
-        let Some(acting) = self.acting else {
-            return Ok(());
-        };
-        let alteration = acting.alteration(&self.cycle);
-        if let Some(fault) = acting.effects.fault() {
-            return Err(ForwardError::Effect(fault));
+        if let Some(acting) = self.acting {
+            let alteration = acting.alteration(&self.cycle);
+            if let Some(fault) = acting.effects.fault() {
+                return Err(ForwardError::Effect(fault));
+            }
+            self.altered = (!alteration.is_none()).then(|| Altered {
+                opened: (self.compliance.as_ref()).and_then(|_| alteration.gaps(&self.cycle)),
+                compliance: (self.compliance.as_ref()).map(|c| c.altered(&self.cycle, &alteration)),
+                alteration,
+            });
         }
-        self.altered = (!alteration.is_none()).then(|| Altered {
-            opened: alteration.gaps(&self.cycle),
-            compliance: (self.compliance.as_ref()).map(|c| c.altered(&self.cycle, &alteration)),
-            alteration,
-        });
+        if self.kind == ContactKind::Hertz {
+            let altered = self.altered.as_ref();
+            let profile = altered.and_then(|a| a.alteration.profile.as_ref());
+            self.points = ContactPoint::all(&self.cycle, profile);
+        }
         Ok(())
     }
 }

@@ -12,15 +12,15 @@ use nalgebra::{Matrix3, Vector3};
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::numeric::interpolate;
 
-/// A tooth pair's contact with deviations.
+/// Where a tooth pair touches, unworn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Touch {
+pub struct ContactPoint {
     /// Along the tangent from the line of action, mm.
-    pub(super) centre: f64,
+    pub centre: f64,
     /// What separates the flanks there, mm.
-    pub(super) gap: f64,
+    pub gap: f64,
     /// Relative radius of curvature there, mm.
-    pub(super) radius: f64,
+    pub radius: f64,
 }
 
 /// Least curvature of the gap, as a share of that of the involutes; a contact that is hollow touches at two places.
@@ -28,17 +28,28 @@ const LEAST_CURVATURE: f64 = 0.2;
 /// Farthest centre, as a share of the pair's farthest node.
 const FARTHEST: f64 = 0.5;
 
-impl Touch {
-    /// The touch of a pair whose flanks lack `profile` (mm at the stations of pinion and gear).
-    pub(super) fn of(cycle: &Cycle, pair: &PairContact, profile: &[Vec<f64>; 2]) -> Self {
-        let deviation = |k: usize| -> f64 {
-            (0..2)
-                .map(|side| {
-                    let arc = &cycle.stations.arc[side];
-                    interpolate(arc, &profile[side], pair.arc[side][k])
-                })
-                .sum()
+impl ContactPoint {
+    /// The contact points of all pairs of a cycle, by position and pair: with the deviations that the gears are made with, and what their
+    /// flanks lack besides of `profile` (mm at the stations of pinion and gear).
+    pub fn all(cycle: &Cycle, profile: Option<&[Vec<f64>; 2]>) -> Vec<Vec<Self>> {
+        let gears = [&cycle.pair.pinion, &cycle.pair.gear];
+        let lacks = |side: usize, arc: f64| {
+            let made = gears[side].relief(gears[side].rho_at_arc(arc));
+            let besides = profile.map(|p| interpolate(&cycle.stations.arc[side], &p[side], arc));
+            made + besides.unwrap_or(0.0)
         };
+        let positions = cycle.positions.iter();
+        positions
+            .map(|position| {
+                let pairs = position.pairs.iter();
+                pairs.map(|pair| Self::of(cycle, pair, &lacks)).collect()
+            })
+            .collect()
+    }
+
+    /// The contact point of a pair whose flanks lack `lacks` (mm) of involutes, by side and arc.
+    fn of(cycle: &Cycle, pair: &PairContact, lacks: &impl Fn(usize, f64) -> f64) -> Self {
+        let deviation = |k: usize| (0..2).map(|side| lacks(side, pair.arc[side][k])).sum();
         let [e0, e1, e2] = parabola(&pair.xi, deviation);
         let radius = cycle.pair.relative_radius(pair.path);
         // without a deviation the involutes' own radius, to the bit
@@ -107,18 +118,18 @@ mod tests {
             }
             looked_at += 1;
             // the arc of the pinion from the line of action, which ξ follows but for the flank's own curvature
-            let of_arc = |f: &dyn Fn(f64) -> f64| {
-                let own: Vec<f64> = cycle.stations.arc[0]
-                    .iter()
-                    .map(|s| f(s - met.facing.arc[0]))
-                    .collect();
-                [own, vec![0.0; cycle.stations.arc[1].len()]]
+            let touch = |f: &dyn Fn(f64) -> f64| {
+                let lacks = |side: usize, arc: f64| match side {
+                    0 => f(arc - met.facing.arc[0]),
+                    _ => 0.0,
+                };
+                ContactPoint::of(&cycle, met, &lacks)
             };
             let sign = (met.arc[0][1] - met.arc[0][0]).signum();
-            let tilted = Touch::of(&cycle, met, &of_arc(&|s| 5e-4 * s));
+            let tilted = touch(&|s| 5e-4 * s);
             assert!((tilted.centre + sign * 5e-4 * radius).abs() < 0.02 * 5e-4 * radius);
             assert!((tilted.gap + 0.5 * 25e-8 * radius).abs() < 0.05 * 25e-8 * radius);
-            let bent = Touch::of(&cycle, met, &of_arc(&|s| 0.5 * 0.02 * s * s));
+            let bent = touch(&|s| 0.5 * 0.02 * s * s);
             assert!(bent.centre.abs() < 1e-3, "{}", bent.centre);
             let wanted = 1.0 / (1.0 / radius + 0.02);
             assert!((bent.radius / wanted - 1.0).abs() < 0.01, "{}", bent.radius);
