@@ -161,6 +161,13 @@ impl Candidate {
         own.iter().map(|f| f.value).chain(added).collect()
     }
 
+    /// The values of the added parameters at which their effect does nothing, where there are such.
+    pub(super) fn neutrals(&self) -> impl Iterator<Item = Option<f64>> {
+        let free = self.version.free.iter();
+        let free = free.filter(|f| f.name != WEAR_COEFFICIENT);
+        free.skip(self.inherited).map(|f| f.neutral)
+    }
+
     /// `a+b`, or `nothing_missing`.
     pub(super) fn name(&self) -> String {
         if self.names.is_empty() {

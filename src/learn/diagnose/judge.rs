@@ -7,6 +7,7 @@ use super::candidate::Candidate;
 use super::deciding::DECIDE;
 use super::fidelity::Fidelity;
 use super::ground::{Ground, whiten};
+use super::strength;
 use crate::learn::bench::Bench;
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
@@ -137,13 +138,15 @@ impl<'a> Judge<'a> {
         let square = self.ground.square(&found.model);
         // the tolerance of a large change may excuse some of what a fit leaves, but not stand for what it does not explain
         if let Some(before) = base.map(|base| &base.judged) {
-            let gain = 0.5 * (before.square - square);
-            let most = if gain > 0.0 {
-                EXCUSED * gain + EXCUSED_AT_LEAST
+            let explained = 0.5 * (before.square - square);
+            let most = if explained > 0.0 {
+                EXCUSED * explained + EXCUSED_AT_LEAST
             } else {
-                gain
+                explained
             };
-            log_evidence = log_evidence.min(before.log_evidence + most);
+            let gain = (log_evidence - before.log_evidence).min(most);
+            let more = strength::regained(&candidate, &found.state, gain, 2.0 * explained);
+            log_evidence = before.log_evidence + gain + more;
         }
         Judged {
             square,

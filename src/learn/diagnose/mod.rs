@@ -34,6 +34,7 @@ mod rank;
 mod ranked;
 mod screening;
 mod sparse;
+mod strength;
 mod suspects;
 mod table;
 mod telling;

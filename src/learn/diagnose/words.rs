@@ -3,7 +3,7 @@
 use super::judge::{Base, Judge, Judged};
 use super::rank::Ranking;
 use super::ranked::parameters;
-use super::verdict::{Diagnosis, Verdict};
+use super::verdict::{CLAIM, Diagnosis, Verdict};
 use super::warnings::{few, measured_once};
 use super::{NOTHING, UNKNOWN};
 use crate::effects::find;
@@ -21,8 +21,13 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
     let after = |j: &Judged| judge.ground.chi2_per_point(&j.found.model);
     match d.verdict {
         Verdict::NothingMissing => {
+            let shown = if nothing < CLAIM {
+                "Undecided: most likely nothing is missing, but a weak effect may be"
+            } else {
+                "Nothing is missing that these data show"
+            };
             d.sentence = format!(
-                "Nothing is missing that these data show: the base model stands at χ² {chi2:.2} per point (1 is the noise), probability {}.",
+                "{shown}: the base model stands at χ² {chi2:.2} per point (1 is the noise), probability of nothing missing {}.",
                 percent(nothing)
             );
             if let Some(j) = leader.filter(|_| nothing < 0.95) {
@@ -42,6 +47,8 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 "measure more before concluding anything: gearwear plan STUDY proposes tests"
             } else if measured_once(ground).len() == ground.tests.len() {
                 "no effect need be added for what these data show; what changes over life they cannot show: measure at several numbers of cycles"
+            } else if nothing < CLAIM {
+                "add no effect yet: more of the same measurements, or those that gearwear plan STUDY proposes, would decide"
             } else {
                 "no effect need be added; a weak effect could still hide below the noise"
             }

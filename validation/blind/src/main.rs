@@ -14,6 +14,7 @@ mod involute;
 mod laws;
 mod make;
 mod passage;
+mod records;
 mod rig;
 mod ring;
 mod score;
@@ -26,6 +27,7 @@ use std::time::Instant;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use make::{Kind, Wish};
+use records::Record;
 
 #[derive(Parser)]
 #[command(about = "Blind data for wear diagnosis, and their judging")]
@@ -87,9 +89,18 @@ enum Command {
     },
     /// Judge diagnosis.json files against the answers.
     Score {
-        data: PathBuf,
+        /// Folder of the data sets.
+        #[arg(requires = "results")]
+        data: Option<PathBuf>,
+        /// Folder of the diagnoses.
+        #[arg(long, requires = "data")]
+        results: Option<PathBuf>,
+        /// Also count records kept in these files.
         #[arg(long)]
-        results: PathBuf,
+        records: Vec<PathBuf>,
+        /// Keep what is counted here, a line each set.
+        #[arg(long)]
+        keep: Option<PathBuf>,
         /// Also write the figures as JSON here.
         #[arg(long)]
         json: Option<PathBuf>,
@@ -176,9 +187,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         Command::Score {
             data,
             results,
+            records,
+            keep,
             json,
         } => {
-            let (text, figures) = score::score(&data, &results)?;
+            let (mut all, mut missing) = (Vec::new(), Vec::new());
+            for path in &records {
+                all.extend(Record::of_file(path)?);
+            }
+            if let Some((data, results)) = data.zip(results) {
+                let (new, without) = Record::of_folders(&data, &results)?;
+                all.extend(new);
+                missing = without;
+            }
+            if let Some(path) = keep {
+                records::write(&all, &path)?;
+            }
+            let (text, figures) = score::score(&all, &missing);
             print!("{text}");
             if let Some(path) = json {
                 std::fs::write(path, serde_json::to_string_pretty(&figures)?)?;

@@ -1,10 +1,10 @@
 //! Compares a diagnosis with the answer and counts.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 
 use serde_json::{Value, json};
+
+use crate::records::Record;
 
 /// One data set's outcome.
 #[derive(Clone, Debug)]
@@ -204,7 +204,7 @@ const RESULTS: [&str; 7] = [
 /// `bic`: the least chi^2 + p ln(n) over the base model, single effects and the pairs that were fitted, whatever is left over.
 /// `sparse regression`: the effects whose linear signatures are picked one after another, whatever is left over.
 /// `discrepancy`: the base model with a Gaussian process; it tells that something is missing when its evidence is higher, never what.
-fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 3] {
+pub fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 3] {
     let number = |v: &Value| v.as_f64().unwrap_or(0.0);
     let mut best = (0.0, None);
     for s in found["screened"].as_array().into_iter().flatten() {
@@ -250,37 +250,16 @@ fn counted(list: &[Outcome]) -> String {
     cells.join(" | ")
 }
 
-pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
+/// The page and the figures of judged sets; `missing`: names of those without a result.
+pub fn score(records: &[Record], missing: &[String]) -> (String, Value) {
     let mut list = Vec::new();
     let mut simple: BTreeMap<&str, Vec<Outcome>> = BTreeMap::new();
-    let mut missing = Vec::new();
-    let mut names: Vec<_> = fs::read_dir(data)?
-        .filter_map(Result::ok)
-        .map(|e| e.path())
-        .filter(|p| p.join("truth.json").exists())
-        .collect();
-    names.sort();
-    for path in names {
-        let name = path
-            .file_name()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned();
-        let truth: Value = serde_json::from_str(&fs::read_to_string(path.join("truth.json"))?)?;
-        match fs::read_to_string(results.join(&name).join("diagnosis.json")) {
-            Ok(text) => {
-                let found = serde_json::from_str(&text)?;
-                let rows = fs::read_to_string(path.join("measurements.csv"))?
-                    .lines()
-                    .count();
-                for (who, answer) in baselines(&found, rows) {
-                    let outcome = judge(&name, &truth, &answer);
-                    simple.entry(who).or_default().push(outcome);
-                }
-                list.push(judge(&name, &truth, &found));
-            }
-            Err(_) => missing.push(name),
+    for record in records {
+        for (who, answer) in &record.simple {
+            let outcome = judge(&record.name, &record.truth, answer);
+            simple.entry(who).or_default().push(outcome);
         }
+        list.push(judge(&record.name, &record.truth, &record.found));
     }
     let mut text = format!(
         "{} data sets judged, {} without a result\n\n",
@@ -440,7 +419,7 @@ pub fn score(data: &Path, results: &Path) -> std::io::Result<(String, Value)> {
         "outside": {"sets": outside.len(), "driver_named": driver, "wrong_above_0.9": bold},
         "false_names_above_0.95": over, "calibration_error": ece, "rivals": rivals, "wrong": worst,
         "verdicts": list.iter().map(|o| json!({"name": o.name, "verdict": o.verdict, "result": o.result})).collect::<Vec<_>>()});
-    Ok((text, json))
+    (text, json)
 }
 
 #[cfg(test)]
