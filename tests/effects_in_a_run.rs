@@ -190,7 +190,7 @@ fn effects_see_the_hertz_pressure() {
     let set = set();
     let acting = acting(
         find("running_in").unwrap(),
-        &[2.0, 1e5, f64::INFINITY, f64::INFINITY],
+        &find("running_in").unwrap().defaults(),
     );
     let fine = Numerics {
         elements_per_half_width: 12.0,

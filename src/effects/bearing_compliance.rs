@@ -34,7 +34,10 @@ pub(super) const CARD: Card = Card {
             "clearance taken up by the load",
             0.0,
             (0.0, 500.0),
-            Prior::HalfNormal { sd: 30.0 },
+            Prior::LogNormal {
+                median: 25.0,
+                spread: 2.5,
+            },
         )
         .neutral(0.0)
         .fixed(),
@@ -53,7 +56,9 @@ pub(super) const CARD: Card = Card {
     ],
     forms: &[Form {
         name: "clearance",
-        settings: &[("clearance", 20.0)],
+        settings: &[("flexibility", 0.0), ("clearance", 25.0)],
+        frees: &["clearance", "closing_force"],
+        idle: &["flexibility"],
         ..Form::PLAIN
     }],
     build: |p| {

@@ -3,6 +3,7 @@
 //! ```text
 //! k(n) = k (1 + A exp(−n/N))              A (-) excess at n = 0, N pinion cycles
 //! k(n) = k (1 + A (1 + n/(q N))^−q)       the same start, a longer tail; q → ∞ is the exponential
+//! n counted in contacts of the member itself: the gear's excess lasts longer by the ratio of teeth
 //! k(h) = k (1 + A exp(−h/h_r))            local memory: gone with the depth worn, h_r (µm) about Rz
 //! ```
 
@@ -71,8 +72,17 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::either(
+            "own_contacts",
+            "0: the decay is counted in pinion cycles; 1: in contacts of the member itself",
+        ),
     ],
     forms: &[
+        Form {
+            name: "counted in own contacts",
+            settings: &[("own_contacts", 1.0)],
+            ..Form::PLAIN
+        },
         Form {
             name: "hyperbolic",
             settings: &[("shape", 1.0)],
@@ -97,6 +107,7 @@ pub(super) const CARD: Card = Card {
             decay_cycles: p[1],
             shape: p[2],
             decay_depth: p[3],
+            own_contacts: p[4],
         })
     },
 };
@@ -106,11 +117,13 @@ struct RunningIn {
     decay_cycles: f64,
     shape: f64,
     decay_depth: f64,
+    own_contacts: f64,
 }
 
 impl Effect for RunningIn {
     fn wear_factor(&self, at: &Local) -> f64 {
-        let x = at.cycles / self.decay_cycles;
+        let counted = at.cycles.powf(1.0 - self.own_contacts) * at.contacts.powf(self.own_contacts);
+        let x = counted / self.decay_cycles;
         let left = if self.shape.is_infinite() {
             (-x).exp()
         } else {

@@ -19,6 +19,13 @@ fn running_in() {
         effect("running_in", &[("shape", 2.0)]).wear_factor(&at),
         1.592_592_592_592_592_6,
     );
+    // 1 + 3/e after a decay's worth of own contacts, whatever the pinion's cycles
+    let own = effect("running_in", &[("own_contacts", 1.0)]);
+    let after = Local {
+        contacts: 1e5,
+        ..at
+    };
+    same(own.wear_factor(&after), 2.103_638_323_514_327);
     // local memory: 1 + 3 exp(-2.5e5/1e9) exp(-4/3)
     let memory = [("decay_cycles", 1e9), ("decay_depth", 3.0)];
     same(

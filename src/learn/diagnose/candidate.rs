@@ -1,5 +1,8 @@
 //! What could be missing: every effect of the catalogue in each accepted form, alone or several together.
 
+use std::f64::consts::FRAC_PI_2;
+
+use super::screening::LEAST_AMPLITUDE;
 use crate::effects::{CATALOGUE, Card, Form, Hook, Prior};
 use crate::learn::measured::{ModelVersion, parameter};
 use crate::learn::parameters::Parameter;
@@ -23,6 +26,8 @@ pub(super) struct Candidate {
     pub(super) inherited: usize,
     /// Values of the added parameters from which a fit may start.
     pub(super) starts: Vec<Vec<f64>>,
+    /// Weak waves in pairs a quarter of a wave apart, between which every phase lies.
+    pub(super) quarters: Vec<[Vec<f64>; 2]>,
     /// Of the added parameters: lower bound, upper bound, and value without effect where that is finite.
     strengths: Vec<(f64, f64, Option<f64>)>,
 }
@@ -44,9 +49,11 @@ const SHARP: [&str; 4] = [
     "plastic_deformation",
 ];
 
-/// How many places of the priors are looked at besides; for waves, which have a valley for every phase and length, more.
+/// How many places of the priors are looked at besides.
 const SPREAD: usize = 8;
-const SPREAD_OF_WAVES: usize = 24;
+/// How many lengths of waves are looked at, which have a valley each, and how weak, as a share of the prior's median: changes are to be linear.
+const WAVES: usize = 12;
+const WEAK_WAVE: f64 = 0.25;
 
 /// Name of the form with a card's own settings.
 const OWN: &str = "";
@@ -64,6 +71,7 @@ impl Candidate {
             parameters,
             version,
             starts: vec![Vec::new()],
+            quarters: Vec::new(),
             strengths: Vec::new(),
         }
     }
@@ -107,6 +115,7 @@ impl Candidate {
             inherited: self.inherited,
             version,
             starts: Vec::new(),
+            quarters: Vec::new(),
             strengths: Vec::new(),
         }
     }
@@ -142,9 +151,30 @@ impl Candidate {
         .collect()
     }
 
+    /// The wave that is `along` times one and `across` times the one a quarter of a wave on.
+    pub(super) fn turned(&self, values: &[f64], [along, across]: [f64; 2]) -> Vec<f64> {
+        let mut turned = self.scaled(values, along.hypot(across).max(LEAST_AMPLITUDE));
+        let own = &self.version.free;
+        let added = own.len() - values.len();
+        if let Some(phase) = phase(&own[added..]) {
+            turned[phase] = across.atan2(along);
+        }
+        turned
+    }
+
     /// Whether its rate is sharp in the local pressure, which the analytic model knows least.
     pub(super) fn sharp(&self) -> bool {
         self.names.iter().any(|name| SHARP.contains(name))
+    }
+
+    /// Whether it is a wave of the profile alone.
+    pub(super) fn is_wavy_profile(&self) -> bool {
+        let hook = |name: &&str| CATALOGUE.iter().find(|c| c.name == *name).map(|c| c.hook);
+        !self.quarters.is_empty()
+            && self
+                .names
+                .iter()
+                .all(|name| hook(&name) == Some(Hook::Profile))
     }
 
     /// Whether every added effect has its card's own form.
@@ -192,10 +222,8 @@ fn forms(card: &'static Card, base: &Candidate, study: &Study) -> Vec<Candidate>
         let (mut candidate, fitted) = of_form(card, form, base, study)?;
         candidate.starts = starts(&fitted);
         let own = &candidate.parameters[base.inherited..];
-        if has_phase(&fitted) {
-            candidate
-                .starts
-                .extend(spread(own, &fitted, SPREAD_OF_WAVES));
+        if let Some(phase) = phase(&fitted) {
+            candidate.quarters = quarters(own, &fitted, phase);
         } else if fitted.len() > 1 && card.hook == Hook::WearFactor {
             candidate.starts.extend(spread(own, &fitted, SPREAD));
         }
@@ -227,6 +255,7 @@ fn of_form(
         inherited: base.inherited,
         version,
         starts: Vec::new(),
+        quarters: Vec::new(),
         strengths: (fitted.iter())
             .map(|f| (f.lower, f.upper, f.neutral.filter(|none| none.is_finite())))
             .collect(),
@@ -286,9 +315,28 @@ fn spread(parameters: &[Parameter], fitted: &[FreeParameter], count: usize) -> V
     places
 }
 
-/// Whether one of the parameters is the phase of a wave.
-fn has_phase(fitted: &[FreeParameter]) -> bool {
-    fitted.iter().any(|f| f.unit == "rad")
+/// Which of the parameters is the phase of a wave.
+fn phase(fitted: &[FreeParameter]) -> Option<usize> {
+    fitted.iter().position(|f| f.unit == "rad")
+}
+
+/// Weak waves a quarter of a wave apart, their other parameters spread over the priors.
+fn quarters(
+    parameters: &[Parameter],
+    fitted: &[FreeParameter],
+    phase: usize,
+) -> Vec<[Vec<f64>; 2]> {
+    let wave = |i: usize, turn: f64| -> Vec<f64> {
+        let mut shares = halton(i, parameters.len()).into_iter();
+        let mut value = |at: usize| match fitted[at].neutral {
+            _ if at == phase => turn,
+            Some(none) => none + WEAK_WAVE * (median(&fitted[at]) - none),
+            None => parameters[at].quantile(shares.next().unwrap_or(0.5)),
+        };
+        (0..parameters.len()).map(&mut value).collect()
+    };
+    let pair = |i| [wave(i, 0.0), wave(i, FRAC_PI_2)];
+    (0..WAVES).map(pair).collect()
 }
 
 /// The prior's median; one standard deviation up where the median is no effect.

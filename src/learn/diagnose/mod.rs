@@ -197,7 +197,7 @@ fn with(
         Fidelity::Screening => screened,
         Fidelity::Middle | Fidelity::Full => {
             watch(0.35, "the leaders by coarse finite elements".to_owned());
-            judge.refine(&base, screened, flexible.is_real())
+            judge.refine(&base, screened, &flexible)
         }
     };
     let judged = match judge.fidelity {

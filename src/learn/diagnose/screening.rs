@@ -1,10 +1,12 @@
 //! Which candidates matter: all are fitted by the analytic model, those that may matter by coarse finite elements.
 
+use nalgebra::{DVector, Matrix2, Vector2};
 use rayon::prelude::*;
 
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::Candidate;
 use super::fidelity::Fidelity;
+use super::flexible::Flexible;
 use super::judge::{Base, Judge, Judged, STAY, linear_gain};
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
@@ -37,6 +39,8 @@ const REFINED_SHARE: f64 = 0.4;
 const MEANT: f64 = 1.0;
 /// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
 const SHARP_SHARE: f64 = 0.15;
+/// Share of the attainable fall of χ² below which nothing explains what is there.
+const EXPLAINED: f64 = 0.85;
 /// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at. Not safe
 /// where all starts lie far from the truth: a coating with a small ratio was given up so.
 const FAR_BEHIND: f64 = 20.0;
@@ -93,8 +97,14 @@ impl Judge<'_> {
 
     /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
     /// leaders, and where the discrepancy is real all whose rate is sharp in the local pressure, of which the analytic model
-    /// knows least.
-    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
+    /// knows least. It does not know either how fast wear takes weak waves of a profile away: where nothing explains what is there, these are
+    /// looked for anew.
+    pub(super) fn refine(
+        &self,
+        base: &Base,
+        screened: Vec<Judged>,
+        flexible: &Flexible,
+    ) -> Vec<Judged> {
         let before = base.judged.log_evidence;
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
@@ -104,7 +114,14 @@ impl Judge<'_> {
         let bar = gains[(REFINED - 1).min(gains.len() - 1)]
             .min(REFINED_SHARE * best)
             .max(MEANT);
-        let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
+        let bar_of_sharp = if flexible.is_real() {
+            SHARP_SHARE * best
+        } else {
+            bar
+        };
+        let fallen = |j: &Judged| base.judged.square - j.square;
+        let most = screened.iter().map(fallen).fold(0.0, f64::max);
+        let unexplained = flexible.drop > flexible.spread() && most < EXPLAINED * flexible.drop;
         let offset = &base.judged.offset;
         let fit = |candidate: &Candidate, state: State, effort: &Effort| {
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
@@ -114,6 +131,11 @@ impl Judge<'_> {
         let looks: Vec<Option<Found>> = (screened.par_iter())
             .map(|judged| {
                 let candidate = &judged.candidate;
+                if unexplained && candidate.is_wavy_profile() {
+                    let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+                    let starts = self.starts(base, candidate, &predictor);
+                    return self.look(candidate, &predictor, starts, &LOOK);
+                }
                 let bar = if candidate.sharp() {
                     bar_of_sharp.min(bar)
                 } else {
@@ -153,20 +175,28 @@ impl Judge<'_> {
         candidate: &Candidate,
         predictor: &Anchored<'_>,
     ) -> Vec<(f64, State)> {
-        let mut starts: Vec<(f64, State)> = candidate
-            .starts
-            .iter()
-            .filter_map(|values| {
-                let state = self.added(base, candidate, values);
-                let predicted = predictions(&self.ground, predictor, candidate, &state).ok()?;
-                let joined = self.ground.rescaled(&self.ground.joined(&predicted));
-                let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
-                    .map(|(f, b)| f - b)
-                    .collect();
-                let (gain, amplitude) = linear_gain(&self.visible(base, &change), &base.residual);
-                let scaled = candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE));
-                Some((gain, self.added(base, candidate, &scaled)))
-            })
+        let seen = |values: &[f64]| {
+            let state = self.added(base, candidate, values);
+            let predicted = predictions(&self.ground, predictor, candidate, &state).ok()?;
+            let joined = self.ground.rescaled(&self.ground.joined(&predicted));
+            let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
+                .map(|(f, b)| f - b)
+                .collect();
+            Some(self.visible(base, &change))
+        };
+        let alone = candidate.starts.iter().filter_map(|values| {
+            let (gain, amplitude) = linear_gain(&seen(values)?, &base.residual);
+            Some((
+                gain,
+                candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE)),
+            ))
+        });
+        let turned = candidate.quarters.iter().filter_map(|[first, second]| {
+            let (gain, shares) = plane_gain([&seen(first)?, &seen(second)?], &base.residual)?;
+            Some((gain, candidate.turned(first, shares)))
+        });
+        let mut starts: Vec<(f64, State)> = (alone.chain(turned))
+            .map(|(gain, values)| (gain, self.added(base, candidate, &values)))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         starts
@@ -188,6 +218,15 @@ impl Judge<'_> {
             .filter_map(|(_, state)| self.ground.fit(predictor, parameters, state, effort).ok())
             .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
+}
+
+/// Largest fall of χ²/2 by any sum of two changes, and their shares in it; None if they are one.
+fn plane_gain(seen: [&DVector<f64>; 2], residual: &DVector<f64>) -> Option<(f64, [f64; 2])> {
+    let dot = |i: usize, j: usize| seen[i].dot(seen[j]);
+    let gram = Matrix2::new(dot(0, 0), dot(0, 1), dot(1, 0), dot(1, 1));
+    let along = Vector2::new(seen[0].dot(residual), seen[1].dot(residual));
+    let shares = gram.cholesky()?.solve(&along);
+    Some((0.5 * shares.dot(&along), [shares.x, shares.y]))
 }
 
 /// The objective up to which candidates stay in play after a first look: the best `count`, and those near the leader.
