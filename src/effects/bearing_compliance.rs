@@ -49,7 +49,7 @@ pub(super) const CARD: Card = Card {
             (1.0, 1e6),
             Prior::LogNormal {
                 median: 500.0,
-                spread: 2.0,
+                spread: 4.0,
             },
         )
         .fixed(),

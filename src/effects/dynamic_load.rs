@@ -56,7 +56,7 @@ pub(super) const CARD: Card = Card {
             (50.0, 1e6),
             Prior::LogNormal {
                 median: 15000.0,
-                spread: 1.5,
+                spread: 2.5,
             },
         ),
         Param::new(

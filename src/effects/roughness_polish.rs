@@ -40,8 +40,8 @@ pub(super) const CARD: Card = Card {
             1e4,
             (10.0, 1e8),
             Prior::LogNormal {
-                median: 1e4,
-                spread: 3.0,
+                median: 2e4,
+                spread: 5.0,
             },
         ),
     ],

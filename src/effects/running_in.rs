@@ -68,7 +68,7 @@ pub(super) const CARD: Card = Card {
             (1e-2, f64::INFINITY),
             Prior::LogNormal {
                 median: 3.0,
-                spread: 2.0,
+                spread: 4.0,
             },
         )
         .fixed(),

@@ -2,8 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::screening::LEAST_AMPLITUDE;
-use crate::effects::{CATALOGUE, Card, Form, Hook, Prior};
+use crate::effects::{CATALOGUE, Card, Form, Hook, Prior, find};
 use crate::learn::measured::{ModelVersion, parameter};
 use crate::learn::parameters::Parameter;
 use crate::numeric::halton::halton;
@@ -54,6 +53,8 @@ const SPREAD: usize = 8;
 /// How many lengths of waves are looked at, which have a valley each, and how weak, as a share of the prior's median: changes are to be linear.
 const WAVES: usize = 12;
 const WEAK_WAVE: f64 = 0.25;
+/// Starts are scaled to the amplitude that gains most in the linearised model, but to no less than this.
+pub(super) const LEAST_AMPLITUDE: f64 = 0.02;
 
 /// Name of the form with a card's own settings.
 const OWN: &str = "";
@@ -169,12 +170,8 @@ impl Candidate {
 
     /// Whether it is a wave of the profile alone.
     pub(super) fn is_wavy_profile(&self) -> bool {
-        let hook = |name: &&str| CATALOGUE.iter().find(|c| c.name == *name).map(|c| c.hook);
-        !self.quarters.is_empty()
-            && self
-                .names
-                .iter()
-                .all(|name| hook(&name) == Some(Hook::Profile))
+        let of_profile = |name: &&str| find(name).is_ok_and(|card| card.hook == Hook::Profile);
+        !self.quarters.is_empty() && self.names.iter().all(of_profile)
     }
 
     /// Whether every added effect has its card's own form.

@@ -4,11 +4,10 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::anchored::{Anchored, model, offset, predictions};
-use super::candidate::Candidate;
+use super::candidate::{Candidate, LEAST_AMPLITUDE};
 use super::judge::{Base, Judge, Judged, linear_gain};
 use super::pair_fit::{self, PairStart};
 use super::pairs::PROMISE;
-use super::screening::LEAST_AMPLITUDE;
 use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
 

@@ -4,7 +4,7 @@ use nalgebra::{DVector, Matrix2, Vector2};
 use rayon::prelude::*;
 
 use super::anchored::{Anchored, model, predictions};
-use super::candidate::Candidate;
+use super::candidate::{Candidate, LEAST_AMPLITUDE};
 use super::fidelity::Fidelity;
 use super::flexible::Flexible;
 use super::judge::{Base, Judge, Judged, STAY, linear_gain};
@@ -45,8 +45,6 @@ const EXPLAINED: f64 = 0.85;
 /// where all starts lie far from the truth: a coating with a small ratio was given up so.
 const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
-/// Starts are scaled to the amplitude that gains most in the linearised model, but to no less than this.
-pub(super) const LEAST_AMPLITUDE: f64 = 0.02;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
 
