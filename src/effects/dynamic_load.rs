@@ -1,19 +1,20 @@
 //! The teeth vibrate in the rhythm of the mesh.
 //!
 //! ```text
-//! F = F_n (1 + κ G cos(2π s/p_b + φ)),   G = 1/√((1 − r²)² + (2ζr)²),   r = n/n_E        one degree of freedom
+//! F = F_n (1 + κ G(r) cos(2π s/p_b + φ) + κ₂ G(2r) cos(4π s/p_b + φ₂)),   r = n/n_E        one degree of freedom
+//! G(r) = 1/√((1 − r²)² + (2ζr)²)        κ₂ = 0: the first harmonic alone
 //! n_E = 30000/(π z1) √(c_γ/m_red) rpm        c_γ N/(mm µm), m_red kg/mm
 //! ```
 //! The load is kept above a twentieth of its mean: loss of contact is not modelled, nor that wear itself excites.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::{Card, Effect, Hook, Local, Param, Prior};
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 pub(super) const CARD: Card = Card {
     name: "dynamic_load",
     hook: Hook::LoadFactor,
-    formula: "load_factor = max(0.05, 1 + amplitude*cos(2*pi*s/base_pitch + phase)/sqrt((1 - (speed/resonance_speed)^2)^2 + (2*damping*speed/resonance_speed)^2))",
+    formula: "load_factor = max(0.05, 1 + amplitude*cos(2*pi*s/base_pitch + phase)/sqrt((1 - (speed/resonance_speed)^2)^2 + (2*damping*speed/resonance_speed)^2) + second_amplitude*cos(4*pi*s/base_pitch + second_phase)/sqrt((1 - (2*speed/resonance_speed)^2)^2 + (4*damping*speed/resonance_speed)^2))",
     source: "steady response of a damped oscillator; resonance speed n_E = 30000/(pi z1) sqrt(c_gamma/m_red), ISO 6336-1 Eq. (6) as two public codes quote it, the standard itself not read. Feedback of wear on the vibration: H. Ding, A. Kahraman (2007), not modelled.",
     signature: "a ripple of one base pitch along the flank that depends on speed; none at low speed",
     confounded_with: &[
@@ -42,11 +43,8 @@ pub(super) const CARD: Card = Card {
             "rad",
             "phase of the ripple at the pitch point",
             0.0,
-            (-std::f64::consts::PI, std::f64::consts::PI),
-            Prior::Uniform {
-                low: -std::f64::consts::PI,
-                high: std::f64::consts::PI,
-            },
+            (-PI, PI),
+            Prior::Uniform { low: -PI, high: PI },
         ),
         Param::new(
             "resonance_speed",
@@ -56,7 +54,7 @@ pub(super) const CARD: Card = Card {
             (50.0, 1e6),
             Prior::LogNormal {
                 median: 15000.0,
-                spread: 2.5,
+                spread: 4.0,
             },
         ),
         Param::new(
@@ -71,14 +69,45 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::new(
+            "second_amplitude",
+            "-",
+            "ripple twice as fast, of either sign",
+            0.0,
+            (-2.0, 2.0),
+            Prior::Normal { mean: 0.0, sd: 0.1 },
+        )
+        .neutral(0.0)
+        .fixed(),
+        Param::new(
+            "second_phase",
+            "rad",
+            "its phase at the pitch point",
+            0.0,
+            (-PI, PI),
+            Prior::Uniform { low: -PI, high: PI },
+        )
+        .fixed(),
     ],
-    forms: &[],
+    forms: &[Form {
+        name: "two harmonics",
+        frees: &["second_amplitude", "second_phase"],
+        grown: &[
+            &[0.05, 0.0],
+            &[-0.05, 0.0],
+            &[0.05, FRAC_PI_2],
+            &[-0.05, FRAC_PI_2],
+        ],
+        ..Form::PLAIN
+    }],
     build: |p| {
         Box::new(DynamicLoad {
             amplitude: p[0],
             phase: p[1],
             resonance_speed: p[2],
             damping: p[3],
+            second_amplitude: p[4],
+            second_phase: p[5],
         })
     },
 };
@@ -88,12 +117,23 @@ struct DynamicLoad {
     phase: f64,
     resonance_speed: f64,
     damping: f64,
+    second_amplitude: f64,
+    second_phase: f64,
+}
+
+impl DynamicLoad {
+    /// Ripple of the load by harmonic number `times` of the mesh, relative to its mean.
+    fn ripple(&self, at: &Local, times: f64, amplitude: f64, phase: f64) -> f64 {
+        let r = times * at.speed / self.resonance_speed;
+        let gain = 1.0 / (1.0 - r * r).hypot(2.0 * self.damping * r);
+        amplitude * gain * (times * TAU * at.path / at.base_pitch + phase).cos()
+    }
 }
 
 impl Effect for DynamicLoad {
     fn load_factor(&self, at: &Local) -> f64 {
-        let r = at.speed / self.resonance_speed;
-        let gain = 1.0 / (1.0 - r * r).hypot(2.0 * self.damping * r);
-        (1.0 + self.amplitude * gain * (TAU * at.path / at.base_pitch + self.phase).cos()).max(0.05)
+        let first = self.ripple(at, 1.0, self.amplitude, self.phase);
+        let second = self.ripple(at, 2.0, self.second_amplitude, self.second_phase);
+        (1.0 + first + second).max(0.05)
     }
 }

@@ -146,6 +146,12 @@ fn film_thickness() {
         }),
         1.0
     );
+    // 0.2 + 0.8 × 27/35
+    let left = [("lambda0", 0.9), ("exponent", 3.0), ("floor", 0.2)];
+    same(
+        effect("film_thickness", &left).wear_factor(&at),
+        0.2 + 0.8 * 27.0 / 35.0,
+    );
 }
 
 #[test]
@@ -513,6 +519,19 @@ fn dynamic_load() {
         effect("dynamic_load", &[("amplitude", 0.05)]).load_factor(&at),
         1.0 + 0.05 / 0.14,
     );
+    // the second harmonic is in resonance at half that speed, and has turned by half a wave after a quarter of a base pitch
+    let second = effect(
+        "dynamic_load",
+        &[("amplitude", 0.0), ("second_amplitude", 0.05)],
+    );
+    for (share, sign) in [(0.0, 1.0), (0.25, -1.0), (0.5, 1.0)] {
+        let at = Local {
+            speed: 7_500.0,
+            path: share * at.base_pitch,
+            ..at
+        };
+        same(second.load_factor(&at), 1.0 + sign * 0.05 / 0.14);
+    }
 }
 
 /// 6 µm at 119 N/mm and 20 N/(mm µm) give K_Hβ = 1.5.
