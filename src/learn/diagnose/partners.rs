@@ -4,10 +4,11 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::anchored::{Anchored, model, offset, predictions};
-use super::candidate::{Candidate, LEAST_AMPLITUDE};
-use super::judge::{Base, Judge, Judged, linear_gain};
+use super::candidate::Candidate;
+use super::judge::{Base, Judge, Judged};
 use super::pair_fit::{self, PairStart};
 use super::pairs::PROMISE;
+use super::screening::scaled_starts;
 use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
 
@@ -30,12 +31,7 @@ pub(super) fn kept<'j>(
     pair: &Judged,
     best: &Judged,
 ) -> Vec<&'j Judged> {
-    let part = |s: &&Judged| {
-        let (own, joint) = (&s.candidate, &pair.candidate);
-        let mut effects = joint.names.iter().zip(&joint.forms);
-        effects.any(|effect| effect == (&own.names[0], &own.forms[0]))
-    };
-    let mut parts: Vec<&Judged> = singles.iter().filter(part).collect();
+    let mut parts: Vec<&Judged> = singles.iter().filter(|s| is_part(s, pair)).collect();
     parts.sort_by(|a, b| a.square.total_cmp(&b.square));
     let rows = judge.ground.len() as f64;
     let leaves = pair.square > rows + LEFT * (2.0 * rows).sqrt();
@@ -47,7 +43,14 @@ pub(super) fn kept<'j>(
     parts
 }
 
-/// One effect of a fitted pair with other partners: those whose starts gain most, in the linearised analytic model, on what it
+/// Whether a pair holds a single effect in its form.
+fn is_part(single: &Judged, pair: &Judged) -> bool {
+    let (own, joint) = (&single.candidate, &pair.candidate);
+    let mut effects = joint.names.iter().zip(&joint.forms);
+    effects.any(|effect| effect == (&own.names[0], &own.forms[0]))
+}
+
+/// One effect of a fitted pair with other partners, or the same in another form: those whose starts gain most, in the linearised analytic model, on what it
 /// leaves with its values of the pair, are fitted by the analytic model, and the best of these by the middle fidelity.
 pub(super) fn fit(
     judge: &Judge<'_>,
@@ -74,14 +77,10 @@ pub(super) fn fit(
     let left = ground.residual(&ground.joined(&alone));
     let left = DVector::from_vec(ground.covariance.whiten(&left));
     let analytic = ground.rescaled(&ground.joined(&analytic));
-    let known = |s: &Judged| {
-        let both = [s.candidate.names[0], kept.candidate.names[0]];
-        (fitted.iter()).any(|f| both.iter().all(|name| f.candidate.names.contains(name)))
-    };
+    let known = |s: &Judged| fitted.iter().any(|f| is_part(s, f) && is_part(kept, f));
     let mut gains: Vec<(f64, Candidate, State)> = (singles.par_iter())
         .filter(|s| s.candidate.names != kept.candidate.names && !known(s))
-        .flat_map_iter(|s| s.candidate.starts.iter().map(move |values| (s, values)))
-        .filter_map(|(s, values)| {
+        .flat_map_iter(|s| {
             let both = kept.candidate.with(&s.candidate);
             let own = &s.candidate.parameters[s.candidate.inherited..];
             let with = |values: &[f64]| State {
@@ -90,13 +89,16 @@ pub(super) fn fit(
                     .collect(),
                 ..state.clone()
             };
-            let predicted = predicted(judge.hertz, &[], &both, &with(values))?;
-            let predicted = ground.rescaled(&ground.joined(&predicted));
-            let change = predicted.iter().zip(&analytic).map(|(f, a)| f - a);
-            let change: Vec<f64> = change.collect();
-            let (gain, amplitude) = linear_gain(&judge.visible(base, &change), &left);
-            let scaled = s.candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE));
-            (gain > PROMISE).then(|| (gain, both, with(&scaled)))
+            let seen = |values: &[f64]| {
+                let predicted = predicted(judge.hertz, &[], &both, &with(values))?;
+                let predicted = ground.rescaled(&ground.joined(&predicted));
+                let change = predicted.iter().zip(&analytic).map(|(f, a)| f - a);
+                Some(judge.visible(base, &change.collect::<Vec<f64>>()))
+            };
+            let starts = scaled_starts(&s.candidate, seen, &left);
+            let starts = starts.filter(|(gain, _)| *gain > PROMISE);
+            let starts = starts.map(|(gain, values)| (gain, both.clone(), with(&values)));
+            starts.collect::<Vec<_>>()
         })
         .collect();
     gains.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -182,18 +182,7 @@ impl Judge<'_> {
                 .collect();
             Some(self.visible(base, &change))
         };
-        let alone = candidate.starts.iter().filter_map(|values| {
-            let (gain, amplitude) = linear_gain(&seen(values)?, &base.residual);
-            Some((
-                gain,
-                candidate.scaled(values, amplitude.max(LEAST_AMPLITUDE)),
-            ))
-        });
-        let turned = candidate.quarters.iter().filter_map(|[first, second]| {
-            let (gain, shares) = plane_gain([&seen(first)?, &seen(second)?], &base.residual)?;
-            Some((gain, candidate.turned(first, shares)))
-        });
-        let mut starts: Vec<(f64, State)> = (alone.chain(turned))
+        let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
             .map(|(gain, values)| (gain, self.added(base, candidate, &values)))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -216,6 +205,29 @@ impl Judge<'_> {
             .filter_map(|(_, state)| self.ground.fit(predictor, parameters, state, effort).ok())
             .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
+}
+
+/// A candidate's starts, brought to the amplitude and waves to the phase too that gain most on what is left in the linearised model, with
+/// that gain. `seen` is the visible change by values of the added parameters.
+pub(super) fn scaled_starts(
+    candidate: &Candidate,
+    seen: impl Fn(&[f64]) -> Option<DVector<f64>>,
+    left: &DVector<f64>,
+) -> impl Iterator<Item = (f64, Vec<f64>)> {
+    let alone = candidate.starts.iter().map(|values| [values, values]);
+    let pairs = candidate
+        .quarters
+        .iter()
+        .map(|[first, second]| [first, second]);
+    alone.chain(pairs).filter_map(move |[first, second]| {
+        if first == second {
+            let (gain, amplitude) = linear_gain(&seen(first)?, left);
+            let scaled = candidate.scaled(first, amplitude.max(LEAST_AMPLITUDE));
+            return Some((gain, scaled));
+        }
+        let (gain, shares) = plane_gain([&seen(first)?, &seen(second)?], left)?;
+        Some((gain, candidate.turned(first, shares)))
+    })
 }
 
 /// Largest fall of χ²/2 by any sum of two changes, and their shares in it; None if they are one.
