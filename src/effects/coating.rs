@@ -4,7 +4,7 @@
 //! f = 1 up to h = t (1 − δ), Q from h = t (1 + δ), linear between        k is the coating's, Q substrate over coating
 //! ```
 
-use super::{Card, Effect, Hook, Local, Param, Prior};
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 pub(super) const CARD: Card = Card {
     name: "coating",
@@ -52,7 +52,11 @@ pub(super) const CARD: Card = Card {
         )
         .fixed(),
     ],
-    forms: &[],
+    forms: &[Form {
+        name: "of uneven thickness",
+        settings: &[("width", 0.5)],
+        ..Form::PLAIN
+    }],
     build: |p| {
         Box::new(Coating {
             ratio: p[0],

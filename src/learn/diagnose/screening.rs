@@ -214,18 +214,17 @@ pub(super) fn scaled_starts(
     seen: impl Fn(&[f64]) -> Option<DVector<f64>>,
     left: &DVector<f64>,
 ) -> impl Iterator<Item = (f64, Vec<f64>)> {
-    let alone = candidate.starts.iter().map(|values| [values, values]);
-    let pairs = candidate
-        .quarters
-        .iter()
-        .map(|[first, second]| [first, second]);
-    alone.chain(pairs).filter_map(move |[first, second]| {
-        if first == second {
-            let (gain, amplitude) = linear_gain(&seen(first)?, left);
-            let scaled = candidate.scaled(first, amplitude.max(LEAST_AMPLITUDE));
-            return Some((gain, scaled));
-        }
-        let (gain, shares) = plane_gain([&seen(first)?, &seen(second)?], left)?;
+    let alone = candidate.starts.iter().map(|values| (values, None));
+    let quarters = candidate.quarters.iter();
+    let waves = quarters.map(|[first, second]| (first, Some(second)));
+    alone.chain(waves).filter_map(move |(first, second)| {
+        let along = seen(first)?;
+        let Some(second) = second else {
+            let (gain, amplitude) = linear_gain(&along, left);
+            let amplitude = amplitude.max(LEAST_AMPLITUDE);
+            return Some((gain, candidate.scaled(first, amplitude)));
+        };
+        let (gain, shares) = plane_gain([&along, &seen(second)?], left)?;
         Some((gain, candidate.turned(first, shares)))
     })
 }
