@@ -36,7 +36,7 @@ pub(super) const CARD: Card = Card {
             (0.02, 50.0),
             Prior::LogNormal {
                 median: 2.0,
-                spread: 2.5,
+                spread: 1.7,
             },
         ),
         Param::new(

@@ -221,7 +221,7 @@ fn forms(card: &'static Card, base: &Candidate, study: &Study) -> Vec<Candidate>
         let own = &candidate.parameters[base.inherited..];
         if let Some(phase) = phase(&fitted) {
             candidate.quarters = quarters(own, &fitted, phase);
-        } else if fitted.len() > 1 && card.hook == Hook::WearFactor {
+        } else if fitted.len() > 1 && matches!(card.hook, Hook::WearFactor | Hook::Profile) {
             candidate.starts.extend(spread(own, &fitted, SPREAD));
         }
         Some(candidate)
