@@ -197,7 +197,8 @@ fn with(
         Fidelity::Screening => screened,
         Fidelity::Middle | Fidelity::Full => {
             watch(0.35, "the leaders by coarse finite elements".to_owned());
-            judge.refine(&base, screened, &flexible)
+            let refined = judge.refine(&base, screened, flexible.is_real());
+            judge.with_waves(&base, refined, &flexible)
         }
     };
     let judged = match judge.fidelity {

@@ -95,14 +95,8 @@ impl Judge<'_> {
 
     /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
     /// leaders, and where the discrepancy is real all whose rate is sharp in the local pressure, of which the analytic model
-    /// knows least. It does not know either how fast wear takes weak waves of a profile away: where nothing explains what is there, these are
-    /// looked for anew.
-    pub(super) fn refine(
-        &self,
-        base: &Base,
-        screened: Vec<Judged>,
-        flexible: &Flexible,
-    ) -> Vec<Judged> {
+    /// knows least.
+    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
         let before = base.judged.log_evidence;
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
         gains.sort_by(|a, b| b.total_cmp(a));
@@ -112,14 +106,7 @@ impl Judge<'_> {
         let bar = gains[(REFINED - 1).min(gains.len() - 1)]
             .min(REFINED_SHARE * best)
             .max(MEANT);
-        let bar_of_sharp = if flexible.is_real() {
-            SHARP_SHARE * best
-        } else {
-            bar
-        };
-        let fallen = |j: &Judged| base.judged.square - j.square;
-        let most = screened.iter().map(fallen).fold(0.0, f64::max);
-        let unexplained = flexible.drop > flexible.spread() && most < EXPLAINED * flexible.drop;
+        let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
         let offset = &base.judged.offset;
         let fit = |candidate: &Candidate, state: State, effort: &Effort| {
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
@@ -129,11 +116,6 @@ impl Judge<'_> {
         let looks: Vec<Option<Found>> = (screened.par_iter())
             .map(|judged| {
                 let candidate = &judged.candidate;
-                if unexplained && candidate.is_wavy_profile() {
-                    let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
-                    let starts = self.starts(base, candidate, &predictor);
-                    return self.look(candidate, &predictor, starts, &LOOK);
-                }
                 let bar = if candidate.sharp() {
                     bar_of_sharp.min(bar)
                 } else {
@@ -164,6 +146,36 @@ impl Judge<'_> {
                 )
             })
             .collect()
+    }
+
+    /// Looks for waves of the profile by coarse finite elements where no candidate explains what is there: the analytic model does not know how
+    /// fast wear takes weak waves away.
+    pub(super) fn with_waves(
+        &self,
+        base: &Base,
+        refined: Vec<Judged>,
+        flexible: &Flexible,
+    ) -> Vec<Judged> {
+        let fallen = |j: &Judged| base.judged.square - j.square;
+        let most = refined.iter().map(fallen).fold(0.0, f64::max);
+        if flexible.drop < flexible.spread() || most > EXPLAINED * flexible.drop {
+            return refined;
+        }
+        let offset = &base.judged.offset;
+        let anew = |judged: &Judged| {
+            let candidate = &judged.candidate;
+            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+            let starts = self.starts(base, candidate, &predictor);
+            let found = self.look(candidate, &predictor, starts, &SCREEN)?;
+            let (candidate, offset) = (candidate.clone(), offset.clone());
+            let found = self.judged(candidate, found, offset, Some(base), Fidelity::Middle);
+            (found.log_evidence > judged.log_evidence).then_some(found)
+        };
+        let all = refined.into_par_iter().map(|judged| {
+            let wave = judged.candidate.is_wavy_profile();
+            wave.then(|| anew(&judged)).flatten().unwrap_or(judged)
+        });
+        all.collect()
     }
 
     /// A candidate's starts with their gain in the linearised model, the largest first.
