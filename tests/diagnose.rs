@@ -115,6 +115,13 @@ fn diagnosed_of(data: Dataset) -> Diagnosis {
         };
         assert!(one.evidence_gain < most + 1e-6, "{one:?}");
     }
+    if let Some(nothing) = found.probabilities.get("nothing_missing")
+        && found.verdict == Verdict::NothingMissing
+        && !found.sentence.starts_with("Too few")
+    {
+        let undecided = found.sentence.starts_with("Undecided");
+        assert_eq!(undecided, *nothing < 0.9, "{}", says(&found));
+    }
     if let Some(next) = &found.next_experiment {
         // less could not be told from noise
         assert!(next.expected_chi2 >= 1.0, "{next:?}");

@@ -262,7 +262,6 @@ fn share(springs: &[Spring], load: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::contact_point::ContactPoint;
     use crate::contact::cycle::{CycleSpec, Stations};
     use crate::contact::frame::tests::reference;
     use crate::gear::Pair;

@@ -1,7 +1,8 @@
 //! Mixed lubrication: the thicker the oil film against the roughness, the less wear.
 //!
 //! ```text
-//! f = c + (1 − c)/(1 + (λ/λ0)^q)        c = 0; else what a full film leaves of the wear. λ = h_min/Rq, Dowson and Higginson's minimum film of a line contact
+//! f = c + (1 − c)/(1 + (λ/λ0)^q)        c = 0; else what a full film leaves of the wear
+//! λ = h_min/Rq        Dowson and Higginson's minimum film of a line contact
 //! ```
 //! The roughness stays what the study states; that it falls in running-in is not modelled.
 

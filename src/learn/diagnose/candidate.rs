@@ -402,3 +402,44 @@ fn parameters(free: &[FreeParameter]) -> Vec<Parameter> {
         .map(parameter)
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::ProfileAt;
+    use crate::gear::Member;
+
+    /// u cos θ − v sin θ is the wave that `turned` makes of cos θ and cos(θ + π/2).
+    #[test]
+    fn a_turned_wave_is_the_sum_of_its_two_quarters() {
+        let text = include_str!("../../../validation/paper/study.toml");
+        let study = Study::parse(text, "study.toml").unwrap();
+        let (singles, _) = Candidate::singles(&study);
+        let card = find("profile_form").unwrap();
+        let candidate = singles.iter().find(|c| c.names == [card.name]).unwrap();
+        assert!(candidate.is_wavy_profile());
+        let profile = |own: &[f64], along: f64| {
+            let mut values = card.defaults();
+            values[..own.len()].copy_from_slice(own);
+            let at = ProfileAt {
+                member: Member::Pinion,
+                along,
+                radius: 27.0,
+                path: 0.0,
+                from_tip: 1.0,
+            };
+            (card.build)(&values).profile(&at)
+        };
+        for [first, second] in &candidate.quarters {
+            for shares in [[2.0, -3.0], [-1.5, 0.5], [0.0, 4.0]] {
+                let turned = candidate.turned(first, shares);
+                for along in [0.0, 0.13, 0.4, 0.77, 1.0] {
+                    let sum =
+                        shares[0] * profile(first, along) + shares[1] * profile(second, along);
+                    let off = profile(&turned, along) - sum;
+                    assert!(off.abs() < 1e-12, "{turned:?} {along} {off}");
+                }
+            }
+        }
+    }
+}

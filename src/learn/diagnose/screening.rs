@@ -260,3 +260,24 @@ fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
     let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
     objectives[(count - 1).min(objectives.len() - 1)].max(share)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is a sum of two changes is explained whole, by its own shares; what stands across both is left.
+    #[test]
+    fn a_plane_of_two_changes_explains_their_sums() {
+        let (a, b) = (
+            DVector::from_vec(vec![1.0, 2.0, 0.0, 1.0]),
+            DVector::from_vec(vec![0.5, -1.0, 1.0, 0.0]),
+        );
+        // (4, 1, −1, −6) stands across both
+        let sum = 2.0 * &a - 3.0 * &b;
+        let residual = &sum + DVector::from_vec(vec![4.0, 1.0, -1.0, -6.0]);
+        let (gain, shares) = plane_gain([&a, &b], &residual).unwrap();
+        assert!((shares[0] - 2.0).abs() < 1e-12 && (shares[1] + 3.0).abs() < 1e-12);
+        assert!((gain - 0.5 * sum.norm_squared()).abs() < 1e-12);
+        assert!(plane_gain([&a, &(0.0 * &a)], &residual).is_none());
+    }
+}
