@@ -110,8 +110,7 @@ pub fn compare(
 impl Measured<'_> {
     /// Fits a version of the model on a bench that is ready, and judges it.
     ///
-    /// Once more from the priors' medians, if the fit from the study's values does not converge or ends on a bound. With three or
-    /// more effect parameters other places of the priors are looked at first.
+    /// Once more from the priors' medians, if the fit does not converge or ends on a bound.
     ///
     /// # Errors
     /// [`FitError`].
@@ -124,7 +123,7 @@ impl Measured<'_> {
         self.compare_from(bench, version, Vec::new(), watch)
     }
 
-    /// The same from the nearest of some places too, each a value for every free parameter but k.
+    /// The same where a fit may start from some places too, each a value for every free parameter but k.
     ///
     /// # Errors
     /// [`FitError`].
@@ -145,17 +144,14 @@ impl Measured<'_> {
             });
         };
         told(0);
-        let free = version.free.iter();
-        let many = free.filter(|free| free.name != WEAR_COEFFICIENT).count() >= MANY;
-        let spread = if many { PLACES } else { [0, PLACES[1]] };
-        let others = self.other_starts(bench, version, noise, places, spread, &told);
-        let first = self.fit_watched(bench, version, noise, &others, &effort, &told)?;
+        let start = self.start(bench, version, noise, places, &told);
+        let first = self.fit(bench, version, noise, &[start], &effort, &told)?;
         let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
         let fit = if settled || version.effects.is_empty() {
             first
         } else {
-            let second =
-                self.fit_watched(bench, version, noise, &[medians(version)], &effort, &told);
+            let medians = [medians(version)];
+            let second = self.fit(bench, version, noise, &medians, &effort, &told);
             second
                 .ok()
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
@@ -227,12 +223,6 @@ impl Measured<'_> {
         fit
     }
 }
-
-/// From so many free effect parameters on, a fit looks for other places to start from.
-const MANY: usize = 3;
-
-/// How many places of the priors are looked at, and from how many of them a fit starts at most.
-const PLACES: [usize; 2] = [24, 2];
 
 /// Wear histories of one test that a fit of one parameter takes, from experience.
 const HISTORIES_PER_TEST: usize = 6;

@@ -114,7 +114,8 @@ impl<'a> Measured<'a> {
         workshop.finest(self.tests.clone())
     }
 
-    /// Fits a version of the model, from its parameters' values and from `others`.
+    /// Fits a version of the model from each of `starts`, which hold a value for every free parameter but k; `watch` hears after each
+    /// wear history of a test how many there have been.
     ///
     /// # Errors
     /// [`FitError`]
@@ -123,31 +124,12 @@ impl<'a> Measured<'a> {
         bench: &Bench,
         version: &ModelVersion,
         noise: NoiseModel,
-        others: &[Vec<f64>],
-        effort: &Effort,
-    ) -> Result<Fit, FitError> {
-        self.fit_watched(bench, version, noise, others, effort, &|_| {})
-    }
-
-    /// As [`Measured::fit`]; `watch` hears after each wear history of a test how many there have been.
-    ///
-    /// # Errors
-    /// [`FitError`]
-    pub fn fit_watched(
-        &self,
-        bench: &Bench,
-        version: &ModelVersion,
-        noise: NoiseModel,
-        others: &[Vec<f64>],
+        starts: &[Vec<f64>],
         effort: &Effort,
         watch: &(dyn Fn(usize) + Sync),
     ) -> Result<Fit, FitError> {
-        let starts = |problem: &Problem<'_>| -> Vec<Vec<f64>> {
-            let own = problem.parameters.iter().map(|p| p.start).collect();
-            std::iter::once(own).chain(others.iter().cloned()).collect()
-        };
         self.with_problem(bench, version, noise, watch, |problem| {
-            problem.fit_from(&starts(problem), effort)
+            problem.fit_from(starts, effort)
         })
     }
 
@@ -169,27 +151,8 @@ impl<'a> Measured<'a> {
         })
     }
 
-    /// Where else than at the parameters' values a fit of this version is worth starting: of `places`, each a value for every free
-    /// parameter but k, and of `count` more that are spread over the priors, the `keep` nearest ([`Problem::nearest`]).
-    pub fn other_starts(
-        &self,
-        bench: &Bench,
-        version: &ModelVersion,
-        noise: NoiseModel,
-        mut places: Vec<Vec<f64>>,
-        [count, keep]: [usize; 2],
-        watch: &(dyn Fn(usize) + Sync),
-    ) -> Vec<Vec<f64>> {
-        self.with_problem(bench, version, noise, watch, |problem| {
-            places.extend(problem.places(count));
-            if places.is_empty() {
-                return Vec::new();
-            }
-            problem.nearest(places, keep)
-        })
-    }
-
-    fn with_problem<T>(
+    /// A version's fit as a problem, for `act`.
+    pub(super) fn with_problem<T>(
         &self,
         bench: &Bench,
         version: &ModelVersion,

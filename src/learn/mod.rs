@@ -35,6 +35,7 @@ mod ratio;
 mod region;
 mod scatter;
 mod search;
+mod starts;
 mod synthesize;
 mod tally;
 mod trajectory;

@@ -37,6 +37,9 @@ pub struct Effort {
     pub carry: f64,
     /// How often, at most, derivatives are taken anew where a fit comes to rest; 0: it ends with those it has.
     pub settle: usize,
+    /// Part of the misfit beyond noise by which the promise and the loss above may be larger: where a model is far from its measurements
+    /// its last decimals say nothing, and the rounding of its predictions weighs more.
+    pub share: f64,
 }
 
 impl Default for Effort {
@@ -47,6 +50,7 @@ impl Default for Effort {
             floor: 0.05,
             carry: 0.1,
             settle: 0,
+            share: 0.0,
         }
     }
 }
@@ -61,6 +65,7 @@ impl Effort {
             floor: 0.3,
             carry: 0.3,
             settle: 3,
+            share: 3e-4,
         }
     }
 }
@@ -153,9 +158,12 @@ impl Search<'_> {
             let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
             let fresh = taken_at == state;
             let promised = quadratic.step(0.0).decrease;
+            let beyond = 0.5 * (normal.square - self.measured.len() as f64).max(0.0);
+            let tolerance = effort.tolerance + effort.share * beyond;
+            let floor = effort.floor + effort.share * beyond;
             let settled = rounds == effort.settle
                 || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
-            if promised <= effort.tolerance {
+            if promised <= tolerance {
                 if !settled {
                     jacobian = self.central(evaluator, &state, &values, &quadratic)?;
                     (taken_at, settled_at) = (state.clone(), Some(state.clone()));
@@ -182,7 +190,7 @@ impl Search<'_> {
                     damping = 1e-3;
                     continue;
                 }
-                if promised <= effort.floor {
+                if promised <= floor {
                     break (true, scatter, normal);
                 }
                 if fresh {

@@ -4,7 +4,7 @@
     python3 validation/blind/refit.py PROGRAM DATA RESULTS OUT [--jobs N] [--most N]
 
 DATA holds the sets of `blind make`, RESULTS the diagnoses of run.sh. Of every set in which the diagnosis named an effect or two, those
-are added to the study with `gearwear add`, one after another; the sealed test, to which Gaussian noise of its stated sigma is added
+are added to the study as it says, one `gearwear add` after another; the sealed test, to which Gaussian noise of its stated sigma is added
 (seeded by the set's name), stands in the measurements as a held-out one. Both are also compared with the base model. Writes one JSON
 document a set into OUT, which a second run does not repeat, and validation/blind/REFIT.md; standard library only.
 """
@@ -12,6 +12,7 @@ import argparse
 import csv
 import json
 import random
+import re
 import shutil
 import statistics
 import subprocess
@@ -20,11 +21,14 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parent / "REFIT.md"
+ADD = re.compile(r'gearwear add STUDY (\w+)(?: --form (own|"[^"]+"))?')
 
 
-def named(diagnosis):
-    effect = diagnosis["effect"]
-    return [] if effect is None else [effect] if isinstance(effect, str) else effect
+def told(diagnosis):
+    """The effects and forms that the diagnosis says to add; none if it names nothing."""
+    if diagnosis["effect"] is None:
+        return []
+    return [(effect, form.strip('"') or None) for effect, form in ADD.findall(diagnosis["next_step"])]
 
 
 def prepare(source, folder, name):
@@ -61,9 +65,9 @@ def refit(program, source, effects, out, threads):
     start = time.time()
     before = call("compare", "study.toml", "-o", "base")
     study, steps = "study.toml", []
-    for number, effect in enumerate(effects):
+    for number, (effect, form) in enumerate(effects):
         new = f"with{number + 1}.toml"
-        document = call("add", study, effect, "-o", new)
+        document = call("add", study, effect, *(["--form", form] if form else []), "-o", new)
         fit = document.get("fit") or {}
         steps.append({"effect": effect, "form": fit.get("form"), "chi2": chi2(fit), "error": document.get("error")})
         if steps[-1]["error"]:
@@ -126,7 +130,7 @@ def main():
     wanted = []
     for path in sorted(args.results.glob("*/diagnosis.json")):
         source = args.data / path.parent.name
-        effects = named(json.loads(path.read_text()))
+        effects = told(json.loads(path.read_text()))
         if effects and not (args.out / f"{source.name}.json").exists():
             wanted.append((source, effects))
     random.Random(1).shuffle(wanted)

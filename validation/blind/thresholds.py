@@ -21,7 +21,7 @@ RULE = {
     "SHARE": 0.85,  # least share of the attainable fall of chi^2 for one effect
     "PAIR_SHARE": 0.95,  # the same for two
     "SECOND": 0.10,  # least part of a pair's weaker effect, over the stronger one alone
-    "PRIOR_NOTHING": 0.5,
+    "PRIOR_NOTHING": 0.45,
     "PRIOR_PAIRS": 0.05,
     "CLAIM": 0.9,  # least probability of a name
     "DOUBT": 0.2,  # probability of nothing missing from which no name is said
@@ -31,14 +31,14 @@ TRIED = {
     "SHARE": [0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9],
     "PAIR_SHARE": [0.7, 0.8, 0.85, 0.9, 0.95, 1.0],
     "SECOND": [0.0, 0.05, 0.1, 0.15, 0.2, 0.3],
-    "PRIOR_NOTHING": [0.05, 0.2, 0.5, 0.8],
+    "PRIOR_NOTHING": [0.05, 0.2, 0.45, 0.8],
     "PRIOR_PAIRS": [0.01, 0.05, 0.2],
     "CLAIM": [0.5, 0.7, 0.8, 0.9, 0.95, 0.99],
     "DOUBT": [0.05, 0.1, 0.2, 0.4],
     "ALIKE": [0.001, 0.01, 0.03, 0.1],
 }
 SHARE_WIDTH, PAIR_SHARE_WIDTH, SECOND_WIDTH = 0.03, 0.025, 0.012
-PRIOR_UNKNOWN, PRIOR_SINGLES = 0.1, 0.35
+PRIOR_UNKNOWN, PRIOR_SINGLES = 0.18, 0.32
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
 

@@ -14,6 +14,7 @@ pub(super) const DECIDE: Effort = Effort {
     floor: 0.2,
     carry: 0.4,
     settle: 0,
+    share: 0.0,
 };
 /// The leader's last steps with derivatives of the exact model, if anchors did not bring it to rest.
 const POLISH: Effort = Effort {
@@ -22,6 +23,7 @@ const POLISH: Effort = Effort {
     floor: 0.3,
     carry: 1.0,
     settle: 0,
+    share: 0.0,
 };
 /// Anchors of a deciding fit.
 const ANCHORS: usize = 4;

@@ -20,6 +20,7 @@ pub(super) const STAY: Effort = Effort {
     floor: 0.0,
     carry: 0.0,
     settle: 0,
+    share: 0.0,
 };
 /// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond.
 const EXCUSED: f64 = 1.2;

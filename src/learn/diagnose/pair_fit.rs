@@ -16,6 +16,7 @@ pub(super) const LOOK: Effort = Effort {
     floor: 0.3,
     carry: 0.7,
     settle: 0,
+    share: 0.0,
 };
 /// The further fit of those that lead after it: this many, and all within this share of the leader's gain.
 const FURTHER: Effort = Effort {

@@ -7,9 +7,9 @@ use super::judge::{Base, Judge, Judged};
 use super::{NOTHING, UNKNOWN};
 
 /// Prior probabilities.
-const PRIOR_NOTHING: f64 = 0.5;
-const PRIOR_UNKNOWN: f64 = 0.1;
-const PRIOR_SINGLES: f64 = 0.35;
+const PRIOR_NOTHING: f64 = 0.45;
+const PRIOR_UNKNOWN: f64 = 0.18;
+const PRIOR_SINGLES: f64 = 0.32;
 const PRIOR_PAIRS: f64 = 0.05;
 /// Share of the attainable fall of χ² below which an effect is thought not to be the missing one, and how sharply.
 ///

@@ -18,6 +18,7 @@ const LOOK: Effort = Effort {
     floor: 0.3,
     carry: 1.0,
     settle: 0,
+    share: 0.0,
 };
 /// The screening fit of those that the first look leaves in play.
 const SCREEN: Effort = Effort {
@@ -26,6 +27,7 @@ const SCREEN: Effort = Effort {
     floor: 0.3,
     carry: 0.4,
     settle: 0,
+    share: 0.0,
 };
 /// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
 /// of the leader's gain.

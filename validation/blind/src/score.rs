@@ -344,6 +344,11 @@ pub fn score(records: &[Record], missing: &[String]) -> (String, Value) {
         .iter()
         .filter(|o| o.driver_right == Some(true))
         .count();
+    let strong: Vec<&&Outcome> = outside.iter().filter(|o| band(o.d) == ">=6").collect();
+    let driver_strong = strong
+        .iter()
+        .filter(|o| o.driver_right == Some(true))
+        .count();
     let bold = outside.iter().filter(|o| o.false_claim > 0.9).count();
     let over = list.iter().filter(|o| o.false_claim > 0.95).count();
     let worst: Vec<Value> = list
@@ -352,8 +357,8 @@ pub fn score(records: &[Record], missing: &[String]) -> (String, Value) {
         .map(|o| json!({"name": o.name, "class": o.class, "truth": o.kinds, "named": o.named, "d": o.d, "noise": o.noise, "gear": o.gear, "false_claim": o.false_claim}))
         .collect();
     text.push_str(&format!(
-        "\nfalse alarms on nothing: {alarms} of {} ({:.1}–{:.1} %), with probability > 0.95: {sure}\nouter causes: driver named {driver} of {}, a wrong name above 0.9: {bold}\nfalse names above 0.95 in all: {over}\nexpected calibration error of the largest probability: {ece:.3}\n",
-        none.len(), 100.0 * fa, 100.0 * fz, outside.len()
+        "\nfalse alarms on nothing: {alarms} of {} ({:.1}–{:.1} %), with probability > 0.95: {sure}\nouter causes: driver named {driver} of {}, {driver_strong} of the {} with d >= 6; a wrong name above 0.9: {bold}\nfalse names above 0.95 in all: {over}\nexpected calibration error of the largest probability: {ece:.3}\n",
+        none.len(), 100.0 * fa, 100.0 * fz, outside.len(), strong.len()
     ));
     text.push_str("\n| among d >= 6, where rivals are known | sets | results |\n|---|---|---|\n");
     let known = |o: &&Outcome| o.class == "single" || o.class == "foreign";
@@ -416,7 +421,7 @@ pub fn score(records: &[Record], missing: &[String]) -> (String, Value) {
     text.push('\n');
     let json = json!({"sets": list.len(), "without_result": missing, "cells": cells,
         "false_alarms": {"sets": none.len(), "alarms": alarms, "interval": [fa, fz], "above_0.95": sure},
-        "outside": {"sets": outside.len(), "driver_named": driver, "wrong_above_0.9": bold},
+        "outside": {"sets": outside.len(), "driver_named": driver, "strong_sets": strong.len(), "strong_driver_named": driver_strong, "wrong_above_0.9": bold},
         "false_names_above_0.95": over, "calibration_error": ece, "rivals": rivals, "wrong": worst,
         "verdicts": list.iter().map(|o| json!({"name": o.name, "verdict": o.verdict, "result": o.result})).collect::<Vec<_>>()});
     (text, json)
