@@ -9,7 +9,7 @@ use super::measured::{Measured, ModelVersion};
 use super::noise::NoiseModel;
 use super::search::Effort;
 use crate::simulate::forward::ContactKind;
-use crate::study::WEAR_COEFFICIENT;
+use crate::study::{FreeParameter, WEAR_COEFFICIENT};
 
 /// How far the analytic model is fitted from each place.
 const LOOK: Effort = Effort {
@@ -25,8 +25,11 @@ const LOOK: Effort = Effort {
 const MANY: usize = 3;
 const SPREAD: usize = 8;
 const WAVES: usize = 64;
+/// How weak the waves looked at are, as a share of the prior's median: weak ones come nearer to the measurements the more they are like what
+/// is missing, strong ones only if their size is right too.
+const WEAK: f64 = 0.25;
 /// From how many of the places, at most, the analytic model is fitted.
-const KEEP: usize = 4;
+const KEEP: usize = 6;
 
 impl Measured<'_> {
     /// Where a fit of a version on `bench` is to start, a value for each free parameter but k: where the analytic model's own fit to the
@@ -40,11 +43,8 @@ impl Measured<'_> {
         places: Vec<Vec<f64>>,
         watch: &(dyn Fn(usize) + Sync),
     ) -> Vec<f64> {
-        let own: Vec<f64> = (version.free.iter())
-            .filter(|free| free.name != WEAR_COEFFICIENT)
-            .map(|free| free.value)
-            .collect();
-        let waves = version.free.iter().any(|free| free.unit == "rad");
+        let own: Vec<f64> = effects(version).map(|free| free.value).collect();
+        let waves = effects(version).any(is_phase);
         let spread = match own.len() {
             0 => return own,
             n if waves => n * WAVES,
@@ -52,8 +52,12 @@ impl Measured<'_> {
             _ => 0,
         };
         let look = |problem: &Problem<'_>| -> Option<Vec<f64>> {
-            let all = places.into_iter().chain(problem.places(spread));
-            let mut starts = problem.nearest(all.collect(), KEEP);
+            let mut all = problem.places(spread);
+            if waves {
+                all.iter_mut().for_each(|place| weaken(version, place));
+            }
+            all.extend(places);
+            let mut starts = problem.nearest(all, KEEP);
             starts.push(own.clone());
             let fit = problem.fit_from(&starts, &LOOK).ok()?;
             let parameters = fit.parameters.into_iter();
@@ -71,4 +75,30 @@ impl Measured<'_> {
         });
         nearer.pop().unwrap_or(own)
     }
+}
+
+/// The free parameters but k.
+fn effects(version: &ModelVersion) -> impl Iterator<Item = &FreeParameter> {
+    let free = version.free.iter();
+    free.filter(|free| free.name != WEAR_COEFFICIENT)
+}
+
+/// For a place at which waves are looked at: what is no wave keeps its own value, and waves become weak.
+fn weaken(version: &ModelVersion, place: &mut [f64]) {
+    let effect = |free: &FreeParameter| free.name.split('.').next().map(str::to_owned);
+    let wavy: Vec<_> = effects(version)
+        .filter(|f| is_phase(f))
+        .map(effect)
+        .collect();
+    for (value, free) in place.iter_mut().zip(effects(version)) {
+        if !wavy.contains(&effect(free)) {
+            *value = free.value;
+        } else if let Some(none) = free.neutral.filter(|none| none.is_finite()) {
+            *value = none + WEAK * (free.prior.median() - none);
+        }
+    }
+}
+
+fn is_phase(free: &FreeParameter) -> bool {
+    free.unit == "rad"
 }

@@ -351,3 +351,39 @@ fn what_the_data_do_not_touch_stays_as_uncertain_as_before() {
         without.log_evidence
     );
 }
+
+/// Where a model is far from its measurements a fit stops earlier, with no more of the posterior lost than that share of the misfit beyond
+/// noise; where it is near, nothing changes.
+#[test]
+fn a_model_far_from_its_measurements_is_not_fitted_to_the_last_decimal() {
+    let near = running_in_data(1);
+    let mut far = near.clone();
+    for (i, o) in far.observations.iter_mut().enumerate() {
+        o.value += 20.0 * o.sigma * (2.0 * i as f64).sin();
+    }
+    let fitted = |data: &Dataset, share: f64| {
+        let predictor = Formula {
+            data: data.clone(),
+            formula: running_in,
+        };
+        let effort = Effort {
+            share,
+            ..Effort::default()
+        };
+        problem(data, &predictor).fit(&effort).unwrap()
+    };
+    let share = 3e-3;
+    let (whole, early) = (fitted(&far, 0.0), fitted(&far, share));
+    assert!(early.evaluations < whole.evaluations);
+    let square: f64 = (whole.rows.iter())
+        .map(|row| row.standardised.powi(2))
+        .sum();
+    let beyond = 0.5 * (square - whole.rows.len() as f64);
+    let lost = whole.log_posterior - early.log_posterior;
+    assert!(
+        beyond > 1000.0 && lost < share * beyond,
+        "{lost} of {beyond}"
+    );
+    let (whole, early) = (fitted(&near, 0.0), fitted(&near, share));
+    assert!((whole.log_posterior - early.log_posterior).abs() < 0.1);
+}
