@@ -38,6 +38,7 @@ TRIED = {
     "ALIKE": [0.001, 0.01, 0.03, 0.1],
 }
 SHARE_WIDTH, PAIR_SHARE_WIDTH, SECOND_WIDTH = 0.03, 0.025, 0.012
+PAIR_SPREADS = 1.5
 PRIOR_UNKNOWN, PRIOR_SINGLES = 0.18, 0.32
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
@@ -69,7 +70,7 @@ def probabilities(found, rule):
         if len(names) == 1:
             odds = (rule["SHARE"] - share - doubt) / SHARE_WIDTH
         else:
-            odds = (rule["PAIR_SHARE"] - share - doubt) / PAIR_SHARE_WIDTH
+            odds = (rule["PAIR_SHARE"] - share - PAIR_SPREADS * doubt) / PAIR_SHARE_WIDTH
         stronger = max(names, key=lambda n: alone[n])
         if len(names) == 2 and alone[stronger] > 0:
             second = (s["chi2_drop"] - alone[stronger]) / alone[stronger]

@@ -40,6 +40,11 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
         .iter()
         .map(|&(a, b)| PairStart::of(base, &singles[a], &singles[b]));
     let mut fitted = pair_fit::fit(judge, base, starts.collect());
+    if fitted.is_empty() && partners::leaves(judge, best) {
+        // What a law with a threshold was fitted to alone says little of what it would be beside another effect.
+        fitted = partners::fit(judge, base, singles, &[], best, best);
+        fitted.retain(|pair| pair.log_evidence > best.log_evidence + promise(base, best));
+    }
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     if let Some(pair) = fitted.first() {
         let more: Vec<Judged> = (partners::kept(judge, singles, pair, best).into_iter())
@@ -76,6 +81,12 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
     decided
 }
 
+/// What a pair must promise beyond the best single effect to be fitted.
+fn promise(base: &Base, best: &Judged) -> f64 {
+    let single = 0.5 * (base.judged.square - best.square);
+    PROMISE.max(PROMISE_SHARE * single)
+}
+
 /// Places of the pairs with the largest gain, one form each.
 fn promising(
     judge: &Judge<'_>,
@@ -89,7 +100,7 @@ fn promising(
         .collect();
     let along: Vec<f64> = seen.iter().map(|v| v.dot(&base.residual)).collect();
     let single = 0.5 * (base.judged.square - best.square);
-    let promise = PROMISE.max(PROMISE_SHARE * single);
+    let promise = promise(base, best);
     let mut found: Vec<(f64, usize, usize)> = Vec::new();
     for a in 0..singles.len() {
         for b in a + 1..singles.len() {
