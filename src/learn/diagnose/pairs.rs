@@ -40,7 +40,7 @@ pub(super) fn pairs(judge: &Judge<'_>, base: &Base, singles: &[Judged]) -> Vec<J
         .iter()
         .map(|&(a, b)| PairStart::of(base, &singles[a], &singles[b]));
     let mut fitted = pair_fit::fit(judge, base, starts.collect());
-    if fitted.is_empty() && partners::leaves(judge, best) {
+    if fitted.is_empty() && left > promise(base, best) {
         // What a law with a threshold was fitted to alone says little of what it would be beside another effect.
         fitted = partners::fit(judge, base, singles, &[], best, best);
         fitted.retain(|pair| pair.log_evidence > best.log_evidence + promise(base, best));

@@ -13,7 +13,7 @@ use crate::learn::quadratic::State;
 use crate::learn::search::Effort;
 
 /// Other partners tried for each effect of the best pair, and the χ² per degree of freedom above 1, in standard deviations, that a
-/// fit which does not lead must leave for that.
+/// pair which does not lead must leave for that.
 const PARTNERS: usize = 6;
 const LEFT: f64 = 1.0;
 /// Of these, the best after a fit by the analytic model are fitted by the middle fidelity.
@@ -33,18 +33,14 @@ pub(super) fn kept<'j>(
 ) -> Vec<&'j Judged> {
     let mut parts: Vec<&Judged> = singles.iter().filter(|s| is_part(s, pair)).collect();
     parts.sort_by(|a, b| a.square.total_cmp(&b.square));
+    let rows = judge.ground.len() as f64;
+    let leaves = pair.square > rows + LEFT * (2.0 * rows).sqrt();
     parts.truncate(if pair.log_evidence > best.log_evidence {
         2
     } else {
-        usize::from(leaves(judge, pair))
+        usize::from(leaves)
     });
     parts
-}
-
-/// Whether a fit leaves more than noise.
-pub(super) fn leaves(judge: &Judge<'_>, fit: &Judged) -> bool {
-    let rows = judge.ground.len() as f64;
-    fit.square > rows + LEFT * (2.0 * rows).sqrt()
 }
 
 /// Whether a pair holds a single effect in its form.
