@@ -51,6 +51,21 @@ const ROOM: f64 = 1.4;
 /// Misalignments around each test's own for which teeth are meshed finely, mm.
 const MISALIGNMENT_MARGIN: f64 = 0.2;
 
+/// Resolution of the analytic model where it only looks for what may matter: flank edges per half width, positions, error of a wear step.
+const LOOK_EDGES: f64 = 2.0;
+const LOOK_POSITIONS: usize = 48;
+const LOOK_STEP: f64 = 0.02;
+
+/// The resolution with which the analytic model looks at changes and for places to start from, where a study asks for `fine`.
+pub(super) fn for_looks(fine: Numerics) -> Numerics {
+    Numerics {
+        elements_per_half_width: fine.elements_per_half_width.min(LOOK_EDGES),
+        positions: fine.positions.min(LOOK_POSITIONS),
+        step_tolerance: fine.step_tolerance.max(LOOK_STEP),
+        ..fine
+    }
+}
+
 impl Workshop {
     /// Meshes and condenses the gears finely enough for all `tests`; nothing to do for the analytic model.
     ///

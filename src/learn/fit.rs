@@ -129,6 +129,21 @@ impl Problem<'_> {
         found.into_iter().map(|(_, start)| start).collect()
     }
 
+    /// The model at `start` with k, if free, scaled to fit: that k, and the predictions of each fit test, by test of the data set.
+    ///
+    /// # Errors
+    /// [`PredictError`] if the model has no answer there.
+    pub(super) fn scaled(&self, start: &[f64]) -> Result<(f64, Vec<Vec<f64>>), PredictError> {
+        let search = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
+        let state = self.state(start, search.tests.len());
+        let (state, values) = search.scaled_start(&mut self.evaluator(), state)?;
+        let mut all = vec![Vec::new(); self.data.tests.len()];
+        for (&test, values) in search.tests.iter().zip(&values) {
+            all[test] = values.to_vec();
+        }
+        Ok((state.log_k.exp(), all))
+    }
+
     /// The fit from where another to the same measurements ended, with the derivatives that it ended with.
     ///
     /// # Errors

@@ -14,6 +14,7 @@
 //! Datums are marginalised in closed form, k_t and θ by a parabola about the most probable state, σ_k by quadrature.
 
 mod add;
+mod anchored;
 mod bench;
 mod compare;
 mod comparison;

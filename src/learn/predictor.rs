@@ -18,6 +18,17 @@ pub trait Predictor: Sync {
     ) -> Result<Vec<f64>, PredictError>;
 }
 
+impl<P: Predictor + ?Sized> Predictor for &P {
+    fn predict(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+    ) -> Result<Vec<f64>, PredictError> {
+        (**self).predict(test, coefficient, parameters)
+    }
+}
+
 /// Why a model has no answer at some parameters.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("test {test}: {reason}")]

@@ -56,6 +56,16 @@ impl Default for Effort {
 }
 
 impl Effort {
+    /// Taking stock of a state without leaving it.
+    pub const STAY: Self = Self {
+        iterations: 0,
+        tolerance: 0.0,
+        floor: 0.0,
+        carry: 0.0,
+        settle: 0,
+        share: 0.0,
+    };
+
     /// For predictions that are simulations: costly, and with a rounding of their own from step control (about 1e-4 of the
     /// largest depth, which over thousands of points moves ln posterior by some tenths).
     pub fn for_simulations() -> Self {
@@ -262,7 +272,7 @@ impl Search<'_> {
     }
 
     /// The start with k (if free) scaled so that wear has the size of the measured one.
-    fn scaled_start(
+    pub(super) fn scaled_start(
         &self,
         evaluator: &mut Evaluator<'_>,
         mut state: State,

@@ -3,10 +3,12 @@
 //! A search goes downhill; phases, wave numbers, resonances and steep laws have several valleys. The analytic model tells valleys apart
 //! at a hundredth of the price of finite elements, and what it is fitted to is most of the way there.
 
-use super::bench::Bench;
+use super::anchored::Anchored;
+use super::bench::{Bench, Workshop, for_looks};
 use super::fit::Problem;
 use super::measured::{Measured, ModelVersion};
 use super::noise::NoiseModel;
+use super::predictor::Predictor;
 use super::search::Effort;
 use crate::simulate::forward::ContactKind;
 use crate::study::{FreeParameter, WEAR_COEFFICIENT};
@@ -17,11 +19,10 @@ const LOOK: Effort = Effort {
     tolerance: 0.1,
     floor: 0.3,
     carry: 0.3,
-    settle: 0,
-    share: 0.0,
+    ..Effort::STAY
 };
-/// From so many free effect parameters on, places spread over their priors are looked at: so many for each parameter, and so many for
-/// a wave, whose lengths and phases all have valleys of their own.
+/// From so many free parameters of an effect on, places spread over their priors are looked at: so many for each parameter, and so many
+/// for a wave, whose lengths and phases all have valleys of their own.
 const MANY: usize = 3;
 const SPREAD: usize = 8;
 const WAVES: usize = 64;
@@ -33,8 +34,10 @@ const KEEP: usize = 6;
 
 impl Measured<'_> {
     /// Where a fit of a version on `bench` is to start, a value for each free parameter but k: where the analytic model's own fit to the
-    /// measurements ends, from the best of `places` and of others spread over the priors, or at the study's values if the model on
-    /// `bench` is nearer to the measurements there.
+    /// measurements ends, from the best of `places` and of others spread over the priors of the effect that joined last, or at the study's
+    /// values if the model on `bench` is nearer to the measurements there.
+    ///
+    /// The analytic model is anchored: it differs from finite elements by more than a weak effect does.
     pub(super) fn start(
         &self,
         bench: &Bench<'_>,
@@ -44,37 +47,64 @@ impl Measured<'_> {
         watch: &(dyn Fn(usize) + Sync),
     ) -> Vec<f64> {
         let own: Vec<f64> = effects(version).map(|free| free.value).collect();
-        let waves = effects(version).any(is_phase);
-        let spread = match own.len() {
+        let spread = match of_last(version).count() {
             0 => return own,
-            n if waves => n * WAVES,
+            n if of_last(version).any(is_phase) => n * WAVES,
             n if n >= MANY => n * SPREAD,
             _ => 0,
         };
-        let look = |problem: &Problem<'_>| -> Option<Vec<f64>> {
-            let mut all = problem.places(spread);
-            if waves {
-                all.iter_mut().for_each(|place| weaken(version, place));
-            }
-            all.extend(places);
-            let mut starts = problem.nearest(all, KEEP);
-            starts.push(own.clone());
-            let fit = problem.fit_from(&starts, &LOOK).ok()?;
-            let parameters = fit.parameters.into_iter();
-            let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
-            Some(values.map(|p| p.value).collect())
-        };
-        let analytic = self.workshop(ContactKind::Hertz).ok();
-        let found = analytic.and_then(|workshop| {
-            let cheap = self.bench(&workshop).ok()?;
-            self.with_problem(&cheap, version, noise, &|_| {}, look)
-        });
-        let Some(found) = found else { return own };
-        let mut nearer = self.with_problem(bench, version, noise, watch, |problem| {
-            problem.nearest(vec![found], 1)
-        });
-        nearer.pop().unwrap_or(own)
+        self.with_problem(bench, version, noise, watch, |problem| {
+            let found = self.analytic(version, noise, |analytic| {
+                let anchored = Problem {
+                    predictor: &anchored(analytic, problem, &own)?,
+                    parameters: analytic.parameters.clone(),
+                    coefficient: analytic.coefficient.clone(),
+                    ..*analytic
+                };
+                let mut all = analytic.places(spread);
+                all.iter_mut().for_each(|place| settle(version, place));
+                all.extend(places);
+                let mut starts = anchored.nearest(all, KEEP);
+                starts.push(own.clone());
+                let fit = anchored.fit_from(&starts, &LOOK).ok()?;
+                let parameters = fit.parameters.into_iter();
+                let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
+                Some(values.map(|p| p.value).collect())
+            });
+            let mut nearer = problem.nearest(found.into_iter().collect(), 1);
+            nearer.pop().unwrap_or(own)
+        })
     }
+
+    /// The analytic model's problem, coarsely resolved.
+    fn analytic<T>(
+        &self,
+        version: &ModelVersion,
+        noise: NoiseModel,
+        act: impl FnOnce(&Problem<'_>) -> Option<T>,
+    ) -> Option<T> {
+        let (set, coarse) = (
+            self.study().gear_set(),
+            for_looks(self.study().resolution()),
+        );
+        let workshop = Workshop::new(set, coarse, ContactKind::Hertz, self.tests()).ok()?;
+        let bench = self.bench(&workshop).ok()?;
+        self.with_problem(&bench, version, noise, &|_| {}, act)
+    }
+}
+
+/// The analytic model with what the model of `problem` gives beyond it at the values `own`.
+fn anchored<'a>(
+    analytic: &'a Problem<'_>,
+    problem: &Problem<'_>,
+    own: &[f64],
+) -> Option<Anchored<&'a dyn Predictor>> {
+    let (k, mut offset) = problem.scaled(own).ok()?;
+    for (test, values) in offset.iter_mut().enumerate().filter(|(_, v)| !v.is_empty()) {
+        let cheap = analytic.predictor.predict(test, k, own).ok()?;
+        values.iter_mut().zip(cheap).for_each(|(v, c)| *v -= c);
+    }
+    Some(Anchored::new(analytic.predictor, offset))
 }
 
 /// The free parameters but k.
@@ -83,17 +113,24 @@ fn effects(version: &ModelVersion) -> impl Iterator<Item = &FreeParameter> {
     free.filter(|free| free.name != WEAR_COEFFICIENT)
 }
 
-/// For a place at which waves are looked at: what is no wave keeps its own value, and waves become weak.
-fn weaken(version: &ModelVersion, place: &mut [f64]) {
-    let effect = |free: &FreeParameter| free.name.split('.').next().map(str::to_owned);
-    let wavy: Vec<_> = effects(version)
-        .filter(|f| is_phase(f))
-        .map(effect)
-        .collect();
-    for (value, free) in place.iter_mut().zip(effects(version)) {
-        if !wavy.contains(&effect(free)) {
+/// Those of the effect that joined last.
+fn of_last(version: &ModelVersion) -> impl Iterator<Item = &FreeParameter> {
+    let last = effects(version).last().map(effect);
+    effects(version).filter(move |free| Some(effect(free)) == last)
+}
+
+fn effect(free: &FreeParameter) -> &str {
+    free.name.split('.').next().unwrap_or_default()
+}
+
+/// A place with the effects before the last one as they are, for they have been fitted already; waves become weak.
+fn settle(version: &ModelVersion, place: &mut [f64]) {
+    let before = effects(version).count() - of_last(version).count();
+    let wave = of_last(version).any(is_phase);
+    for (i, (value, free)) in place.iter_mut().zip(effects(version)).enumerate() {
+        if i < before {
             *value = free.value;
-        } else if let Some(none) = free.neutral.filter(|none| none.is_finite()) {
+        } else if let Some(none) = free.neutral.filter(|none| wave && none.is_finite()) {
             *value = none + WEAK * (free.prior.median() - none);
         }
     }

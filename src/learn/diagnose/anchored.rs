@@ -1,42 +1,20 @@
-//! A cheap model's changes on top of what fine finite elements gave at an anchor.
+//! Candidates' models, anchored in finite elements: the cheap model is the analytic one or coarse finite elements.
 //!
-//! ```text
-//! f(k, θ) = cheap(k, θ) + [fem(k₀, θ₀) − cheap(k₀, θ₀)]      cheap: the analytic model, or coarse finite elements
-//! ```
-//! Exact at the anchor; away from it the cheap model's own error enters by its change only. The screening's changes are the
-//! analytic model's, those of a second and of the deciding fits coarse finite elements'. A fit that takes its result as the next
-//! anchor, until nothing moves, ends on fine finite-element values with the cheap model's derivatives.
+//! The screening's changes are the analytic model's, those of a second and of the deciding fits coarse finite elements'. A fit that
+//! takes its result as the next anchor, until nothing moves, ends on fine finite-element values with the cheap model's derivatives.
 
 use rayon::prelude::*;
 
 use super::candidate::Candidate;
 use super::ground::Ground;
+use crate::learn::anchored;
 use crate::learn::bench::Bench;
 use crate::learn::gear_model::GearModel;
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::quadratic::State;
 
-/// A cheap model with an offset per test of the data set; none for a test without.
-pub(super) struct Anchored<'a> {
-    model: GearModel<'a>,
-    offset: Vec<Vec<f64>>,
-}
-
-impl<'a> Anchored<'a> {
-    pub(super) fn new(model: GearModel<'a>, offset: Vec<Vec<f64>>) -> Self {
-        Self { model, offset }
-    }
-}
-
-impl Predictor for Anchored<'_> {
-    fn predict(&self, test: usize, k: f64, parameters: &[f64]) -> Result<Vec<f64>, PredictError> {
-        let mut values = self.model.predict(test, k, parameters)?;
-        if let Some(offset) = self.offset.get(test) {
-            values.iter_mut().zip(offset).for_each(|(v, o)| *v += o);
-        }
-        Ok(values)
-    }
-}
+/// A candidate's cheap model, anchored.
+pub(super) type Anchored<'a> = anchored::Anchored<GearModel<'a>>;
 
 /// A candidate's model on a bench.
 pub(super) fn model<'b>(bench: &'b Bench<'b>, candidate: &'b Candidate) -> GearModel<'b> {

@@ -2,7 +2,7 @@
 
 use super::anchored::{Anchored, model, offset, predictions};
 use super::candidate::Candidate;
-use super::judge::{Base, Judge, Judged, STAY};
+use super::judge::{Base, Judge, Judged};
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
@@ -13,8 +13,7 @@ pub(super) const DECIDE: Effort = Effort {
     tolerance: 0.05,
     floor: 0.2,
     carry: 0.4,
-    settle: 0,
-    share: 0.0,
+    ..Effort::STAY
 };
 /// The leader's last steps with derivatives of the exact model, if anchors did not bring it to rest.
 const POLISH: Effort = Effort {
@@ -22,8 +21,7 @@ const POLISH: Effort = Effort {
     tolerance: 0.1,
     floor: 0.3,
     carry: 1.0,
-    settle: 0,
-    share: 0.0,
+    ..Effort::STAY
 };
 /// Anchors of a deciding fit.
 const ANCHORS: usize = 4;
@@ -57,7 +55,7 @@ impl Judge<'_> {
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
             let here = self
                 .ground
-                .fit(&predictor, parameters, state.clone(), &STAY)?;
+                .fit(&predictor, parameters, state.clone(), &Effort::STAY)?;
             let next = self
                 .ground
                 .fit(&predictor, parameters, state.clone(), &DECIDE)?;

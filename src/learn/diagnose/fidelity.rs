@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::learn::bench::for_looks;
 use crate::learn::noise::ModelError;
 use crate::simulate::numerics::Numerics;
 
@@ -21,11 +22,6 @@ pub enum Fidelity {
 
 /// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 %.
 const HERTZ_ERROR: f64 = 0.02;
-
-/// Resolution of the screening, which only looks at changes: flank edges per half width, positions, error of a wear step.
-const COARSE_EDGES: f64 = 2.0;
-const COARSE_POSITIONS: usize = 48;
-const COARSE_STEP: f64 = 0.02;
 
 /// Resolution of the coarse finite elements: flank edges per half width, positions, error of a wear step.
 const MIDDLE_EDGES: f64 = 2.5;
@@ -57,12 +53,7 @@ impl Fidelity {
     /// Its resolution where a study asks for `fine`.
     pub(super) fn resolution(self, fine: Numerics) -> Numerics {
         match self {
-            Self::Screening => Numerics {
-                elements_per_half_width: fine.elements_per_half_width.min(COARSE_EDGES),
-                positions: fine.positions.min(COARSE_POSITIONS),
-                step_tolerance: fine.step_tolerance.max(COARSE_STEP),
-                ..fine
-            },
+            Self::Screening => for_looks(fine),
             // coarse enough for thousands of histories
             Self::Middle => Numerics {
                 elements_per_half_width: MIDDLE_EDGES,

@@ -11,17 +11,8 @@ use super::strength;
 use crate::learn::bench::Bench;
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
-use crate::learn::search::{Effort, Found};
+use crate::learn::search::Found;
 
-/// Taking stock of a state without leaving it.
-pub(super) const STAY: Effort = Effort {
-    iterations: 0,
-    tolerance: 0.0,
-    floor: 0.0,
-    carry: 0.0,
-    settle: 0,
-    share: 0.0,
-};
 /// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond.
 const EXCUSED: f64 = 1.2;
 const EXCUSED_AT_LEAST: f64 = 5.0;

@@ -15,8 +15,7 @@ pub(super) const LOOK: Effort = Effort {
     tolerance: 0.3,
     floor: 0.3,
     carry: 0.7,
-    settle: 0,
-    share: 0.0,
+    ..Effort::STAY
 };
 /// The further fit of those that lead after it: this many, and all within this share of the leader's gain.
 const FURTHER: Effort = Effort {

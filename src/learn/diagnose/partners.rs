@@ -50,8 +50,9 @@ fn is_part(single: &Judged, pair: &Judged) -> bool {
     effects.any(|effect| effect == (&own.names[0], &own.forms[0]))
 }
 
-/// One effect of a fitted pair (or a single one, in place of that) with other partners, or the same in another form: those whose starts gain most, in the linearised
-/// analytic model, on what it leaves with its values of the pair, are fitted by the analytic model, and the best of these by the middle fidelity.
+/// One effect of a fitted pair (or a single one, in place of that) with other partners, or the same in another form: those whose
+/// starts gain most, in the linearised analytic model, on what it leaves with its values of the pair, are fitted by the analytic model,
+/// and the best of these by the middle fidelity.
 pub(super) fn fit(
     judge: &Judge<'_>,
     base: &Base,

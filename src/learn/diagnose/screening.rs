@@ -7,7 +7,7 @@ use super::anchored::{Anchored, model, predictions};
 use super::candidate::{Candidate, LEAST_AMPLITUDE};
 use super::fidelity::Fidelity;
 use super::flexible::Flexible;
-use super::judge::{Base, Judge, Judged, STAY, linear_gain};
+use super::judge::{Base, Judge, Judged, linear_gain};
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
 
@@ -17,8 +17,7 @@ const LOOK: Effort = Effort {
     tolerance: 0.2,
     floor: 0.3,
     carry: 1.0,
-    settle: 0,
-    share: 0.0,
+    ..Effort::STAY
 };
 /// The screening fit of those that the first look leaves in play.
 const SCREEN: Effort = Effort {
@@ -26,8 +25,7 @@ const SCREEN: Effort = Effort {
     tolerance: 0.1,
     floor: 0.3,
     carry: 0.4,
-    settle: 0,
-    share: 0.0,
+    ..Effort::STAY
 };
 /// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
 /// of the leader's gain.
@@ -68,7 +66,7 @@ impl Judge<'_> {
             .map(|((candidate, predictor), starts)| {
                 let behind = leader - best(&starts);
                 let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
-                let effort = if hopeless { &STAY } else { &LOOK };
+                let effort = if hopeless { &Effort::STAY } else { &LOOK };
                 self.look(candidate, predictor, starts, effort)
             })
             .collect();
