@@ -6,7 +6,7 @@ use std::path::Path;
 use super::format::{count, plain, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
 use super::{discrepancy, drivers};
-use crate::learn::diagnose::{Diagnosis, NextExperiment, Ranked, Screened};
+use crate::learn::diagnose::{Diagnosis, NextExperiment, NextTest, Ranked, Screened};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
@@ -213,14 +213,31 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     )
 }
 
-/// The next test as a person would set it up.
+/// The next test as a person would set it up, and those beside it.
 fn conditions(experiment: &NextExperiment) -> Table {
-    let test = &experiment.test;
-    let direction = if test.reversed {
-        "reversed"
-    } else {
-        "as before"
+    let direction = |test: &NextTest| {
+        if test.reversed {
+            "reversed"
+        } else {
+            "as before"
+        }
     };
+    let test = &experiment.test;
+    let beside = experiment.further.iter().map(|test| {
+        let conditions = format!(
+            "{} N·m, {} rpm, misalignment {} mm, {} pinion revolutions, direction {}",
+            plain(test.torque),
+            plain(test.speed),
+            plain(test.misalignment),
+            count(test.cycles),
+            direction(test)
+        );
+        ("to be made as well", conditions)
+    });
+    let together = (!experiment.further.is_empty()).then(|| {
+        let chi2 = significant(experiment.together_chi2, 3);
+        ("expected difference after all", chi2)
+    });
     Table::of_values(
         "Conditions of the next test",
         [
@@ -229,7 +246,7 @@ fn conditions(experiment: &NextExperiment) -> Table {
             ("speed", format!("{} rpm", plain(test.speed))),
             ("misalignment", format!("{} mm", plain(test.misalignment))),
             ("pinion revolutions", count(test.cycles)),
-            ("direction", direction.to_owned()),
+            ("direction", direction(test).to_owned()),
             (
                 "expected difference in χ²",
                 format!(
@@ -238,7 +255,10 @@ fn conditions(experiment: &NextExperiment) -> Table {
                     significant(experiment.repetition_chi2, 3)
                 ),
             ),
-        ],
+        ]
+        .into_iter()
+        .chain(beside)
+        .chain(together),
     )
 }
 

@@ -3,8 +3,8 @@
 
     python3 validation/blind/separate.py PROGRAM DATA RESULTS OUT [--blind BLIND] [--jobs N] [--fidelity middle]
 
-DATA holds the sets of `blind make`, RESULTS the diagnoses of run.sh. Of every set that ended as a group of names, the proposed test is
-made by `blind extend` (the same hidden cause, a k of its own, the same noise) and all is diagnosed anew. Writes the new diagnoses into
+DATA holds the sets of `blind make`, RESULTS the diagnoses of run.sh. Of every set that ended as a group of names, the proposed test and
+those proposed beside it are made by `blind extend` (the same hidden cause, a k of its own each, the same noise) and all is diagnosed anew. Writes the new diagnoses into
 OUT, which a second run does not repeat, and validation/blind/SEPARATE.md; standard library only.
 """
 import argparse
@@ -32,11 +32,17 @@ def members(diagnosis):
     return [sorted(effect) if isinstance(effect, list) else [effect]]
 
 
+def tests(proposal):
+    return [proposal["test"], *proposal["further"]]
+
+
 def repeat(args, name):
-    proposal = read(args.results / name / "diagnosis.json")["next_experiment"]["test"]
+    proposal = read(args.results / name / "diagnosis.json")["next_experiment"]
     work = args.out / f".{name}"
     shutil.rmtree(work, ignore_errors=True)
-    conditions = [f"--{key}={proposal[key]}" for key in ("torque", "speed", "misalignment", "cycles")]
+    conditions = [
+        "--test=" + ",".join(str(test[key]) for key in ("torque", "speed", "misalignment", "cycles")) for test in tests(proposal)
+    ]
     subprocess.run([args.blind, "extend", args.data / name, *conditions, "--out", work], check=True)
     # Only what a user would have goes to the program.
     (work / "user").mkdir()
@@ -60,7 +66,8 @@ def judge(args, name):
     return {
         "name": name,
         "cause": "+".join(cause),
-        "expected": proposal["expected_chi2"],
+        "expected": proposal["together_chi2"],
+        "tests": len(tests(proposal)),
         # Of a group without the true cause the test can only show another one.
         "truth_among": cause in rivals,
         "separated": separated,
@@ -84,7 +91,7 @@ def page(args, results, reversed_):
         "# Once the proposed experiment is made",
         "",
         f"Made by `separate.py` (its head tells how), all diagnosed with `--fidelity {args.fidelity}`: {len(results)} sets that ended as a group of names. "
-        f"{reversed_} more, whose proposal reverses the drive, could not be made.",
+        f"{reversed_} more, whose proposals reverse the drive, could not be made.",
         "",
         "| group | sets | no longer both | true name alone | true name among those left | true name gone |",
         "|---|---|---|---|---|---|",
@@ -93,12 +100,12 @@ def page(args, results, reversed_):
         line("the same; promised: \"still little: other measurements are needed\" (below 6)", [r for r in among if r["expected"] < 6]),
         line("the true cause is neither", [r for r in results if not r["truth_among"]]),
         "",
-        "| set | truth | noise | d | to be separated | promised χ² | left afterwards | largest probability |",
-        "|---|---|---|---|---|---|---|---|",
+        "| set | truth | noise | d | to be separated | tests | promised χ² | left afterwards | largest probability |",
+        "|---|---|---|---|---|---|---|---|---|",
     ]
     for r in sorted(results, key=lambda r: -r["expected"]):
         lines.append(
-            f"| {r['name']} | {r['cause']} | {r['noise']} | {r['d']:.0f} | {r['rivals']} | {r['expected']:.1f} | {r['after']} | {r['probability']:.2f} |"
+            f"| {r['name']} | {r['cause']} | {r['noise']} | {r['d']:.0f} | {r['rivals']} | {r['tests']} | {r['expected']:.1f} | {r['after']} | {r['probability']:.2f} |"
         )
     PAGE.write_text("\n".join(lines) + "\n")
 
@@ -117,7 +124,7 @@ def main():
     for path in sorted(args.results.glob("*/diagnosis.json")):
         diagnosis = read(path)
         proposal = diagnosis["next_experiment"] if diagnosis["verdict"] == "ambiguous" else None
-        if proposal and proposal["test"]["reversed"]:
+        if proposal and any(test["reversed"] for test in tests(proposal)):
             reversed_ += 1
         elif proposal:
             names.append(path.parent.name)

@@ -16,14 +16,16 @@ from pathlib import Path
 
 PAGE = Path(__file__).resolve().parent / "THRESHOLDS.md"
 
-# As in rank.rs (first five) and verdict.rs.
+# As in rank.rs (first eight) and verdict.rs.
 RULE = {
     "SHARE": 0.85,  # least share of the attainable fall of chi^2 for one effect
     "PAIR_SHARE": 0.95,  # the same for two
     "SECOND": 0.10,  # least part of a pair's weaker effect, over the stronger one alone
-    "PRIOR_NOTHING": 0.45,
+    "TEMPER": 1.8,  # divides differences of log evidence between effects
+    "PRIOR_NOTHING": 0.5,
     "PRIOR_PAIRS": 0.05,
-    "CLAIM": 0.9,  # least probability of a name
+    "UNKNOWN_LACKS": 1.2,  # added to the log evidence of the unknown
+    "CLAIM": 0.85,  # least probability of a name
     "DOUBT": 0.2,  # probability of nothing missing from which no name is said
     "ALIKE": 0.03,  # share of the leader's probability from which others are named with it
 }
@@ -31,15 +33,17 @@ TRIED = {
     "SHARE": [0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9],
     "PAIR_SHARE": [0.7, 0.8, 0.85, 0.9, 0.95, 1.0],
     "SECOND": [0.0, 0.05, 0.1, 0.15, 0.2, 0.3],
-    "PRIOR_NOTHING": [0.05, 0.2, 0.45, 0.8],
+    "TEMPER": [1.0, 1.4, 1.8, 2.5, 4.0],
+    "PRIOR_NOTHING": [0.05, 0.2, 0.5, 0.8],
     "PRIOR_PAIRS": [0.01, 0.05, 0.2],
-    "CLAIM": [0.5, 0.7, 0.8, 0.9, 0.95, 0.99],
+    "UNKNOWN_LACKS": [0.0, 0.6, 1.2, 1.8],
+    "CLAIM": [0.5, 0.7, 0.8, 0.85, 0.9, 0.95],
     "DOUBT": [0.05, 0.1, 0.2, 0.4],
     "ALIKE": [0.001, 0.01, 0.03, 0.1],
 }
 SHARE_WIDTH, PAIR_SHARE_WIDTH, SECOND_WIDTH = 0.03, 0.025, 0.012
 PAIR_SPREADS = 1.5
-PRIOR_UNKNOWN, PRIOR_SINGLES = 0.18, 0.32
+PRIOR_UNKNOWN, PRIOR_SINGLES = 0.1, 0.35
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
 
@@ -61,10 +65,16 @@ def probabilities(found, rule):
     pairs = max(1.0, 0.5 * len(forms) * (len(forms) - 1))
     logs = [(NOTHING, math.log(rule["PRIOR_NOTHING"]))]
     cap, most = math.inf, -math.inf
-    for s in fitted:
+
+    def posterior(s):
         names = s["effect"].split("+")
         prior = PRIOR_SINGLES / len(forms) if len(names) == 1 else rule["PRIOR_PAIRS"] / pairs
-        log = s["evidence_gain"] + math.log(prior / math.prod(forms[n] for n in names))
+        return s["evidence_gain"] + math.log(prior / math.prod(forms[n] for n in names))
+
+    best = max(map(posterior, fitted))
+    for s in fitted:
+        names = s["effect"].split("+")
+        log = best - (best - posterior(s)) / rule["TEMPER"]
         share = s["chi2_drop"] / attainable if real else 1.0
         doubt = spread / max(attainable, 1.0)
         if len(names) == 1:
@@ -82,7 +92,7 @@ def probabilities(found, rule):
         logs.append((UNKNOWN, log - soft(-odds)))
         if real and log > most:
             most, cap = log, log + odds
-    logs.append((UNKNOWN, min(found["unknown_evidence_gain"] + math.log(PRIOR_UNKNOWN), cap)))
+    logs.append((UNKNOWN, min(found["unknown_evidence_gain"] + rule["UNKNOWN_LACKS"] + math.log(PRIOR_UNKNOWN), cap)))
     top = max(log for _, log in logs)
     total = Counter()
     for name, log in logs:
@@ -103,10 +113,9 @@ def verdict(probability, rule):
         return UNKNOWN, leader, group
     if nothing < rule["DOUBT"] and leading >= rule["CLAIM"]:
         return "effects" if "+" in leader else "effect", leader, group
-    if nothing >= rule["DOUBT"]:
-        group.append(NOTHING)
+    group += [name for name, p in ((NOTHING, nothing), (UNKNOWN, unknown)) if p >= rule["DOUBT"]]
     if len(group) < 2:
-        group.append(UNKNOWN)
+        group.append(NOTHING if nothing > unknown else UNKNOWN)
     return "ambiguous", leader, group
 
 

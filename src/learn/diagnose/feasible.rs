@@ -12,6 +12,8 @@ const LONGER: f64 = 3.0;
 pub(super) const NEARLY: f64 = 0.8;
 /// Expected χ² from which more is of no use: the two are then told apart for certain.
 pub(super) const ENOUGH: f64 = 60.0;
+/// Expected χ² from which two are told apart.
+pub(super) const APART: f64 = 20.0;
 /// Expected χ² from which one of two is clearly favoured.
 pub(super) const CLEAR: f64 = 6.0;
 
@@ -126,7 +128,7 @@ pub(super) fn purpose(test: &NextTest, plain: &Operation) -> String {
 
 /// How much an expected χ² is.
 pub(super) fn strength(chi2: f64) -> &'static str {
-    if chi2 >= 20.0 {
+    if chi2 >= APART {
         "enough to tell them apart"
     } else if chi2 >= CLEAR {
         "enough to favour one clearly"

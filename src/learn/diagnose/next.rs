@@ -1,8 +1,9 @@
-//! The next experiment: the feasible test in which two candidates, each as fitted, would differ most after refitting.
+//! The next experiment: the feasible test in which two candidates, each as fitted, would differ most after refitting, and those that it
+//! takes beside it where one test is not enough.
 
 use rayon::prelude::*;
 
-use super::feasible::{ENOUGH, NEARLY, changes, grid, shown, strength};
+use super::feasible::{APART, ENOUGH, NEARLY, changes, grid, ranked, shown, strength};
 use super::judge::{Judge, Judged};
 use super::layout::Layout;
 use super::telling::{Said, Scale, Telling};
@@ -11,7 +12,10 @@ use crate::learn::bench::Workshop;
 use crate::measure::{Dataset, Quantity};
 use crate::study::Operation;
 
-/// The most telling feasible test for two candidates.
+/// Most tests that are proposed beside the first.
+const FURTHER: usize = 3;
+
+/// The most telling feasible test for two candidates, and what to make beside it.
 pub(super) fn experiment(
     judge: &Judge<'_>,
     shop: &Workshop,
@@ -28,30 +32,75 @@ pub(super) fn experiment(
     let repetition = found[count..]
         .iter()
         .flatten()
-        .map(|t| t.chi2)
+        .map(Told::chi2)
         .fold(0.0, f64::max);
     let best = found[..count]
         .iter()
         .flatten()
-        .map(|t| t.chi2.min(ENOUGH))
+        .map(|t| t.chi2().min(ENOUGH))
         .fold(0.0, f64::max);
     let chosen = (0..count)
         .filter(|&i| {
             found[i]
                 .as_ref()
-                .is_some_and(|t| t.chi2.min(ENOUGH) >= NEARLY * best)
+                .is_some_and(|t| t.chi2().min(ENOUGH) >= NEARLY * best)
         })
         .min_by_key(|&i| tests[i].0)?;
     let (operation, told) = (&tests[chosen].1, found[chosen].as_ref()?);
     let names = [a.candidate.name(), b.candidate.name()];
     let test = shown(operation);
+    let (beside, together) = beside(&told.telling, &found[..count], &tests);
+    let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
     Some(NextExperiment {
-        why: sentence(judge, &test, &names, told, repetition),
+        why: sentence(judge, &test, &names, told, repetition) + &more(judge, &further, together),
         separates: names.to_vec(),
         test,
-        expected_chi2: told.chi2,
+        expected_chi2: told.chi2(),
         repetition_chi2: repetition,
+        further,
+        together_chi2: together,
     })
+}
+
+/// The tests that best join a first one, one after the other until all together are enough, and what they then tell.
+fn beside(
+    first: &Telling,
+    found: &[Option<Told>],
+    tests: &[(usize, Operation)],
+) -> (Vec<usize>, f64) {
+    let mut telling = first.clone();
+    let mut chosen = Vec::new();
+    while telling.chi2() < APART && chosen.len() < FURTHER {
+        let with = |told: &Option<Told>| told.as_ref().map(|t| telling.and(&t.telling));
+        let joined: Vec<Option<Telling>> = found.iter().map(with).collect();
+        let score = |t: &Option<Telling>| t.as_ref().map_or(0.0, Telling::chi2);
+        let changes = tests.iter().map(|t| t.0);
+        let scores: Vec<(f64, usize)> = joined.iter().map(score).zip(changes).collect();
+        let next = ranked(&scores)[0];
+        let Some(joined) = joined.into_iter().nth(next).flatten() else {
+            break;
+        };
+        telling = joined;
+        chosen.push(next);
+    }
+    (chosen, telling.chi2())
+}
+
+/// What to make beside the first test, in words; nothing if it is enough.
+fn more(judge: &Judge<'_>, further: &[NextTest], together: f64) -> String {
+    if further.is_empty() {
+        return String::new();
+    }
+    let plain = &judge.ground.measured.study().operation;
+    let each: Vec<String> = further.iter().map(|test| changes(test, plain)).collect();
+    let (word, verdict) = (
+        if each.len() > 1 { "tests" } else { "one" },
+        strength(together),
+    );
+    format!(
+        " With {word} at {} as well: χ² {together:.0}, {verdict}.",
+        each.join("; at ")
+    )
 }
 
 /// The study's operation, as long as the longest test.
@@ -72,8 +121,14 @@ pub(super) fn existing(judge: &Judge<'_>) -> Vec<Operation> {
 
 /// How two candidates differ in a test.
 struct Told {
-    chi2: f64,
+    telling: Telling,
     place: Place,
+}
+
+impl Told {
+    fn chi2(&self) -> f64 {
+        self.telling.chi2()
+    }
 }
 
 /// Where two candidates' wear depths differ most.
@@ -120,10 +175,11 @@ fn told(
     let rows = (0..data.observations.len()).collect();
     let scale = Scale::new(&data, rows, &judge.ground.noise);
     let difference = scale.white(&both().map(|(a, b)| a - b).collect::<Vec<f64>>());
-    let columns = fa.posterior(a).into_iter().chain(fb.posterior(b));
-    let own: Vec<_> = columns.map(|column| scale.white(&column)).collect();
+    let parameters = fa.posterior(a).into_iter().chain(fb.posterior(b));
+    let common: Vec<_> = parameters.map(|column| scale.white(&column)).collect();
+    let own = [fa.scatter(a), fb.scatter(b)].map(|column| scale.white(&column));
     Some(Told {
-        chi2: Telling::new(&difference, &[], &own).chi2(),
+        telling: Telling::new(&difference, &common, &own),
         place: Place::of(&data, &fa.values, &fb.values).unwrap_or(Place {
             largest: 0.0,
             member: "pair",
@@ -151,8 +207,8 @@ fn sentence(
         changes(test, &judge.ground.measured.study().operation),
         names[0],
         names[1],
-        told.chi2,
-        strength(told.chi2),
+        told.chi2(),
+        strength(told.chi2()),
         repetition
     )
 }

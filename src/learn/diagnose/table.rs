@@ -172,7 +172,11 @@ fn told(
     let columns: Vec<Vec<Vec<f64>>> = said
         .iter()
         .zip(leaders)
-        .map(|(said, (judged, _))| said.posterior(judged))
+        .map(|(said, (judged, _))| {
+            let mut columns = said.posterior(judged);
+            columns.push(said.scatter(judged));
+            columns
+        })
         .collect();
     let data = layout.with(&said[0].values);
     let noise = noise_ahead(study);

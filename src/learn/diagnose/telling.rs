@@ -82,7 +82,7 @@ impl Said {
         })
     }
 
-    /// Columns of what refitting can move: the parameters with their posterior covariance, k with its scatter.
+    /// Columns of what refitting can move in all tests: the parameters with their posterior covariance.
     pub(super) fn posterior(&self, judged: &Judged) -> Vec<Vec<f64>> {
         let count = judged.candidate.parameters.len();
         let mut columns = Vec::new();
@@ -96,9 +96,13 @@ impl Said {
                 column.iter().map(|c| c * scale).collect()
             }));
         }
-        let scatter = judged.found.scatter.max(LEAST_SCATTER);
-        columns.push(self.by_k.iter().map(|f| f * scatter).collect());
         columns
+    }
+
+    /// The column of what it can move in this test alone: k with its scatter.
+    pub(super) fn scatter(&self, judged: &Judged) -> Vec<f64> {
+        let scatter = judged.found.scatter.max(LEAST_SCATTER);
+        self.by_k.iter().map(|f| f * scatter).collect()
     }
 
     /// The same from the parameters' priors, without k.

@@ -17,7 +17,7 @@ use super::{next, words};
 use crate::learn::bench::Workshop;
 
 /// Probability from which a single effect or set is named.
-pub(super) const CLAIM: f64 = 0.9;
+pub(super) const CLAIM: f64 = 0.85;
 /// Probability of nothing missing from which an effect is not claimed; of that or of the unknown, from which a group holds it.
 const DOUBT: f64 = 0.2;
 /// Candidates this much less probable than the leader are no look-alikes.
@@ -132,6 +132,10 @@ pub struct NextExperiment {
     pub expected_chi2: f64,
     /// The same for a repetition of the most telling test that is there already.
     pub repetition_chi2: f64,
+    /// Tests to be made as well where that one is not enough.
+    pub further: Vec<NextTest>,
+    /// Expected difference of the two in χ² after all of them.
+    pub together_chi2: f64,
 }
 
 /// Conditions of a test, in the study's units.
@@ -297,5 +301,5 @@ fn next_experiment(
     if settled && diagnosis.verdict != Verdict::Ambiguous {
         return None;
     }
-    next::experiment(judge, shop, a, b).filter(|told| told.expected_chi2 >= WORTH_MAKING)
+    next::experiment(judge, shop, a, b).filter(|told| told.together_chi2 >= WORTH_MAKING)
 }

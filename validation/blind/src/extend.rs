@@ -1,8 +1,9 @@
-//! One more test of a set that is there: its gears, its causes and its k, under other conditions.
+//! More tests of a set that is there: its gears, its causes and its k, under other conditions.
 
 use std::error::Error;
 use std::fs;
 use std::path::Path;
+use std::str::FromStr;
 
 use serde_json::Value;
 
@@ -14,31 +15,48 @@ use crate::laws::Law;
 use crate::make::{self, DataSet, Kind, Wish};
 use crate::rig::Plan;
 
-#[derive(clap::Args)]
+/// Conditions of a test that is to be made.
+#[derive(Debug, Clone)]
 pub struct Test {
-    /// Nm
-    #[arg(long)]
     torque: f64,
-    /// rpm
-    #[arg(long)]
     speed: f64,
-    /// mm
-    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     misalignment: f64,
-    #[arg(long)]
     cycles: f64,
 }
 
-/// The set in `folder` with one more test.
+impl FromStr for Test {
+    type Err = String;
+
+    /// From `torque,speed,misalignment,cycles`: Nm, rpm, mm.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text
+            .split(',')
+            .map(|n| n.trim().parse::<f64>().map_err(|e| e.to_string()));
+        let numbers: Vec<f64> = numbers.collect::<Result<_, String>>()?;
+        let [torque, speed, misalignment, cycles] = numbers[..] else {
+            return Err("torque,speed,misalignment,cycles".to_owned());
+        };
+        Ok(Self {
+            torque,
+            speed,
+            misalignment,
+            cycles,
+        })
+    }
+}
+
+/// The set in `folder` with more tests.
 ///
 /// # Errors
 /// No answer in the folder, or the set made again is another one.
-pub fn extend(folder: &Path, test: &Test) -> Result<DataSet, Box<dyn Error>> {
+pub fn extend(folder: &Path, tests: &[Test]) -> Result<DataSet, Box<dyn Error>> {
     let mut set = make::make(&wish(folder)?);
     if fs::read_to_string(folder.join("measurements.csv"))? != files::table(&set, &set.rows) {
         return Err(format!("{}: this program makes another set of it", folder.display()).into());
     }
-    measure(&mut set, test);
+    for (i, test) in tests.iter().enumerate() {
+        measure(&mut set, test, i as u64);
+    }
     Ok(set)
 }
 
@@ -60,7 +78,7 @@ fn wish(folder: &Path) -> Result<Wish, Box<dyn Error>> {
     })
 }
 
-fn measure(set: &mut DataSet, test: &Test) {
+fn measure(set: &mut DataSet, test: &Test, which: u64) {
     let (number, first) = (set.rig.tests.len(), &set.rig.tests[0]);
     let plan = Plan {
         id: char::from(b'A' + number as u8).to_string(),
@@ -77,7 +95,9 @@ fn measure(set: &mut DataSet, test: &Test) {
             .map(|c| (c / first.cycles * test.cycles).round())
             .collect(),
     };
-    let mut dice = Dice::new(set.wish.seed).branch(set.wish.index).branch(4242);
+    let mut dice = Dice::new(set.wish.seed)
+        .branch(set.wish.index)
+        .branch(4242 + which);
     let k = set.k * (set.scatter * dice.normal()).exp();
     let (run, history) = set.rig.run(&plan, k, &set.laws, plan.cycles);
     let weigh = !set.laws.iter().any(Law::moves_material);

@@ -82,8 +82,9 @@ enum Command {
     /// Measure one more test of a set that is there; the whole is written anew.
     Extend {
         set: PathBuf,
-        #[command(flatten)]
-        test: extend::Test,
+        /// torque,speed,misalignment,cycles (Nm, rpm, mm); may be given several times
+        #[arg(long, required = true, allow_hyphen_values = true)]
+        test: Vec<extend::Test>,
         #[arg(long)]
         out: PathBuf,
     },
