@@ -31,6 +31,9 @@ const CLEARLY: f64 = 0.1;
 /// Share by which they must explain more than what grows evenly, and than any other driver, where each is a test, member and time.
 const ALONE: f64 = 0.2;
 
+/// Least fall of χ² of which shares are taken.
+const LEAST_ATTAINABLE: f64 = 1.0;
+
 /// How much of a discrepancy one driver explains.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Driver {
@@ -49,7 +52,7 @@ pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Ve
         model,
         kinds: numbered((0..ground.len()).map(|i| ground.observation(i).quantity)),
         white,
-        attainable: attainable.max(f64::MIN_POSITIVE),
+        attainable: attainable.max(LEAST_ATTAINABLE),
     };
     let rows = ground.len();
     let all = vec![0; rows];
@@ -86,15 +89,13 @@ pub(super) fn drivers(ground: &Ground<'_>, model: &[f64], attainable: f64) -> Ve
     ];
     let most = others.iter().fold(0.0, |most, (_, share)| share.max(most));
     let traces = seen.share_of_traces(&by(&|o| o.cycles), most);
-    let mut drivers: Vec<Driver> = (others.into_iter())
-        .chain([("trace", traces)])
-        .map(|(name, share)| Driver {
-            name: name.to_owned(),
-            variance_share: share.clamp(0.0, 1.0),
-        })
-        .collect();
-    drivers.sort_by(|a, b| b.variance_share.total_cmp(&a.variance_share));
-    drivers
+    let mut shares: Vec<(&str, f64)> = others.into_iter().chain([("trace", traces)]).collect();
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let driver = |(name, share): (&str, f64)| Driver {
+        name: name.to_owned(),
+        variance_share: share.clamp(0.0, 1.0),
+    };
+    shares.into_iter().map(driver).collect()
 }
 
 /// A discrepancy as the data see it.
@@ -188,7 +189,16 @@ impl Seen<'_> {
         let functions = polynomials(&self.kinds, &places, 2);
         let series = numbered(cells.iter().map(|[test, member, _]| (test, member)));
         let even = products(&functions, &polynomials(&self.kinds, cycles, 2));
-        let alone = |share: f64| share > ALONE + most && share > ALONE + self.share(&series, &even);
+        // So many functions explain much of a weak discrepancy's noise now and then: two standard deviations of that do not count.
+        let functions_of_all = 3 * numbered(traces.iter())
+            .iter()
+            .max()
+            .map_or(0, |last| last + 1);
+        let noise = 2.0 * (2.0 * functions_of_all as f64).sqrt() / self.attainable;
+        let alone = |share: f64| {
+            let sure = share - noise - ALONE;
+            sure > most && sure > self.share(&series, &even)
+        };
         of_traces(&traces, &cells, &alone, &|groups| {
             self.share(groups, &functions)
         })

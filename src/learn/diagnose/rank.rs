@@ -37,7 +37,7 @@ const SECOND_WIDTH: f64 = 0.012;
 
 /// By how much less differences of log evidence between effects count than they would if forms and noise were known exactly (the evidence
 /// to the power 1/this; Grünwald & van Ommen, Bayesian Analysis 12, 2017: posteriors of misspecified models are too sure of themselves).
-const TEMPER: f64 = 1.8;
+pub(super) const TEMPER: f64 = 1.8;
 
 /// Everything judged with its probability.
 pub(super) struct Ranking {

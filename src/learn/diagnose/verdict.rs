@@ -216,7 +216,8 @@ pub(super) fn diagnosis(
         Verdict::Effect | Verdict::Effects if group.len() > 1 => vec![group],
         _ => Vec::new(),
     };
-    let follows = (flexible.is_real() || verdict == Verdict::Unknown) && !few(ground, base);
+    let discrepant = flexible.is_real() || verdict != Verdict::NothingMissing;
+    let follows = discrepant && !few(ground, base);
     let smooth = if follows {
         dependence::drivers(ground, &base.judged.found.model, flexible.drop)
     } else {

@@ -1,7 +1,7 @@
 //! Sentences that a gear engineer can check.
 
 use super::judge::{Base, Judge, Judged};
-use super::rank::Ranking;
+use super::rank::{Ranking, TEMPER};
 use super::ranked::parameters;
 use super::verdict::{CLAIM, Diagnosis, Verdict};
 use super::warnings::{few, measured_once};
@@ -145,7 +145,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 "Why not {}: fitted as well as it can be it leaves χ² {:.2} per point, {}.",
                 other.candidate.name(),
                 after(other),
-                against(j.log_evidence - other.log_evidence)
+                against((j.log_evidence - other.log_evidence) / TEMPER)
             ));
             let separated = other.candidate.names.first().and_then(|n| find(n).ok());
             if let Some(card) = separated.filter(|_| j.log_evidence - other.log_evidence < 5.0) {
