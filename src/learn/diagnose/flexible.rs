@@ -103,6 +103,15 @@ impl Flexible {
         }
     }
 
+    /// The same where a smooth discrepancy gains `evidence` (log) over none: evidence pays for its freedom, so the fall of χ² that gains it is
+    /// at least twice that. Discrepancies common to all tests, a function of the cycles say, gain more than terms of every test's own.
+    pub(super) fn gaining(self, evidence: f64) -> Self {
+        Self {
+            drop: self.drop.max(2.0 * evidence),
+            ..self
+        }
+    }
+
     /// Whether it is far more than noise: five standard deviations.
     pub(super) fn is_real(&self) -> bool {
         self.drop > 5.0 * self.spread()

@@ -189,7 +189,9 @@ fn with(
     let (singles, not_judged) = Candidate::singles(study);
     watch(0.2, format!("screening {} effects", singles.len()));
     let screened = judge.screen(&base, &singles);
-    let flexible = Flexible::of(&judge.ground, &base.judged.found.model);
+    let unknown = unknown::log_evidence(judge, &base);
+    let flexible = Flexible::of(&judge.ground, &base.judged.found.model)
+        .gaining(unknown - base.judged.log_evidence);
     let sparse = sparse::selection(judge, &base, &screened);
     let grown = grown::of(judge, &base, &screened, &flexible);
     let screened: Vec<Judged> = screened.into_iter().chain(grown).collect();
@@ -218,7 +220,7 @@ fn with(
     };
     let failed = not_fitted(&singles, &judged);
     watch(0.93, "weighing".to_owned());
-    let ranking = Ranking::new(judge, &base, judged, pairs, &flexible);
+    let ranking = Ranking::new(judge, &base, judged, pairs, &flexible, unknown);
     watch(0.95, "held-out tests and the next experiment".to_owned());
     let mut diagnosis =
         verdict::diagnosis(judge, shop, &base, ranking, &flexible, not_judged, failed);

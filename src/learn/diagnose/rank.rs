@@ -58,6 +58,7 @@ impl Ranking {
         singles: Vec<Judged>,
         pairs: Vec<Judged>,
         flexible: &Flexible,
+        unknown: f64,
     ) -> Self {
         let least_share = if judge.approximate {
             SHARE_OF_SCREENING
@@ -72,7 +73,6 @@ impl Ranking {
         names.dedup();
         let count = names.len().max(1) as f64;
         let all_pairs = (0.5 * count * (count - 1.0)).max(1.0);
-        let unknown = super::unknown::log_evidence(judge, base);
         let base = &base.judged;
         let mut judged: Vec<Judged> = singles.into_iter().chain(pairs).collect();
         judged.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
