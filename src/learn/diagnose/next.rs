@@ -212,3 +212,57 @@ fn sentence(
         repetition
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DVector;
+
+    use super::*;
+
+    /// A test in which two candidates differ by so many sigmas, and nothing can be refitted.
+    fn told(sigmas: f64) -> Option<Told> {
+        let difference = DVector::from_column_slice(&[sigmas]);
+        Some(Told {
+            telling: Telling::new(&difference, &[], &[]),
+            place: Place {
+                largest: 0.0,
+                member: "pair",
+                cycles: 1e6,
+            },
+        })
+    }
+
+    fn tests(changes: &[usize]) -> Vec<(usize, Operation)> {
+        let plain = Operation {
+            torque_nmm: 1e5,
+            speed_rpm: 2000.0,
+            misalignment_mm: 0.0,
+            cycles: 1e6,
+            bulk_temperature_c: None,
+            viscosity_pa_s: None,
+            reversed: false,
+        };
+        changes.iter().map(|&n| (n, plain)).collect()
+    }
+
+    fn joined(first: f64, found: &[Option<Told>], changes: &[usize]) -> (Vec<usize>, f64) {
+        beside(&told(first).unwrap().telling, found, &tests(changes))
+    }
+
+    #[test]
+    fn tests_join_until_they_are_enough() {
+        let found = [told(3.0), told(2.0), None];
+        // 9 + 9 = 18 beats 9 + 4; then 18 + 4 = 22 is nearly 18 + 9, plainer and enough
+        let (beside, together) = joined(3.0, &found, &[1, 0, 0]);
+        assert_eq!(beside, [0, 1]);
+        assert!((together - 22.0).abs() < 1e-9);
+        assert_eq!(joined(5.0, &found, &[1, 0, 0]), (Vec::new(), 25.0));
+    }
+
+    #[test]
+    fn no_more_join_than_a_campaign_bears() {
+        let (beside, together) = joined(1.0, &[told(1.0)], &[0]);
+        assert_eq!(beside.len(), FURTHER);
+        assert!((together - 4.0).abs() < 1e-9 && together < APART);
+    }
+}
