@@ -60,7 +60,7 @@ def probabilities(found, rule):
     for s in fitted:
         if "+" not in s["effect"]:
             alone[s["effect"]] = max(alone.get(s["effect"], -math.inf), s["chi2_drop"])
-    attainable, spread = found["attainable_drop"], found["attainable_spread"]
+    attainable, spread = max(found["attainable_drop"], 2 * found["unknown_evidence_gain"]), found["attainable_spread"]
     real = attainable > 5 * spread
     pairs = max(1.0, 0.5 * len(forms) * (len(forms) - 1))
     logs = [(NOTHING, math.log(rule["PRIOR_NOTHING"]))]
@@ -91,7 +91,7 @@ def probabilities(found, rule):
             logs.append((s["effect"], log - soft(odds)))
         logs.append((UNKNOWN, log - soft(-odds)))
         if real and log > most:
-            most, cap = log, log + odds
+            most, cap = log, log + max(odds, found["unknown_evidence_gain"] - s["evidence_gain"])
     logs.append((UNKNOWN, min(found["unknown_evidence_gain"] + rule["UNKNOWN_LACKS"] + math.log(PRIOR_UNKNOWN), cap)))
     top = max(log for _, log in logs)
     total = Counter()
