@@ -208,6 +208,20 @@ fn what_was_put_in_is_found_and_only_the_right_effect_helps() {
     for key in ["value", "sigma", "at_bound", "name"] {
         assert!(!steps[1]["parameters"][1][key].is_null(), "{key}");
     }
+    // versions with other held-out tests are not judged against each other
+    let text = fs::read_to_string(folder.join("base.toml")).unwrap();
+    let fitted = text.replace("role = \"holdout\"", "role = \"fit\"");
+    assert_ne!(fitted, text);
+    fs::write(folder.join("fitted.toml"), fitted).unwrap();
+    let said = succeed(&home, "ladder try/base.toml try/fitted.toml -o try/unlike");
+    assert!(
+        said.contains("cannot be judged against try/base.toml"),
+        "{said}"
+    );
+    assert!(
+        !said.contains("Least error") && !said.contains('÷') && !said.contains('×'),
+        "{said}"
+    );
     let page = fs::read_to_string(folder.join("base.out/ladder/report.html")).unwrap();
     assert!(page.contains("<svg") && page.contains("running_in") && loads_nothing(&page));
 }

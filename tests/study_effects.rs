@@ -266,6 +266,8 @@ refusals! {
         => BadValue "effect.kind" marks "\"running_in\"" at 5:8, "each effect once", "twice";
     formula_twice: format!("{}{}", formula("profile = \"1\""), formula("profile = \"2\""))
         => BadValue "effect.name" marks "\"f\"" at 7:8, "each effect once", "different names";
+    formula_called_like_an_effect: "[[effect]]\nkind = \"formula\"\nname = \"running_in\"\nprofile = \"1\"\n"
+        => BadValue "effect.name" marks "\"running_in\"" at 3:8, "the catalogue's effects", "cannot be";
     formula_called_wear: "[[effect]]\nkind = \"formula\"\nname = \"wear\"\nprofile = \"1\"\n"
         => BadValue "effect.name" marks "\"wear\"" at 3:8, "other than \"wear\"", "cannot be";
     formula_unknown_name: formula("wear_factor = \"1 + presure\"")

@@ -66,6 +66,7 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
             study: &names[i],
             effects: &effects[i],
             comparison: &compared[i].comparison,
+            comparable: i > 0 && learn::differences(items[i - 1], items[i]).is_empty(),
         })
         .collect();
     let result = ladder::Result {

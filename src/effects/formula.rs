@@ -249,8 +249,18 @@ impl Bound {
                 .zip(&values)
                 .map(|(name, value)| format!("{name} = {value}"))
                 .collect();
+            let allowed = match hook {
+                Hook::WearFactor | Hook::AddedDepth => "allowed: a number from 0 on",
+                Hook::LoadFactor => "allowed: a number above 0",
+                _ => "allowed: a finite number",
+            };
+            let place = if at.is_empty() {
+                String::new()
+            } else {
+                format!(" at {}", at.join(", "))
+            };
             let (hook, text) = (hook.name(), &self.inner.text);
-            format!("{hook} = {text} gives {value} at {}", at.join(", "))
+            format!("{hook} = {text} gives {value}{place}; {allowed}")
         });
         hook.neutral()
     }

@@ -19,7 +19,7 @@ pub struct LadderStep {
     pub rms_um: Option<f64>,
     /// What was free.
     pub parameters: Vec<ParameterRecord>,
-    /// Change from the step before; None for the first.
+    /// Change from the step before; None for the first, and where the two cannot be judged against each other.
     pub improvement: Option<Improvement>,
     /// Whether the fit converged with no parameter on a bound.
     pub sound: bool,
@@ -47,6 +47,8 @@ pub struct Version<'a> {
     pub effects: &'a [String],
     /// How it compares.
     pub comparison: &'a Comparison,
+    /// Whether its errors can be judged against those of the version before: the same measurements, tests, roles and noise.
+    pub comparable: bool,
 }
 
 /// The versions in the order given, each with what it gains over the one before.
@@ -64,7 +66,9 @@ pub fn ladder(versions: &[Version<'_>]) -> Vec<LadderStep> {
                 holdout_chi2_per_point: now.holdout.chi2_per_point,
                 rms_um: now.rms_um,
                 parameters: now.parameters.clone(),
-                improvement: before.map(|before| Improvement::between(before.comparison, now)),
+                improvement: before
+                    .filter(|_| version.comparable)
+                    .map(|before| Improvement::between(before.comparison, now)),
                 sound: now.converged && now.parameters.iter().all(|p| !p.at_bound),
             }
         })

@@ -9,7 +9,11 @@ use crate::source_text::{Diagnostic, Fault, Source};
 /// Sigmas are this much smaller than the values' limit where a unit slip is suspected: 1 nm against 50 nm of wear.
 const SIGMA_PART: f64 = 0.02;
 
-/// Refuses a file whose values of one quantity are all too small for its unit, noise included.
+/// So many values of a quantity, all below this part of their sigma, are no noise of that size: one in 2500 would be at 8.
+const FEWEST: usize = 8;
+const NOISE_PART: f64 = 0.5;
+
+/// Refuses a file whose values of one quantity are all too small for its unit, or for their sigmas.
 pub(super) fn check(
     source: &Source,
     columns: &Columns,
@@ -21,10 +25,41 @@ pub(super) fn check(
         let small =
             |o: &Observation| o.value.abs() < limits.below && o.sigma < SIGMA_PART * limits.below;
         // values of exactly 0 say nothing of their unit
-        if let Some(largest) = own().max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()))
-            && largest.value != 0.0
-            && own().all(small)
-        {
+        let Some(largest) = own().max_by(|a, b| a.value.abs().total_cmp(&b.value.abs())) else {
+            continue;
+        };
+        if largest.value == 0.0 {
+            continue;
+        }
+        let silent = |o: &Observation| o.value.abs() < NOISE_PART * o.sigma;
+        if own().count() >= FEWEST && own().all(silent) {
+            let (name, unit) = (quantity.name(), quantity.unit());
+            let span = value_span(source, columns, largest.line);
+            let written = source.text[span.clone()].to_owned();
+            return Err(Box::new(
+                Diagnostic::new(
+                    Fault::BadValue,
+                    "value",
+                    format!(
+                        "every {name} is smaller than half its sigma, so these are not its noise"
+                    ),
+                )
+                .with_values(
+                    format!(
+                        "`{written}`, the largest, with a sigma of {}",
+                        largest.sigma
+                    ),
+                    format!("{name} and sigma in {unit}"),
+                )
+                .with_hint(if limits.smaller.is_empty() {
+                    "the sigmas are far too large, or the values in a larger unit".to_owned()
+                } else {
+                    format!("this looks like {} beside sigmas in {unit}", limits.smaller)
+                })
+                .with_span(span),
+            ));
+        }
+        if own().all(small) {
             let (name, unit) = (quantity.name(), quantity.unit());
             let span = value_span(source, columns, largest.line);
             let written = source.text[span.clone()].to_owned();

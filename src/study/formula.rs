@@ -5,9 +5,9 @@ use std::ops::Range;
 use super::effect::{Result, stated};
 use super::effect_model::{EffectSpec, Law, Parameter};
 use super::reader::Table;
-use crate::effects::Hook;
 use crate::effects::formula::{FUNCTIONS, Formula, FormulaError};
 use crate::effects::variables::VARIABLES;
+use crate::effects::{Hook, find};
 use crate::source_text::{Diagnostic, Fault, list, nearest};
 
 /// The `kind` of a formula.
@@ -90,14 +90,14 @@ fn name<'a>(table: &Table<'a>) -> Result<&'a str> {
                 .with_hint(what),
         ));
     };
-    let reserved = ["wear", KIND].contains(&name);
+    let reserved = ["wear", KIND].contains(&name) || find(name).is_ok();
     if reserved || name.contains(['.', '+', ',', '"']) {
         return Err(Box::new(
             table
                 .refuse(
                     "name",
                     "cannot be a formula's name",
-                    "a text without . + , and \", other than \"wear\" and \"formula\"",
+                    "a text without . + , and \", other than \"wear\", \"formula\" and the catalogue's effects",
                 )
                 .with_hint(what),
         ));

@@ -254,6 +254,50 @@ fn values_of_the_wrong_number_or_not_finite_are_refused() {
     );
 }
 
+/// A law with answers between −0.05 and 0.05 only, where differences as wide as its prior suggests leave on both sides.
+#[test]
+fn a_law_with_a_narrow_domain_is_fitted_within_it() {
+    fn sloped(o: &Observation, k: f64, p: &[f64]) -> f64 {
+        let inside = p[0].abs() < 0.05;
+        let factor = if inside {
+            1.0 + p[0] * o.cycles / 1e5
+        } else {
+            f64::NAN
+        };
+        factor * steady(o, k, &[])
+    }
+    let empty = wear_data(&[("A", 1e6), ("B", 6e5)], 11, true);
+    let truth = [0.03];
+    let data = measured(
+        &empty,
+        sloped,
+        &[1.2e-10, 1.4e-10],
+        &truth,
+        0.02,
+        0.5,
+        &mut Random(9),
+    );
+    let predictor = Formula {
+        data: data.clone(),
+        formula: sloped,
+    };
+    let mut problem = problem(&data, &predictor);
+    problem.parameters = vec![Parameter {
+        name: "a".to_owned(),
+        unit: "-".to_owned(),
+        start: 0.0,
+        lower: -10.0,
+        upper: 10.0,
+        prior: gearwear::effects::Prior::Normal { mean: 0.0, sd: 5.0 },
+    }];
+    let fit = problem.fit(&Effort::default()).unwrap();
+    let a = &fit.parameters[1];
+    assert!(
+        fit.converged && (a.value - truth[0]).abs() < 4.0 * a.sigma && a.sigma < 0.01,
+        "{a:?}"
+    );
+}
+
 /// One test says nothing of scatter: its own k is known as well as ever, the common one only within the scatter's prior.
 #[test]
 fn one_test_leaves_the_common_k_within_the_scatter() {

@@ -405,16 +405,19 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
             study: "base.toml",
             effects: &none,
             comparison: &before,
+            comparable: true,
         },
         Version {
             study: "wrong.toml",
             effects: &names[0],
             comparison: &mistaken,
+            comparable: true,
         },
         Version {
             study: "right.toml",
             effects: &names[1],
             comparison: &after,
+            comparable: true,
         },
     ]);
     // 300 and 150 points: standard deviations of 0.08 and 0.115 about 0.93; four of them.

@@ -4,8 +4,8 @@
     python3 validation/blind/thresholds.py DATA RESULTS [--from N] [--to N]
 
 DATA holds the sets of `blind make`, RESULTS the answers of run.sh. A diagnosis keeps the evidence and the fall of chi^2 of all that it
-fitted, so its rule (src/learn/diagnose/rank.rs and verdict.rs) can be repeated here with every threshold varied in turn. First the
-rule as it is must give the verdicts in RESULTS again: the page says how many it does. --from and --to take the sets with these numbers
+fitted, so its rule (src/learn/diagnose/rank.rs and verdict.rs) can be repeated here with every threshold varied in turn. The
+rule as it is must give the verdicts of its own program in RESULTS again: the page says how many it does. --from and --to take the sets with these numbers
 only, so that thresholds chosen on some can be looked at on others. Writes validation/blind/THRESHOLDS.md; standard library only.
 """
 import json
@@ -176,7 +176,7 @@ def main():
         "",
         f"{len(sets)} sets ({', '.join(f'{n} {c}' for c, n in sorted(classes.items()))}), numbers from {limits['--from']}"
         + (f" to {limits['--to'] - 1}." if limits["--to"] < 10**9 else ".")
-        + f" The rule repeated here gives the program's verdict on {agree} of {len(sets)}.",
+        + f" The rule repeated here gives the verdict of the program that judged them on {agree} of {len(sets)}; a later rule may say otherwise.",
         "",
         "| threshold | value | none | single | foreign | outside | pair | weak |",
         "|---|---|---|---|---|---|---|---|",

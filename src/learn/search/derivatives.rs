@@ -11,8 +11,11 @@ use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::{Quadratic, State};
 use crate::study::Scatter;
 
+/// How much narrower a difference is where the model has no answer at either end.
+const NARROWER: f64 = 0.125;
+
 impl Search<'_> {
-    /// Forward differences of all tests in one round; where a prediction fails, the other side is tried.
+    /// Forward differences of all tests in one round; where a prediction fails, the other side is tried, then narrower ones.
     pub(super) fn derivatives(
         &self,
         evaluator: &mut Evaluator<'_>,
@@ -41,9 +44,9 @@ impl Search<'_> {
         };
         let points: Vec<Point> = asked.iter().map(shifted).collect();
         let mut found = evaluator.all(&points);
-        let failed: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_err()).collect();
-        if !failed.is_empty() {
-            failed.iter().for_each(|&i| asked[i].2 *= -1.0);
+        for factor in [-1.0, -NARROWER, -1.0] {
+            let failed: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_err()).collect();
+            failed.iter().for_each(|&i| asked[i].2 *= factor);
             let again: Vec<Point> = failed.iter().map(|&i| shifted(&asked[i])).collect();
             for (i, second) in failed.into_iter().zip(evaluator.all(&again)) {
                 found[i] = second;
@@ -106,7 +109,15 @@ impl Search<'_> {
             [low, high].map(|step| shifted(test, column, step))
         });
         let points: Vec<Point> = sides.collect();
-        let found = evaluator.all(&points);
+        let mut found = evaluator.all(&points);
+        for (i, ask) in asked.iter_mut().enumerate() {
+            let sides = 2 * i..2 * i + 2;
+            if found[sides.clone()].iter().all(Result::is_err) {
+                (ask.2, ask.3) = (NARROWER * ask.2, NARROWER * ask.3);
+                let again = [ask.2, ask.3].map(|step| shifted(ask.0, ask.1, step));
+                found.splice(sides, evaluator.all(&again));
+            }
+        }
         let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
         for (&(test, column, low, high), pair) in asked.iter().zip(found.chunks_exact(2)) {
             // a side without an answer is replaced by the middle

@@ -10,9 +10,13 @@ fn judge(step: &LadderStep) -> Option<f64> {
     step.holdout_chi2_per_point.or(step.fit_chi2_per_point)
 }
 
-/// Which version predicts best, and which steps do not help.
+/// Which version predicts best, and which steps do not help: of the versions that can be judged against the first.
 pub fn conclusion(result: &Result<'_>) -> String {
-    let steps = &result.steps;
+    let with = result.steps.iter().zip(&result.notes);
+    let steps: Vec<&LadderStep> = with
+        .filter(|(_, notes)| notes.is_empty())
+        .map(|(step, _)| step)
+        .collect();
     let held_out = steps.iter().all(|s| s.holdout_chi2_per_point.is_some());
     let of = if held_out {
         "held-out tests"
@@ -22,11 +26,14 @@ pub fn conclusion(result: &Result<'_>) -> String {
     let mut said = Vec::new();
     let best = steps
         .iter()
-        .filter_map(|step| Some((step, judge(step)?)))
+        .filter_map(|step| Some((*step, judge(step)?)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
-    if let (Some((best, least)), Some(first)) = (best, steps.first().and_then(judge)) {
+    let alone = steps.len() < 2 && result.steps.len() > 1;
+    if let (Some((best, least)), Some(first), false) =
+        (best, steps.first().and_then(|s| judge(s)), alone)
+    {
         let with = format!("{} (effects: {})", best.study, effects(best));
-        let change = if best == &steps[0] {
+        let change = if best == steps[0] {
             format!("χ² per point {}", significant(least, 3))
         } else {
             format!(
@@ -39,9 +46,9 @@ pub fn conclusion(result: &Result<'_>) -> String {
             "Least error on {of}: {with}, {change}; 1 is the noise floor."
         ));
     }
-    for (pair, noted) in steps.windows(2).zip(result.notes.iter().skip(1)) {
+    for pair in result.steps.windows(2) {
         let (before, after) = (&pair[0], &pair[1]);
-        if !noted.is_empty() {
+        if after.improvement.is_none() {
             continue;
         }
         let (Some(a), Some(b)) = (judge(before), judge(after)) else {
@@ -52,7 +59,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
                 "From {} to {} the error on {} does not fall ({} to {}): that step explains nothing new.",
                 before.study,
                 after.study,
-                if held_out { "held-out tests" } else { "the fit tests" },
+                if after.holdout_chi2_per_point.is_some() { "held-out tests" } else { "the fit tests" },
                 significant(a, 3),
                 significant(b, 3)
             ));
