@@ -451,6 +451,18 @@ fn what_add_cannot_use_is_refused_with_exit_2_and_nothing_written() {
             "looks like a value without its power of ten",
         ),
         (
+            &[
+                "add",
+                "study.toml",
+                "running_in",
+                "--form",
+                "hyperbolic",
+                "--set",
+                "shape=2",
+            ],
+            "--set shape=2 contradicts --form \"hyperbolic\", which has shape = 1",
+        ),
+        (
             &["add", "study.toml", "running_in", "-o", "."],
             "is a folder",
         ),

@@ -195,7 +195,8 @@ fn add(
     let new = if drafts[0].free.is_empty() {
         drafts.swap_remove(0).study
     } else {
-        let data = drafts[0].study.dataset()?;
+        // read where the user's own study names it: what is wrong there has a place that exists
+        let data = study.dataset()?;
         let fitted = fit(&drafts, &data)?;
         let mut edit = drafts[fitted.draft].study.edit();
         for (name, value) in fitted.values {
@@ -316,6 +317,22 @@ fn draft(
     let prefix = format!("{}.", card.name);
     let own = (set.iter()).filter_map(|(name, value)| Some((name.strip_prefix(&prefix)?, *value)));
     let own: Vec<(&str, f64)> = own.collect();
+    let fixed = |form: &Form, name: &str| {
+        let of_form = form.settings.iter().find(|(fixed, _)| *fixed == name);
+        of_form
+            .filter(|_| !form.frees.contains(&name))
+            .map(|(_, value)| *value)
+    };
+    for &(name, value) in &own {
+        if let Some((form, fixed)) = form.and_then(|form| Some((form, fixed(form, name)?)))
+            && fixed != value
+        {
+            return Err(CliError::Unusable(format!(
+                "--set {name}={value} contradicts --form \"{}\", which has {name} = {fixed}",
+                form.name
+            )));
+        }
+    }
     let spec = EffectSpec::of_form(card, form, &own)?;
     let fitted = spec.fitted();
     let is_fitted = |name: &str| fitted.iter().any(|free| free.name == name);
