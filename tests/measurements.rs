@@ -180,7 +180,7 @@ refusals! {
     millimetres: GOOD.replace("3.42,0.15", "0.00342,0.00015").replace("2.1,0.15", "0.0021,0.00015").replace("0.1,0.15", "0.0001,0.00015")
         => BadValue "value" at 3:34, "`0.00342`, the largest", "wear_depth in um", "looks like mm";
     millimetres_beside_sigmas_in_micrometres: (0..8).fold("test,member,cycles,quantity,position,value,sigma\n".to_owned(), |text, i| format!("{text}A,pinion,250000,wear_depth,26.{i},0.00{i}42,0.15\n"))
-        => BadValue "value" at 9:33, "`0.00742`, the largest, with a sigma of 0.15", "wear_depth and sigma in um", "looks like mm beside sigmas in um";
+        => BadValue "value" at 9:33, "`0.00742`, the largest, with a sigma of 0.15", "wear_depth in um", "looks like mm beside sigmas in um";
     radians: with("-14.2,0.5", "-14.2e-6,5e-7")
         => BadValue "value" at 6:39, "`-14.2e-6`, the largest", "in urad", "looks like rad";
     percent: with("wear_depth,26.31,3.42,0.15,A-p-1", "load_share,26.31,63,1,")

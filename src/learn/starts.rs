@@ -8,7 +8,6 @@ use super::bench::{Bench, Workshop, for_looks};
 use super::fit::Problem;
 use super::measured::{Measured, ModelVersion};
 use super::noise::NoiseModel;
-use super::predictor::Predictor;
 use super::search::Effort;
 use crate::simulate::forward::ContactKind;
 use crate::study::{FreeParameter, WEAR_COEFFICIENT};
@@ -55,8 +54,9 @@ impl Measured<'_> {
         };
         self.with_problem(bench, version, noise, watch, |problem| {
             let found = self.analytic(version, noise, |analytic| {
+                let (k, fine) = problem.scaled(&own).ok()?;
                 let anchored = Problem {
-                    predictor: &anchored(analytic, problem, &own)?,
+                    predictor: &Anchored::at(analytic.predictor, k, &own, fine).ok()?,
                     parameters: analytic.parameters.clone(),
                     coefficient: analytic.coefficient.clone(),
                     ..*analytic
@@ -91,20 +91,6 @@ impl Measured<'_> {
         let bench = self.bench(&workshop).ok()?;
         self.with_problem(&bench, version, noise, &|_| {}, act)
     }
-}
-
-/// The analytic model with what the model of `problem` gives beyond it at the values `own`.
-fn anchored<'a>(
-    analytic: &'a Problem<'_>,
-    problem: &Problem<'_>,
-    own: &[f64],
-) -> Option<Anchored<&'a dyn Predictor>> {
-    let (k, mut offset) = problem.scaled(own).ok()?;
-    for (test, values) in offset.iter_mut().enumerate().filter(|(_, v)| !v.is_empty()) {
-        let cheap = analytic.predictor.predict(test, k, own).ok()?;
-        values.iter_mut().zip(cheap).for_each(|(v, c)| *v -= c);
-    }
-    Some(Anchored::new(analytic.predictor, offset))
 }
 
 /// The free parameters but k.

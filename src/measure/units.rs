@@ -31,52 +31,41 @@ pub(super) fn check(
         if largest.value == 0.0 {
             continue;
         }
+        let (name, unit) = (quantity.name(), quantity.unit());
         let silent = |o: &Observation| o.value.abs() < NOISE_PART * o.sigma;
-        if own().count() >= FEWEST && own().all(silent) {
-            let (name, unit) = (quantity.name(), quantity.unit());
-            let span = value_span(source, columns, largest.line);
-            let written = source.text[span.clone()].to_owned();
-            return Err(Box::new(
-                Diagnostic::new(
-                    Fault::BadValue,
-                    "value",
-                    format!(
-                        "every {name} is smaller than half its sigma, so these are not its noise"
-                    ),
-                )
+        let (message, found, hint) = if own().count() >= FEWEST && own().all(silent) {
+            let hint = match limits.smaller {
+                "" => "the sigmas are far too large, or the values in a larger unit".to_owned(),
+                smaller => format!("this looks like {smaller} beside sigmas in {unit}"),
+            };
+            let message = "is smaller than half its sigma, so these are not its noise".to_owned();
+            (
+                message,
+                format!(", with a sigma of {}", largest.sigma),
+                hint,
+            )
+        } else if own().all(small) {
+            let message = format!("is smaller than {} {unit}", limits.below);
+            (
+                message,
+                String::new(),
+                format!("this looks like {}", limits.smaller),
+            )
+        } else {
+            continue;
+        };
+        let span = value_span(source, columns, largest.line);
+        let written = &source.text[span.clone()];
+        let message = format!("every {name} {message}");
+        return Err(Box::new(
+            Diagnostic::new(Fault::BadValue, "value", message)
                 .with_values(
-                    format!(
-                        "`{written}`, the largest, with a sigma of {}",
-                        largest.sigma
-                    ),
-                    format!("{name} and sigma in {unit}"),
-                )
-                .with_hint(if limits.smaller.is_empty() {
-                    "the sigmas are far too large, or the values in a larger unit".to_owned()
-                } else {
-                    format!("this looks like {} beside sigmas in {unit}", limits.smaller)
-                })
-                .with_span(span),
-            ));
-        }
-        if own().all(small) {
-            let (name, unit) = (quantity.name(), quantity.unit());
-            let span = value_span(source, columns, largest.line);
-            let written = source.text[span.clone()].to_owned();
-            return Err(Box::new(
-                Diagnostic::new(
-                    Fault::BadValue,
-                    "value",
-                    format!("every {name} is smaller than {} {unit}", limits.below),
-                )
-                .with_values(
-                    format!("`{written}`, the largest"),
+                    format!("`{written}`, the largest{found}"),
                     format!("{name} in {unit}"),
                 )
-                .with_hint(format!("this looks like {}", limits.smaller))
+                .with_hint(hint)
                 .with_span(span),
-            ));
-        }
+        ));
     }
     Ok(())
 }

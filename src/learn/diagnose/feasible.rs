@@ -142,10 +142,11 @@ fn differs(a: f64, b: f64) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn plain() -> Operation {
+    /// A study's operation.
+    pub(in super::super) fn plain() -> Operation {
         Operation {
             torque_nmm: 1e5,
             speed_rpm: 2000.0,

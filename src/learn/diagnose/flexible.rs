@@ -207,3 +207,21 @@ fn groups(ground: &Ground<'_>) -> Vec<Group> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn evidence_bounds_the_fall_from_below() {
+        let found = |drop| Flexible {
+            drop,
+            terms: 8,
+            values: Vec::new(),
+        };
+        assert_eq!(found(100.0).gaining(80.0).drop, 160.0);
+        assert_eq!(found(100.0).gaining(30.0).drop, 100.0);
+        // what was hardly more than noise becomes real by it: the standard deviation is 4
+        assert!(!found(19.0).is_real() && found(19.0).gaining(11.0).is_real());
+    }
+}

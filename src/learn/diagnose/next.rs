@@ -217,6 +217,7 @@ fn sentence(
 mod tests {
     use nalgebra::DVector;
 
+    use super::super::feasible::tests::plain;
     use super::*;
 
     /// A test in which two candidates differ by so many sigmas, and nothing can be refitted.
@@ -233,16 +234,7 @@ mod tests {
     }
 
     fn tests(changes: &[usize]) -> Vec<(usize, Operation)> {
-        let plain = Operation {
-            torque_nmm: 1e5,
-            speed_rpm: 2000.0,
-            misalignment_mm: 0.0,
-            cycles: 1e6,
-            bulk_temperature_c: None,
-            viscosity_pa_s: None,
-            reversed: false,
-        };
-        changes.iter().map(|&n| (n, plain)).collect()
+        changes.iter().map(|&n| (n, plain())).collect()
     }
 
     fn joined(first: f64, found: &[Option<Told>], changes: &[usize]) -> (Vec<usize>, f64) {

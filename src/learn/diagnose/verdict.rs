@@ -17,7 +17,7 @@ use super::{next, words};
 use crate::learn::bench::Workshop;
 
 /// Probability from which a single effect or set is named.
-pub(super) const CLAIM: f64 = 0.85;
+const CLAIM: f64 = 0.85;
 /// Probability of nothing missing from which an effect is not claimed; of that or of the unknown, from which a group holds it.
 const DOUBT: f64 = 0.2;
 /// Candidates this much less probable than the leader are no look-alikes.

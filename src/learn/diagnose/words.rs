@@ -3,10 +3,13 @@
 use super::judge::{Base, Judge, Judged};
 use super::rank::{Ranking, TEMPER};
 use super::ranked::parameters;
-use super::verdict::{CLAIM, Diagnosis, Verdict};
+use super::verdict::{Diagnosis, Verdict};
 use super::warnings::{few, measured_once};
 use super::{NOTHING, UNKNOWN};
 use crate::effects::find;
+
+/// Probability of nothing missing below which that is undecided.
+const SURE: f64 = 0.9;
 
 /// Writes the sentence, the reasons and the next step into a diagnosis.
 pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking: &Ranking) {
@@ -21,7 +24,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
     let after = |j: &Judged| judge.ground.chi2_per_point(&j.found.model);
     match d.verdict {
         Verdict::NothingMissing => {
-            let shown = if nothing < CLAIM {
+            let shown = if nothing < SURE {
                 "Undecided: most likely nothing is missing, but a weak effect may be"
             } else {
                 "Nothing is missing that these data show"
@@ -47,7 +50,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 "measure more before concluding anything: gearwear plan STUDY proposes tests"
             } else if measured_once(ground).len() == ground.tests.len() {
                 "no effect need be added for what these data show; what changes over life they cannot show: measure at several numbers of cycles"
-            } else if nothing < CLAIM {
+            } else if nothing < SURE {
                 "add no effect yet: more of the same measurements, or those that gearwear plan STUDY proposes, would decide"
             } else {
                 "no effect need be added; a weak effect could still hide below the noise"
