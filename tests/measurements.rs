@@ -258,6 +258,7 @@ fn line_ends_marks_blanks_quotes_and_column_order_change_nothing() {
     let plain = parse(GOOD).unwrap();
     let windows = format!("\u{feff}{}", GOOD.replace('\n', "\r\n"));
     assert_eq!(parse(&windows).unwrap(), plain);
+    assert_eq!(parse(&GOOD.replace('\n', "\r")).unwrap(), plain);
     assert_eq!(parse(&GOOD.replace(',', " , ")).unwrap(), plain);
     assert_eq!(
         parse(&GOOD.replace("wear_depth", "\"wear_depth\"")).unwrap(),

@@ -188,6 +188,31 @@ fn the_measurements_stand_beside_the_study() {
     assert_eq!(none.diagnostic().key, "test");
 }
 
+#[test]
+fn measurements_of_held_out_tests_alone_are_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join("study.toml");
+    let held = BASE.replace(
+        "id = \"A\"\nrole = \"fit\"",
+        "id = \"A\"\nrole = \"holdout\"",
+    );
+    assert_ne!(held, BASE);
+    std::fs::write(&file, held).unwrap();
+    let rows =
+        "test,member,cycles,quantity,position,value,sigma\nA,pinion,1e5,wear_depth,26.5,1.0,0.1\n";
+    std::fs::write(home.path().join("measurements.csv"), rows).unwrap();
+    let error = Study::load(&file).unwrap().dataset().unwrap_err();
+    let message = error.to_string();
+    let line = BASE.lines().position(|l| l.starts_with("file =")).unwrap() + 1;
+    assert_eq!(error.position().unwrap().0, line, "{message}");
+    for part in [
+        "no test with role \"fit\" has a measurement",
+        "rows of a test with role \"fit\": B, C, D",
+    ] {
+        assert!(message.contains(part), "no `{part}` in:\n{message}");
+    }
+}
+
 struct Refusal {
     fault: Fault,
     key: &'static str,
@@ -286,6 +311,12 @@ refusals! {
         => BadValue "effect.parameters.radius" marks "radius" at 6:1, "", "one of the variables";
     formula_infinite_parameter: formula("profile = \"a\"\nparameters = { a = inf }")
         => BadValue "effect.parameters.a" marks "inf" at 5:20, "a finite number", "not finite";
+    formula_below_zero_everywhere: formula("wear_factor = \"-1\"")
+        => BadValue "effect.wear_factor" marks "-1" at 4:16, "", "wear_factor = -1 gives -1; allowed: a number from 0 on";
+    formula_without_a_value: formula("load_factor = 'a/0'\nparameters = { a = 1 }")
+        => BadValue "effect.load_factor" marks "a/0" at 4:16, "", "gives inf at a = 1; allowed: a number above 0";
+    formula_unknown_function: formula("wear_factor = \"1 + exq(p)\"")
+        => BadValue "effect.wear_factor" marks "exq" at 4:20, "", "no function `exq`; the nearest is `exp`";
     free_of_another_effect: format!("{}[fit]\nfree = [\"running_in.amplitud\"]\n", effect(""))
         => BadValue "fit.free" marks "\"running_in.amplitud\"" at 5:9, "\"running_in.amplitude\"", "the nearest is \"running_in.amplitude\"";
 }

@@ -17,7 +17,9 @@ use super::{CliError, Context, Outcome};
 use crate::effects::{Card, Form, find};
 use crate::learn::{AddedForm, Addition, ModelVersion, Share};
 use crate::measure::Dataset;
-use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded};
+use crate::study::{
+    COEFFICIENT_BOUNDS, EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded,
+};
 
 /// Arguments of `add`.
 #[derive(Debug, Args)]
@@ -298,6 +300,12 @@ fn settings(args: &AddArgs, card: &Card) -> Result<Vec<(String, f64)>, CliError>
         if set.iter().any(|(above, _)| *above == full) {
             return Err(CliError::Unusable(format!(
                 "--set {name} stands there twice"
+            )));
+        }
+        if full == WEAR_COEFFICIENT && !(0.0..=COEFFICIENT_BOUNDS[1]).contains(value) {
+            return Err(CliError::Unusable(format!(
+                "--set {name}={value} is out of range, allowed: 0 to {:e} mm2/N",
+                COEFFICIENT_BOUNDS[1]
             )));
         }
         set.push((full, *value));

@@ -16,6 +16,8 @@ use std::fmt;
 use exmex::prelude::*;
 use exmex::{BinOp, FlatEx, MakeOperators, Operator, ops_factory};
 
+use super::error::nearest;
+
 /// Functions a formula may call: name, number of arguments, meaning.
 pub const FUNCTIONS: &[(&str, usize, &str)] = &[
     ("exp", 1, "e to the power of x"),
@@ -344,11 +346,11 @@ impl<'a> Reader<'a> {
             };
         };
         let Some((name, count, _)) = function else {
-            let names: Vec<&str> = FUNCTIONS.iter().map(|(name, ..)| *name).collect();
+            let names = FUNCTIONS.iter().map(|(name, ..)| *name);
+            let near = nearest(token.word, names).unwrap_or_default();
             let message = format!(
-                "there is no function `{}`; there are {}",
-                token.word,
-                names.join(", ")
+                "there is no function `{}`; the nearest is `{near}`",
+                token.word
             );
             return Err(self.fault(token, message));
         };

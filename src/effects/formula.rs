@@ -155,16 +155,33 @@ impl Formula {
     /// # Panics
     /// If the number of values is not that of the parameters.
     pub fn build(&self, values: &[f64]) -> Box<dyn Effect> {
+        Box::new(self.bound(values))
+    }
+
+    /// What is wrong with the formula at these values everywhere, if it uses no variable; None if it uses one, or if all is well.
+    ///
+    /// # Panics
+    /// As [`Formula::build`].
+    pub fn constant_fault(&self, values: &[f64]) -> Option<String> {
+        if self.variables().next().is_some() {
+            return None;
+        }
+        let bound = self.bound(values);
+        bound.value(self.inner.hook, |_| 0.0);
+        bound.fault()
+    }
+
+    fn bound(&self, values: &[f64]) -> Bound {
         assert_eq!(
             values.len(),
             self.inner.parameters,
             "one value for each parameter"
         );
-        Box::new(Bound {
+        Bound {
             inner: Arc::clone(&self.inner),
             values: values.to_vec(),
             fault: OnceLock::new(),
-        })
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::doubts::{correlation, doubts};
 use super::fitted::Fit;
 use super::parameters::Estimate;
 use super::ratio::{Ratio, ratios};
@@ -32,12 +33,15 @@ pub struct Comparison {
     pub holdout: Share,
     /// What was free.
     pub parameters: Vec<ParameterRecord>,
+    /// Correlation of `parameters` with each other, a row each; of its logarithm where a parameter's prior is log-normal.
+    #[serde(default)]
+    pub correlation: Vec<Vec<f64>>,
     /// Every cell of test, member, quantity, region and cycle interval, the worst first.
     #[serde(rename = "where")]
     pub places: Vec<Cell>,
     /// Where the model fails worst, in plain words.
     pub worst: String,
-    /// What is doubtful about the fit itself.
+    /// What is doubtful about the measurements or the fit.
     pub warnings: Vec<String>,
     /// Each test with its own wear coefficient.
     pub tests: Vec<TestRecord>,
@@ -154,7 +158,8 @@ impl Comparison {
             parameters: fit.parameters.iter().map(ParameterRecord::new).collect(),
             places,
             worst,
-            warnings: warnings(fit),
+            correlation: correlation(fit),
+            warnings: doubts(data, fit),
             tests: test_records(study, fit, &rows),
             coefficient_scatter: fit.scatter,
             coefficient_scatter_interval: fit.scatter_interval,
@@ -195,23 +200,6 @@ fn noise_rms(rows: &[Fitted<'_>]) -> Option<f64> {
         .map(|(o, _)| o.sigma.powi(2))
         .collect();
     (!depths.is_empty()).then(|| (depths.iter().sum::<f64>() / depths.len() as f64).sqrt())
-}
-
-fn warnings(fit: &Fit) -> Vec<String> {
-    let mut warnings = Vec::new();
-    if !fit.converged {
-        warnings.push(format!(
-            "the fit did not converge in {} steps",
-            fit.iterations
-        ));
-    }
-    for parameter in fit.parameters.iter().filter(|p| p.at_bound) {
-        warnings.push(format!(
-            "{} lies on its bound, {:.3e}",
-            parameter.name, parameter.value
-        ));
-    }
-    warnings
 }
 
 fn test_records(study: &Study, fit: &Fit, rows: &[Fitted<'_>]) -> Vec<TestRecord> {

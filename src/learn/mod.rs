@@ -20,6 +20,7 @@ mod compare;
 mod comparison;
 mod curves;
 pub mod diagnose;
+mod doubts;
 mod evaluate;
 mod fit;
 mod fitted;

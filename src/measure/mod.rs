@@ -86,7 +86,11 @@ impl Dataset {
         format!("{}:{}", self.name, observation.line)
     }
 
-    fn read(source: Source, known: &Known) -> Result<Self, TextError> {
+    fn read(mut source: Source, known: &Known) -> Result<Self, TextError> {
+        // line ends of old Macs: places are counted by the other kind
+        if !source.text.contains('\n') {
+            source.text = source.text.replace('\r', "\n");
+        }
         match Self::rows(&source, known) {
             Ok(dataset) => Ok(dataset),
             Err(diagnostic) => Err(TextError::new(*diagnostic, source)),

@@ -1,8 +1,8 @@
 //! The measurements that belong to a study.
 
-use super::Study;
-use crate::measure::{Dataset, Known};
-use crate::source_text::{Diagnostic, Fault, TextError};
+use super::{Role, Study};
+use crate::measure::{Dataset, Known, Observation};
+use crate::source_text::{Diagnostic, Fault, TextError, list};
 
 impl Study {
     /// What measurements of this study may refer to: its tests, flanks and face width.
@@ -21,7 +21,7 @@ impl Study {
     /// Reads the file that `[measurements]` names.
     ///
     /// # Errors
-    /// A [`TextError`] if the study names no file or has no test, or for the first fault of the file.
+    /// A [`TextError`] if the study names no file or has no test, for the first fault of the file, or if no fit test has a row.
     pub fn dataset(&self) -> Result<Dataset, TextError> {
         let missing = |key: &str, message: &str, allowed: &str, hint: &str| {
             let end = self.source.text.trim_end().len();
@@ -47,6 +47,23 @@ impl Study {
                 "each test states under which conditions its measurements were made",
             );
         }
-        Dataset::load(path, &self.known())
+        let data = Dataset::load(path, &self.known())?;
+        let fits = |o: &Observation| self.tests[o.test].role == Role::Fit;
+        if !data.observations.iter().any(fits) {
+            let held: Vec<&str> = (self.tests.iter().filter(|test| test.role == Role::Fit))
+                .map(|test| test.id.as_str())
+                .collect();
+            return Err(self.refuse(
+                "measurements.file",
+                "no test with role \"fit\" has a measurement",
+                &if held.is_empty() {
+                    "a study with a [[test]] of role \"fit\"".to_owned()
+                } else {
+                    format!("rows of a test with role \"fit\": {}", list(held))
+                },
+                "held-out tests judge a fit and take no part in it",
+            ));
+        }
+        Ok(data)
     }
 }

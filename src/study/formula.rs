@@ -52,6 +52,14 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
     let names: Vec<&str> = parameters.iter().map(Parameter::short).collect();
     let formula = Formula::new(hook, expression, &names)
         .map_err(|error| fault(table, inner.as_ref(), hook, &error))?;
+    let values: Vec<f64> = parameters.iter().map(|p| p.value).collect();
+    if let Some(message) = formula.constant_fault(&values) {
+        let mut diagnostic = table.refuse(hook.name(), "", "");
+        diagnostic.message = message;
+        diagnostic.found = String::new();
+        diagnostic.span = diagnostic.span.map(|span| span.start + 1..span.end - 1);
+        return Err(Box::new(diagnostic));
+    }
     Ok(EffectSpec {
         kind: KIND.to_owned(),
         name: name.to_owned(),

@@ -86,7 +86,7 @@ pub enum StepError<E> {
     },
     /// The error cannot be held even with the smallest step.
     #[error(
-        "wear step at {n} cycles needs a step below {step:e} cycles (error {error:.3} of the allowed)"
+        "at {n:.4e} cycles even a wear step of {step:.1e} cycles is too long (error {error:.3} of the allowed): the wear there is far too fast, or its law jumps"
     )]
     TooSmall {
         /// Where it happened (unit of n).

@@ -84,6 +84,22 @@ fn without_measurements_there_is_nothing_to_fit() {
 }
 
 #[test]
+fn a_wear_coefficient_out_of_range_is_told_as_a_setting() {
+    let home = home();
+    for value in [-1.0, 1.0, f64::NAN] {
+        let error = add(
+            &args(&home, &[("wear.coefficient", value)]),
+            |_, _| unreachable!(),
+        )
+        .unwrap_err();
+        assert_eq!(error.exit_code(), 2);
+        let says =
+            format!("--set wear.coefficient={value} is out of range, allowed: 0 to 1e-4 mm2/N");
+        assert_eq!(error.to_string(), says);
+    }
+}
+
+#[test]
 fn a_failed_fit_writes_nothing() {
     let home = home();
     let failed = add(&args(&home, &[]), |_, _| {

@@ -8,8 +8,9 @@ use super::warnings::{few, measured_once};
 use super::{NOTHING, UNKNOWN};
 use crate::effects::find;
 
-/// Probability of nothing missing below which that is undecided.
-const SURE: f64 = 0.9;
+/// Probability of nothing missing below which that is undecided. Of the blind sets of the second and third series with 0.8 or more,
+/// 65 of 72 hide nothing and the others an effect of d < 6; of those with 0.5 to 0.8, 31 of 48, and one an effect of d ≥ 6.
+const SURE: f64 = 0.8;
 
 /// Writes the sentence, the reasons and the next step into a diagnosis.
 pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking: &Ranking) {
