@@ -196,14 +196,14 @@ fn effects_see_the_hertz_pressure() {
         elements_per_half_width: 12.0,
         ..numerics()
     };
-    let forward = Forward::new(&set, None, conditions(0.0), fine).unwrap();
-    let cycle = forward.cycle();
+    let mut forward = Forward::new(&set, None, conditions(0.0), fine).unwrap();
     let age = Age {
         cycles: 0.0,
         worn_volume: 0.0,
     };
-    let fresh = vec![0.0; cycle.stations.count()];
+    let fresh = vec![0.0; forward.cycle().stations.count()];
     let contacts = forward.contacts_at(&fresh).unwrap();
+    let cycle = forward.cycle();
     let mut compared = 0;
     for (position, contact) in cycle.positions.iter().zip(&contacts) {
         for pair in &position.pairs {

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use gearwear::effects::{CATALOGUE, find};
 use gearwear::learn::{GearModel, Measured, Predictor};
-use gearwear::measure::Quantity;
+use gearwear::measure::{Dataset, Quantity};
 use gearwear::simulate::forward::{ContactKind, Forward};
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::{EffectModel, EffectSpec, Study};
@@ -101,6 +101,41 @@ fn kept_histories_give_what_a_run_to_the_checkpoint_gives() {
                 );
             }
         }
+    }
+}
+
+/// Deep wear widens contacts and brings teeth together that were apart. What was prepared for that while a history wore must be there
+/// when another coefficient's state is read off it.
+#[test]
+fn contacts_of_deep_wear_are_read_off_a_kept_history() {
+    let text = std::fs::read_to_string(
+        Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("validation/challenges/running_in_L1/study.toml"),
+    )
+    .unwrap();
+    let coarse = "[numerics]\nelements_per_half_width = 3\npositions = 40\n";
+    let study = Study::parse(&format!("{text}\n{coarse}"), "study.toml").unwrap();
+    let rows = "test,member,cycles,quantity,position,value,sigma\n\
+                A,pair,1e6,transmission_error,0.1,0,1\n\
+                A,pair,1e6,transmission_error,0.6,0,1\n\
+                A,pinion,1e6,contact_pressure,27.0,500,10\n";
+    let data = Dataset::parse(rows, "m.csv", &study.known()).unwrap();
+    let measured = Measured::new(&study, data);
+    let workshop = measured.workshop(ContactKind::Fem).unwrap();
+    let bench = measured.bench(&workshop).unwrap();
+    let none = model_of(None);
+    let model = || GearModel::new(&bench, Box::new(|_| none.stated())).stretching(true);
+    let kept = model();
+    let [deep, half] = [1.5e-9, 1.0e-9];
+    let largest = kept.predict(0, deep, &[]).unwrap();
+    let read = kept.predict(0, half, &[]).unwrap();
+    let fresh = model().predict(0, half, &[]).unwrap();
+    assert_ne!(largest, read);
+    for (a, b) in read.iter().zip(&fresh) {
+        assert!(
+            (a - b).abs() < 2e-3 * b.abs().max(50.0),
+            "{read:?} against {fresh:?}"
+        );
     }
 }
 

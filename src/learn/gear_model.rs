@@ -120,7 +120,7 @@ impl<'a> GearModel<'a> {
         test: usize,
         coefficient: f64,
         parameters: &[f64],
-        of: impl Fn(&Reading<'_>, &Observation) -> Result<T, ForwardError>,
+        of: impl Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
     ) -> Result<Vec<T>, ForwardError> {
         let measured = &self.bench.tests[test];
         let effects = (self.effects)(parameters);
@@ -145,9 +145,9 @@ impl<'a> GearModel<'a> {
         let mut values: Vec<(usize, T)> = Vec::with_capacity(order.len());
         for rows in order.chunk_by(|a, b| observed(a) == observed(b)) {
             let state = history.at(observed(&rows[0]));
-            let reading = Reading::new(&forward, &state, self.bench.set());
+            let mut reading = Reading::new(&mut forward, &state, self.bench.set());
             for &row in rows {
-                values.push((row, of(&reading, &measured.observations[row])?));
+                values.push((row, of(&mut reading, &measured.observations[row])?));
             }
         }
         values.sort_by_key(|(row, _)| *row);

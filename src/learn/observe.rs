@@ -1,7 +1,5 @@
 //! What an instrument reads off the model: each quantity of the measurement file, in its unit.
 
-use std::cell::OnceCell;
-
 use crate::contact::model::PositionContact;
 use crate::effects::Local;
 use crate::gear::Member;
@@ -14,11 +12,11 @@ use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::{Moment, Passage};
 
 /// A worn state that can be read. Contacts are solved only when a quantity asks for them.
-pub(super) struct Reading<'a> {
-    forward: &'a Forward<'a>,
-    worn: &'a Node,
-    set: &'a GearSet,
-    meshing: OnceCell<Meshing>,
+pub(super) struct Reading<'r, 'f> {
+    forward: &'r mut Forward<'f>,
+    worn: &'r Node,
+    set: &'r GearSet,
+    meshing: Option<Meshing>,
 }
 
 /// What follows from the contacts of a worn state.
@@ -33,14 +31,39 @@ struct Meshing {
     mean: f64,
 }
 
-impl<'a> Reading<'a> {
+impl Meshing {
+    /// Of a run worn by `u` (mm at the stations of pinion and gear).
+    fn new(forward: &mut Forward<'_>, u: &[f64]) -> Result<Self, ForwardError> {
+        let contacts = forward.contacts_at(u)?;
+        let cycle = forward.cycle();
+        let passage = Passage::new(cycle);
+        let moments = [0, 1].map(|side| passage.moments(cycle, &contacts, side));
+        let mut turns: Vec<(f64, f64)> = (cycle.positions.iter().zip(&contacts))
+            .map(|(position, contact)| (position.phase(), contact.approach))
+            .collect();
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mean = turns.iter().map(|t| t.1).sum::<f64>() / turns.len() as f64;
+        let (first, last) = (turns[0], turns[turns.len() - 1]);
+        turns.insert(0, (last.0 - 1.0, last.1));
+        turns.push((first.0 + 1.0, first.1));
+        Ok(Self {
+            contacts,
+            passage,
+            moments,
+            turns: turns.into_iter().unzip(),
+            mean,
+        })
+    }
+}
+
+impl<'r, 'f> Reading<'r, 'f> {
     /// Reads a worn state.
-    pub(super) fn new(forward: &'a Forward<'a>, worn: &'a Node, set: &'a GearSet) -> Self {
+    pub(super) fn new(forward: &'r mut Forward<'f>, worn: &'r Node, set: &'r GearSet) -> Self {
         Self {
             forward,
             worn,
             set,
-            meshing: OnceCell::new(),
+            meshing: None,
         }
     }
 
@@ -48,7 +71,7 @@ impl<'a> Reading<'a> {
     ///
     /// # Errors
     /// [`ForwardError`] if a contact cannot be solved.
-    pub(super) fn of(&self, observation: &Observation) -> Result<f64, ForwardError> {
+    pub(super) fn of(&mut self, observation: &Observation) -> Result<f64, ForwardError> {
         let at = observation.position.unwrap_or(0.0);
         let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
         match observation.quantity {
@@ -70,7 +93,7 @@ impl<'a> Reading<'a> {
     /// # Errors
     /// [`ForwardError`] if a contact cannot be solved.
     pub(super) fn local(
-        &self,
+        &mut self,
         acting: &Acting,
         observation: &Observation,
     ) -> Result<Option<Local>, ForwardError> {
@@ -81,11 +104,14 @@ impl<'a> Reading<'a> {
         ) else {
             return Ok(None);
         };
-        let (cycle, meshing) = (self.forward.cycle(), self.meshing()?);
         let (arc, stations) = (self.arc(member, radius), self.stations(member));
         let after = stations.partition_point(|s| *s < arc);
         let after = after.clamp(1, stations.len() - 1);
         let nearer = usize::from(stations[after] - arc < arc - stations[after - 1]);
+        let depth = 1e-3 * self.depth(member, radius);
+        let pressure = self.pressure(member, radius)?;
+        let (meshing, forward) = self.meshing()?;
+        let cycle = forward.cycle();
         let moment = &meshing.moments[side(member)][after - 1 + nearer];
         let pair = meshing.passage.pair(cycle, moment.pair);
         let (position, _) = meshing.passage.order[moment.pair];
@@ -95,8 +121,6 @@ impl<'a> Reading<'a> {
             worn_volume: 0.0,
         };
         let mut local = acting.at_pair(cycle, pair, load, age);
-        let depth = 1e-3 * self.depth(member, radius);
-        let pressure = self.pressure(member, radius)?;
         acting.at_point(&mut local, cycle, member, arc, depth, pressure);
         let rho = cycle.pair.member(member).rho_at_arc(arc);
         local.path = cycle.pair.path_at_rho(member, rho);
@@ -142,35 +166,18 @@ impl<'a> Reading<'a> {
         1e-3 * lost * self.set.face_width * f64::from(teeth) * self.set.densities[side]
     }
 
-    fn meshing(&self) -> Result<&Meshing, ForwardError> {
-        if let Some(known) = self.meshing.get() {
-            return Ok(known);
-        }
-        let contacts = self.forward.contacts_at(&self.worn.u)?;
-        let cycle = self.forward.cycle();
-        let passage = Passage::new(cycle);
-        let moments = [0, 1].map(|side| passage.moments(cycle, &contacts, side));
-        let mut turns: Vec<(f64, f64)> = (cycle.positions.iter().zip(&contacts))
-            .map(|(position, contact)| (position.phase(), contact.approach))
-            .collect();
-        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mean = turns.iter().map(|t| t.1).sum::<f64>() / turns.len() as f64;
-        let (first, last) = (turns[0], turns[turns.len() - 1]);
-        turns.insert(0, (last.0 - 1.0, last.1));
-        turns.push((first.0 + 1.0, first.1));
-        let meshing = Meshing {
-            contacts,
-            passage,
-            moments,
-            turns: turns.into_iter().unzip(),
-            mean,
+    /// What follows from the contacts, and the run as it was prepared for them.
+    fn meshing(&mut self) -> Result<(&Meshing, &Forward<'f>), ForwardError> {
+        let meshing = match self.meshing.take() {
+            Some(known) => known,
+            None => Meshing::new(self.forward, &self.worn.u)?,
         };
-        Ok(self.meshing.get_or_init(|| meshing))
+        Ok((self.meshing.insert(meshing), self.forward))
     }
 
     /// Rotation of the pinion that closes the flanks at the rotation `phase` (base pitches), rad; and its mean.
-    fn approach(&self, phase: f64) -> Result<(f64, f64), ForwardError> {
-        let meshing = self.meshing()?;
+    fn approach(&mut self, phase: f64) -> Result<(f64, f64), ForwardError> {
+        let (meshing, _) = self.meshing()?;
         let (turn, approach) = &meshing.turns;
         Ok((
             interpolate(turn, approach, phase.rem_euclid(1.0)),
@@ -179,37 +186,37 @@ impl<'a> Reading<'a> {
     }
 
     /// µrad at the gear, a lagging gear negative, mean removed.
-    fn transmission_error(&self, phase: f64) -> Result<f64, ForwardError> {
+    fn transmission_error(&mut self, phase: f64) -> Result<f64, ForwardError> {
         let (approach, mean) = self.approach(phase)?;
         Ok(-1e6 * (approach - mean) / self.forward.cycle().pair.speed_ratio)
     }
 
     /// N/(mm µm): load per width over approach along the line of action.
-    fn stiffness(&self, phase: f64) -> Result<f64, ForwardError> {
+    fn stiffness(&mut self, phase: f64) -> Result<f64, ForwardError> {
         let (approach, _) = self.approach(phase)?;
         let base = self.forward.cycle().pair.pinion.base_radius;
         Ok(self.forward.torque() / base / (1e3 * approach * base))
     }
 
     /// MPa, the largest the point sees in a passage.
-    fn pressure(&self, member: Member, radius: f64) -> Result<f64, ForwardError> {
-        let moments = &self.meshing()?.moments[side(member)];
-        let largest: Vec<f64> = moments.iter().map(|m| m.pressure).collect();
+    fn pressure(&mut self, member: Member, radius: f64) -> Result<f64, ForwardError> {
         let arc = self.arc(member, radius);
+        let moments = &self.meshing()?.0.moments[side(member)];
+        let largest: Vec<f64> = moments.iter().map(|m| m.pressure).collect();
         Ok(interpolate(self.stations(member), &largest, arc))
     }
 
     /// Share of the torque that the tooth pair carries while its contact passes the point.
-    fn load_share(&self, member: Member, radius: f64) -> Result<f64, ForwardError> {
-        let meshing = self.meshing()?;
-        let cycle = self.forward.cycle();
+    fn load_share(&mut self, member: Member, radius: f64) -> Result<f64, ForwardError> {
+        let (meshing, forward) = self.meshing()?;
+        let cycle = forward.cycle();
         let gear = cycle.pair.member(member);
         let rho = gear.rho_at_radius(radius);
         let (paths, shares): (Vec<f64>, Vec<f64>) = (meshing.passage.order.iter())
             .map(|&(q, index)| {
-                let moment = self.forward.moment(q, index, &meshing.contacts[q]);
+                let moment = forward.moment(q, index, &meshing.contacts[q]);
                 let path = cycle.positions[q].pairs[index].path;
-                (path, moment / self.forward.torque())
+                (path, moment / forward.torque())
             })
             .unzip();
         Ok(interpolate(

@@ -110,6 +110,9 @@ pub(super) struct Found {
     pub(super) converged: bool,
 }
 
+/// By how much a first k is made smaller where the model has no answer, and how often at most.
+const SMALLER: f64 = 3.0;
+const SMALLER_STARTS: usize = 8;
 /// Step of the differences in ln k of a test.
 const DIFFERENCE_K: f64 = 0.02;
 
@@ -275,9 +278,9 @@ impl Search<'_> {
     pub(super) fn scaled_start(
         &self,
         evaluator: &mut Evaluator<'_>,
-        mut state: State,
+        state: State,
     ) -> Result<(State, Values), PredictError> {
-        let values = self.predict(evaluator, &state)?;
+        let (mut state, values) = self.first(evaluator, state)?;
         let Some(prior) = &self.layout.coefficient else {
             return Ok((state, values));
         };
@@ -304,6 +307,29 @@ impl Search<'_> {
         }
         state.log_k = before;
         Ok((state, values))
+    }
+
+    /// The predictions at a start, with k (if free) so much smaller that there are any: a first guess of k, or an effect at its first
+    /// values, may wear the flanks beyond what a model can follow.
+    fn first(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        mut state: State,
+    ) -> Result<(State, Values), PredictError> {
+        let mut found = self.predict(evaluator, &state);
+        if let Some(prior) = &self.layout.coefficient {
+            let mut smaller = state.clone();
+            for _ in 0..SMALLER_STARTS {
+                smaller.log_k -= SMALLER.ln();
+                if found.is_ok() || smaller.log_k < prior.lower {
+                    break;
+                }
+                if let Ok(values) = self.predict(evaluator, &smaller) {
+                    (state, found) = (smaller.clone(), Ok(values));
+                }
+            }
+        }
+        Ok((state, found?))
     }
 
     fn point(&self, state: &State, test: usize) -> Point {

@@ -410,26 +410,13 @@ impl<'a> Forward<'a> {
                 Ok(_) if stale => {}
                 Ok(_) => return Ok(true),
                 Err(StepError::System {
-                    source: WearError::Contact(ContactError::WindowTooNarrow { .. }),
-                    ..
+                    source: WearError::Contact(error),
+                    n,
                 }) => {
-                    // wear flattens contacts: look for them in a wider strip
-                    self.prepare(&Preparation {
-                        window: 1.4 * preparation.window,
-                        ..preparation
-                    })?;
-                    if let Some(progress) = progress {
-                        progress.forget_sets();
-                    }
-                }
-                Err(StepError::System {
-                    source: WearError::Contact(ContactError::OutOfReach { .. }),
-                    ..
-                }) if preparation.reach < MOST_REACH * self.cycle.pair.pinion.rack.module => {
-                    // wear lets teeth turn far enough for corners that were not looked at
-                    self.prepare(&Preparation {
-                        reach: 1.5 * preparation.reach,
-                        ..preparation
+                    let failed = |source| StepError::System { n, source };
+                    self.widen(error).map_err(|error| match error {
+                        ForwardError::Contact(error) => failed(WearError::Contact(error)).into(),
+                        other => other,
                     })?;
                     if let Some(progress) = progress {
                         progress.forget_sets();
@@ -448,12 +435,17 @@ impl<'a> Forward<'a> {
         Ok(self.with_model(|model| state_of(model, progress))?)
     }
 
-    /// The contact of every position at the depths `u` (mm at the stations of pinion and gear).
+    /// The contact of every position at the depths `u` (mm at the stations of pinion and gear), looked for as widely as it takes.
     ///
     /// # Errors
     /// [`ForwardError`] if a contact cannot be solved.
-    pub fn contacts_at(&self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
-        Ok(self.with_model(|model| contacts_at(model, u))?)
+    pub fn contacts_at(&mut self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
+        loop {
+            match self.with_model(|model| contacts_at(model, u)) {
+                Ok(contacts) => return Ok(contacts),
+                Err(error) => self.widen(error)?,
+            }
+        }
     }
 
     /// Stiffness factorisations so far.
@@ -485,6 +477,3 @@ impl<'a> Forward<'a> {
             .sum()
     }
 }
-
-/// Corners farther apart than this are never looked at, in modules: flanks that close farther are refused.
-const MOST_REACH: f64 = 0.25;

@@ -206,6 +206,11 @@ fn failing_predictions_are_stepped_around_or_reported() {
     let whole = problem(&data, &plain).fit(&Effort::default()).unwrap();
     assert!(fit.converged);
     assert!((fit.coefficient / whole.coefficient - 1.0).abs() < 1e-3);
+    // where the first guess of k is too large for any answer, a smaller one is taken
+    let below = Fragile(formula(), 2e-10);
+    let fit = problem(&data, &below).fit(&Effort::default()).unwrap();
+    assert!(fit.converged);
+    assert!((fit.coefficient / whole.coefficient - 1.0).abs() < 1e-3);
     let nowhere = Fragile(formula(), 0.0);
     let error = problem(&data, &nowhere)
         .fit(&Effort::default())

@@ -8,6 +8,7 @@ use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, CycleSpec};
 use crate::contact::fem::CycleCompliance;
+use crate::contact::model::ContactError;
 use crate::effects::Effect;
 use crate::simulate::history::Progress;
 use crate::simulate::members::Members;
@@ -47,6 +48,9 @@ pub(super) struct Prepared {
     pub(super) compliance: Option<Arc<CycleCompliance>>,
     pub(super) extended: Option<Arc<Members>>,
 }
+
+/// Corners farther apart than this are never looked at, in modules: flanks that close farther are refused.
+const MOST_REACH: f64 = 0.25;
 
 /// What runs at one mounting share.
 #[derive(Clone)]
@@ -149,6 +153,30 @@ impl Forward<'_> {
             self.worn = worn;
         }
         self.project()
+    }
+
+    /// Prepares for contacts that were not looked for when `error` arose.
+    ///
+    /// # Errors
+    /// The error itself if it has another cause; [`ForwardError`] of the preparation.
+    pub(super) fn widen(&mut self, error: ContactError) -> Result<(), ForwardError> {
+        let preparation = self.preparation();
+        let most = MOST_REACH * self.cycle.pair.pinion.rack.module;
+        match error {
+            // wear flattens contacts: look for them in a wider strip
+            ContactError::WindowTooNarrow { .. } => self.prepare(&Preparation {
+                window: 1.4 * preparation.window,
+                ..preparation
+            }),
+            // wear lets teeth turn far enough for corners that were not looked at
+            ContactError::OutOfReach { .. } if preparation.reach < most => {
+                self.prepare(&Preparation {
+                    reach: 1.5 * preparation.reach,
+                    ..preparation
+                })
+            }
+            error => Err(error.into()),
+        }
     }
 
     /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
