@@ -67,7 +67,7 @@ fn peak_to_peak(set: &GearSet, torque_nm: f64) -> Result<f64, ForwardError> {
         ..Numerics::default()
     };
     let members = set.members(&numerics, &[conditions.torque], &[0.0])?;
-    let forward = Forward::new(set, Some(&members), conditions, numerics)?;
+    let mut forward = Forward::new(set, Some(&members), conditions, numerics)?;
     let stations: usize = forward.cycle().stations.arc.iter().map(Vec::len).sum();
     let contacts = forward.contacts_at(&vec![0.0; stations])?;
     let lag = contacts.iter().map(|contact| 1e6 * contact.approach);
