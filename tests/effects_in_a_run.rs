@@ -4,6 +4,7 @@
 //! `n → n + A n0 (1 − exp(−n/n0))` that turns running-in into the base model exactly; equilibrium of forces.
 //! Tolerances: none for neutrality (bits); step control for the time change; rounding for equilibrium.
 
+use gearwear::analytic::hertz_line;
 use gearwear::effects::{CATALOGUE, Card, Combined, Surroundings, find};
 use gearwear::simulate::forward::{Conditions, Forward, GearSet};
 use gearwear::simulate::history::{WearState, worn_area};
@@ -11,6 +12,7 @@ use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::Study;
 use gearwear::wear::acting::{Acting, Age, PairLoad};
+use gearwear::wear::factors::{Worn, factors};
 
 const STUDY: &str = include_str!("../validation/paper/study.toml");
 
@@ -96,6 +98,84 @@ fn worn_within(
         progress.balance.error()
     );
     forward.state(&progress).unwrap()
+}
+
+/// Where a law rises with a power of the pressure, the worn area is that of Hertz's ellipse under each pair's load on the fresh flanks,
+/// ∫ p^m dx = p0^m a √π Γ(m/2 + 1)/Γ(m/2 + 3/2), though 2 to 5 edges per half width see it. Tip corners, which are no ellipses, wear
+/// besides and are few.
+#[test]
+fn a_power_of_the_pressure_wears_as_over_hertz_ellipse() {
+    let set = set();
+    let card = find("pressure_exponent").unwrap();
+    // √π Γ(m/2 + 1)/Γ(m/2 + 3/2) for m = 2 and 3
+    for (m, integral) in [(2.0, 4.0 / 3.0), (3.0, 3.0 * std::f64::consts::PI / 8.0)] {
+        let mut values = card.defaults();
+        values[0] = m;
+        let acting = acting(card, &values);
+        for edges in [3.0, 5.0, 10.0] {
+            let numerics = Numerics {
+                elements_per_half_width: edges,
+                ..numerics()
+            };
+            let members = set.members(&numerics, &[1e5], &[0.0]).unwrap();
+            let mut forward = Forward::with_effects(
+                &set,
+                Some(&members),
+                conditions(0.0),
+                numerics,
+                Some(&acting),
+            )
+            .unwrap();
+            let fresh = vec![0.0; forward.cycle().stations.count()];
+            let contacts = forward.contacts_at(&fresh).unwrap();
+            let cycle = forward.cycle();
+            let (pinion, gear) = fresh.split_at(cycle.stations.arc[0].len());
+            let age = Age {
+                cycles: 0.0,
+                worn_volume: 0.0,
+            };
+            let worn = Worn {
+                depth: [pinion, gear],
+                age,
+            };
+            let (mut closed, mut solved) = (0.0, 0.0);
+            let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
+            let [start, .., end] = cycle.pair.path_points();
+            for (position, contact) in cycle.positions.iter().zip(&contacts) {
+                let factors = factors(&acting, cycle, &worn, position, contact, |f, _| f);
+                for pair in position
+                    .pairs
+                    .iter()
+                    .filter(|pair| pair.path > start + 0.2 && pair.path < end - 0.2)
+                {
+                    let load = PairLoad::of(pair, contact).line_load;
+                    if load <= 0.0 {
+                        continue;
+                    }
+                    let radius = hertz_line::relative_radius(pair.frame.rho[0], pair.frame.rho[1]);
+                    let modulus = acting.surroundings.contact_modulus;
+                    let peak = hertz_line::peak_pressure(load, radius, modulus);
+                    let half = hertz_line::half_width(load, radius, modulus);
+                    let slip = pair.slip.abs() * step;
+                    closed += slip * half * integral * peak * (peak / 1000.0).powf(m - 1.0);
+                    let own = (0..pair.xi.len()).map(|k| {
+                        let at = pair.offset + k;
+                        factors[0][at] * contact.pressure[at] * pair.length[k]
+                    });
+                    solved += slip * own.sum::<f64>();
+                }
+            }
+            let limit = if edges < 5.0 {
+                0.06
+            } else if edges < 10.0 {
+                0.01
+            } else {
+                0.002
+            };
+            let off = solved / closed - 1.0;
+            assert!(off.abs() < limit, "m {m}, {edges} edges: {off:.4}");
+        }
+    }
 }
 
 #[test]

@@ -201,7 +201,9 @@ fn measurements_of_held_out_tests_alone_are_refused() {
     let rows =
         "test,member,cycles,quantity,position,value,sigma\nA,pinion,1e5,wear_depth,26.5,1.0,0.1\n";
     std::fs::write(home.path().join("measurements.csv"), rows).unwrap();
-    let error = Study::load(&file).unwrap().dataset().unwrap_err();
+    let study = Study::load(&file).unwrap();
+    assert_eq!(study.dataset().unwrap().observations.len(), 1);
+    let error = study.dataset_to_fit().unwrap_err();
     let message = error.to_string();
     let line = BASE.lines().position(|l| l.starts_with("file =")).unwrap() + 1;
     assert_eq!(error.position().unwrap().0, line, "{message}");

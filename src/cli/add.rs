@@ -18,7 +18,7 @@ use crate::effects::{Card, Form, find};
 use crate::learn::{AddedForm, Addition, ModelVersion, Share};
 use crate::measure::Dataset;
 use crate::study::{
-    COEFFICIENT_BOUNDS, EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded,
+    EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, rounded, wear_coefficient_fault,
 };
 
 /// Arguments of `add`.
@@ -198,7 +198,7 @@ fn add(
         drafts.swap_remove(0).study
     } else {
         // read where the user's own study names it: what is wrong there has a place that exists
-        let data = study.dataset()?;
+        let data = study.dataset_to_fit()?;
         let fitted = fit(&drafts, &data)?;
         let mut edit = drafts[fitted.draft].study.edit();
         for (name, value) in fitted.values {
@@ -302,10 +302,9 @@ fn settings(args: &AddArgs, card: &Card) -> Result<Vec<(String, f64)>, CliError>
                 "--set {name} stands there twice"
             )));
         }
-        if full == WEAR_COEFFICIENT && !(0.0..=COEFFICIENT_BOUNDS[1]).contains(value) {
+        if let Some(fault) = wear_coefficient_fault(*value).filter(|_| full == WEAR_COEFFICIENT) {
             return Err(CliError::Unusable(format!(
-                "--set {name}={value} is out of range, allowed: 0 to {:e} mm2/N",
-                COEFFICIENT_BOUNDS[1]
+                "--set {name}={value} is {fault}"
             )));
         }
         set.push((full, *value));

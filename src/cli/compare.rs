@@ -23,7 +23,7 @@ pub(super) fn execute(args: &CompareArgs, context: &Context) -> Result<Outcome, 
     let path = &args.paths.study;
     let study = Study::load(path)?;
     contact_of(&study)?;
-    let data = study.dataset()?;
+    let data = study.dataset_to_fit()?;
     let target = args
         .paths
         .output

@@ -42,7 +42,7 @@ enum Deciding {
 /// Checks the input and the folder, diagnoses, writes.
 pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
-    let data = study.dataset()?;
+    let data = study.dataset_to_fit()?;
     let target = args
         .paths
         .output

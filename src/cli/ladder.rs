@@ -30,7 +30,7 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
     for path in &args.studies {
         let study = Study::load(path)?;
         contact_of(&study)?;
-        let data = study.dataset()?;
+        let data = study.dataset_to_fit()?;
         if loaded
             .first()
             .is_some_and(|first| first.0.gears != study.gears)

@@ -21,7 +21,7 @@ impl Study {
     /// Reads the file that `[measurements]` names.
     ///
     /// # Errors
-    /// A [`TextError`] if the study names no file or has no test, for the first fault of the file, or if no fit test has a row.
+    /// A [`TextError`] if the study names no file or has no test, or for the first fault of the file.
     pub fn dataset(&self) -> Result<Dataset, TextError> {
         let missing = |key: &str, message: &str, allowed: &str, hint: &str| {
             let end = self.source.text.trim_end().len();
@@ -47,19 +47,27 @@ impl Study {
                 "each test states under which conditions its measurements were made",
             );
         }
-        let data = Dataset::load(path, &self.known())?;
+        Dataset::load(path, &self.known())
+    }
+
+    /// The same for a fit, which takes a row of a fit test at least.
+    ///
+    /// # Errors
+    /// As [`Study::dataset`]; a [`TextError`] if no fit test has a row.
+    pub fn dataset_to_fit(&self) -> Result<Dataset, TextError> {
+        let data = self.dataset()?;
         let fits = |o: &Observation| self.tests[o.test].role == Role::Fit;
         if !data.observations.iter().any(fits) {
-            let held: Vec<&str> = (self.tests.iter().filter(|test| test.role == Role::Fit))
+            let fit: Vec<&str> = (self.tests.iter().filter(|test| test.role == Role::Fit))
                 .map(|test| test.id.as_str())
                 .collect();
             return Err(self.refuse(
                 "measurements.file",
                 "no test with role \"fit\" has a measurement",
-                &if held.is_empty() {
+                &if fit.is_empty() {
                     "a study with a [[test]] of role \"fit\"".to_owned()
                 } else {
-                    format!("rows of a test with role \"fit\": {}", list(held))
+                    format!("rows of a test with role \"fit\": {}", list(fit))
                 },
                 "held-out tests judge a fit and take no part in it",
             ));

@@ -1,6 +1,7 @@
 //! What a fit may adjust: a value, its bounds, its prior and the scale on which it moves.
 
 use super::effect_model::Parameter;
+use super::quantity;
 use super::settings::Wear;
 use crate::effects::{Param, Prior};
 
@@ -44,6 +45,15 @@ pub struct FreeParameter {
     pub neutral: Option<f64>,
     /// Whether a fit moves its logarithm.
     pub log_scale: bool,
+}
+
+/// What is wrong with a wear coefficient (mm²/N) that does not come from a study file: what is allowed and why, in one line.
+pub fn wear_coefficient_fault(value: f64) -> Option<String> {
+    let known = &quantity::WEAR_COEFFICIENT;
+    (!known.allows(value)).then(|| {
+        let why = known.slip(value).unwrap_or(known.reason);
+        format!("out of range, allowed: {known} ({why})")
+    })
 }
 
 impl FreeParameter {

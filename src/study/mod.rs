@@ -38,7 +38,9 @@ use crate::source_text;
 pub use crate::source_text::{Diagnostic, Fault, Source, TextError as StudyError, nearest};
 pub use edit::{Edit, rounded};
 pub use effect_model::{EffectModel, EffectSpec, Law, Parameter};
-pub use free::{COEFFICIENT_BOUNDS, COEFFICIENT_PRIOR, FreeParameter, WEAR_COEFFICIENT};
+pub use free::{
+    COEFFICIENT_BOUNDS, COEFFICIENT_PRIOR, FreeParameter, WEAR_COEFFICIENT, wear_coefficient_fault,
+};
 pub use gears::Gears;
 pub use key_docs::{KEY_DOCS, KeyDoc, Without};
 pub use materials::{Lubricant, Material, Materials, Thermal};

@@ -22,6 +22,7 @@ use crate::effects::{Effect, Hook};
 use crate::gear::Member;
 use crate::numeric::sparse::SparseRows;
 use crate::wear::acting::{Acting, Age, PairLoad, side};
+use crate::wear::factors::{Worn, factors};
 use crate::wear::integrator::WearSystem;
 use crate::wear::passage::{Moment, Passage};
 
@@ -175,12 +176,12 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         ]
     }
 
-    fn view<'b>(&self, n: f64, u: &'b [f64]) -> View<'b> {
+    fn view<'b>(&self, n: f64, u: &'b [f64]) -> Worn<'b> {
         let depth = split(self.model, u);
         let worn_volume = self
             .acting
             .map_or(0.0, |acting| acting.worn_volume(self.model.cycle(), depth));
-        View {
+        Worn {
             depth,
             age: Age {
                 cycles: n,
@@ -192,7 +193,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     /// Factor on k at every unknown of position `q` on pinion and gear; `None`: 1 everywhere.
     fn wear_factors(
         &self,
-        view: &View,
+        view: &Worn,
         position: &Position,
         contact: &PositionContact,
     ) -> Option<[Vec<f64>; 2]> {
@@ -202,7 +203,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     /// The same of f + p df/dp: what a small change of pressure changes f p by.
     fn pressure_slopes(
         &self,
-        view: &View,
+        view: &Worn,
         position: &Position,
         contact: &PositionContact,
     ) -> Option<[Vec<f64>; 2]> {
@@ -217,40 +218,24 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
 
     fn each_factor(
         &self,
-        view: &View,
+        view: &Worn,
         position: &Position,
         contact: &PositionContact,
         of: impl Fn(f64, &Acting, &crate::effects::Local) -> f64,
     ) -> Option<[Vec<f64>; 2]> {
         let acting = self.acting.filter(|a| a.acts(Hook::WearFactor))?;
+        let of = |f: f64, local: &crate::effects::Local| of(f, acting, local);
         let cycle = self.model.cycle();
-        let mut factors = [(); 2].map(|()| vec![1.0; contact.pressure.len()]);
-        for pair in &position.pairs {
-            let mut local = acting.at_pair(cycle, pair, PairLoad::of(pair, contact), view.age);
-            for k in 0..pair.xi.len() {
-                let p = contact.pressure[pair.offset + k];
-                if p <= 0.0 {
-                    continue;
-                }
-                for member in Member::BOTH {
-                    let side = side(member);
-                    let depth = pair.opening[side].dot(k, view.depth[side]) / pair.length[k];
-                    acting.at_point(&mut local, cycle, member, pair.arc[side][k], depth, p);
-                    let f = acting.effects.wear_factor(&local);
-                    factors[side][pair.offset + k] = of(f, acting, &local);
-                }
-            }
-        }
-        Some(factors)
+        Some(factors(acting, cycle, view, position, contact, of))
     }
 
     /// What effects add at every station, mm per pinion cycle.
-    fn added(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added> {
+    fn added(&self, view: &Worn, contacts: &[PositionContact]) -> Vec<Added> {
         self.each_added(view, contacts, |depths, _, _| depths)
     }
 
     /// How that changes with the largest pressure there, mm per MPa.
-    fn added_slopes(&self, view: &View, contacts: &[PositionContact]) -> Vec<Added> {
+    fn added_slopes(&self, view: &Worn, contacts: &[PositionContact]) -> Vec<Added> {
         const STEP: f64 = 1e-4;
         self.each_added(view, contacts, |depths, acting, local| {
             if local.pressure <= 0.0 {
@@ -266,7 +251,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
 
     fn each_added(
         &self,
-        view: &View,
+        view: &Worn,
         contacts: &[PositionContact],
         of: impl Fn([f64; 2], &Acting, &crate::effects::Local) -> [f64; 2],
     ) -> Vec<Added> {
@@ -305,7 +290,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     }
 
     /// What the slopes of added depths put into the Jacobian, by position: unknown, joint station, mm per cycle and MPa.
-    fn reads(&self, view: &View, contacts: &[PositionContact]) -> Vec<Vec<(usize, usize, f64)>> {
+    fn reads(&self, view: &Worn, contacts: &[PositionContact]) -> Vec<Vec<(usize, usize, f64)>> {
         let cycle = self.model.cycle();
         let mut reads = vec![Vec::new(); cycle.positions.len()];
         let Some(passage) = &self.passage else {
@@ -324,12 +309,6 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         }
         reads
     }
-}
-
-/// Depths and age that effects are told.
-struct View<'b> {
-    depth: [&'b [f64]; 2],
-    age: Age,
 }
 
 /// What effects add at one station, or its change with the largest pressure there.

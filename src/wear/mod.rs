@@ -2,5 +2,6 @@
 
 pub mod acting;
 pub mod archard;
+pub mod factors;
 pub mod integrator;
 pub mod passage;
