@@ -350,6 +350,25 @@ fn made_up_measurements_depend_on_the_seed_alone() {
     ] {
         assert!(text.contains(word), "{word}");
     }
+    // what a command reads does not go with the result folder that it replaces
+    for again in ["compare a/study.toml -o a", "synthesize a/study.toml -o a"] {
+        let (code, _, said) = common::line(&home, again);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(
+            said.contains("a would be replaced by the results, and a/"),
+            "{said}"
+        );
+    }
+    let (code, _, said) = common::line(
+        &home,
+        "add a/study.toml micropitting -o a/measurements.csv --force",
+    );
+    assert_eq!(code, Some(2), "{said}");
+    assert!(
+        said.contains("measurements.csv is a file that the study names"),
+        "{said}"
+    );
+    assert_eq!(data("a"), text);
     // it is a study with measurements like any other
     succeed(&home, "compare a/study.toml -q");
     let compared = document(&home.path().join("a/study.out/compare"), "comparison.json");

@@ -120,7 +120,9 @@ refusals! {
     quoted_decimal_comma: with("3.42", "\"3,42\"")
         => WrongType "value" at 3:34, "`3,42`", "a number, um", "decimals are written with a point";
     open_quote: with("A,gear", "\"A,gear")
-        => Syntax "" at 4:1, "1 fields", "8 fields", "never closed";
+        => Syntax "" at 4:1, "a line break in quotes", "a row on each line", "never closed";
+    open_quote_in_the_last_column: with("53.5,2.1,0.15,A-g-1", "53.5,2.1,0.15,\"A-g-1")
+        => Syntax "" at 4:1, "a line break in quotes", "a row on each line", "never closed";
     unknown_test: with("B,pinion", "E,pinion")
         => BadValue "test" at 8:1, "`E`", "A, B, C, D", "no such test";
     missing_test: with("B,pinion", ",pinion")
@@ -180,7 +182,7 @@ refusals! {
     millimetres: GOOD.replace("3.42,0.15", "0.00342,0.00015").replace("2.1,0.15", "0.0021,0.00015").replace("0.1,0.15", "0.0001,0.00015")
         => BadValue "value" at 3:34, "`0.00342`, the largest", "wear_depth in um", "looks like mm";
     millimetres_beside_sigmas_in_micrometres: (0..8).fold("test,member,cycles,quantity,position,value,sigma\n".to_owned(), |text, i| format!("{text}A,pinion,250000,wear_depth,26.{i},0.00{i}42,0.15\n"))
-        => BadValue "value" at 9:33, "`0.00742`, the largest, with a sigma of 0.15", "wear_depth in um", "looks like mm beside sigmas in um";
+        => BadValue "value" at 9:33, "`0.00742`, the largest, with a sigma of 0.15", "wear_depth and sigma in um", "looks like mm beside sigmas in um";
     radians: with("-14.2,0.5", "-14.2e-6,5e-7")
         => BadValue "value" at 6:39, "`-14.2e-6`, the largest", "in urad", "looks like rad";
     percent: with("wear_depth,26.31,3.42,0.15,A-p-1", "load_share,26.31,63,1,")

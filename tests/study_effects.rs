@@ -314,7 +314,7 @@ refusals! {
     formula_infinite_parameter: formula("profile = \"a\"\nparameters = { a = inf }")
         => BadValue "effect.parameters.a" marks "inf" at 5:20, "a finite number", "not finite";
     formula_below_zero_everywhere: formula("wear_factor = \"-1\"")
-        => BadValue "effect.wear_factor" marks "-1" at 4:16, "", "wear_factor = -1 gives -1; allowed: a number from 0 on";
+        => BadValue "effect.wear_factor" marks "-1" at 4:16, "", "effect.wear_factor = -1 gives -1; allowed: a number from 0 on";
     formula_without_a_value: formula("load_factor = 'a/0'\nparameters = { a = 1 }")
         => BadValue "effect.load_factor" marks "a/0" at 4:16, "", "gives inf at a = 1; allowed: a number above 0";
     formula_unknown_function: formula("wear_factor = \"1 + exq(p)\"")

@@ -182,7 +182,12 @@ fn add(
 ) -> Result<Outcome, CliError> {
     let card = card(&args.effect)?;
     let study = Study::load(&args.study)?;
-    let target = target(args)?;
+    let target = target(args, &study)?;
+    writable(&target).map_err(|source| CliError::Io {
+        doing: "write",
+        path: target.clone(),
+        source,
+    })?;
     let set = settings(args, card)?;
     let own_is_set = set.iter().any(|(name, _)| name != WEAR_COEFFICIENT);
     let mut drafts = Vec::new();
@@ -307,6 +312,11 @@ fn settings(args: &AddArgs, card: &Card) -> Result<Vec<(String, f64)>, CliError>
                 "--set {name}={value} is {fault}"
             )));
         }
+        if full == WEAR_COEFFICIENT && *value == 0.0 {
+            return Err(CliError::Unusable(format!(
+                "--set {name}=0 switches wear off: nothing is left to fit"
+            )));
+        }
         set.push((full, *value));
     }
     Ok(set)
@@ -389,7 +399,7 @@ fn card(name: &str) -> Result<&'static Card, CliError> {
 }
 
 /// Where the new study goes; refuses to overwrite unasked.
-fn target(args: &AddArgs) -> Result<PathBuf, CliError> {
+fn target(args: &AddArgs, study: &Study) -> Result<PathBuf, CliError> {
     let target = args.output.clone().unwrap_or_else(|| {
         let mut name = args.study.file_stem().unwrap_or_default().to_owned();
         name.push(format!("+{}.toml", args.effect));
@@ -411,10 +421,37 @@ fn target(args: &AddArgs) -> Result<PathBuf, CliError> {
             target.display()
         )));
     }
+    if let Some(input) = study
+        .inputs()
+        .into_iter()
+        .find(|input| same(&target, input))
+    {
+        return Err(CliError::Unusable(format!(
+            "{} is a file that the study names; name another file for the new one",
+            input.display()
+        )));
+    }
     if target.exists() && !args.force {
         return Err(CliError::Exists { path: target });
     }
     Ok(target)
+}
+
+/// The file under which a target is written before it gets its name.
+fn partial(target: &Path) -> PathBuf {
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    target.with_file_name(format!(".{name}.partial-{}", std::process::id()))
+}
+
+/// Whether the target's folder, if it is there, takes a file: a fit takes a while, and its answer must have a place.
+fn writable(target: &Path) -> io::Result<()> {
+    let folder = folder(target);
+    if !folder.as_os_str().is_empty() && !folder.is_dir() {
+        return Ok(());
+    }
+    let partial = partial(target);
+    File::create(&partial)?;
+    fs::remove_file(&partial)
 }
 
 /// Writes a file whole or not at all: under another name beside it, flushed, then renamed. Its folder is made if it is not there.
@@ -423,8 +460,7 @@ fn write_whole(target: &Path, text: &str) -> io::Result<()> {
     if !folder.as_os_str().is_empty() {
         fs::create_dir_all(folder)?;
     }
-    let name = target.file_name().unwrap_or_default().to_string_lossy();
-    let partial = target.with_file_name(format!(".{name}.partial-{}", std::process::id()));
+    let partial = partial(target);
     let written = File::create(&partial).and_then(|mut file| {
         file.write_all(text.as_bytes())?;
         file.sync_all()?;

@@ -5,7 +5,7 @@ use clap::Args;
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, fitting, folder};
 use crate::learn::{ModelVersion, contact_of};
-use crate::report::{self, atomic, comparison};
+use crate::report::{self, comparison};
 use crate::study::Study;
 
 /// Arguments of `compare`.
@@ -29,7 +29,7 @@ pub(super) fn execute(args: &CompareArgs, context: &Context) -> Result<Outcome, 
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(path, "compare"));
-    atomic::check(&target)?;
+    folder::check(&target, path, &study)?;
     let version = ModelVersion::of(&study);
     let compared = fitting::fitted(&study, &data, &version, context, "compare")?;
     let result = comparison::Result {

@@ -8,7 +8,7 @@ use super::folder;
 use super::{CliError, Context, Outcome};
 use crate::learn::Measured;
 use crate::learn::diagnose::{Fidelity, diagnose};
-use crate::report::{self, atomic};
+use crate::report;
 use crate::study::{self, Study};
 
 /// Arguments of `diagnose`.
@@ -48,7 +48,7 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "diagnose"));
-    atomic::check(&target)?;
+    folder::check(&target, &args.paths.study, &study)?;
     let fidelity = match args.fidelity {
         _ if args.fast || study.contact == study::ContactKind::Hertz => Fidelity::Screening,
         Some(Deciding::Screening) => Fidelity::Screening,

@@ -2,11 +2,40 @@
 
 use std::path::{Path, PathBuf};
 
+use super::CliError;
+use crate::report::atomic;
+use crate::study::Study;
+
 /// Where results go by default: `STUDYSTEM.out/COMMAND` beside the study.
 pub(super) fn default_path(study: &Path, command: &str) -> PathBuf {
     let mut name = study.file_stem().unwrap_or_default().to_owned();
     name.push(".out");
     study.with_file_name(name).join(command)
+}
+
+/// Whether results may go to `target`: a result folder is replaced whole, and what is read from `file` must not go with it.
+///
+/// # Errors
+/// [`CliError`] if the folder is foreign, or holds the study or a file that it names.
+pub(super) fn check(target: &Path, file: &Path, study: &Study) -> Result<(), CliError> {
+    atomic::check(target)?;
+    let Ok(real) = target.canonicalize() else {
+        return Ok(());
+    };
+    let inside = |input: &&Path| {
+        input
+            .canonicalize()
+            .is_ok_and(|input| input.starts_with(&real))
+    };
+    let inputs = study.inputs().into_iter().chain([file]);
+    match inputs.into_iter().find(inside) {
+        Some(input) => Err(CliError::Unusable(format!(
+            "{} would be replaced by the results, and {} stands in it; name another folder",
+            target.display(),
+            input.display()
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// The checkpoint of an unfinished run into `target`: `.NAME.checkpoint` beside it.

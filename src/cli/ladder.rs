@@ -7,7 +7,7 @@ use clap::Args;
 use super::{CliError, Context, Outcome, fitting, folder};
 use crate::learn::{self, Item, Version, compare_all, contact_of};
 use crate::measure::Dataset;
-use crate::report::{self, atomic, ladder};
+use crate::report::{self, ladder};
 use crate::study::Study;
 
 /// Arguments of `ladder`.
@@ -45,7 +45,9 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
     }
     let default = || folder::default_path(&args.studies[0], "ladder");
     let target = args.output.clone().unwrap_or_else(default);
-    atomic::check(&target)?;
+    for (file, (study, _)) in args.studies.iter().zip(&loaded) {
+        folder::check(&target, file, study)?;
+    }
     let items: Vec<Item<'_>> = loaded.iter().map(|(study, data)| (study, data)).collect();
     let progress = context.progress("ladder");
     let compared = compare_all(&items, &|number, doing| {

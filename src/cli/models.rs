@@ -6,7 +6,7 @@ use super::args::StudyAndOutput;
 use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
-use crate::report::{self, atomic};
+use crate::report;
 use crate::simulate::models::{Comparison, Task, compare};
 use crate::study::Study;
 
@@ -28,7 +28,7 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "models"));
-    atomic::check(&target)?;
+    folder::check(&target, &args.paths.study, &study)?;
     let comparison = compare_models(&study, &context.progress("models"))?;
     let written = report::write_models(&study.title, &comparison, &target)?;
     Ok(Outcome {

@@ -8,7 +8,7 @@ use super::folder;
 use super::{CliError, Context, Outcome};
 use crate::learn::Measured;
 use crate::learn::diagnose::{plan_after, plan_first};
-use crate::report::{self, atomic};
+use crate::report;
 use crate::study::Study;
 
 /// Arguments of `plan`.
@@ -36,7 +36,7 @@ pub(super) fn execute(args: &PlanArgs, context: &Context) -> Result<Outcome, Cli
     };
     let default = || folder::default_path(&args.paths.study, "plan");
     let target = args.paths.output.clone().unwrap_or_else(default);
-    atomic::check(&target)?;
+    folder::check(&target, &args.paths.study, &study)?;
     let progress = context.progress("plan");
     let watch = |done, what| progress.show(done, what);
     let plan = match data {

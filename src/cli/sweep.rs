@@ -12,9 +12,9 @@ use super::args::StudyAndOutput;
 use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
+use crate::report::Staging;
 use crate::report::format::significant;
 use crate::report::plots::sweep_picture;
-use crate::report::{Staging, atomic};
 use crate::study::Study;
 use figures::COLUMNS;
 use grid::Axis;
@@ -49,7 +49,7 @@ pub(super) fn execute(
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "sweep"));
-    atomic::check(&target)?;
+    folder::check(&target, &args.paths.study, &study)?;
     let kept = Kept::open(&target, args.resume)?;
     let progress = context.progress("sweep");
     let (results, reused) = points::compute(&points, &kept, &progress)?;

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 
-use super::{CliError, Context, Outcome, fitting};
+use super::{CliError, Context, Outcome, fitting, folder};
 use crate::learn::{self, Synthetic, contact_of};
 use crate::measure::Dataset;
+use crate::report::Staging;
 use crate::report::comparison::quoted;
-use crate::report::{Staging, atomic};
 use crate::study::{Scatter, Study};
 
 /// Arguments of `synthesize`.
@@ -48,7 +48,7 @@ const ONLY: &str = "A";
 pub(super) fn execute(args: &SynthesizeArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.study)?;
     contact_of(&study)?;
-    atomic::check(&args.output)?;
+    folder::check(&args.output, &args.study, &study)?;
     let mut edit = study.edit();
     let folder = args.study.parent().unwrap_or(Path::new(""));
     edit.move_between(folder, &args.output)?;

@@ -1,14 +1,18 @@
 //! What is doubtful about a fit, in sentences: an end without convergence, values on bounds, parameters that show only together,
-//! rows that stand twice.
+//! traces over several tests, rows that stand twice.
 
 use std::collections::HashSet;
+
+use nalgebra::DMatrix;
 
 use super::fitted::Fit;
 use super::parameters::Estimate;
 use crate::measure::{Dataset, Observation};
 
-/// Correlation beyond which two parameters that are badly known are one in truth.
-const TOGETHER: f64 = 0.98;
+/// Least eigenvalue of the correlation of parameters that are badly known; of two it is 1 − |correlation|.
+const TOGETHER: f64 = 0.02;
+/// Part in such a direction from which a parameter belongs to it.
+const PART: f64 = 0.2;
 /// Standard deviation over value from which a parameter is badly known.
 const BADLY_KNOWN: f64 = 0.25;
 
@@ -28,6 +32,7 @@ pub(super) fn doubts(data: &Dataset, fit: &Fit) -> Vec<String> {
         ));
     }
     doubts.extend(together(&fit.parameters, &correlation(fit)));
+    doubts.extend(wide_traces(data));
     doubts.extend(repeated(data));
     doubts
 }
@@ -45,25 +50,59 @@ pub(super) fn correlation(fit: &Fit) -> Vec<Vec<f64>> {
     all.clone().map(row).collect()
 }
 
-/// The pairs of parameters of which the data give a sum or a product and neither alone.
-fn together<'a>(
-    parameters: &'a [Estimate],
-    correlation: &'a [Vec<f64>],
-) -> impl Iterator<Item = String> + 'a {
+/// The parameters of which the data give a sum or a product and none alone: directions in which the correlation is close to singular.
+fn together(parameters: &[Estimate], correlation: &[Vec<f64>]) -> Vec<String> {
     let badly_known = |p: &Estimate| p.sigma > BADLY_KNOWN * p.value.abs();
-    let pairs = (0..parameters.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
-    pairs
-        .filter(move |&(i, j)| {
-            correlation[i][j].abs() > TOGETHER
-                && badly_known(&parameters[i])
-                && badly_known(&parameters[j])
+    let badly: Vec<usize> = (0..parameters.len())
+        .filter(|&i| badly_known(&parameters[i]))
+        .collect();
+    let count = badly.len();
+    if count < 2 {
+        return Vec::new();
+    }
+    let matrix = DMatrix::from_fn(count, count, |i, j| correlation[badly[i]][badly[j]]);
+    let eigen = matrix.symmetric_eigen();
+    let directions = eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter());
+    directions
+        .filter(|(value, _)| **value < TOGETHER)
+        .filter_map(|(_, direction)| {
+            let takes_part = |&i: &usize| direction[i].abs() > PART;
+            let names: Vec<&str> = ((0..count).filter(takes_part))
+                .map(|i| parameters[badly[i]].name.as_str())
+                .collect();
+            let (last, others) = names.split_last().filter(|(_, others)| !others.is_empty())?;
+            Some(format!(
+                "{} and {last} act almost only together here: no value alone means much; fix all but one, or leave them out",
+                others.join(", ")
+            ))
         })
-        .map(|(i, j)| {
-            format!(
-                "{} and {} act almost only together here (correlation {:.3}): neither value alone means much; fix one, or leave it out",
-                parameters[i].name, parameters[j].name, correlation[i][j]
-            )
-        })
+        .collect()
+}
+
+/// Traces that go over tests or members.
+fn wide_traces(data: &Dataset) -> Option<String> {
+    let wide = |number: &usize| {
+        let mut points = data
+            .observations
+            .iter()
+            .filter(|o| o.trace == Some(*number));
+        let first = points.next();
+        points.any(|o| first.is_some_and(|f| (f.test, f.member) != (o.test, o.member)))
+    };
+    let wide: Vec<usize> = (0..data.traces.len()).filter(wide).collect();
+    let first = &data.traces[*wide.first()?];
+    Some(format!(
+        "{} of {} traces go over several tests or members, `{}` ({}:{}) the first: all points of a trace share one datum, so name traces apart \
+         that were zeroed apart",
+        wide.len(),
+        data.traces.len(),
+        first.name,
+        data.name,
+        first.line
+    ))
 }
 
 /// Rows that say what an earlier row says, to the last digit. A balance may read the same mass twice, so only rows with a place count.
@@ -93,7 +132,7 @@ fn said(o: &Observation) -> impl Eq + std::hash::Hash + use<> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::{Quantity, Subject};
+    use crate::measure::{Quantity, Subject, Trace};
 
     fn estimate(name: &str, value: f64, sigma: f64) -> Estimate {
         Estimate {
@@ -109,25 +148,78 @@ mod tests {
 
     #[test]
     fn parameters_that_are_badly_known_together_are_told() {
-        let told = |sigma, r: f64| {
-            let parameters = [estimate("k", 1.0, sigma), estimate("f.a", 2.0, 2.0 * sigma)];
-            let matrix = [vec![1.0, r], vec![r, 1.0]];
-            together(&parameters, &matrix).collect::<Vec<_>>()
+        let told = |sigma: f64, rows: &[&[f64]]| {
+            let names = ["k", "f.a", "f.b"];
+            let parameters: Vec<Estimate> = (rows.iter().zip(names))
+                .map(|(_, name)| estimate(name, 2.0, 2.0 * sigma))
+                .collect();
+            let matrix: Vec<Vec<f64>> = rows.iter().map(|row| row.to_vec()).collect();
+            together(&parameters, &matrix)
         };
-        assert_eq!(told(0.5, -0.995).len(), 1);
+        let two: [&[f64]; 2] = [&[1.0, -0.995], &[-0.995, 1.0]];
+        let said = told(0.5, &two);
+        assert_eq!(said.len(), 1);
         assert!(
-            told(0.5, -0.995)[0]
-                .starts_with("k and f.a act almost only together here (correlation -0.995)")
+            said[0].starts_with("k and f.a act almost only together here"),
+            "{}",
+            said[0]
+        );
+        // of three with a known product each two are little correlated
+        let three: [&[f64]; 3] = [&[1.0, -0.5, -0.5], &[-0.5, 1.0, -0.5], &[-0.5, -0.5, 1.0]];
+        let said = told(1.5, &three);
+        assert!(
+            said[0].starts_with("k, f.a and f.b act almost only together"),
+            "{}",
+            said[0]
         );
         // each well known, or hardly dependent
-        assert!(told(0.01, -0.995).is_empty() && told(0.5, 0.9).is_empty());
+        let hardly: [&[f64]; 2] = [&[1.0, 0.9], &[0.9, 1.0]];
+        assert!(told(0.01, &two).is_empty() && told(0.5, &hardly).is_empty());
     }
 
     #[test]
-    fn rows_that_stand_twice_are_counted() {
-        let row = |line, position, value| Observation {
-            test: 0,
-            member: Subject::Pinion,
+    fn traces_over_several_tests_are_told() {
+        let trace = |name: &str, line| Trace {
+            name: name.to_owned(),
+            quantity: Quantity::WearDepth,
+            line,
+        };
+        let row = |test, member, number| Observation {
+            trace: Some(number),
+            ..row(test, member, 2, Some(26.0), 1.0)
+        };
+        let told = |observations| {
+            wide_traces(&Dataset {
+                name: "m.csv".to_owned(),
+                tests: vec!["A".to_owned(), "B".to_owned()],
+                observations,
+                traces: vec![trace("1", 2), trace("2", 5)],
+            })
+        };
+        let (pinion, gear) = (Subject::Pinion, Subject::Gear);
+        assert_eq!(
+            told(vec![row(0, pinion, 0), row(0, pinion, 0), row(0, gear, 1)]),
+            None
+        );
+        let said = told(vec![row(0, pinion, 0), row(0, gear, 1), row(1, gear, 1)]).unwrap();
+        assert!(
+            said.starts_with(
+                "1 of 2 traces go over several tests or members, `2` (m.csv:5) the first"
+            ),
+            "{said}"
+        );
+    }
+
+    fn row(
+        test: usize,
+        member: Subject,
+        line: usize,
+        position: Option<f64>,
+        value: f64,
+    ) -> Observation {
+        Observation {
+            test,
+            member,
             cycles: 1e5,
             quantity: Quantity::WearDepth,
             position,
@@ -137,7 +229,12 @@ mod tests {
             face: None,
             tooth: None,
             line,
-        };
+        }
+    }
+
+    #[test]
+    fn rows_that_stand_twice_are_counted() {
+        let row = |line, position, value| row(0, Subject::Pinion, line, position, value);
         let told = |observations: Vec<Observation>| {
             repeated(&Dataset {
                 name: "m.csv".to_owned(),

@@ -46,7 +46,6 @@ pub(super) fn sentence(
     map: &Map,
     chi2: Option<f64>,
 ) -> String {
-    let significance = |cell: &Cell| excess(cell) / (2.0 * cell.points as f64).sqrt();
     let failing = || (cells.iter()).filter(|(_, cell)| significance(cell) > SIGNIFICANT);
     let carried = carried(failing());
     let worst = failing().max_by(|(a, first), (b, second)| {
@@ -65,7 +64,7 @@ pub(super) fn sentence(
     };
     let parts = [
         format!(
-            "{}{} is {} {} in test {}",
+            "{}{} is {}{} in test {}",
             subject(key.2),
             when(key, cell, map),
             size(cell),
@@ -125,7 +124,7 @@ fn size(cell: &Cell) -> String {
         "1" => "",
         unit => &format!(" {unit}"),
     };
-    if cell.bias.abs() < 0.5 * cell.rms {
+    if either_sign(cell) {
         return format!(
             "off by {}{unit} (root mean square, either sign)",
             short(cell.rms)
@@ -139,15 +138,30 @@ fn place(key: &CellKey) -> String {
     match (key.1.member(), key.3) {
         (Some(member), Some(region)) => {
             format!(
-                "on the {}'s {} ({})",
+                " on the {}'s {} ({})",
                 member.name(),
                 words(member, region),
                 region.name()
             )
         }
-        (Some(member), None) => format!("of the {}", member.name()),
-        (None, _) => "of the pair".to_owned(),
+        (Some(member), None) => format!(" of the {}", member.name()),
+        (None, _) => String::new(),
     }
+}
+
+/// Whether a cell's mean is off by more than its noise.
+fn clear(cell: &Cell) -> bool {
+    cell.bias.abs() > 3.0 * cell.bias_sigma
+}
+
+/// Whether a cell's error has no one sign.
+fn either_sign(cell: &Cell) -> bool {
+    cell.bias.abs() < 0.5 * cell.rms
+}
+
+/// How far a cell's χ² lies above its number of points, in standard deviations.
+fn significance(cell: &Cell) -> f64 {
+    excess(cell) / (2.0 * cell.points as f64).sqrt()
 }
 
 /// Whether the error at that place grows, falls or changes sign over the test's intervals.
@@ -160,7 +174,9 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
         return String::new();
     }
     let (first, last) = (over[0], over[over.len() - 1]);
-    let clear = |cell: &Cell| cell.bias.abs() > 3.0 * cell.bias_sigma;
+    if either_sign(&cells[key]) || !(clear(first) || clear(last)) {
+        return String::new();
+    }
     let word = if clear(first) && clear(last) && first.bias * last.bias < 0.0 {
         "changes its sign"
     } else if last.bias.abs() > 1.5 * first.bias.abs() {
@@ -218,7 +234,9 @@ fn mate(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>) -> String {
         return String::new();
     };
     let name = other.name();
-    if found.bias.abs() < 3.0 * found.bias_sigma || cell.bias.abs() < 0.5 * cell.rms {
+    if significance(found) > SIGNIFICANT && (either_sign(found) || either_sign(cell)) {
+        format!("; the {name} there is {} too", size(found))
+    } else if !clear(found) || either_sign(cell) {
         format!("; the {name} there is not clearly off ({})", signed(found))
     } else if found.bias * cell.bias > 0.0 {
         format!("; the {name} there shares it ({})", signed(found))
@@ -230,15 +248,20 @@ fn mate(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>) -> String {
     }
 }
 
-/// The tests that show the same sign at the same place and stage of life.
+/// The tests that show the same sign, or an error of either sign too, at the same place and stage of life.
 fn others(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>, map: &Map) -> String {
     let stage = |k: &CellKey| 3 * k.4 / map.intervals(k.0).max(1);
     let mut like = Vec::new();
     for (k, found) in cells {
         let same_place =
             (k.1, k.2, k.3, stage(k)) == (key.1, key.2, key.3, stage(key)) && k.0 != key.0;
-        let same_sign = found.bias * cell.bias > 0.0 && found.bias.abs() > 3.0 * found.bias_sigma;
-        if same_place && same_sign && !like.contains(&found.test.as_str()) {
+        let same_sign = found.bias * cell.bias > 0.0 && clear(found);
+        let alike = if either_sign(cell) {
+            significance(found) > SIGNIFICANT && either_sign(found)
+        } else {
+            same_sign
+        };
+        if same_place && alike && !like.contains(&found.test.as_str()) {
             like.push(found.test.as_str());
         }
     }

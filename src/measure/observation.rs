@@ -107,12 +107,21 @@ impl<'k> Reader<'k> {
     /// As many fields as the header.
     fn even(&self, row: &Row<'_>) -> Result<()> {
         let (found, wanted) = (row.len(), self.columns.count);
+        let lines = row.text[row.span.clone()].split('\n').count();
+        if lines > 1 {
+            return Err(Box::new(
+                row.fault(
+                    Fault::Syntax,
+                    format!("a quoted text goes on over {lines} lines"),
+                )
+                .with_values("a line break in quotes", "a row on each line")
+                .with_hint("a quotation mark that is never closed swallows the lines after it"),
+            ));
+        }
         if found == wanted {
             return Ok(());
         }
-        let hint = if row.text[row.span.clone()].contains('\n') {
-            "a quotation mark that is never closed swallows the lines after it"
-        } else if found > wanted {
+        let hint = if found > wanted {
             "decimals are written with a point, texts with commas in quotes"
         } else {
             "empty fields at the end need their commas too"

@@ -33,15 +33,18 @@ pub(super) fn check(
         }
         let (name, unit) = (quantity.name(), quantity.unit());
         let silent = |o: &Observation| o.value.abs() < NOISE_PART * o.sigma;
-        let (message, found, hint) = if own().count() >= FEWEST && own().all(silent) {
+        let (message, found, allowed, hint) = if own().count() >= FEWEST && own().all(silent) {
             let hint = match limits.smaller {
                 "" => "the sigmas are far too large, or the values in a larger unit".to_owned(),
                 smaller => format!("this looks like {smaller} beside sigmas in {unit}"),
             };
-            let message = "is smaller than half its sigma, so these are not its noise".to_owned();
+            let message =
+                "is smaller than half its sigma: nothing was measured, or these are not its sigmas"
+                    .to_owned();
             (
                 message,
                 format!(", with a sigma of {}", largest.sigma),
+                format!("{name} and sigma in {unit}"),
                 hint,
             )
         } else if own().all(small) {
@@ -49,6 +52,7 @@ pub(super) fn check(
             (
                 message,
                 String::new(),
+                format!("{name} in {unit}"),
                 format!("this looks like {}", limits.smaller),
             )
         } else {
@@ -59,10 +63,7 @@ pub(super) fn check(
         let message = format!("every {name} {message}");
         return Err(Box::new(
             Diagnostic::new(Fault::BadValue, "value", message)
-                .with_values(
-                    format!("`{written}`, the largest{found}"),
-                    format!("{name} in {unit}"),
-                )
+                .with_values(format!("`{written}`, the largest{found}"), allowed)
                 .with_hint(hint)
                 .with_span(span),
         ));

@@ -55,9 +55,12 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
     let values: Vec<f64> = parameters.iter().map(|p| p.value).collect();
     if let Some(message) = formula.constant_fault(&values) {
         let mut diagnostic = table.refuse(hook.name(), "", "");
-        diagnostic.message = message;
+        diagnostic.message = format!("effect.{message}");
         diagnostic.found = String::new();
-        diagnostic.span = diagnostic.span.map(|span| span.start + 1..span.end - 1);
+        diagnostic.span = diagnostic.span.map(|span| {
+            let inside = inside_text(table.raw(&span), 0, expression.chars().count());
+            span.start + inside.start..span.start + inside.end
+        });
         return Err(Box::new(diagnostic));
     }
     Ok(EffectSpec {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::quantity::{self as q, span_of_numbers};
 use super::reader::Table;
+use super::relative;
 use crate::gear::{BasicRack, Gear, GearError, MIN_TEETH, Member, Pair, PairError, ToothSpec};
 use crate::source_text::{Diagnostic, Fault};
 
@@ -127,7 +128,7 @@ pub(super) fn profile_files(root: &Table<'_>, folder: &Path) -> Result<[Option<P
     let file = |member: Member| -> Result<Option<PathBuf>> {
         let table = gears.required_table(member.name(), MEMBER_KEYS)?;
         let file = table.name("profile_file", "relative to the study file")?;
-        Ok(file.map(|file| folder.join(file)))
+        Ok(file.map(|file| relative::joined(folder, Path::new(file))))
     };
     Ok([file(Member::Pinion)?, file(Member::Gear)?])
 }

@@ -276,6 +276,16 @@ impl Study {
         }
     }
 
+    /// The files that the study names.
+    pub fn inputs(&self) -> Vec<&Path> {
+        let meshes = [&self.numerics.mesh_pinion, &self.numerics.mesh_gear];
+        let all = meshes
+            .into_iter()
+            .chain(&self.profiles)
+            .chain([&self.measurements]);
+        all.filter_map(Option::as_deref).collect()
+    }
+
     /// The study with the measured profiles on its flanks.
     fn with_profiles(mut self) -> std::result::Result<Study, StudyError> {
         for (side, key) in PROFILE_KEYS.into_iter().enumerate() {

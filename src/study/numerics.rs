@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::materials::Lubricant;
 use super::quantity as q;
 use super::reader::Table;
+use super::relative;
 use crate::source_text::{Diagnostic, Fault};
 
 pub(super) const KEYS: &[&str] = &[
@@ -85,7 +86,7 @@ pub(super) fn read(
     let mesh = |key| {
         table
             .name(key, "relative to the study file")
-            .map(|file| file.map(|file| folder.join(file)))
+            .map(|file| file.map(|file| relative::joined(folder, Path::new(file))))
     };
     let numerics = Numerics {
         order,

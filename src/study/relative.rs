@@ -29,6 +29,22 @@ pub(super) fn moved(path: &Path, from: &Path, to: &Path) -> Option<PathBuf> {
     Some(up.chain(a[common..].iter().copied()).collect())
 }
 
+/// A file as it is named from `folder`. Going up from a folder that is still to be made is leaving off its name.
+pub(super) fn joined(folder: &Path, file: &Path) -> PathBuf {
+    let path = folder.join(file);
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return path;
+    }
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        let up = part == Component::ParentDir && plain.file_name().is_some();
+        if !(up && plain.pop()) {
+            plain.push(part);
+        }
+    }
+    plain
+}
+
 /// The folder without links; the part that does not exist yet as it is written.
 fn resolved(folder: &Path) -> Option<PathBuf> {
     let absolute = std::path::absolute(if folder.as_os_str().is_empty() {
@@ -55,6 +71,15 @@ fn resolved(folder: &Path) -> Option<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_is_found_from_a_folder_to_be_made() {
+        let joined = |folder: &str, file: &str| joined(Path::new(folder), Path::new(file));
+        assert_eq!(joined("not/there", "../p.csv"), Path::new("not/p.csv"));
+        assert_eq!(joined("not/there", "../../../p.csv"), Path::new("../p.csv"));
+        assert_eq!(joined("src", "../p.csv"), Path::new("src/../p.csv"));
+        assert_eq!(joined("", "../p.csv"), Path::new("../p.csv"));
+    }
 
     #[test]
     fn a_file_keeps_its_place_when_the_study_moves() {

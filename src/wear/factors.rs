@@ -8,7 +8,7 @@
 //! ```text
 //! F_k = c ∫ f p N_k dξ / ∫ p N_k dξ,     c: Σ F_k p_k L_k / Σ p_k L_k = ∫ f p dξ / ∫ p dξ
 //! ```
-//! A factor that is the same everywhere stays the same to the last bit.
+//! A factor of 1 stays 1 to the last bit.
 
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::model::PositionContact;

@@ -3,7 +3,7 @@ use std::path::Path;
 
 use super::super::format::{percent, significant, uncertain, whole};
 use crate::learn::{Comparison, TestRecord};
-use crate::study::{Role, Study};
+use crate::study::Study;
 
 /// χ² per point above which the model is told to lack something: three standard deviations √(2/n) above 1.
 fn noise_floor(points: usize) -> f64 {
@@ -48,8 +48,11 @@ pub fn conclusion(comparison: &Comparison) -> String {
 /// What was compared: contact model, effects, tests, measurements.
 pub(crate) fn what(study: &Study, comparison: &Comparison) -> String {
     let effects: Vec<&str> = study.effects().iter().map(|e| e.name.as_str()).collect();
-    let count = |role: Role| study.tests.iter().filter(|t| t.role == role).count();
-    let held = count(Role::Holdout);
+    let count = |role: &str| {
+        let measured = comparison.tests.iter().filter(|t| t.points > 0);
+        measured.filter(|t| t.role == role).count()
+    };
+    let (fit, held) = (count("fit"), count("holdout"));
     format!(
         "{} contact, {}; {} measured points of {} fit {}{}",
         study.contact.name(),
@@ -58,12 +61,8 @@ pub(crate) fn what(study: &Study, comparison: &Comparison) -> String {
             some => format!("with {}", some.join(", ")),
         },
         whole(comparison.points),
-        count(Role::Fit),
-        if count(Role::Fit) == 1 {
-            "test"
-        } else {
-            "tests"
-        },
+        fit,
+        if fit == 1 { "test" } else { "tests" },
         match held {
             0 => String::new(),
             n => format!(" and {n} held out"),
