@@ -408,6 +408,11 @@ fn unusable_input_writes_nothing() {
     write("bare.toml", BASE);
     write("gone.toml", &format!("{BASE}{FILE}"));
     write("paper.toml", &BASE.replace("\"hertz\"", "\"paper\""));
+    let still = BASE.replace("coefficient = 2e-10", "coefficient = 0.0");
+    write(
+        "still.toml",
+        &format!("{still}[measurements]\nfile = \"m.csv\"\n"),
+    );
     write("gear.vtu", "");
     let own = BASE
         .replace("\"hertz\"", "\"fem\"")
@@ -436,6 +441,16 @@ fn unusable_input_writes_nothing() {
         ("compare bare.toml", "no measurements"),
         ("compare gone.toml", "measurements.csv"),
         ("compare paper.toml", "model.contact"),
+        ("compare still.toml", "wear.coefficient: without wear"),
+        ("diagnose still.toml", "above 0 mm2/N"),
+        ("add still.toml running_in", "above 0 mm2/N"),
+        (
+            "add a.toml running_in --set wear.coefficient=0",
+            "nothing is left to fit",
+        ),
+        ("ladder still.toml", "above 0 mm2/N"),
+        ("plan still.toml", "above 0 mm2/N"),
+        ("synthesize still.toml -o new", "above 0 mm2/N"),
         ("compare missing.toml", "missing.toml"),
         ("compare a.toml -o mine", "mine"),
         ("ladder", "STUDY"),

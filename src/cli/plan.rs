@@ -30,6 +30,7 @@ pub struct PlanArgs {
 /// Checks the input and the folder, plans, writes.
 pub(super) fn execute(args: &PlanArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
+    study.check_wears()?;
     let data = match &study.measurements {
         Some(_) => Some(study.dataset()?),
         None => None,

@@ -48,6 +48,7 @@ const ONLY: &str = "A";
 pub(super) fn execute(args: &SynthesizeArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.study)?;
     contact_of(&study)?;
+    study.check_wears()?;
     folder::check(&args.output, &args.study, &study)?;
     let mut edit = study.edit();
     let folder = args.study.parent().unwrap_or(Path::new(""));

@@ -61,17 +61,9 @@ pub enum CompareError {
 /// The contact model that measurements of a study are compared with.
 ///
 /// # Errors
-/// A [`StudyError`] for a wear coefficient of 0. For the published model: it is a printed table for one pair, with the pinion's wear alone. And for meshes
+/// A [`StudyError`] for the published model: it is a printed table for one pair, with the pinion's wear alone. And for meshes
 /// of the user's own: they are fine for one load and mounting, the tests of a study and the parameters of a fit ask for many.
 pub fn contact_of(study: &Study) -> Result<forward::ContactKind, StudyError> {
-    if study.wear.coefficient <= 0.0 {
-        return Err(study.refuse(
-            "wear.coefficient",
-            "without wear there is nothing to measure or to fit",
-            "above 0 mm2/N",
-            "a rough guess will do, 1e-10 for mild wear of steel: a fit finds its own",
-        ));
-    }
     match study.contact {
         ContactKind::Fem => {
             let own = study.own_meshes();

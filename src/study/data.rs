@@ -50,11 +50,28 @@ impl Study {
         Dataset::load(path, &self.known())
     }
 
-    /// The same for a fit, which takes a row of a fit test at least.
+    /// Whether there is any wear to measure or to fit.
     ///
     /// # Errors
-    /// As [`Study::dataset`]; a [`TextError`] if no fit test has a row.
+    /// A [`TextError`] for a wear coefficient of 0.
+    pub fn check_wears(&self) -> Result<(), TextError> {
+        if self.wear.coefficient > 0.0 {
+            return Ok(());
+        }
+        Err(self.refuse(
+            "wear.coefficient",
+            "without wear there is nothing to measure or to fit",
+            "above 0 mm2/N",
+            "a rough guess will do, 1e-10 for mild wear of steel: a fit finds its own",
+        ))
+    }
+
+    /// The measurements for a fit, which takes wear and a row of a fit test at least.
+    ///
+    /// # Errors
+    /// As [`Study::dataset`] and [`Study::check_wears`]; a [`TextError`] if no fit test has a row.
     pub fn dataset_to_fit(&self) -> Result<Dataset, TextError> {
+        self.check_wears()?;
         let data = self.dataset()?;
         let fits = |o: &Observation| self.tests[o.test].role == Role::Fit;
         if !data.observations.iter().any(fits) {
