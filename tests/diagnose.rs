@@ -282,6 +282,19 @@ fn a_smaller_centre_distance_is_found_too() {
 }
 
 #[test]
+fn more_load_on_the_measured_slice_is_not_hidden_by_another_coefficient() {
+    // lead misalignment acts as more load: a smaller k takes all of it but how wear shifts load between pairs
+    let hidden = "[[effect]]\nkind = \"lead_misalignment\"\nslope = 10.0\n";
+    let found = diagnosed(hidden, 0.05, 0.02, 13);
+    let most = |name: &str| {
+        let own = found.screened.iter().filter(|s| s.effect == name);
+        own.map(|s| s.chi2_drop).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let (own, best) = (most("lead_misalignment"), most("extra_flexibility"));
+    assert!(own > best && own > 30.0, "{own} {best} {}", says(&found));
+}
+
+#[test]
 fn a_profile_of_two_waves_grows_out_of_one() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"waviness\"\nprofile = \"pinion*(4 + 2.2*cos(2*pi*s/8.1 + 0.4) + 1.8*cos(2*pi*s/3.3 + 2))\"\n";
     let found = diagnosed(hidden, 0.05, 0.03, 11);

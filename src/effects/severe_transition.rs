@@ -1,15 +1,17 @@
 //! Mild wear turns severe where the load passes a limit.
 //!
 //! ```text
-//! f = 1 + (Q − 1)/(1 + exp((x_c − x)/(δ x_c)))       x = p_max max(v, 0.02)^n, n = 0: pressure, n = 1: p v
+//! f = 1 + (Q − 1)/(1 + exp((x_c − x)/(δ x_c)))       x = p max(v, 0.02)^n, n = 0: pressure, n = 1: p v
 //! ```
+//! p is the largest pressure that the point sees, or Hertz's for the load of the pair on the unworn flanks: wear flattens the first, and a
+//! limit as sharp as this one tells them apart.
 
 use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 pub(super) const CARD: Card = Card {
     name: "severe_transition",
     hook: Hook::WearFactor,
-    formula: "wear_factor = 1 + (ratio - 1)/(1 + exp((1 - p_max*max(v_slide, 0.02)^speed_exponent/limit)/width))",
+    formula: "wear_factor = 1 + (ratio - 1)/(1 + exp((1 - ((1 - hertz)*p_max + hertz*p_hertz)*max(v_slide, 0.02)^speed_exponent/limit)/width))",
     source: "J.F. Archard, W. Hirst, The wear of metals under unlubricated conditions, Proc. R. Soc. A 236 (1956) 397-410; N.C. Welsh (1965); wear maps of S.C. Lim, M.F. Ashby, Acta Metall. 35 (1987) 1-24. They give the jump and its size; the logistic step is our own smoothing of it. Papers not re-read.",
     signature: "a band with sharp edges where pressure is highest, above some torque; with a speed exponent at the pinion's root; may end as wear lowers the pressure",
     confounded_with: &["pressure_exponent", "plastic_deformation", "tip_relief"],
@@ -62,18 +64,30 @@ pub(super) const CARD: Card = Card {
             },
         )
         .fixed(),
+        Param::either(
+            "hertz",
+            "0 for the largest pressure the point sees, 1 for Hertz's under the load of the pair",
+        ),
     ],
-    forms: &[Form {
-        name: "pressure times speed",
-        settings: &[("speed_exponent", 1.0), ("limit", 500.0)],
-        ..Form::PLAIN
-    }],
+    forms: &[
+        Form {
+            name: "Hertz pressure",
+            settings: &[("hertz", 1.0)],
+            ..Form::PLAIN
+        },
+        Form {
+            name: "pressure times speed",
+            settings: &[("speed_exponent", 1.0), ("limit", 500.0)],
+            ..Form::PLAIN
+        },
+    ],
     build: |p| {
         Box::new(SevereTransition {
             ratio: p[0],
             limit: p[1],
             width: p[2],
             speed_exponent: p[3],
+            hertz: p[4],
         })
     },
 };
@@ -83,11 +97,13 @@ struct SevereTransition {
     limit: f64,
     width: f64,
     speed_exponent: f64,
+    hertz: f64,
 }
 
 impl Effect for SevereTransition {
     fn wear_factor(&self, at: &Local) -> f64 {
-        let x = at.peak_pressure * at.floored_sliding().powf(self.speed_exponent);
+        let pressure = (1.0 - self.hertz) * at.peak_pressure + self.hertz * at.hertz_pressure;
+        let x = pressure * at.floored_sliding().powf(self.speed_exponent);
         1.0 + (self.ratio - 1.0) / (1.0 + ((1.0 - x / self.limit) / self.width).exp())
     }
 }

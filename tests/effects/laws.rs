@@ -104,6 +104,14 @@ fn severe_transition() {
         &[("speed_exponent", 1.0), ("limit", 500.0)],
     );
     same(by_power.wear_factor(&at), 9.922_802_631_276_593);
+    // Hertz's pressure instead of the solved one: as that one where they are equal, whatever the solved one is
+    let of_load = effect("severe_transition", &[("hertz", 1.0)]);
+    let worn = Local {
+        hertz_pressure: at.peak_pressure,
+        peak_pressure: 0.5 * at.peak_pressure,
+        ..at
+    };
+    same(of_load.wear_factor(&worn), 8.440_406_146_636_061);
     // far below and far above
     let law = effect("severe_transition", &[]);
     close(

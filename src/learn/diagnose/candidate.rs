@@ -168,10 +168,21 @@ impl Candidate {
         self.names.iter().any(|name| SHARP.contains(name))
     }
 
-    /// Whether it is a wave of the profile alone.
-    pub(super) fn is_wavy_profile(&self) -> bool {
-        let of_profile = |name: &&str| find(name).is_ok_and(|card| card.hook == Hook::Profile);
-        !self.quarters.is_empty() && self.names.iter().all(of_profile)
+    /// Whether it changes how the teeth touch, and not only how what touches wears.
+    pub(super) fn changes_contact(&self) -> bool {
+        let wears = |hook| matches!(hook, Hook::WearFactor | Hook::AddedDepth);
+        let changes = |name: &&str| find(name).is_ok_and(|card| !wears(card.hook));
+        self.names.iter().any(changes)
+    }
+
+    /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
+    /// corners with which a tooth's neighbours touch where it stands back.
+    pub(super) fn may_be_unseen(&self) -> bool {
+        let all = |hook: Hook| {
+            let own = |name: &&str| find(name).is_ok_and(|card| card.hook == hook);
+            self.names.iter().all(own)
+        };
+        !self.quarters.is_empty() && all(Hook::Profile) || all(Hook::ToothOffset)
     }
 
     /// Whether every added effect has its card's own form.
@@ -417,7 +428,7 @@ mod tests {
         let (singles, _) = Candidate::singles(&study);
         let card = find("profile_form").unwrap();
         let candidate = singles.iter().find(|c| c.names == [card.name]).unwrap();
-        assert!(candidate.is_wavy_profile());
+        assert!(candidate.may_be_unseen());
         let profile = |own: &[f64], along: f64| {
             let mut values = card.defaults();
             values[..own.len()].copy_from_slice(own);

@@ -29,6 +29,9 @@ pub(super) const OWN_FORM: ModelError = ModelError {
     over_cycles: 1.0,
 };
 
+/// Standard deviations of χ² beyond its expectation from which rows count as missed.
+const MISSED: f64 = 3.0;
+
 /// Observations of the tests with one role and what they carry beyond a model.
 pub(super) struct Ground<'a> {
     pub(super) measured: &'a Measured<'a>,
@@ -166,22 +169,44 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Model values with all wear scaled to the size of what was measured, as another k would.
-    pub(super) fn rescaled(&self, model: &[f64]) -> Vec<f64> {
-        let only_worn = |values: &[f64]| -> Vec<f64> {
-            let each = values.iter().zip(&self.worn);
-            let kept: Vec<f64> = each.map(|(v, &worn)| if worn { *v } else { 0.0 }).collect();
-            self.covariance.whiten(&kept)
-        };
-        let (f, y) = (only_worn(model), only_worn(&self.values));
+    /// Whether k is fitted.
+    pub(super) fn fits_k(&self) -> bool {
+        self.coefficient.is_some()
+    }
+
+    /// Whether what is measured besides wear is missed by more than its noise.
+    pub(super) fn misses_more_than_wear(&self, model: &[f64]) -> bool {
+        let rows = self.worn.iter().filter(|worn| !**worn).count() as f64;
+        let left = self.masked(&self.residual(model), false);
+        let square: f64 = left.iter().map(|x| x * x).sum();
+        square > rows + MISSED * (2.0 * rows).sqrt()
+    }
+
+    /// Whitened row values, 0 for all rows that are wear or, if `worn`, for all that are not.
+    fn masked(&self, values: &[f64], worn: bool) -> Vec<f64> {
+        let each = values.iter().zip(&self.worn);
+        let kept: Vec<f64> = each
+            .map(|(v, &own)| if own == worn { *v } else { 0.0 })
+            .collect();
+        self.covariance.whiten(&kept)
+    }
+
+    /// The factor that brings all wear of the model to the size of what was measured.
+    pub(super) fn wear_scale(&self, model: &[f64]) -> f64 {
+        let (f, y) = (self.masked(model, true), self.masked(&self.values, true));
         let product: f64 = f.iter().zip(&y).map(|(f, y)| f * y).sum();
         let square: f64 = f.iter().map(|f| f * f).sum();
         let factor = product / square;
-        let factor = if factor.is_finite() {
+        if factor.is_finite() {
             factor.clamp(0.01, 100.0)
         } else {
             1.0
-        };
+        }
+    }
+
+    /// Model values with all wear scaled to the size of what was measured, as another k would.
+    pub(super) fn rescaled(&self, model: &[f64]) -> Vec<f64> {
+        let factor = self.wear_scale(model);
         let each = model.iter().zip(&self.worn);
         each.map(|(f, &worn)| if worn { factor * f } else { *f })
             .collect()

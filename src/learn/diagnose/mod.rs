@@ -200,7 +200,7 @@ fn with(
         Fidelity::Middle | Fidelity::Full => {
             watch(0.35, "the leaders by coarse finite elements".to_owned());
             let refined = judge.refine(&base, screened, flexible.is_real());
-            judge.with_waves(&base, refined, &flexible)
+            judge.with_unseen(&base, refined, &flexible)
         }
     };
     let judged = match judge.fidelity {

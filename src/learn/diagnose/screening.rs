@@ -94,8 +94,8 @@ impl Judge<'_> {
     }
 
     /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
-    /// leaders, and where the discrepancy is real all whose rate is sharp in the local pressure, of which the analytic model
-    /// knows least.
+    /// leaders, and where the discrepancy is real what the analytic model knows least: all whose rate is sharp in the local pressure, and, if
+    /// more than wear is missed, all that change how the teeth touch.
     pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
         let before = base.judged.log_evidence;
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
@@ -107,6 +107,8 @@ impl Judge<'_> {
             .min(REFINED_SHARE * best)
             .max(MEANT);
         let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
+        let touches = &base.judged.found.model;
+        let touches = real && self.ground.misses_more_than_wear(touches);
         let offset = &base.judged.offset;
         let fit = |candidate: &Candidate, state: State, effort: &Effort| {
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
@@ -121,7 +123,8 @@ impl Judge<'_> {
                 } else {
                     bar
                 };
-                let wanted = judged.log_evidence - before >= bar;
+                let wanted =
+                    judged.log_evidence - before >= bar || touches && candidate.changes_contact();
                 wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
             })
             .collect();
@@ -148,9 +151,9 @@ impl Judge<'_> {
             .collect()
     }
 
-    /// Looks for waves of the profile by coarse finite elements where no candidate explains what is there: the analytic model does not know how
-    /// fast wear takes weak waves away.
-    pub(super) fn with_waves(
+    /// Looks by coarse finite elements, from the first starts on, for what the analytic model may not see, where no candidate explains what
+    /// is there.
+    pub(super) fn with_unseen(
         &self,
         base: &Base,
         refined: Vec<Judged>,
@@ -172,8 +175,8 @@ impl Judge<'_> {
             (found.log_evidence > judged.log_evidence).then_some(found)
         };
         let all = refined.into_par_iter().map(|judged| {
-            let wave = judged.candidate.is_wavy_profile();
-            wave.then(|| anew(&judged)).flatten().unwrap_or(judged)
+            let unseen = judged.candidate.may_be_unseen();
+            unseen.then(|| anew(&judged)).flatten().unwrap_or(judged)
         });
         all.collect()
     }
@@ -186,7 +189,8 @@ impl Judge<'_> {
         predictor: &Anchored<'_>,
     ) -> Vec<(f64, State)> {
         let seen = |values: &[f64]| {
-            let state = self.added(base, candidate, values);
+            let state =
+                self.at_measured_wear(self.added(base, candidate, values), candidate, predictor);
             let predicted = predictions(&self.ground, predictor, candidate, &state).ok()?;
             let joined = self.ground.rescaled(&self.ground.joined(&predicted));
             let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
@@ -195,10 +199,32 @@ impl Judge<'_> {
             Some(self.visible(base, &change))
         };
         let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
-            .map(|(gain, values)| (gain, self.added(base, candidate, &values)))
+            .map(|(gain, values)| {
+                let state = self.added(base, candidate, &values);
+                (gain, self.at_measured_wear(state, candidate, predictor))
+            })
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         starts
+    }
+
+    /// The state with the k that brings wear to the size of what was measured: neither a transmission error nor how wear shifts the load
+    /// between pairs scales with k as wear does.
+    fn at_measured_wear(
+        &self,
+        state: State,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+    ) -> State {
+        if !self.ground.fits_k() {
+            return state;
+        }
+        let predicted = predictions(&self.ground, predictor, candidate, &state);
+        let scale = predicted.map_or(1.0, |p| self.ground.wear_scale(&self.ground.joined(&p)));
+        State {
+            log_k: state.log_k + scale.ln(),
+            ..state
+        }
     }
 
     /// A fit from the first of the starts, and from a near second.

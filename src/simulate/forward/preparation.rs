@@ -85,7 +85,7 @@ impl Forward<'_> {
     /// Prepares the contact as `preparation` says, as an interrupted run had it.
     ///
     /// # Errors
-    /// [`ForwardError`] if a worn member cannot be factored; the run is then without a contact model and must be given up.
+    /// [`ForwardError`] if a worn member cannot be meshed or factored; the contact is then that of the unworn members.
     pub fn prepare(&mut self, preparation: &Preparation) -> Result<(), ForwardError> {
         if *preparation == self.preparation() {
             return Ok(());
@@ -137,22 +137,30 @@ impl Forward<'_> {
                 return self.project();
             };
             let worn = match &preparation.condensed_at {
-                Some(u) => {
-                    let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
-                    let meshes = fresh.worn_meshes(
-                        &self.cycle.pair,
-                        &self.cycle.stations,
-                        [pinion, gear],
-                    )?;
-                    Some(Box::new(fresh.condensed_on(meshes)?))
-                }
-                None => None,
+                Some(u) => self.condensed_worn(fresh, u).map(Some),
+                None => Ok(None),
             };
-            self.factorisations += 2 * usize::from(worn.is_some());
-            self.condensed_at.clone_from(&preparation.condensed_at);
-            self.worn = worn;
+            match worn {
+                Ok(worn) => {
+                    self.factorisations += 2 * usize::from(worn.is_some());
+                    self.condensed_at.clone_from(&preparation.condensed_at);
+                    self.worn = worn;
+                }
+                Err(error) => {
+                    // what was reached is still read, on the members as they were new
+                    self.project()?;
+                    return Err(error);
+                }
+            }
         }
         self.project()
+    }
+
+    /// Members condensed anew, worn by `u` (mm at the stations of pinion and gear).
+    fn condensed_worn(&self, fresh: &Members, u: &[f64]) -> Result<Box<Members>, ForwardError> {
+        let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
+        let meshes = fresh.worn_meshes(&self.cycle.pair, &self.cycle.stations, [pinion, gear])?;
+        Ok(Box::new(fresh.condensed_on(meshes)?))
     }
 
     /// Prepares for contacts that were not looked for when `error` arose.
