@@ -169,9 +169,9 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// Whether k is fitted.
-    pub(super) fn fits_k(&self) -> bool {
-        self.coefficient.is_some()
+    /// Whether another k would do more than scale all rows: something is measured that is no wear, or wear meets a changed contact.
+    pub(super) fn k_does_more_than_scale(&self, contact_changes: bool) -> bool {
+        self.coefficient.is_some() && (contact_changes || self.worn.iter().any(|worn| !worn))
     }
 
     /// Whether what is measured besides wear is missed by more than its noise.

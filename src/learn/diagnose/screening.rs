@@ -47,6 +47,10 @@ const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
+/// How many starts are followed at most.
+const FOLLOWED: usize = 2;
+/// Change of ln k from which wear is worn anew with it.
+const SCALED: f64 = 0.1;
 
 impl Judge<'_> {
     /// Fits all candidates by the analytic model: the gain of each start in the linearised model, a first look at each candidate,
@@ -189,42 +193,53 @@ impl Judge<'_> {
         predictor: &Anchored<'_>,
     ) -> Vec<(f64, State)> {
         let seen = |values: &[f64]| {
-            let state =
-                self.at_measured_wear(self.added(base, candidate, values), candidate, predictor);
-            let predicted = predictions(&self.ground, predictor, candidate, &state).ok()?;
-            let joined = self.ground.rescaled(&self.ground.joined(&predicted));
-            let change: Vec<f64> = (joined.iter().zip(&base.judged.found.model))
+            let state = self.added(base, candidate, values);
+            let (_, predicted) = self.at_measured_wear(state, candidate, predictor)?;
+            let rescaled = self.ground.rescaled(&predicted);
+            let change: Vec<f64> = (rescaled.iter().zip(&base.judged.found.model))
                 .map(|(f, b)| f - b)
                 .collect();
             Some(self.visible(base, &change))
         };
         let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
-            .map(|(gain, values)| {
-                let state = self.added(base, candidate, &values);
-                (gain, self.at_measured_wear(state, candidate, predictor))
-            })
+            .map(|(gain, values)| (gain, self.added(base, candidate, &values)))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, state) in starts.iter_mut().take(FOLLOWED) {
+            if let Some((at, _)) = self.at_measured_wear(state.clone(), candidate, predictor) {
+                *state = at;
+            }
+        }
         starts
     }
 
-    /// The state with the k that brings wear to the size of what was measured: neither a transmission error nor how wear shifts the load
-    /// between pairs scales with k as wear does.
+    /// The state, with its predictions, where k may have to be another one to bring wear to the size of what was measured: neither a
+    /// transmission error nor how wear shifts load between pairs scales with k as wear does.
     fn at_measured_wear(
         &self,
         state: State,
         candidate: &Candidate,
         predictor: &Anchored<'_>,
-    ) -> State {
-        if !self.ground.fits_k() {
-            return state;
+    ) -> Option<(State, Vec<f64>)> {
+        let predicted = |state: &State| {
+            let of_tests = predictions(&self.ground, predictor, candidate, state).ok()?;
+            Some(self.ground.joined(&of_tests))
+        };
+        let model = predicted(&state)?;
+        let more = self.ground.wear_scale(&model).ln();
+        if more.abs() < SCALED
+            || !self
+                .ground
+                .k_does_more_than_scale(candidate.changes_contact())
+        {
+            return Some((state, model));
         }
-        let predicted = predictions(&self.ground, predictor, candidate, &state);
-        let scale = predicted.map_or(1.0, |p| self.ground.wear_scale(&self.ground.joined(&p)));
-        State {
-            log_k: state.log_k + scale.ln(),
+        let state = State {
+            log_k: state.log_k + more,
             ..state
-        }
+        };
+        let model = predicted(&state)?;
+        Some((state, model))
     }
 
     /// A fit from the first of the starts, and from a near second.
@@ -239,7 +254,7 @@ impl Judge<'_> {
         let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
         let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
         let parameters = &candidate.parameters;
-        (starts.into_iter().take(if second { 2 } else { 1 }))
+        (starts.into_iter().take(if second { FOLLOWED } else { 1 }))
             .filter_map(|(_, state)| self.ground.fit(predictor, parameters, state, effort).ok())
             .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
