@@ -9,7 +9,7 @@ use std::path::Path;
 use gearwear::effects::{CATALOGUE, find};
 use gearwear::learn::{GearModel, Measured, Predictor};
 use gearwear::measure::{Dataset, Quantity};
-use gearwear::simulate::forward::{ContactKind, Forward};
+use gearwear::simulate::forward::{ContactKind, Forward, Preparation};
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::{EffectModel, EffectSpec, Study};
 
@@ -136,6 +136,37 @@ fn contacts_of_deep_wear_are_read_off_a_kept_history() {
             (a - b).abs() < 2e-3 * b.abs().max(50.0),
             "{read:?} against {fresh:?}"
         );
+    }
+}
+
+/// Where flanks wear too far for their elements, the members cannot be condensed anew. What was reached until then is read all the same.
+#[test]
+fn a_state_is_read_though_the_members_could_not_be_condensed_on_it() {
+    let study = study();
+    let set = study.gear_set();
+    let numerics = Numerics {
+        elements_per_half_width: 2.5,
+        positions: 20,
+        ..study.resolution()
+    };
+    let measured = Measured::new(&study, study.dataset().unwrap());
+    let conditions = measured.tests()[0].conditions;
+    let members = set
+        .members(&numerics, &[conditions.torque], &[0.0])
+        .unwrap();
+    let mut forward = Forward::new(&set, Some(&members), conditions, numerics).unwrap();
+    let stations = &forward.cycle().stations.arc;
+    let unworn = vec![0.0; stations[0].len() + stations[1].len()];
+    let before = forward.contacts_at(&unworn).unwrap();
+    // deeper than a tooth is thick
+    let too_deep = Preparation {
+        condensed_at: Some(vec![5.0; unworn.len()]),
+        ..forward.preparation()
+    };
+    forward.prepare(&too_deep).unwrap_err();
+    let after = forward.contacts_at(&unworn).unwrap();
+    for (a, b) in before.iter().zip(&after) {
+        assert!((a.approach / b.approach - 1.0).abs() < 1e-9);
     }
 }
 
