@@ -111,8 +111,7 @@ impl Judge<'_> {
             .min(REFINED_SHARE * best)
             .max(MEANT);
         let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
-        let touches = &base.judged.found.model;
-        let touches = real && self.ground.misses_more_than_wear(touches);
+        let contact_missed = real && self.ground.misses_more_than_wear(&base.judged.found.model);
         let offset = &base.judged.offset;
         let fit = |candidate: &Candidate, state: State, effort: &Effort| {
             let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
@@ -127,8 +126,8 @@ impl Judge<'_> {
                 } else {
                     bar
                 };
-                let wanted =
-                    judged.log_evidence - before >= bar || touches && candidate.changes_contact();
+                let wanted = judged.log_evidence - before >= bar
+                    || contact_missed && candidate.changes_contact();
                 wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
             })
             .collect();
