@@ -7,7 +7,7 @@
 //! ```
 //! That wear closes the gap across the face is not modelled. The factor is kept above 0.05.
 
-use super::{Card, Effect, Hook, Local, Param, Prior};
+use super::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 pub(super) const CARD: Card = Card {
     name: "lead_misalignment",
@@ -23,7 +23,11 @@ pub(super) const CARD: Card = Card {
         Param::new("mesh_stiffness", "N/(mm um)", "mesh stiffness", 20.0, (0.1, 100.0), Prior::LogNormal { median: 20.0, spread: 1.2 }).fixed(),
         Param::new("face_position", "-", "place of the slice from the middle of the face, in half face widths; 1 is the loaded end", 1.0, (-1.0, 1.0), Prior::Uniform { low: -1.0, high: 1.0 }).fixed(),
     ],
-    forms: &[],
+    forms: &[Form {
+        name: "unloaded end",
+        settings: &[("face_position", -1.0)],
+        ..Form::PLAIN
+    }],
     build: |p| Box::new(LeadMisalignment { slope: p[0], mesh_stiffness: p[1], face_position: p[2] }),
 };
 
