@@ -295,6 +295,19 @@ fn more_load_on_the_measured_slice_is_not_hidden_by_another_coefficient() {
 }
 
 #[test]
+fn a_size_that_is_unheard_of_is_told() {
+    let hardness = |log_ratio: f64| {
+        let hidden = format!("[[effect]]\nkind = \"member_hardness\"\nlog_ratio = {log_ratio}\n");
+        let found = diagnosed(&hidden, 0.05, 0.05, 14);
+        assert!(names(&found, "member_hardness"), "{}", says(&found));
+        let told = |w: &String| w.contains("log_ratio") && w.contains("makes sense");
+        found.warnings.iter().any(told)
+    };
+    assert!(!hardness(0.6));
+    assert!(hardness(1.9));
+}
+
+#[test]
 fn a_profile_of_two_waves_grows_out_of_one() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"waviness\"\nprofile = \"pinion*(4 + 2.2*cos(2*pi*s/8.1 + 0.4) + 1.8*cos(2*pi*s/3.3 + 2))\"\n";
     let found = diagnosed(hidden, 0.05, 0.03, 11);

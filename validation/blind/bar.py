@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """What the blind sets show, row by row of what is asked of a diagnosis.
 
-    python3 validation/blind/bar.py validation/blind/records_401.jsonl validation/blind/records_501.jsonl
+    python3 validation/blind/bar.py validation/blind/records_401.jsonl validation/blind/records_501.jsonl --last validation/blind/records_last.jsonl
 
-Records are what `blind score --keep` keeps of each set as first judged. Writes validation/blind/BAR.md, with bar_notes.md after the table;
-standard library only.
+Records are what `blind score --keep` keeps of each set as first judged; after --last those that the last program judged first, which count
+with the others and once more alone. Writes validation/blind/BAR.md, with bar_notes.md after the table; standard library only.
 """
 import json
 import math
@@ -19,7 +19,8 @@ HERE = Path(__file__).resolve().parent
 class Set:
     """One set as judged."""
 
-    def __init__(self, record):
+    def __init__(self, record, last):
+        self.last = last
         truth, found = record["truth"], record["found"]
         self.kind, self.noise = truth["class"], truth["noise"]
         each = truth["d_each"] if self.kind == "pair" else [truth["d"]]
@@ -50,14 +51,21 @@ def interval(hits, count):
     return f"{100 * max(0.0, middle - half):.0f}–{100 * min(1.0, middle + half):.0f} %"
 
 
-def row(what, asked, sets, hit):
+def shown(asked, sets, hit):
+    """Hits of the sets with their share and interval; whether that is what is asked."""
     hits, count = sum(map(hit, sets)), len(sets)
     if not count:
-        return f"| {what} | {asked} | – | |"
+        return "–", ""
     sign, limit = asked.split()[:2]
     share = 100 * hits / count
     met = share >= float(limit) if sign == "≥" else share <= float(limit)
-    return f"| {what} | {asked} | {hits} of {count}, {share:.0f} % ({interval(hits, count)}) | {'yes' if met else '**no**'} |"
+    return f"{hits} of {count}, {share:.0f} % ({interval(hits, count)})", "yes" if met else "**no**"
+
+
+def row(what, asked, sets, hit):
+    """The row of all sets, and of those of the last program alone."""
+    cells = [cell for own in (sets, [s for s in sets if s.last]) for cell in shown(asked, own, hit)]
+    return f"| {what} | {asked} | {' | '.join(cells)} |"
 
 
 def calibration(sets):
@@ -71,8 +79,14 @@ def calibration(sets):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    lines = [line for name in sys.argv[1:] for line in Path(name).read_text().splitlines()]
-    sets = [Set(json.loads(line)) for line in lines]
+    names = sys.argv[1:]
+    last = names[names.index("--last") + 1 :] if "--last" in names else []
+    sets = [
+        Set(json.loads(line), name in last)
+        for name in names
+        if name != "--last"
+        for line in Path(name).read_text().splitlines()
+    ]
 
     def of(kinds, low=6.0, high=math.inf, noise=None):
         return [s for s in sets if s.kind in kinds and low <= s.d < high and noise in (None, s.noise)]
@@ -100,17 +114,21 @@ def main():
         row("two effects, each d ≥ 6, noise 2 %: both named, or in their group", "≥ 85 %", of(("pair",), noise=0.02), right),
         row("the same, noise 5 %", "≥ 70 %", of(("pair",), noise=0.05), right),
     ]
-    error = calibration(sets)
-    rows.append(f"| expected calibration error of the largest probability | ≤ 0.05 | {error:.3f} | {'yes' if error <= 0.05 else '**no**'} |")
+    cells = []
+    for own in (sets, [s for s in sets if s.last]):
+        error = calibration(own) if own else math.nan
+        cells += [f"{error:.3f}", "yes" if error <= 0.05 else "**no**"] if own else ["–", ""]
+    rows.append(f"| expected calibration error of the largest probability | ≤ 0.05 | {' | '.join(cells)} |")
     notes = (HERE / "bar_notes.md").read_text()
     table = "\n".join(rows)
     (HERE / "BAR.md").write_text(
         f"""# Row by row of what is asked
 
-Written by `bar.py` from the records of {len(sets)} sets as first judged, whatever was mended afterwards; with 95 % intervals.
+Written by `bar.py` from the records of {len(sets)} sets as first judged, whatever was mended afterwards, and of the {sum(s.last for s in sets)} among them that the
+last program judged first; with 95 % intervals.
 
-| | asked | shown | met |
-|---|---|---|---|
+| | asked | all | met | last program | met |
+|---|---|---|---|---|---|
 {table}
 
 {notes}"""

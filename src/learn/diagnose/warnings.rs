@@ -1,11 +1,14 @@
 //! What keeps an answer from being trusted.
 
 use super::ground::Ground;
-use super::judge::{Base, Judge};
+use super::judge::{Base, Judge, Judged};
 use super::noise_level;
 use super::rank::Ranking;
 use super::ranked::parameters;
 use super::suspects;
+
+/// Share of a parameter's prior outside of which a value is told.
+const UNHEARD_OF: f64 = 1e-3;
 
 /// What keeps an answer from being trusted.
 pub(super) fn warnings(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec<String> {
@@ -55,7 +58,8 @@ pub(super) fn warnings(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec
             ground.len()
         ));
     }
-    let leader = ranking.effects().first().and_then(|e| ranking.best_of(e.0));
+    let leading = ranking.effects().first().copied();
+    let leader = leading.and_then(|(name, _)| ranking.best_of(name));
     let leader = leader.map(|place| &ranking.judged[place]);
     let suspects = suspects::suspects(ground, &base.judged.found.model);
     if suspects.is_empty() {
@@ -86,8 +90,29 @@ pub(super) fn warnings(judge: &Judge<'_>, base: &Base, ranking: &Ranking) -> Vec
                 p.value
             ));
         }
+        if leading.is_some_and(|(_, probability)| probability > 0.5) {
+            warnings.extend(unheard_of(leader));
+        }
     }
     warnings
+}
+
+/// Parameters of the added effects that lie outside nearly all of what the catalogue holds for possible.
+fn unheard_of(leader: &Judged) -> impl Iterator<Item = String> {
+    let candidate = &leader.candidate;
+    let added =
+        (candidate.parameters.iter().zip(&leader.found.state.theta)).skip(candidate.inherited);
+    added.filter_map(|(parameter, &natural)| {
+        let value = parameter.value(natural);
+        let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
+        (value < low || value > high).then(|| {
+            format!(
+                "{} of {} would be {value:.3e}, known are {low:.3e} to {high:.3e}: the name holds only if such a size makes sense here",
+                parameter.name,
+                leader.candidate.name(),
+            )
+        })
+    })
 }
 
 /// Ids of the tests that were measured at one number of cycles only.
