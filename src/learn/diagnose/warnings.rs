@@ -107,9 +107,8 @@ fn unheard_of(leader: &Judged) -> impl Iterator<Item = String> {
         let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
         (value < low || value > high).then(|| {
             format!(
-                "{} of {} would be {value:.3e}, known are {low:.3e} to {high:.3e}: the name holds only if such a size makes sense here",
-                parameter.name,
-                leader.candidate.name(),
+                "{} would be {value:.3e}, known are {low:.3e} to {high:.3e}: the name holds only if such a size makes sense here",
+                parameter.name
             )
         })
     })
