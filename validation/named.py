@@ -90,6 +90,7 @@ def page(answers, fidelity):
     exact = sum(said == "exact" for said, _ in rows)
     group = sum(said.startswith("group") for said, _ in rows)
     lines = "\n".join(line for _, line in rows)
+    notes = Path(__file__).resolve().parent / "named_notes.md"
     PAGE.write_text(
         f"""# What a diagnosis says of every effect in the model's own measurements
 
@@ -101,8 +102,9 @@ contact and formulas here, unlike `blind/`: the page shows that every effect can
 |---|---|---|---|---|---|
 {lines}
 
-Of {len(rows)} cases {exact} exact and {group} in a group with what these data do not tell apart.
-"""
+Of {len(rows)} cases of {len(CASES)} {exact} exact and {group} in a group with what these data do not tell apart.
+
+{notes.read_text() if notes.exists() else ''}"""
     )
 
 
