@@ -78,31 +78,36 @@ def how(answer):
     return f"group: {said}" if own in named else f"**{said}**"
 
 
-def page(answers, fidelity):
-    rows = []
-    for effect, everything in CASES:
-        for a in answers:
-            if (a["effect"], a["everything"], a["fidelity"]) == (effect, everything, fidelity):
-                measured = "wear and transmission error" if everything else "wear"
-                truth = ", ".join(f"{n} = {v:g}" for n, v in EFFECTS.get(effect, ({}, ""))[0].items())
-                said = how(a)
-                rows.append((said, f"| {effect} | {truth} | {measured} | {said} | {a.get('probability', 0):.3f} | {a['seconds']:.0f} |"))
-    exact = sum(said == "exact" for said, _ in rows)
-    group = sum(said.startswith("group") for said, _ in rows)
-    lines = "\n".join(line for _, line in rows)
+def page(answers):
+    rows = {"middle": [], "full": []}
+    for fidelity, told in rows.items():
+        for effect, everything in CASES:
+            for a in answers:
+                if (a["effect"], a["everything"], a["fidelity"]) == (effect, everything, fidelity):
+                    measured = "wear and transmission error" if everything else "wear"
+                    truth = ", ".join(f"{n} = {v:g}" for n, v in EFFECTS.get(effect, ({}, ""))[0].items())
+                    said = how(a)
+                    figures = f"{a.get('probability', 0):.3f} | {a['seconds']:.0f}"
+                    told.append((said, f"| {effect} | {truth} | {measured} | {fidelity} | {said} | {figures} |"))
+    lines = "\n".join(line for told in rows.values() for _, line in told)
+    counts = [
+        f"Of {len(CASES)} cases {len(told)} were diagnosed by `--fidelity {fidelity}`: {sum(said == 'exact' for said, _ in told)} exact, "
+        f"{sum(said.startswith('group') for said, _ in told)} in a group with what these data do not tell apart."
+        for fidelity, told in rows.items()
+    ]
     notes = Path(__file__).resolve().parent / "named_notes.md"
     PAGE.write_text(
         f"""# What a diagnosis says of every effect in the model's own measurements
 
-Written by `named.py`, which says how to run it (`--fidelity {fidelity}`). Tests, gears and true values as in `RECOVERY.md`, contact by finite elements, noise
+Written by `named.py`, which says how to run it. Tests, gears and true values as in `RECOVERY.md`, contact by finite elements, noise
 {100 * NOISE:.0f} % of each trace's largest value and 0.02 µm, a datum of 0.3 µm per trace, k scattered by 5 % between tests, one seed. Data and model share
 contact and formulas here, unlike `blind/`: the page shows that every effect can be reached, not how often it is.
 
-| hidden | true values | measured | said | its probability | s |
-|---|---|---|---|---|---|
+| hidden | true values | measured | by | said | its probability | s |
+|---|---|---|---|---|---|---|
 {lines}
 
-Of {len(rows)} cases of {len(CASES)} {exact} exact and {group} in a group with what these data do not tell apart.
+{chr(10).join(counts)}
 
 {notes.read_text() if notes.exists() else ''}"""
     )
@@ -135,7 +140,7 @@ def main():
         with kept.open("a") as file:
             file.write(json.dumps(answer) + "\n")
         print(effect, "all" if everything else "wear only", how(answer), answer["seconds"], flush=True)
-    page([json.loads(line) for line in kept.read_text().splitlines()], fidelity)
+    page([json.loads(line) for line in kept.read_text().splitlines()])
 
 
 if __name__ == "__main__":

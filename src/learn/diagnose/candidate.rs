@@ -98,6 +98,12 @@ impl Candidate {
         (judged, not_judged)
     }
 
+    /// Whether its free parameters are those of another.
+    pub(super) fn has_parameters_of(&self, other: &Self) -> bool {
+        let names = self.parameters.iter().map(|p| &p.name);
+        names.eq(other.parameters.iter().map(|p| &p.name))
+    }
+
     /// Both effects in their forms; the parameters of `self` first.
     pub(super) fn with(&self, other: &Self) -> Self {
         let added = &other.version.effects.specs()[other.version.effects.specs().len() - 1];

@@ -32,6 +32,7 @@ mod partners;
 mod plan;
 mod rank;
 mod ranked;
+mod refining;
 mod screening;
 mod sparse;
 mod strength;

@@ -1,4 +1,4 @@
-//! Which candidates matter: all are fitted by the analytic model, those that may matter by coarse finite elements.
+//! Which candidates matter: all are looked at by the analytic model, those that stay in play are fitted by it.
 
 use nalgebra::{DVector, Matrix2, Vector2};
 use rayon::prelude::*;
@@ -6,13 +6,12 @@ use rayon::prelude::*;
 use super::anchored::{Anchored, model, predictions};
 use super::candidate::{Candidate, LEAST_AMPLITUDE};
 use super::fidelity::Fidelity;
-use super::flexible::Flexible;
 use super::judge::{Base, Judge, Judged, linear_gain};
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
 
 /// The first look at a candidate: two steps with the derivatives of its start.
-const LOOK: Effort = Effort {
+pub(super) const LOOK: Effort = Effort {
     iterations: 2,
     tolerance: 0.2,
     floor: 0.3,
@@ -20,27 +19,16 @@ const LOOK: Effort = Effort {
     ..Effort::STAY
 };
 /// The screening fit of those that the first look leaves in play.
-const SCREEN: Effort = Effort {
+pub(super) const SCREEN: Effort = Effort {
     iterations: 6,
     tolerance: 0.1,
     floor: 0.3,
     carry: 0.4,
     ..Effort::STAY
 };
-/// Candidates in play after the first look: this many (of those looked at by finite elements), and all that gained this share
-/// of the leader's gain.
+/// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.
 const IN_PLAY: usize = 8;
-const IN_PLAY_REFINED: usize = 4;
 const IN_PLAY_SHARE: f64 = 0.5;
-/// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
-/// gain as much as this at all.
-const REFINED: usize = 3;
-const REFINED_SHARE: f64 = 0.4;
-const MEANT: f64 = 1.0;
-/// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
-const SHARP_SHARE: f64 = 0.15;
-/// Share of the attainable fall of χ² below which nothing explains what is there.
-const EXPLAINED: f64 = 0.85;
 /// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at. Not safe
 /// where all starts lie far from the truth: a coating with a small ratio was given up so.
 const FAR_BEHIND: f64 = 20.0;
@@ -97,95 +85,8 @@ impl Judge<'_> {
             .collect()
     }
 
-    /// Fits by coarse finite elements, anchored at the base fit, those of the screened candidates that may matter: the
-    /// leaders, and where the discrepancy is real what the analytic model knows least: all whose rate is sharp in the local pressure, and, if
-    /// more than wear is missed, all that change how the teeth touch.
-    pub(super) fn refine(&self, base: &Base, screened: Vec<Judged>, real: bool) -> Vec<Judged> {
-        let before = base.judged.log_evidence;
-        let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
-        gains.sort_by(|a, b| b.total_cmp(a));
-        let Some(best) = gains.first() else {
-            return screened;
-        };
-        let bar = gains[(REFINED - 1).min(gains.len() - 1)]
-            .min(REFINED_SHARE * best)
-            .max(MEANT);
-        let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
-        let contact_missed = real && self.ground.misses_more_than_wear(&base.judged.found.model);
-        let offset = &base.judged.offset;
-        let fit = |candidate: &Candidate, state: State, effort: &Effort| {
-            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
-            let parameters = &candidate.parameters;
-            self.ground.fit(&predictor, parameters, state, effort).ok()
-        };
-        let looks: Vec<Option<Found>> = (screened.par_iter())
-            .map(|judged| {
-                let candidate = &judged.candidate;
-                let bar = if candidate.sharp() {
-                    bar_of_sharp.min(bar)
-                } else {
-                    bar
-                };
-                let wanted = judged.log_evidence - before >= bar
-                    || contact_missed && candidate.changes_contact();
-                wanted.then(|| fit(candidate, judged.found.state.clone(), &LOOK))?
-            })
-            .collect();
-        let least = (looks.iter().flatten()).map(|found| found.objective);
-        let bar = in_play(base.judged.found.objective, least, IN_PLAY_REFINED);
-        (screened.into_par_iter().zip(looks))
-            .map(|(judged, look)| {
-                let Some(mut found) = look else {
-                    return judged;
-                };
-                let candidate = judged.candidate;
-                if found.objective <= bar && !found.converged {
-                    let further = fit(&candidate, found.state.clone(), &SCREEN);
-                    found = further.unwrap_or(found);
-                }
-                self.judged(
-                    candidate,
-                    found,
-                    offset.clone(),
-                    Some(base),
-                    Fidelity::Middle,
-                )
-            })
-            .collect()
-    }
-
-    /// Looks by coarse finite elements, from the first starts on, for what the analytic model may not see, where no candidate explains what
-    /// is there.
-    pub(super) fn with_unseen(
-        &self,
-        base: &Base,
-        refined: Vec<Judged>,
-        flexible: &Flexible,
-    ) -> Vec<Judged> {
-        let fallen = |j: &Judged| base.judged.square - j.square;
-        let most = refined.iter().map(fallen).fold(0.0, f64::max);
-        if flexible.drop < flexible.spread() || most > EXPLAINED * flexible.drop {
-            return refined;
-        }
-        let offset = &base.judged.offset;
-        let anew = |judged: &Judged| {
-            let candidate = &judged.candidate;
-            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
-            let starts = self.starts(base, candidate, &predictor);
-            let found = self.look(candidate, &predictor, starts, &SCREEN)?;
-            let (candidate, offset) = (candidate.clone(), offset.clone());
-            let found = self.judged(candidate, found, offset, Some(base), Fidelity::Middle);
-            (found.log_evidence > judged.log_evidence).then_some(found)
-        };
-        let all = refined.into_par_iter().map(|judged| {
-            let unseen = judged.candidate.may_be_unseen();
-            unseen.then(|| anew(&judged)).flatten().unwrap_or(judged)
-        });
-        all.collect()
-    }
-
     /// A candidate's starts with their gain in the linearised model, the largest first.
-    fn starts(
+    pub(super) fn starts(
         &self,
         base: &Base,
         candidate: &Candidate,
@@ -204,11 +105,6 @@ impl Judge<'_> {
             .map(|(gain, values)| (gain, self.added(base, candidate, &values)))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
-        for (_, state) in starts.iter_mut().take(FOLLOWED) {
-            if let Some((at, _)) = self.at_measured_wear(state.clone(), candidate, predictor) {
-                *state = at;
-            }
-        }
         starts
     }
 
@@ -242,7 +138,7 @@ impl Judge<'_> {
     }
 
     /// A fit from the first of the starts, and from a near second.
-    fn look(
+    pub(super) fn look(
         &self,
         candidate: &Candidate,
         predictor: &Anchored<'_>,
@@ -254,7 +150,16 @@ impl Judge<'_> {
         let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
         let parameters = &candidate.parameters;
         (starts.into_iter().take(if second { FOLLOWED } else { 1 }))
-            .filter_map(|(_, state)| self.ground.fit(predictor, parameters, state, effort).ok())
+            .filter_map(|(_, state)| {
+                let state = match effort.iterations {
+                    // not fitted on: k stays where the base model is best
+                    0 => state,
+                    _ => self
+                        .at_measured_wear(state.clone(), candidate, predictor)
+                        .map_or(state, |(at, _)| at),
+                };
+                self.ground.fit(predictor, parameters, state, effort).ok()
+            })
             .min_by(|a, b| a.objective.total_cmp(&b.objective))
     }
 }
@@ -291,7 +196,7 @@ fn plane_gain(seen: [&DVector<f64>; 2], residual: &DVector<f64>) -> Option<(f64,
 }
 
 /// The objective up to which candidates stay in play after a first look: the best `count`, and those near the leader.
-fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
+pub(super) fn in_play(before: f64, looks: impl Iterator<Item = f64>, count: usize) -> f64 {
     let mut objectives: Vec<f64> = looks.collect();
     objectives.sort_by(f64::total_cmp);
     let Some(leader) = objectives.first() else {
