@@ -71,7 +71,7 @@ impl Judge<'_> {
                 }
             })
             .collect();
-        self.from_siblings(base, refined, bar)
+        self.started_again(base, refined, bar)
     }
 
     /// A look at a candidate fitted on if it is in play.
@@ -92,7 +92,7 @@ impl Judge<'_> {
     }
 
     /// Each fitted once more from where the best form of its effect ended, if it is far behind that.
-    fn from_siblings(&self, base: &Base, refined: Vec<Judged>, bar: f64) -> Vec<Judged> {
+    fn started_again(&self, base: &Base, refined: Vec<Judged>, bar: f64) -> Vec<Judged> {
         let before = base.judged.found.objective;
         let starts: Vec<Option<State>> = (refined.iter())
             .map(|own| from_sibling(own, &refined, before, bar))
