@@ -308,6 +308,24 @@ fn a_size_that_is_unheard_of_is_told() {
 }
 
 #[test]
+fn a_ripple_of_the_load_is_dynamic_only_if_speed_changes_it() {
+    let at_its_place = "[[effect]]\nkind = \"formula\"\nname = \"ripple\"\nload_factor = \"1 + 0.25*cos(2*pi*s/base_pitch + 0.8)\"\n";
+    let found = diagnosed(at_its_place, 0.05, 0.03, 15);
+    assert_eq!(found.verdict, Verdict::Ambiguous, "{}", says(&found));
+    for name in ["dynamic_load", "unknown"] {
+        assert!(found.probabilities[name] > 0.2, "{}", says(&found));
+    }
+    assert!(
+        found.reasons.iter().any(|r| r.contains("resonance_speed")),
+        "{:?}",
+        found.reasons
+    );
+    let with_speed = "[[effect]]\nkind = \"dynamic_load\"\namplitude = 0.2\nphase = 0.8\nresonance_speed = 2500.0\n";
+    let found = diagnosed(with_speed, 0.05, 0.03, 15);
+    assert!(names(&found, "dynamic_load"), "{}", says(&found));
+}
+
+#[test]
 fn a_profile_of_two_waves_grows_out_of_one() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"waviness\"\nprofile = \"pinion*(4 + 2.2*cos(2*pi*s/8.1 + 0.4) + 1.8*cos(2*pi*s/3.3 + 2))\"\n";
     let found = diagnosed(hidden, 0.05, 0.03, 11);

@@ -52,6 +52,8 @@ pub struct Param {
     pub neutral: Option<f64>,
     /// Whether a fit adjusts it unless told otherwise.
     pub fitted: bool,
+    /// Whether the effect is known by it: measurements that say nothing of it show a pattern that another cause could make as well.
+    pub tells: bool,
 }
 
 /// Another accepted form of an effect's law.
@@ -100,6 +102,7 @@ impl Param {
             prior,
             neutral: None,
             fitted: true,
+            tells: false,
         }
     }
 
@@ -121,6 +124,12 @@ impl Param {
     /// Left alone by fits: a reference, or a choice of form.
     pub(super) const fn fixed(mut self) -> Self {
         self.fitted = false;
+        self
+    }
+
+    /// What the effect is known by.
+    pub(super) const fn telling(mut self) -> Self {
+        self.tells = true;
         self
     }
 

@@ -56,7 +56,8 @@ pub(super) const CARD: Card = Card {
                 median: 15000.0,
                 spread: 4.0,
             },
-        ),
+        )
+        .telling(),
         Param::new(
             "damping",
             "-",

@@ -16,7 +16,7 @@ from pathlib import Path
 
 PAGE = Path(__file__).resolve().parent / "THRESHOLDS.md"
 
-# As in rank.rs (first eight) and verdict.rs.
+# As in rank.rs and, the last three, verdict.rs.
 RULE = {
     "SHARE": 0.85,  # least share of the attainable fall of chi^2 for one effect
     "PAIR_SHARE": 0.95,  # the same for two
@@ -25,6 +25,7 @@ RULE = {
     "PRIOR_NOTHING": 0.5,
     "PRIOR_PAIRS": 0.05,
     "UNKNOWN_LACKS": 1.2,  # added to the log evidence of the unknown
+    "UNTOLD": 0.5,  # odds of another cause where the data say nothing of what an effect is known by
     "CLAIM": 0.85,  # least probability of a name
     "DOUBT": 0.2,  # probability of nothing missing from which no name is said
     "ALIKE": 0.03,  # share of the leader's probability from which others are named with it
@@ -37,6 +38,7 @@ TRIED = {
     "PRIOR_NOTHING": [0.05, 0.2, 0.5, 0.8],
     "PRIOR_PAIRS": [0.01, 0.05, 0.2],
     "UNKNOWN_LACKS": [0.0, 0.6, 1.2, 1.8],
+    "UNTOLD": [0.0, 0.25, 0.5, 1.0, 2.0],
     "CLAIM": [0.5, 0.7, 0.8, 0.85, 0.9, 0.95],
     "DOUBT": [0.05, 0.1, 0.2, 0.4],
     "ALIKE": [0.001, 0.01, 0.03, 0.1],
@@ -47,6 +49,16 @@ PRIOR_UNKNOWN, PRIOR_SINGLES = 0.1, 0.35
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
 
+# As in untold.rs: a resonance is unknown if its standard deviation is larger than this, over its value; ln 4 is its prior's.
+KEPT = 0.4 * math.log(4)
+
+
+def untold(found):
+    """Effects whose best form the data say nothing about of what they are known by."""
+    of = lambda r: [p for p in r["parameters"] if p["name"] == "resonance_speed"]
+    return {r["effect"] for r in found["ranking"] if any(p["sigma"] > KEPT * p["value"] for p in of(r))}
+
+
 def soft(x):
     """ln(1 + e^x)"""
     return max(x, 0.0) + math.log1p(math.exp(-abs(x)))
@@ -54,7 +66,7 @@ def soft(x):
 
 def probabilities(found, rule):
     """Posterior probabilities of nothing, unknown, effects and pairs."""
-    fitted = found["screened"]
+    fitted, unsaid = found["screened"], untold(found)
     forms = Counter(s["effect"] for s in fitted if "+" not in s["effect"])
     alone = {}
     for s in fitted:
@@ -90,6 +102,8 @@ def probabilities(found, rule):
         else:
             logs.append((s["effect"], log - soft(odds)))
         logs.append((UNKNOWN, log - soft(-odds)))
+        if s["effect"] in unsaid and rule["UNTOLD"] > 0:
+            logs.append((UNKNOWN, log - soft(odds) + math.log(rule["UNTOLD"])))
         if real and log > most:
             most, cap = log, log + max(odds, found["unknown_evidence_gain"] - s["evidence_gain"])
     logs.append((UNKNOWN, min(found["unknown_evidence_gain"] + rule["UNKNOWN_LACKS"] + math.log(PRIOR_UNKNOWN), cap)))

@@ -40,6 +40,7 @@ mod suspects;
 mod table;
 mod telling;
 mod unknown;
+mod untold;
 mod verdict;
 mod warnings;
 mod words;

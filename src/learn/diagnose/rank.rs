@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::flexible::Flexible;
 use super::judge::{Base, Judge, Judged};
+use super::untold::untold;
 use super::{NOTHING, UNKNOWN};
 
 /// Prior probabilities.
@@ -34,6 +35,9 @@ const PAIR_SPREADS: f64 = 1.5;
 /// stronger one and not to be an effect, and how sharply: an effect in a form of its own left up to 8 %.
 const SECOND: f64 = 0.10;
 const SECOND_WIDTH: f64 = 0.012;
+
+/// Odds of another cause of the same pattern where the data say nothing of what an effect is known by: neither is to be named.
+const UNTOLD: f64 = 0.5;
 
 /// By how much less differences of log evidence between effects count than they would if forms and noise were known exactly (the evidence
 /// to the power 1/this; Grünwald & van Ommen, Bayesian Analysis 12, 2017: posteriors of misspecified models are too sure of themselves).
@@ -116,6 +120,10 @@ impl Ranking {
                 None => logs.push((j.candidate.name(), log - soft(odds))),
             }
             logs.push((UNKNOWN.to_owned(), log - soft(-odds)));
+            if untold(j).is_some() {
+                let other_cause = log - soft(odds) + UNTOLD.ln();
+                logs.push((UNKNOWN.to_owned(), other_cause));
+            }
             if flexible.is_real() && log > most {
                 most = log;
                 cap = log + odds.max(unknown - j.log_evidence);

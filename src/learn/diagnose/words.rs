@@ -3,6 +3,7 @@
 use super::judge::{Base, Judge, Judged};
 use super::rank::{Ranking, TEMPER};
 use super::ranked::parameters;
+use super::untold::untold;
 use super::verdict::{Diagnosis, Verdict};
 use super::warnings::{few, measured_once};
 use super::{NOTHING, UNKNOWN};
@@ -115,18 +116,26 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 list.join(", ")
             );
             let doubted = group.iter().any(|name| name == UNKNOWN);
-            if let (true, Some(j), Some(share)) = (doubted, leader, d.explained_share) {
+            let untold = leader.filter(|_| doubted).and_then(untold);
+            if let Some((card, parameter)) = untold {
+                d.reasons.push(format!(
+                    "These data say nothing of {parameter}, which {} is known by: any other cause that makes the same pattern would look alike.",
+                    card.name
+                ));
+            } else if let (true, Some(j), Some(share)) = (doubted, leader, d.explained_share) {
                 d.reasons.push(format!(
                     "{} explains {} of what there is to explain: too much to pass over, too little to rule out something that the catalogue does not hold, or a spoiled measurement.",
                     j.candidate.name(),
                     percent(share.max(0.0))
                 ));
             }
-            d.next_step = match d.next_experiment {
-                Some(_) => "make the proposed test before adding one of them",
-                None => "no single test made like these tells them apart: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error",
-            }
-            .to_owned();
+            d.next_step = match (&d.next_experiment, untold) {
+                (Some(_), _) => "make the proposed test before adding one of them".to_owned(),
+                (None, Some((card, _))) => {
+                    format!("what shows whether it is {}: {}", card.name, card.separated_by)
+                }
+                (None, None) => "no single test made like these tells them apart: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned(),
+            };
         }
     }
     if let Some(driver) = &d.driver {
