@@ -52,8 +52,9 @@ pub struct Param {
     pub neutral: Option<f64>,
     /// Whether a fit adjusts it unless told otherwise.
     pub fitted: bool,
-    /// Whether the effect is known by it: measurements that say nothing of it show a pattern that another cause could make as well.
-    pub tells: bool,
+    /// Whether it is a speed that the effect is known by: measurements that say nothing of it show a pattern that another cause could make
+    /// as well.
+    pub tells_by_speed: bool,
 }
 
 /// Another accepted form of an effect's law.
@@ -102,7 +103,7 @@ impl Param {
             prior,
             neutral: None,
             fitted: true,
-            tells: false,
+            tells_by_speed: false,
         }
     }
 
@@ -127,9 +128,9 @@ impl Param {
         self
     }
 
-    /// What the effect is known by.
-    pub(super) const fn telling(mut self) -> Self {
-        self.tells = true;
+    /// A speed that the effect is known by.
+    pub(super) const fn telling_by_speed(mut self) -> Self {
+        self.tells_by_speed = true;
         self
     }
 

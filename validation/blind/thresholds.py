@@ -49,7 +49,8 @@ PRIOR_UNKNOWN, PRIOR_SINGLES = 0.1, 0.35
 NOTHING, UNKNOWN = "nothing_missing", "unknown"
 
 
-# As in untold.rs: a resonance is unknown if its standard deviation is larger than this, over its value; ln 4 is its prior's.
+# As in untold.rs: a resonance is unknown if its standard deviation is larger than this, over its value (ln 4 is its prior's); that it is so too where all
+# tests have one speed is left out here.
 KEPT = 0.4 * math.log(4)
 
 

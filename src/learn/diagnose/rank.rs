@@ -120,7 +120,7 @@ impl Ranking {
                 None => logs.push((j.candidate.name(), log - soft(odds))),
             }
             logs.push((UNKNOWN.to_owned(), log - soft(-odds)));
-            if untold(j).is_some() {
+            if untold(&judge.ground, j).is_some() {
                 let other_cause = log - soft(odds) + UNTOLD.ln();
                 logs.push((UNKNOWN.to_owned(), other_cause));
             }

@@ -24,7 +24,7 @@ const UNSTUCK: Effort = Effort {
     ..SCREEN
 };
 /// Share of what the best form of an effect gains by which another must be behind to be fitted once more from where that one ended.
-const FAR_BEHIND: f64 = 0.002;
+const BEHIND_ITS_BEST: f64 = 0.002;
 /// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
 const SHARP_SHARE: f64 = 0.15;
 /// Share of the attainable fall of χ² below which nothing explains what is there.
@@ -81,7 +81,9 @@ impl Judge<'_> {
         }
         let on = |found: Found, effort| {
             let further = self.fit_middle(base, candidate, found.state.clone(), effort);
-            further.unwrap_or(found)
+            further
+                .filter(|further| further.objective <= found.objective)
+                .unwrap_or(found)
         };
         let found = on(look, &SCREEN);
         if found.converged || found.iterations == SCREEN.iterations {
@@ -170,6 +172,6 @@ fn from_sibling(own: &Judged, all: &[Judged], before: f64, bar: f64) -> Option<S
     });
     let best = siblings.min_by(|a, b| a.found.objective.total_cmp(&b.found.objective))?;
     let behind = own.found.objective - best.found.objective;
-    let far = MEANT.max(FAR_BEHIND * (before - best.found.objective));
+    let far = MEANT.max(BEHIND_ITS_BEST * (before - best.found.objective));
     (behind > far).then(|| best.found.state.clone())
 }

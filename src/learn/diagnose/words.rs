@@ -116,11 +116,12 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                 list.join(", ")
             );
             let doubted = group.iter().any(|name| name == UNKNOWN);
-            let untold = leader.filter(|_| doubted).and_then(untold);
-            if let Some((card, parameter)) = untold {
+            let leading = leader.filter(|_| doubted);
+            let unsaid = leading.and_then(|j| untold(&judge.ground, j));
+            if let Some((card, parameter)) = unsaid {
                 d.reasons.push(format!(
-                    "These data say nothing of {parameter}, which {} is known by: any other cause that makes the same pattern would look alike.",
-                    card.name
+                    "These data say nothing of {parameter}, which {} is known by: any other cause that makes the same pattern would look alike. What would show it: {}.",
+                    card.name, card.separated_by
                 ));
             } else if let (true, Some(j), Some(share)) = (doubted, leader, d.explained_share) {
                 d.reasons.push(format!(
@@ -129,7 +130,7 @@ pub(super) fn explain(d: &mut Diagnosis, judge: &Judge<'_>, base: &Base, ranking
                     percent(share.max(0.0))
                 ));
             }
-            d.next_step = match (&d.next_experiment, untold) {
+            d.next_step = match (&d.next_experiment, unsaid) {
                 (Some(_), _) => "make the proposed test before adding one of them".to_owned(),
                 (None, Some((card, _))) => {
                     format!("what shows whether it is {}: {}", card.name, card.separated_by)
