@@ -16,7 +16,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::LoadFactor,
     formula: "load_factor = max(0.05, 1 + amplitude*cos(2*pi*s/base_pitch + phase)/sqrt((1 - (speed/resonance_speed)^2)^2 + (2*damping*speed/resonance_speed)^2) + second_amplitude*cos(4*pi*s/base_pitch + second_phase)/sqrt((1 - (2*speed/resonance_speed)^2)^2 + (4*damping*speed/resonance_speed)^2))",
     source: "steady response of a damped oscillator; resonance speed n_E = 30000/(pi z1) sqrt(c_gamma/m_red), ISO 6336-1 Eq. (6) as two public codes quote it, the standard itself not read. Feedback of wear on the vibration: H. Ding, A. Kahraman (2007), not modelled.",
-    signature: "a ripple of one base pitch along the flank that grows towards the resonance speed and shrinks beyond it",
+    signature: "a ripple of one base pitch along the flank, largest near the resonance speed",
     confounded_with: &[
         "flash_temperature",
         "sliding_speed_exponent",
