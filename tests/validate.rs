@@ -115,9 +115,21 @@ fn the_document_has_the_promised_keys() {
     }
     let file = std::fs::read_to_string(target.join("validation.json")).unwrap();
     assert_eq!(serde_json::from_str::<Value>(&file).unwrap(), document);
-    for name in ["RESULTS.md", "report.html"] {
+    for extension in ["md", "html"] {
+        let read = |name: &str| std::fs::read_to_string(target.join(name)).unwrap();
+        assert!(read(&format!("cases/A1.{extension}")).contains("A1.1"));
+        assert!(read(&format!("cases/paper.{extension}")).contains("1.961"));
+    }
+    for (name, link) in [
+        ("RESULTS.md", "(cases/A1.md)"),
+        ("report.html", "\"cases/A1.html\""),
+    ] {
         let text = std::fs::read_to_string(target.join(name)).unwrap();
-        assert!(text.contains("A1.1") && text.contains("1.961"), "{name}");
+        assert!(text.contains(link), "{name} does not lead to the family");
+        assert!(
+            text.contains("paper.T2.2.s"),
+            "{name} hides what is not met"
+        );
     }
 }
 

@@ -11,6 +11,7 @@ use crate::report::format::significant;
 use crate::report::html::{self, Case};
 use crate::report::{self, atomic};
 use crate::verify::contact_and_wear::Effort;
+use crate::verify::questions::question;
 use crate::verify::registry;
 use crate::verify::runner::{self, Row, Verdict};
 
@@ -90,10 +91,17 @@ fn verdict(row: &Row) -> html::Verdict {
     }
 }
 
+/// The family of a case: its id up to the first dot.
+fn family(id: &str) -> &str {
+    id.split('.').next().unwrap_or(id)
+}
+
 fn case(row: &Row) -> Case {
     Case {
         id: row.id.clone(),
         group: row.group.to_owned(),
+        family: family(&row.id).to_owned(),
+        question: question(family(&row.id)).to_owned(),
         quantity: row.quantity.clone(),
         target: row.target,
         source: row.source.clone(),

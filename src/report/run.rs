@@ -135,16 +135,21 @@ pub fn write_ladder(result: &ladder::Result<'_>, folder: &Path) -> Result<Writte
     write_page(&html::ladder(result), "ladder.json", &document, folder)
 }
 
-/// Writes `validation.json`, its page, and the same as Markdown (`RESULTS.md`).
+/// Writes `validation.json`, the summary of all families as page and as Markdown (`RESULTS.md`), and a page for each family under `cases`.
 pub fn write_validation(cases: &[Case], folder: &Path) -> Result<Written, OutputError> {
     let mut staging = Staging::begin(folder)?;
-    let page = html::validation(cases);
+    let summary = html::summary(cases);
     staging.write(
         "validation.json",
         &documents::text("validation.json", &json!({"cases": cases}))?,
     )?;
-    staging.write("RESULTS.md", page.markdown().as_bytes())?;
-    staging.write("report.html", page.html()?.as_bytes())?;
+    staging.write("RESULTS.md", summary.markdown().as_bytes())?;
+    staging.write("report.html", summary.html()?.as_bytes())?;
+    for family in html::family_pages(cases) {
+        let name = |extension: &str| format!("{}.{extension}", family.file);
+        staging.write(&name("md"), family.page.markdown().as_bytes())?;
+        staging.write(&name("html"), family.page.html()?.as_bytes())?;
+    }
     finish(staging)
 }
 

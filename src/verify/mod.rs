@@ -25,6 +25,7 @@ pub mod nafems_cylinder;
 pub mod paper_rows;
 pub mod partial_slip;
 pub mod patch;
+pub mod questions;
 pub mod registry;
 pub mod runner;
 pub mod sliding;

@@ -172,6 +172,8 @@ fn validation_is_written_for_people_and_programs() {
     let case = |id: &str, group: &str, verdict: Verdict| Case {
         id: id.to_owned(),
         group: group.to_owned(),
+        family: id.to_owned(),
+        question: format!("Is {id} right?"),
         quantity: "peak pressure, MPa".to_owned(),
         target: Some(3585.37),
         source: "NAFEMS, \"Cylinder\" | roller".to_owned(),
@@ -218,13 +220,30 @@ fn validation_is_written_for_people_and_programs() {
     }
     let markdown = fs::read_to_string(done.folder.join("RESULTS.md")).unwrap();
     assert!(markdown.contains("1 of 4 cases pass, 1 fail"), "{markdown}");
-    let rows: Vec<&str> = markdown
-        .lines()
-        .filter(|line| line.contains("`B3`") || line.contains("`B4`"))
-        .collect();
+    let row = markdown.lines().find(|line| line.contains("cases/B3.md"));
+    let row = row.expect("no line for B3");
     assert!(
-        rows.len() >= 2 && rows[0].contains("\\| roller") && rows[0].contains("**pass**"),
-        "{rows:?}"
+        row.contains("\\| roller") && row.contains("**pass**") && row.contains("Is B3 right?"),
+        "{row}"
+    );
+    assert!(row.contains("0.13 % of 2.0 %"), "{row}");
+    let unmet: Vec<&str> = (markdown.lines())
+        .skip_while(|line| !line.contains("Not met"))
+        .take_while(|line| !line.contains("## Contact"))
+        .collect();
+    for (id, word) in [
+        ("C1", "fail"),
+        ("B4", "skipped"),
+        ("P9", "contradicts theory"),
+    ] {
+        let told = |line: &&str| line.contains(&format!("`{id}`")) && line.contains(word);
+        assert!(unmet.iter().any(told), "{id}: {unmet:?}");
+    }
+    assert!(!unmet.iter().any(|line| line.contains("`B3`")), "{unmet:?}");
+    let family = fs::read_to_string(done.folder.join("cases/C1.md")).unwrap();
+    assert!(
+        family.contains("gearwear validate C1") && family.contains("see C1"),
+        "{family}"
     );
     let page = fs::read_to_string(done.folder.join("report.html")).unwrap();
     assert!(
@@ -248,4 +267,50 @@ fn the_terminal_summary_tells_figures_files_and_next_step() {
         assert!(said.contains(part), "{part} not in\n{said}");
     }
     assert!(said.lines().count() < 20 && said.lines().all(|line| line.chars().count() < 160));
+}
+
+#[test]
+fn many_cases_of_a_kind_are_one_line_that_shows_the_worst_and_hides_no_failure() {
+    let case = |number: usize, error: f64| Case {
+        id: format!("B1.{number}"),
+        group: "Contact".to_owned(),
+        family: "B1".to_owned(),
+        question: "Is it carried?".to_owned(),
+        quantity: format!("mesh {number}: deviation of p"),
+        target: Some(0.0),
+        source: "exact: uniform pressure".to_owned(),
+        value: Some(error),
+        error: Some(error),
+        tolerance: Some(1e-8),
+        measure: "absolute".to_owned(),
+        verdict: if error <= 1e-8 {
+            Verdict::Pass
+        } else {
+            Verdict::Fail
+        },
+        reason: "rounding".to_owned(),
+        seconds: 1.0,
+        note: String::new(),
+    };
+    let mut cases: Vec<Case> = (1..=20).map(|n| case(n, 1e-15 * n as f64)).collect();
+    cases[6].error = Some(3e-9);
+    cases.push(case(21, 2e-8));
+    let dir = tempfile::tempdir().unwrap();
+    let done = write_validation(&cases, &dir.path().join("validate")).unwrap();
+    let page = fs::read_to_string(done.folder.join("cases/B1.md")).unwrap();
+    let rows: Vec<&str> = page.lines().filter(|l| l.contains("`B1.")).collect();
+    assert_eq!(rows.len(), 2, "{page}");
+    assert!(
+        rows[0].contains("20 cases") && rows[0].contains("mesh 7") && rows[0].contains("3.0·10⁻⁹"),
+        "{}",
+        rows[0]
+    );
+    assert!(
+        rows[1].contains("`B1.21`") && rows[1].contains("**fail**"),
+        "{}",
+        rows[1]
+    );
+    let summary = fs::read_to_string(done.folder.join("RESULTS.md")).unwrap();
+    let row = summary.lines().find(|l| l.contains("cases/B1.md")).unwrap();
+    assert!(row.contains("**fail**") && row.contains("| 21 |"), "{row}");
 }

@@ -20,7 +20,7 @@ pub use models::models;
 pub use page::{Page, Section};
 pub use run::{files_of_run, run};
 pub use table::{Cell, Table};
-pub use validation::{Case, Verdict, validation};
+pub use validation::{Case, FamilyPage, Verdict, family_pages, summary};
 
 /// Text made safe for HTML, in elements and attributes.
 pub fn escape(text: &str) -> String {

@@ -23,6 +23,8 @@ pub enum Cell {
     Code(String),
     /// A link to a file beside the page: relative path.
     Link(String),
+    /// A link to another page: its name, then its relative path without extension, for the page is written as HTML and as Markdown.
+    Page(String, String),
     /// A share from 0 to 1 as a bar, with its words.
     Bar(f64, String),
     /// A verdict: style class (`pass`, `fail`, `skipped`, `theory`) and its word.
@@ -145,6 +147,11 @@ impl Cell {
                 "<td><a href=\"{0}\"><code>{0}</code></a></td>",
                 escape(path)
             ),
+            Cell::Page(name, path) => format!(
+                "<td><a href=\"{}.html\">{}</a></td>",
+                escape(path),
+                escape(name)
+            ),
             Cell::Bar(share, words) => format!(
                 "<td><span class=\"bar\" style=\"--share:{:.1}%\">{}</span></td>",
                 100.0 * share.clamp(0.0, 1.0),
@@ -162,6 +169,7 @@ impl Cell {
             Cell::Text(text) | Cell::Number(text) | Cell::Bar(_, text) => text.clone(),
             Cell::Code(text) => format!("`{text}`"),
             Cell::Link(path) => format!("[`{path}`]({path})"),
+            Cell::Page(name, path) => format!("[`{name}`]({path}.md)"),
             Cell::Badge(_, word) => format!("**{word}**"),
         }
     }
