@@ -21,6 +21,311 @@ const FLOORS: &[&[&str]] = &[
     &["cli"],
 ];
 
+/// The stages of the learning half, the first first: sub-floors of `src/learn`, by its files and folders. A stage imports itself and those
+/// before it; comparisons and made-up measurements stand beside the stages of a diagnosis, which do not know them.
+const STAGES: &[(&str, &[&str])] = &[
+    ("hypothesis", &["gaussian", "hypothesis", "parameters"]),
+    (
+        "fit",
+        &[
+            "anchored",
+            "bench",
+            "candidate_model",
+            "evaluate",
+            "fidelity",
+            "fit",
+            "fitted",
+            "fitted_candidate",
+            "gear_model",
+            "likelihood",
+            "measured",
+            "noise",
+            "observe",
+            "predictor",
+            "quadratic",
+            "region",
+            "scatter",
+            "search",
+            "starts",
+            "strength_prior",
+            "trajectory",
+        ],
+    ),
+    (
+        "comparison",
+        &[
+            "add",
+            "compare",
+            "comparison",
+            "curves",
+            "doubts",
+            "ladder",
+            "ratio",
+            "synthesize",
+            "tally",
+            "uncertainty",
+            "versions",
+            "worst",
+        ],
+    ),
+    ("discrepancy", &["discrepancy"]),
+    ("data checks", &["checks"]),
+    ("model search", &["model_search"]),
+    ("decision", &["decision"]),
+    ("experiment", &["experiment"]),
+    ("explanation", &["explanation"]),
+    ("diagnosis", &["diagnose"]),
+];
+
+/// The stage that no stage of a diagnosis knows.
+const BESIDE: &str = "comparison";
+
+#[test]
+fn stages_of_learning_use_earlier_stages_only() {
+    let files = learning();
+    let faults: Vec<String> = (files.iter())
+        .flat_map(|(module, text)| stage_faults(module, text))
+        .collect();
+    assert!(faults.is_empty(), "\n{}", faults.join("\n"));
+}
+
+#[test]
+fn no_two_files_of_learning_need_each_other() {
+    let files = learning();
+    let found = circle(&files);
+    assert!(found.is_empty(), "a circle: {}", found.join(" -> "));
+}
+
+#[test]
+fn an_import_from_a_later_stage_is_found() {
+    let fault = |module: &[&str], text: &str| {
+        let module: Vec<String> = module.iter().map(|part| (*part).to_owned()).collect();
+        stage_faults(&module, text)
+    };
+    assert_eq!(
+        fault(
+            &["learn", "decision", "rule"],
+            "use crate::learn::{hypothesis::Hypothesis, explanation::{self, ranked}};"
+        ),
+        [
+            "src/learn/decision/rule.rs:1: decision must not use explanation",
+            "src/learn/decision/rule.rs:1: decision must not use explanation"
+        ]
+    );
+    assert_eq!(
+        fault(
+            &["learn", "discrepancy", "smooth"],
+            "use super::super::checks::sufficiency;"
+        ),
+        ["src/learn/discrepancy/smooth.rs:1: discrepancy must not use data checks"]
+    );
+    assert_eq!(
+        fault(
+            &["learn", "checks", "noise_level"],
+            "use crate::learn::compare;"
+        ),
+        ["src/learn/checks/noise_level.rs:1: data checks must not use comparison"]
+    );
+    assert_eq!(
+        fault(
+            &["learn", "checks", "noise_level"],
+            "use super::sufficiency; use crate::learn::likelihood::Likelihood;"
+        ),
+        [""; 0]
+    );
+    assert_eq!(
+        fault(&["learn", "misc"], ""),
+        ["src/learn/misc.rs:1: misc belongs to no stage"]
+    );
+}
+
+#[test]
+fn a_circle_is_found_and_parent_and_child_are_none() {
+    let file = |module: &[&str], text: &str| {
+        let module: Vec<String> = module.iter().map(|part| (*part).to_owned()).collect();
+        (module, text.to_owned())
+    };
+    let mut files = vec![
+        file(&["learn", "a"], "use super::b::Thing;"),
+        file(&["learn", "b"], "mod tests { use super::super::c::Other; }"),
+        file(&["learn", "d"], "mod one;\nuse one::x;"),
+        file(&["learn", "d", "one"], "use super::Shared;"),
+        file(&["learn", "c"], "use crate::learn::d::one;"),
+    ];
+    assert_eq!(circle(&files), [""; 0]);
+    files[4].1 = "use crate::learn::{d::one, a::{self}};".to_owned();
+    assert_eq!(circle(&files), ["a", "b", "c", "a"]);
+}
+
+/// The files of the learning half by their modules.
+fn learning() -> Vec<(Vec<String>, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    collect(&root.join("learn"), &mut files);
+    files.sort();
+    assert!(files.len() > 10, "the sources were not found");
+    let module = |file: &PathBuf| {
+        let path = file.strip_prefix(&root).unwrap().with_extension("");
+        let parts = path.iter().map(|part| part.to_string_lossy().into_owned());
+        parts.filter(|part| part != "mod").collect::<Vec<_>>()
+    };
+    let read = |file: PathBuf| (module(&file), fs::read_to_string(&file).unwrap());
+    files.into_iter().map(read).collect()
+}
+
+fn stage(part: &str) -> Option<usize> {
+    (STAGES.iter()).position(|(_, parts)| parts.contains(&part))
+}
+
+/// Imports of a file of the learning half from stages that it must not know.
+fn stage_faults(module: &[String], text: &str) -> Vec<String> {
+    let [_, part, ..] = module else {
+        // the root of the learning half declares and re-exports all of them
+        return Vec::new();
+    };
+    let file = format!("src/{}.rs", module.join("/"));
+    let Some(own) = stage(part) else {
+        return vec![format!("{file}:1: {part} belongs to no stage")];
+    };
+    let mut faults = Vec::new();
+    for (line, path) in paths(&tokens(text), module) {
+        let [root, used, ..] = &path[..] else {
+            continue;
+        };
+        let Some(used) = (root == "learn").then(|| stage(used)).flatten() else {
+            continue;
+        };
+        let beside = STAGES[used].0 == BESIDE && used != own;
+        if used > own || beside {
+            faults.push(format!(
+                "{file}:{line}: {} must not use {}",
+                STAGES[own].0, STAGES[used].0
+            ));
+        }
+    }
+    faults
+}
+
+/// Files that need each other, the first again at the end; parents and their children may. Empty without.
+fn circle(files: &[(Vec<String>, String)]) -> Vec<String> {
+    let file_of = |path: &[String]| {
+        let lengths = (1..=path.len()).rev();
+        lengths
+            .filter_map(|n| files.iter().position(|(module, _)| *module == path[..n]))
+            .next()
+    };
+    let related = |a: usize, b: usize| {
+        files[a].0.starts_with(&files[b].0) || files[b].0.starts_with(&files[a].0)
+    };
+    let uses: Vec<Vec<usize>> = (files.iter().enumerate())
+        .map(|(own, (module, text))| {
+            let used = paths(&tokens(text), module);
+            let used = used.iter().filter_map(|(_, path)| file_of(path));
+            used.filter(|&other| !related(own, other)).collect()
+        })
+        .collect();
+    // depth first: a file on the way that is met again closes a circle
+    fn visit(at: usize, uses: &[Vec<usize>], way: &mut Vec<usize>, done: &mut [bool]) -> bool {
+        if let Some(start) = way.iter().position(|&known| known == at) {
+            way.drain(..start);
+            way.push(at);
+            return true;
+        }
+        if done[at] {
+            return false;
+        }
+        way.push(at);
+        for &next in &uses[at] {
+            if visit(next, uses, way, done) {
+                return true;
+            }
+        }
+        way.pop();
+        done[at] = true;
+        false
+    }
+    let mut done = vec![false; files.len()];
+    for start in 0..files.len() {
+        let mut way = Vec::new();
+        if visit(start, &uses, &mut way, &mut done) {
+            return way.into_iter().map(|i| files[i].0[1..].join("/")).collect();
+        }
+    }
+    Vec::new()
+}
+
+/// The paths from the crate's root that a file names by `crate::` or `super::`, also inside nested braces, with their lines.
+fn paths(tokens: &[Token], module: &[String]) -> Vec<(usize, Vec<String>)> {
+    let word = |at: usize| tokens.get(at).map_or("", |(_, word)| word.as_str());
+    let (mut braces, mut inline) = (0, Vec::new());
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < tokens.len() {
+        match word(at) {
+            "{" => braces += 1,
+            "}" => {
+                braces -= 1;
+                if inline.last() == Some(&braces) {
+                    inline.pop();
+                }
+            }
+            "mod" if word(at + 2) == "{" => inline.push(braces),
+            "crate" if word(at + 1) == "::" => tree(tokens, at + 2, Vec::new(), &mut found),
+            "super" if word(at + 1) == "::" => {
+                let mut climbed = 1_usize;
+                while word(at + 2) == "super" && word(at + 3) == "::" {
+                    (climbed, at) = (climbed + 1, at + 2);
+                }
+                // inside its own inline modules a file climbs to itself first
+                if let Some(out) = climbed.checked_sub(inline.len())
+                    && out > 0
+                    && out <= module.len()
+                {
+                    let base = module[..module.len() - out].to_vec();
+                    tree(tokens, at + 2, base, &mut found);
+                }
+            }
+            _ => {}
+        }
+        at += 1;
+    }
+    found
+}
+
+/// The paths of the tree of names that begins at `at` behind `prefix`.
+fn tree(tokens: &[Token], at: usize, prefix: Vec<String>, found: &mut Vec<(usize, Vec<String>)>) {
+    let word = |at: usize| tokens.get(at).map_or("", |(_, word)| word.as_str());
+    let Some((line, first)) = tokens.get(at) else {
+        return;
+    };
+    if first != "{" {
+        let mut path = prefix;
+        if !["self", "*"].contains(&first.as_str()) {
+            path.push(first.clone());
+        }
+        if word(at + 1) == "::" {
+            tree(tokens, at + 2, path, found);
+        } else {
+            found.push((*line, path));
+        }
+        return;
+    }
+    let mut depth = 0;
+    for n in at..tokens.len() {
+        match word(n) {
+            "{" => depth += 1,
+            "}" => depth -= 1,
+            _ => {}
+        }
+        if depth == 0 {
+            return;
+        }
+        if depth == 1 && ["{", ","].contains(&word(n)) && !["}", ""].contains(&word(n + 1)) {
+            tree(tokens, n + 1, prefix.clone(), found);
+        }
+    }
+}
+
 #[test]
 fn modules_use_lower_floors_only() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -52,9 +52,22 @@ pub struct Param {
     pub neutral: Option<f64>,
     /// Whether a fit adjusts it unless told otherwise.
     pub fitted: bool,
-    /// Whether it is a speed that the effect is known by: measurements that say nothing of it show a pattern that another cause could make
+    /// What a fit has to know of it beside its value.
+    pub role: ParamRole,
+}
+
+/// What a parameter is to a fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ParamRole {
+    /// Nothing in particular.
+    Plain,
+    /// The phase of a wave, rad: a wave of any phase is a sum of two a quarter of a wave apart.
+    WavePhase,
+    /// A power of the local pressure, or one at which the effect sets in: the rate is sharp in what the analytic contact knows least.
+    PressureSharpness,
+    /// A speed that the effect is known by: measurements that do not determine it show a pattern that another cause could make
     /// as well.
-    pub tells_by_speed: bool,
+    IdentifyingSpeed,
 }
 
 /// Another accepted form of an effect's law.
@@ -103,7 +116,7 @@ impl Param {
             prior,
             neutral: None,
             fitted: true,
-            tells_by_speed: false,
+            role: ParamRole::Plain,
         }
     }
 
@@ -128,9 +141,9 @@ impl Param {
         self
     }
 
-    /// A speed that the effect is known by.
-    pub(super) const fn telling_by_speed(mut self) -> Self {
-        self.tells_by_speed = true;
+    /// What it is to a fit.
+    pub(super) const fn role(mut self, role: ParamRole) -> Self {
+        self.role = role;
         self
     }
 
@@ -144,6 +157,11 @@ impl Card {
     /// The default values.
     pub fn defaults(&self) -> Vec<f64> {
         self.params.iter().map(|param| param.default).collect()
+    }
+
+    /// Whether one of its parameters has a role.
+    pub fn has(&self, role: ParamRole) -> bool {
+        self.params.iter().any(|param| param.role == role)
     }
 
     /// The defaults with every parameter that has a neutral value set to it.

@@ -5,7 +5,8 @@
 
 use super::compare::{CompareError, Compared, Doing, contact_of};
 use super::fitted::Fit;
-use super::measured::{Measured, ModelVersion};
+use super::hypothesis::version::ModelVersion;
+use super::measured::Measured;
 use crate::measure::Dataset;
 use crate::study::{Study, WEAR_COEFFICIENT};
 

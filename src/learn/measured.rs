@@ -6,42 +6,14 @@ use crate::learn::bench::{Bench, MeasuredTest, Workshop};
 use crate::learn::fit::{Coefficient, FitError, Problem};
 use crate::learn::fitted::Fit;
 use crate::learn::gear_model::GearModel;
+use crate::learn::hypothesis::version::{ModelVersion, parameter};
 use crate::learn::noise::NoiseModel;
 use crate::learn::parameters::Parameter;
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{ContactKind, ForwardError};
-use crate::study::{EffectModel, EffectSpec, FreeParameter, Role, Study, WEAR_COEFFICIENT};
-
-/// One version of a model: its effects, and what of it a fit may adjust.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ModelVersion {
-    /// The effects.
-    pub effects: EffectModel,
-    /// Free parameters, the wear coefficient among them or not.
-    pub free: Vec<FreeParameter>,
-}
-
-impl ModelVersion {
-    /// The study's own.
-    pub fn of(study: &Study) -> Self {
-        Self {
-            effects: study.effect_model().clone(),
-            free: study.free().to_vec(),
-        }
-    }
-
-    /// The same with one more effect, whose fitted parameters are free, and with the wear coefficient free.
-    pub fn with(&self, effect: EffectSpec) -> Self {
-        let mut free = self.free.clone();
-        free.extend(effect.fitted());
-        Self {
-            effects: self.effects.with(effect),
-            free,
-        }
-    }
-}
+use crate::study::{FreeParameter, Role, Study, WEAR_COEFFICIENT};
 
 /// Measurements of a study's tests.
 pub struct Measured<'a> {
@@ -213,17 +185,5 @@ impl<P: Predictor> Predictor for Counted<'_, P> {
         let found = self.model.predict(test, coefficient, parameters);
         (self.watch)(self.count.fetch_add(1, Ordering::Relaxed) + 1);
         found
-    }
-}
-
-/// A free parameter of a study as a fit takes it.
-pub(super) fn parameter(free: &FreeParameter) -> Parameter {
-    Parameter {
-        name: free.name.clone(),
-        unit: free.unit.to_owned(),
-        start: free.value,
-        lower: free.lower,
-        upper: free.upper,
-        prior: free.prior,
     }
 }

@@ -6,9 +6,11 @@
 use super::anchored::Anchored;
 use super::bench::{Bench, Workshop, for_looks};
 use super::fit::Problem;
-use super::measured::{Measured, ModelVersion};
+use super::hypothesis::version::ModelVersion;
+use super::measured::Measured;
 use super::noise::NoiseModel;
 use super::search::Effort;
+use crate::effects::ParamRole;
 use crate::simulate::forward::ContactKind;
 use crate::study::{FreeParameter, WEAR_COEFFICIENT};
 
@@ -123,5 +125,5 @@ fn settle(version: &ModelVersion, place: &mut [f64]) {
 }
 
 fn is_phase(free: &FreeParameter) -> bool {
-    free.unit == "rad"
+    free.role == ParamRole::WavePhase
 }

@@ -186,7 +186,7 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     let count = shown.len();
     for entry in shown {
         let named = if entry.form.is_empty() {
-            entry.effect.clone()
+            entry.effect.to_string()
         } else {
             format!("{} ({})", entry.effect, entry.form)
         };
@@ -264,7 +264,7 @@ fn conditions(experiment: &NextExperiment) -> Table {
 
 fn name(entry: &Ranked) -> String {
     if entry.form.is_empty() {
-        entry.effect.clone()
+        entry.effect.to_string()
     } else {
         format!("{} ({})", entry.effect, entry.form)
     }

@@ -7,7 +7,8 @@ use super::format::{percent, significant, whole};
 use super::html::{Cell, Section, Table};
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::{
-    BinMean, DRIVER_KINDS, DriverBin, DriverKind, Explained, ResidualDriver, ResidualDrivers,
+    BinMean, DRIVER_KINDS, DriverBin, DriverKind, Explained, Hypothesis, ResidualDriver,
+    ResidualDrivers,
 };
 
 const BINS: &str = "residual_drivers.csv";
@@ -88,7 +89,7 @@ pub fn section(left: &ResidualDrivers) -> Option<Section> {
     if left.drivers.is_empty() {
         return None;
     }
-    let after = left.after.as_deref().map(words);
+    let after = left.after.as_ref().map(Hypothesis::in_words);
     let mut head = vec![
         "driver",
         "share explained, before",
@@ -145,7 +146,7 @@ pub fn section(left: &ResidualDrivers) -> Option<Section> {
 
 /// One picture for each driver: mean residuals before and after.
 pub fn plots(left: &ResidualDrivers) -> Vec<Plot> {
-    let after = left.after.as_deref().map(words);
+    let after = left.after.as_ref().map(Hypothesis::in_words);
     let picture = |driver: &ResidualDriver| {
         let label = kind(driver).label;
         let name = label.split(',').next().unwrap_or(label);
@@ -188,11 +189,6 @@ fn kind(driver: &ResidualDriver) -> &'static DriverKind {
     known.unwrap_or(&DRIVER_KINDS[0])
 }
 
-/// `running_in and member_hardness`.
-fn words(names: &str) -> String {
-    names.replace('+', " and ")
-}
-
 fn share(part: Explained) -> String {
     if part.share < 0.001 {
         "none".to_owned()
@@ -204,7 +200,8 @@ fn share(part: Explained) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::diagnose::{DRIVERS, DriverRow};
+    use crate::effects::find;
+    use crate::learn::diagnose::{DRIVERS, DriverRow, EffectSet};
 
     fn left(after: bool) -> ResidualDrivers {
         let mean = |mean: f64| BinMean { mean, error: 0.1 };
@@ -232,7 +229,10 @@ mod tests {
         let mut values = [None; DRIVERS];
         values[6] = Some(1e5);
         ResidualDrivers {
-            after: after.then(|| "running_in+coating".to_owned()),
+            after: after.then(|| {
+                let cards = ["running_in", "coating"].map(|name| find(name).unwrap());
+                Hypothesis::Effects(EffectSet::new(cards))
+            }),
             drivers: vec![
                 driver("cycles", "-", vec![bin(1e5, 2.0), bin(1e6, -1.0)]),
                 driver(

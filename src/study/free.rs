@@ -3,7 +3,7 @@
 use super::effect_model::Parameter;
 use super::quantity;
 use super::settings::Wear;
-use crate::effects::{Param, Prior};
+use crate::effects::{Param, ParamRole, Prior};
 
 /// The name of the wear coefficient among the free parameters.
 pub const WEAR_COEFFICIENT: &str = "wear.coefficient";
@@ -45,6 +45,8 @@ pub struct FreeParameter {
     pub neutral: Option<f64>,
     /// Whether a fit moves its logarithm.
     pub log_scale: bool,
+    /// What else a fit has to know of it.
+    pub role: ParamRole,
 }
 
 /// What is wrong with a wear coefficient (mm²/N) that does not come from a study file: what is allowed and why, in one line.
@@ -68,6 +70,7 @@ impl FreeParameter {
             prior: COEFFICIENT_PRIOR,
             neutral: None,
             log_scale: true,
+            role: ParamRole::Plain,
         }
     }
 
@@ -91,7 +94,11 @@ impl FreeParameter {
                 upper.unwrap_or(param.range.1),
             ],
         };
-        Self::new(parameter, param.unit, bounds, prior, param.neutral)
+        Self {
+            neutral: param.neutral,
+            role: param.role,
+            ..Self::new(parameter, param.unit, bounds, prior)
+        }
     }
 
     /// A parameter of a user's formula.
@@ -126,7 +133,7 @@ impl FreeParameter {
             lower.unwrap_or(f64::NEG_INFINITY),
             upper.unwrap_or(f64::INFINITY),
         ];
-        Self::new(parameter, "-", bounds, prior, None)
+        Self::new(parameter, "-", bounds, prior)
     }
 
     /// With bounds that are finite, and positive on the logarithmic scale.
@@ -135,7 +142,6 @@ impl FreeParameter {
         unit: &'static str,
         [lower, upper]: [f64; 2],
         prior: Prior,
-        neutral: Option<f64>,
     ) -> Self {
         let log_scale = matches!(prior, Prior::LogNormal { .. });
         let (least, most) = reach(&prior);
@@ -158,8 +164,9 @@ impl FreeParameter {
             lower,
             upper,
             prior,
-            neutral,
+            neutral: None,
             log_scale,
+            role: ParamRole::Plain,
         }
     }
 }

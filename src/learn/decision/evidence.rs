@@ -1,0 +1,51 @@
+//! What a decision is taken on: figures only, as they stand in `diagnosis.json`.
+
+use serde::{Deserialize, Serialize};
+
+use crate::learn::discrepancy::smooth::is_significant;
+use crate::learn::hypothesis::EffectSet;
+
+/// All that the decision rule knows of the fits to a set of measurements. It can be read from a `diagnosis.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Evidence {
+    /// Everything that was fitted beside the base model, in any order.
+    #[serde(rename = "screened")]
+    pub candidates: Vec<CandidateEvidence>,
+    /// A: fall of χ² that anything smooth could bring, beyond what as many terms gain on noise.
+    pub attainable_drop: f64,
+    /// Standard deviation of A on noise alone.
+    pub attainable_spread: f64,
+    /// ln Z of a Gaussian-process discrepancy over ln Z of the base model.
+    pub unknown_evidence_gain: f64,
+}
+
+/// One form of one effect, or of several together, as fitted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CandidateEvidence {
+    /// The effects added to the base model.
+    pub effects: EffectSet,
+    /// Number of accepted forms that share the prior of these effects.
+    pub accepted_forms: usize,
+    /// Whether the data determine the parameter by which the effect is known.
+    pub identified: bool,
+    /// ln Z over the base model's.
+    pub evidence_gain: f64,
+    /// Fall of the whole χ² against the base model.
+    pub chi2_drop: f64,
+}
+
+impl Evidence {
+    /// Whether there is a discrepancy to be accounted for.
+    pub fn is_discrepant(&self) -> bool {
+        is_significant(self.attainable_drop, self.attainable_spread)
+    }
+
+    /// The share of the attainable fall of χ² that a candidate accounts for; 1 where there is no discrepancy.
+    pub fn share(&self, candidate: &CandidateEvidence) -> f64 {
+        if self.is_discrepant() {
+            candidate.chi2_drop / self.attainable_drop
+        } else {
+            1.0
+        }
+    }
+}

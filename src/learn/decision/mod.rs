@@ -1,0 +1,12 @@
+//! Stage 6, decision: what the evidence of all fits says together, by one rule.
+
+mod evidence;
+pub(in crate::learn) mod posterior;
+mod rule;
+#[cfg(test)]
+mod tests;
+mod verdict;
+
+pub use evidence::{CandidateEvidence, Evidence};
+pub use rule::DecisionRule;
+pub use verdict::{Decision, Verdict, decide};

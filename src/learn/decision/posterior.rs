@@ -1,0 +1,89 @@
+//! All fitted candidates with what the decision says of them.
+
+use super::evidence::{CandidateEvidence, Evidence};
+use super::rule::DecisionRule;
+use super::verdict::{Decision, decide};
+use crate::learn::checks::identifiability::unidentified;
+use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::hypothesis::{EffectSet, Hypothesis};
+use crate::learn::likelihood::Likelihood;
+
+/// Everything fitted, and the decision on it.
+pub(in crate::learn) struct Posterior {
+    /// All fitted candidates that are not the base, by falling evidence.
+    pub(in crate::learn) candidates: Vec<FittedCandidate>,
+    /// The figures of the same, in the same order.
+    pub(in crate::learn) evidence: Evidence,
+    /// By this rule.
+    pub(in crate::learn) rule: DecisionRule,
+    pub(in crate::learn) decision: Decision,
+}
+
+impl Posterior {
+    /// `log_evidence_of_unknown`: that of a Gaussian-process discrepancy beside the base model.
+    pub(in crate::learn) fn new(
+        likelihood: &Likelihood<'_>,
+        base: &BaseFit,
+        mut candidates: Vec<FittedCandidate>,
+        smooth: &SmoothDiscrepancy,
+        log_evidence_of_unknown: f64,
+        rule: DecisionRule,
+    ) -> Self {
+        let base = &base.fitted;
+        candidates.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let figures = |fitted: &FittedCandidate| CandidateEvidence {
+            effects: fitted.candidate.effects.clone(),
+            accepted_forms: fitted.candidate.siblings,
+            identified: unidentified(likelihood, fitted).is_none(),
+            evidence_gain: fitted.log_evidence - base.log_evidence,
+            chi2_drop: base.square - fitted.square,
+        };
+        let evidence = Evidence {
+            candidates: candidates.iter().map(figures).collect(),
+            attainable_drop: smooth.drop,
+            attainable_spread: smooth.spread(),
+            unknown_evidence_gain: log_evidence_of_unknown - base.log_evidence,
+        };
+        Self {
+            decision: decide(&evidence, &rule),
+            candidates,
+            evidence,
+            rule,
+        }
+    }
+
+    /// The form of effects with the largest evidence.
+    pub(in crate::learn) fn best_form(&self, effects: &EffectSet) -> Option<&FittedCandidate> {
+        let mut all = self.candidates.iter();
+        all.find(|fitted| fitted.candidate.effects == *effects)
+    }
+
+    /// The same of a hypothesis; the base model of nothing missing.
+    pub(in crate::learn) fn fitted<'p>(
+        &'p self,
+        base: &'p BaseFit,
+        hypothesis: &Hypothesis,
+    ) -> Option<&'p FittedCandidate> {
+        match hypothesis {
+            Hypothesis::NothingMissing => Some(&base.fitted),
+            Hypothesis::Effects(effects) => self.best_form(effects),
+            Hypothesis::Unknown => None,
+        }
+    }
+
+    /// The most probable effect or set, in its best form.
+    pub(in crate::learn) fn leader(&self) -> Option<&FittedCandidate> {
+        self.best_form(self.decision.leader()?)
+    }
+
+    /// Share of the attainable fall of χ² that the most probable effect or set accounts for, in its best form; None without a discrepancy.
+    pub(in crate::learn) fn share_of_leader(&self) -> Option<f64> {
+        let leader = self.decision.leader()?;
+        let mut all = self.evidence.candidates.iter();
+        let best = all.find(|c| c.effects == *leader)?;
+        self.evidence
+            .is_discrepant()
+            .then(|| self.evidence.share(best))
+    }
+}

@@ -1,0 +1,187 @@
+//! Which physical effect a model lacks: the stages of a diagnosis in their order.
+//!
+//! ```text
+//! hypothesis    the base model, every effect in every accepted form, nothing, the unknown
+//! fit           base model by finite elements; likelihood, evidence
+//! discrepancy   what anything smooth could bring, a Gaussian process of unknown cause
+//! data checks   is the stated noise right, is one curve at fault, is there enough
+//! model search  all by the analytic model, leaders by coarse and by fine finite elements, pairs
+//! decision      nothing | effect | effects | ambiguous | unknown: one function of the evidence
+//! experiment    the test that would separate what is left
+//! explanation   the document and its sentences
+//! ```
+//! A candidate is compared fully refitted: k, k per test, datums and its own parameters are free in each. Evidence is the
+//! marginal likelihood with the noise of [`NoiseModel`], a correlated model error among it, and for each effect a tolerance for
+//! its own form (`OWN_FORM` in `likelihood`).
+
+pub use super::decision::{CandidateEvidence, Decision, DecisionRule, Evidence, Verdict, decide};
+pub use super::discrepancy::{
+    BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
+    ResidualDriver, ResidualDrivers,
+};
+pub use super::experiment::{
+    AloneTest, Campaign, ChosenTest, Leader, NextExperiment, NextTest, NextTests, Plan, RankedTest,
+    Separated, Shown, plan_after, plan_first,
+};
+pub use super::explanation::{Diagnosis, Named, ParameterValue, Ranked, Screened};
+pub use super::fidelity::Fidelity;
+pub use super::hypothesis::candidate::NotJudged;
+pub use super::hypothesis::{EffectSet, Hypothesis};
+pub use super::model_search::context::{DiagnoseError, Watch};
+
+use super::bench::Workshop;
+use super::checks::noise_level;
+use super::decision::posterior::Posterior;
+use super::discrepancy::gaussian_process;
+use super::discrepancy::smooth::SmoothDiscrepancy;
+use super::explanation::findings::Findings;
+use super::fitted_candidate::{BaseFit, FittedCandidate};
+use super::hypothesis::candidate::Candidate;
+use super::likelihood::Likelihood;
+use super::measured::Measured;
+use super::model_search::context::Context;
+use super::model_search::high_fidelity::decide_leaders;
+use super::model_search::{matching_pursuit, nested_forms, pairs};
+use super::noise::{ModelError, NoiseModel};
+use crate::simulate::forward::ContactKind;
+use crate::study::{ContactKind as StudiedContact, Role};
+
+/// Diagnoses a study's measurements: screened by the analytic model, decided by `fidelity`.
+///
+/// # Errors
+/// [`DiagnoseError`]
+pub fn diagnose(
+    measured: &Measured<'_>,
+    fidelity: Fidelity,
+    watch: Watch<'_>,
+) -> Result<Diagnosis, DiagnoseError> {
+    watch(0.0, "preparing the gears".to_owned());
+    // a study whose own model is the analytic one is decided by it at the study's own resolution
+    let own = fidelity == Fidelity::Screening && measured.study().contact == StudiedContact::Hertz;
+    let approximate = fidelity == Fidelity::Screening && !own;
+    let error = if own {
+        ModelError::default()
+    } else {
+        fidelity.model_error()
+    };
+    let noise = NoiseModel {
+        model_error: Some(error),
+        ..NoiseModel::of(&measured.study().noise)
+    };
+    let likelihood = Likelihood::new(measured, noise, Role::Fit);
+    if likelihood.tests.is_empty() {
+        return Err(DiagnoseError::NoObservations);
+    }
+    let fine = measured.study().resolution();
+    let workshop = |kind, fidelity: Fidelity| {
+        let set = measured.study().gear_set().clone();
+        Workshop::new(set, fidelity.resolution(fine), kind, measured.tests())
+    };
+    let analytic = workshop(ContactKind::Hertz, Fidelity::Screening)?;
+    let hertz = measured.bench(&analytic)?;
+    let deciding = if own {
+        ContactKind::Hertz
+    } else {
+        ContactKind::Fem
+    };
+    let finer = if approximate {
+        None
+    } else {
+        Some((
+            workshop(deciding, Fidelity::Middle)?,
+            measured.workshop(deciding)?,
+        ))
+    };
+    let benches = match &finer {
+        Some((middle, fine)) => Some((measured.bench(middle)?, measured.bench(fine)?)),
+        None => None,
+    };
+    let (middle, exact) = match &benches {
+        Some((middle, fine)) => (middle, fine),
+        None => (&hertz, &hertz),
+    };
+    let mut context = Context {
+        likelihood,
+        hertz: &hertz,
+        middle,
+        exact,
+        fidelity,
+        approximate,
+    };
+    watch(0.08, "fitting the base model".to_owned());
+    let mut base = context.base(Candidate::base(measured.study()))?;
+    let sigma_factor = noise_level::sigma_factor(&context.likelihood, &base.fitted.found.model);
+    if sigma_factor > 1.0 {
+        let noise = NoiseModel {
+            sigma_factor,
+            ..noise
+        };
+        context.likelihood = Likelihood::new(measured, noise, Role::Fit);
+        base = context.base(Candidate::base(measured.study()))?;
+    }
+    Ok(search(&context, &base, &analytic, watch))
+}
+
+/// The diagnosis from the base model's fit on.
+fn search(
+    context: &Context<'_>,
+    base: &BaseFit,
+    workshop: &Workshop,
+    watch: Watch<'_>,
+) -> Diagnosis {
+    let likelihood = &context.likelihood;
+    let (singles, not_judged) = Candidate::singles(likelihood.measured.study());
+    watch(0.2, format!("screening {} effects", singles.len()));
+    let mut fitted = context.screen(base, &singles);
+    let unknown = gaussian_process::log_evidence(likelihood, base);
+    let smooth = SmoothDiscrepancy::of(likelihood, &base.fitted.found.model)
+        .gaining(unknown - base.fitted.log_evidence);
+    let sparse_regression = matching_pursuit::selection(context, base, &fitted);
+    fitted.extend(nested_forms::of(context, base, &fitted, &smooth));
+    if context.fidelity != Fidelity::Screening {
+        watch(0.35, "the leaders by coarse finite elements".to_owned());
+        fitted = context.refine(base, fitted, smooth.is_real());
+        fitted = context.with_unseen(base, fitted, &smooth);
+    }
+    if context.fidelity != Fidelity::Middle {
+        fitted = decide_leaders(context, base, fitted, &|done, what| {
+            watch(0.5 + 0.3 * done, what);
+        });
+    }
+    let not_fitted = not_fitted(&singles, &fitted);
+    if !context.approximate {
+        // by the analytic model second effects would mend its own error
+        watch(0.8, "looking at pairs".to_owned());
+        fitted.extend(pairs::pairs(context, base, &fitted));
+    }
+    watch(0.93, "weighing".to_owned());
+    let rule = if context.approximate {
+        DecisionRule::of_analytic_model()
+    } else {
+        DecisionRule::default()
+    };
+    let posterior = Posterior::new(likelihood, base, fitted, &smooth, unknown, rule);
+    watch(0.95, "held-out tests and the next experiment".to_owned());
+    let diagnosis = Diagnosis::new(Findings {
+        context,
+        workshop,
+        base,
+        smooth: &smooth,
+        posterior: &posterior,
+        sparse_regression,
+        not_judged,
+        not_fitted,
+    });
+    watch(1.0, "done".to_owned());
+    diagnosis
+}
+
+/// The effects of which no form could be fitted.
+fn not_fitted(candidates: &[Candidate], fitted: &[FittedCandidate]) -> Vec<Hypothesis> {
+    let missing = |c: &&Candidate| fitted.iter().all(|j| j.candidate.effects != c.effects);
+    let mut names: Vec<Hypothesis> = (candidates.iter().filter(missing))
+        .map(Candidate::hypothesis)
+        .collect();
+    names.dedup();
+    names
+}

@@ -1,0 +1,54 @@
+//! Functions of one driver by the rows of measurements, on which a discrepancy is laid out.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Functions of a driver: their values at each row, none where all are zero.
+pub(in crate::learn) type Functions = Vec<Vec<f64>>;
+
+/// Numbers from 0 for values, alike where they are.
+pub(in crate::learn) fn numbered<T: Ord>(values: impl Iterator<Item = T>) -> Vec<usize> {
+    let mut numbers = BTreeMap::new();
+    values
+        .map(|value| {
+            let next = numbers.len();
+            *numbers.entry(value).or_insert(next)
+        })
+        .collect()
+}
+
+/// Chebyshev's polynomials over the range of the values, fewer than there are different values.
+pub(in crate::learn) fn polynomials(kinds: &[usize], values: &[f64], most: usize) -> Functions {
+    let (x, distinct) = ranged(kinds, values);
+    let chebyshev = |degree: usize, x: f64| (degree as f64 * (2.0 * x - 1.0).acos()).cos();
+    (0..most.min(distinct))
+        .map(|degree| x.iter().map(|&x| chebyshev(degree, x)).collect())
+        .collect()
+}
+
+/// Cosines over the range of the values, fewer than there are different values.
+pub(in crate::learn) fn waves(kinds: &[usize], values: &[f64], most: usize) -> Functions {
+    let (x, distinct) = ranged(kinds, values);
+    (0..most.min(distinct))
+        .map(|p| x.iter().map(|x| (p as f64 * PI * x).cos()).collect())
+        .collect()
+}
+
+/// Values as shares of the range that those of their kind have, and how many are different in a kind at most.
+fn ranged(kinds: &[usize], values: &[f64]) -> (Vec<f64>, usize) {
+    let mut shares = vec![0.0; values.len()];
+    let mut most = 0;
+    for kind in 0..kinds.iter().max().map_or(0, |last| last + 1) {
+        let own: Vec<usize> = (0..values.len()).filter(|&i| kinds[i] == kind).collect();
+        let mut distinct: Vec<f64> = own.iter().map(|&i| values[i]).collect();
+        distinct.sort_by(f64::total_cmp);
+        distinct.dedup();
+        let (low, high) = (distinct[0], distinct[distinct.len() - 1]);
+        let width = if high > low { high - low } else { 1.0 };
+        for i in own {
+            shares[i] = ((values[i] - low) / width).clamp(0.0, 1.0);
+        }
+        most = most.max(distinct.len());
+    }
+    (shares, most)
+}

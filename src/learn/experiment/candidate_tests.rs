@@ -1,0 +1,205 @@
+//! Tests that could be made: the study's operation with torque, speed, misalignment, length or drive direction changed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::study::Operation;
+
+/// Conditions of a test, in the study's units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NextTest {
+    /// N·m.
+    pub torque: f64,
+    /// rpm.
+    pub speed: f64,
+    /// mm.
+    pub misalignment: f64,
+    /// Pinion revolutions.
+    pub cycles: f64,
+    /// Whether the drive direction is the other one.
+    pub reversed: bool,
+}
+
+/// Factors on torque and speed, misalignments added (mm), factor on the length.
+const TORQUES: [f64; 3] = [1.0, 0.5, 2.0];
+const SPEEDS: [f64; 3] = [1.0, 0.3, 3.0];
+const MISALIGNMENTS: [f64; 3] = [0.0, 0.3, 0.6];
+const LONGER: f64 = 3.0;
+/// A simpler test is preferred to one that gives up to this much more.
+pub(in crate::learn) const NEARLY: f64 = 0.8;
+/// Expected χ² from which more is of no use: the two are then told apart for certain.
+pub(in crate::learn) const ENOUGH: f64 = 60.0;
+/// Expected χ² from which two are told apart.
+pub(in crate::learn) const APART: f64 = 20.0;
+/// Expected χ² from which one of two is clearly favoured.
+pub(in crate::learn) const CLEAR: f64 = 6.0;
+
+/// Feasible tests with their number of changes against `plain`, the plainest first.
+pub(in crate::learn) fn grid(plain: &Operation) -> Vec<(usize, Operation)> {
+    let mut all = Vec::new();
+    for (t, torque) in TORQUES.into_iter().enumerate() {
+        for (s, speed) in SPEEDS.into_iter().enumerate() {
+            for (m, misalignment) in MISALIGNMENTS.into_iter().enumerate() {
+                let changes = [t, s, m].into_iter().filter(|i| *i > 0).count();
+                if changes > 2 {
+                    continue;
+                }
+                let operation = Operation {
+                    torque_nmm: plain.torque_nmm * torque,
+                    speed_rpm: plain.speed_rpm * speed,
+                    misalignment_mm: plain.misalignment_mm + misalignment,
+                    ..*plain
+                };
+                all.push((changes, operation));
+            }
+        }
+    }
+    let longer = Operation {
+        cycles: LONGER * plain.cycles,
+        ..*plain
+    };
+    let reversed = Operation {
+        reversed: !plain.reversed,
+        ..*plain
+    };
+    all.extend([(1, longer), (1, reversed)]);
+    all.sort_by_key(|(changes, _)| *changes);
+    all
+}
+
+/// The order of scores, the largest first; among those nearly as large as the largest left, the plainest first.
+pub(in crate::learn) fn ranked(scores: &[(f64, usize)]) -> Vec<usize> {
+    let mut left: Vec<usize> = (0..scores.len()).collect();
+    left.sort_by(|&a, &b| scores[b].0.total_cmp(&scores[a].0).then(a.cmp(&b)));
+    let mut order = Vec::with_capacity(left.len());
+    while let Some(&best) = left.first() {
+        let bar = NEARLY * scores[best].0;
+        let near = left
+            .iter()
+            .enumerate()
+            .filter(|(_, i)| scores[**i].0 >= bar);
+        let place = near.min_by_key(|(place, i)| (scores[**i].1, *place));
+        order.push(left.remove(place.map_or(0, |(place, _)| place)));
+    }
+    order
+}
+
+/// An operation in the study's units.
+pub(in crate::learn) fn shown(operation: &Operation) -> NextTest {
+    NextTest {
+        torque: 1e-3 * operation.torque_nmm,
+        speed: operation.speed_rpm,
+        misalignment: operation.misalignment_mm,
+        cycles: operation.cycles,
+        reversed: operation.reversed,
+    }
+}
+
+/// What a test changes against `plain`, in words; the cycles only where nothing else differs.
+pub(in crate::learn) fn changes(test: &NextTest, plain: &Operation) -> String {
+    let mut changed = Vec::new();
+    if differs(test.torque, 1e-3 * plain.torque_nmm) {
+        changed.push(format!("{} N·m", test.torque));
+    }
+    if differs(test.speed, plain.speed_rpm) {
+        changed.push(format!("{} rpm", test.speed));
+    }
+    if differs(test.misalignment, plain.misalignment_mm) {
+        changed.push(format!("misalignment {} mm", test.misalignment));
+    }
+    if test.reversed != plain.reversed {
+        changed.push("the drive reversed".to_owned());
+    }
+    if changed.is_empty() {
+        changed.push(format!(
+            "{:.2e} cycles at the study's operation",
+            test.cycles
+        ));
+    }
+    changed.join(", ")
+}
+
+/// What a test's changes do, in plain words.
+pub(in crate::learn) fn purpose(test: &NextTest, plain: &Operation) -> String {
+    let mut says = Vec::new();
+    if differs(test.torque, 1e-3 * plain.torque_nmm) {
+        says.push("another pressure at the same sliding");
+    }
+    if differs(test.speed, plain.speed_rpm) {
+        says.push("another oil film and temperature at the same pressure");
+    }
+    if differs(test.misalignment, plain.misalignment_mm) {
+        says.push("the contact moved along both flanks");
+    }
+    if test.reversed != plain.reversed {
+        says.push("the other flanks, which are still new");
+    }
+    if differs(test.cycles, plain.cycles) {
+        says.push("later in life, when what runs in or sets in shows");
+    }
+    if says.is_empty() {
+        says.push("the plainest test, at the study's operation");
+    }
+    says.join("; ")
+}
+
+/// How much an expected χ² is.
+pub(in crate::learn) fn strength(chi2: f64) -> &'static str {
+    if chi2 >= APART {
+        "enough to tell them apart"
+    } else if chi2 >= CLEAR {
+        "enough to favour one clearly"
+    } else {
+        "still little: other measurements are needed"
+    }
+}
+
+fn differs(a: f64, b: f64) -> bool {
+    (a - b).abs() > 1e-6 * b.abs().max(1e-6)
+}
+
+#[cfg(test)]
+pub(in crate::learn) mod tests {
+    use super::*;
+
+    /// A study's operation.
+    pub(in crate::learn) fn plain() -> Operation {
+        Operation {
+            torque_nmm: 1e5,
+            speed_rpm: 2000.0,
+            misalignment_mm: 0.0,
+            cycles: 1e6,
+            bulk_temperature_c: None,
+            viscosity_pa_s: None,
+            reversed: false,
+        }
+    }
+
+    #[test]
+    fn the_grid_starts_plain_and_changes_two_things_at_most() {
+        let grid = grid(&plain());
+        assert_eq!(grid[0], (0, plain()));
+        // 27 − 8 with three changes, and a longer and a reversed test
+        assert_eq!(grid.len(), 27 - 8 + 2);
+        assert!(grid.windows(2).all(|w| w[0].0 <= w[1].0));
+        assert!(grid.iter().any(|(_, o)| o.reversed));
+    }
+
+    #[test]
+    fn a_plainer_test_goes_before_one_that_is_hardly_better() {
+        // 10 and 9 are near-equals, 7 is not; after 9 (plain) comes 10, then 7
+        assert_eq!(ranked(&[(7.0, 0), (10.0, 2), (9.0, 1)]), [2, 1, 0]);
+        // without near-equals the larger goes first
+        assert_eq!(ranked(&[(1.0, 0), (10.0, 2), (5.0, 1)]), [1, 2, 0]);
+    }
+
+    #[test]
+    fn words_name_what_differs() {
+        let test = NextTest {
+            torque: 50.0,
+            ..shown(&plain())
+        };
+        assert_eq!(changes(&test, &plain()), "50 N·m");
+        assert!(purpose(&test, &plain()).contains("pressure"));
+        assert!(purpose(&shown(&plain()), &plain()).contains("plainest"));
+    }
+}

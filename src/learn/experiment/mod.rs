@@ -1,0 +1,17 @@
+//! Stage 7, experiment: which tests would tell apart what the measurements leave, or show most effects before there are any.
+
+mod campaign;
+mod candidate_tests;
+mod discrimination;
+mod measurement_design;
+pub(in crate::learn) mod next;
+mod plan;
+mod table;
+
+pub use campaign::plan_first;
+pub use candidate_tests::NextTest;
+pub use next::NextExperiment;
+pub use plan::{
+    AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
+};
+pub use table::plan_after;

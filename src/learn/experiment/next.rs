@@ -1,0 +1,330 @@
+//! The next experiment: the feasible test in which two candidates, each as fitted, would differ most after refitting, and those that it
+//! takes beside it where one test is not enough.
+
+use rayon::prelude::*;
+
+use super::candidate_tests::{
+    APART, ENOUGH, NEARLY, NextTest, changes, grid, ranked, shown, strength,
+};
+use super::discrimination::{Discrimination, PlannedResponse, Whitening};
+use super::measurement_design::MeasurementDesign;
+use crate::learn::bench::Workshop;
+use crate::learn::decision::Verdict;
+use crate::learn::decision::posterior::Posterior;
+use crate::learn::fitted_candidate::BaseFit;
+use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::hypothesis::Hypothesis;
+use crate::learn::model_search::context::Context;
+use crate::measure::{Dataset, Quantity};
+use crate::study::Operation;
+use serde::{Deserialize, Serialize};
+
+/// A test that would separate what is left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NextExperiment {
+    /// What it separates.
+    pub separates: Vec<String>,
+    /// Its conditions.
+    pub test: NextTest,
+    /// Why it does.
+    pub why: String,
+    /// Expected difference of the two in χ² after refitting.
+    pub expected_chi2: f64,
+    /// The same for a repetition of the most telling test that is there already.
+    pub repetition_chi2: f64,
+    /// Tests to be made as well where that one is not enough.
+    pub further: Vec<NextTest>,
+    /// Expected difference of the two in χ² after all of them.
+    pub together_chi2: f64,
+}
+
+/// Log evidence between two candidates from which no experiment is needed to separate them.
+const SETTLED: f64 = 10.0;
+/// χ² between two candidates below which a test is not worth proposing.
+const WORTH_MAKING: f64 = 1.0;
+/// Most tests that are proposed beside the first.
+const FURTHER: usize = 3;
+
+/// The test that separates the two most probable of what is left; none where nothing is in doubt.
+pub(in crate::learn) fn separating(
+    context: &Context<'_>,
+    shop: &Workshop,
+    base: &BaseFit,
+    posterior: &Posterior,
+) -> Option<NextExperiment> {
+    let decision = &posterior.decision;
+    let effects = || decision.effects.iter().cloned().map(Hypothesis::Effects);
+    let hypotheses: Vec<Hypothesis> = match decision.verdict {
+        Verdict::Ambiguous => decision.group.clone(),
+        Verdict::Effect | Verdict::Effects => effects().take(2).collect(),
+        Verdict::NothingMissing => std::iter::once(Hypothesis::NothingMissing)
+            .chain(effects().take(1))
+            .collect(),
+        Verdict::Unknown => return None,
+    };
+    let mut left = hypotheses.iter().filter_map(|h| posterior.fitted(base, h));
+    let (a, b) = (left.next()?, left.next()?);
+    let settled = (a.log_evidence - b.log_evidence).abs() > SETTLED;
+    if settled && decision.verdict != Verdict::Ambiguous {
+        return None;
+    }
+    experiment(context, shop, a, b).filter(|told| told.together_chi2 >= WORTH_MAKING)
+}
+
+/// The most telling feasible test for two candidates, and what to make beside it.
+fn experiment(
+    context: &Context<'_>,
+    shop: &Workshop,
+    a: &FittedCandidate,
+    b: &FittedCandidate,
+) -> Option<NextExperiment> {
+    let mut tests: Vec<(usize, Operation)> = grid(&plain(context));
+    let count = tests.len();
+    tests.extend(
+        existing(context)
+            .into_iter()
+            .map(|operation| (0, operation)),
+    );
+    let found: Vec<Option<TestDiscrimination>> = tests
+        .par_iter()
+        .map(|(_, operation)| told(context, shop, operation, a, b))
+        .collect();
+    let repetition = found[count..]
+        .iter()
+        .flatten()
+        .map(TestDiscrimination::chi2)
+        .fold(0.0, f64::max);
+    let best = found[..count]
+        .iter()
+        .flatten()
+        .map(|t| t.chi2().min(ENOUGH))
+        .fold(0.0, f64::max);
+    let chosen = (0..count)
+        .filter(|&i| {
+            found[i]
+                .as_ref()
+                .is_some_and(|t| t.chi2().min(ENOUGH) >= NEARLY * best)
+        })
+        .min_by_key(|&i| tests[i].0)?;
+    let (operation, told) = (&tests[chosen].1, found[chosen].as_ref()?);
+    let names = [a, b].map(|j| j.candidate.hypothesis().to_string());
+    let test = shown(operation);
+    let (beside, together) = beside(&told.discrimination, &found[..count], &tests);
+    let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
+    Some(NextExperiment {
+        why: sentence(context, &test, &names, told, repetition)
+            + &more(context, &further, together),
+        separates: names.to_vec(),
+        test,
+        expected_chi2: told.chi2(),
+        repetition_chi2: repetition,
+        further,
+        together_chi2: together,
+    })
+}
+
+/// The tests that best join a first one, one after the other until all together are enough, and what they then tell.
+fn beside(
+    first: &Discrimination,
+    found: &[Option<TestDiscrimination>],
+    tests: &[(usize, Operation)],
+) -> (Vec<usize>, f64) {
+    let mut discrimination = first.clone();
+    let mut chosen = Vec::new();
+    while discrimination.chi2() < APART && chosen.len() < FURTHER {
+        let with = |told: &Option<TestDiscrimination>| {
+            told.as_ref().map(|t| discrimination.and(&t.discrimination))
+        };
+        let joined: Vec<Option<Discrimination>> = found.iter().map(with).collect();
+        let score = |t: &Option<Discrimination>| t.as_ref().map_or(0.0, Discrimination::chi2);
+        let changes = tests.iter().map(|t| t.0);
+        let scores: Vec<(f64, usize)> = joined.iter().map(score).zip(changes).collect();
+        let next = ranked(&scores)[0];
+        let Some(joined) = joined.into_iter().nth(next).flatten() else {
+            break;
+        };
+        discrimination = joined;
+        chosen.push(next);
+    }
+    (chosen, discrimination.chi2())
+}
+
+/// What to make beside the first test, in words; nothing if it is enough.
+fn more(context: &Context<'_>, further: &[NextTest], together: f64) -> String {
+    if further.is_empty() {
+        return String::new();
+    }
+    let plain = &context.likelihood.measured.study().operation;
+    let each: Vec<String> = further.iter().map(|test| changes(test, plain)).collect();
+    let (word, verdict) = (
+        if each.len() > 1 { "tests" } else { "one" },
+        strength(together),
+    );
+    format!(
+        " With {word} at {} as well: χ² {together:.0}, {verdict}.",
+        each.join("; at ")
+    )
+}
+
+/// The study's operation, as long as the longest test.
+pub(in crate::learn) fn plain(context: &Context<'_>) -> Operation {
+    let longest = existing(context)
+        .iter()
+        .map(|o| o.cycles)
+        .fold(0.0, f64::max);
+    Operation {
+        cycles: longest,
+        ..context.likelihood.measured.study().operation
+    }
+}
+
+/// Conditions of the tests that were made.
+pub(in crate::learn) fn existing(context: &Context<'_>) -> Vec<Operation> {
+    let tests = &context.likelihood.measured.study().tests;
+    let own = context.likelihood.tests.iter();
+    own.map(|&test| tests[test].conditions).collect()
+}
+
+/// How two candidates differ in a test.
+struct TestDiscrimination {
+    discrimination: Discrimination,
+    place: Place,
+}
+
+impl TestDiscrimination {
+    fn chi2(&self) -> f64 {
+        self.discrimination.chi2()
+    }
+}
+
+/// Where two candidates' wear depths differ most.
+pub(in crate::learn) struct Place {
+    /// µm.
+    pub(in crate::learn) largest: f64,
+    /// On which member.
+    pub(in crate::learn) member: &'static str,
+    /// When.
+    pub(in crate::learn) cycles: f64,
+}
+
+impl Place {
+    /// None without wear depths.
+    pub(in crate::learn) fn of(data: &Dataset, a: &[f64], b: &[f64]) -> Option<Self> {
+        let off = |i: &usize| (a[*i] - b[*i]).abs();
+        (0..data.observations.len())
+            .filter(|&i| data.observations[i].quantity == Quantity::WearDepth)
+            .max_by(|i, j| off(i).total_cmp(&off(j)))
+            .map(|i| Self {
+                largest: off(&i),
+                member: data.observations[i].member.name(),
+                cycles: data.observations[i].cycles,
+            })
+    }
+}
+
+fn told(
+    context: &Context<'_>,
+    shop: &Workshop,
+    operation: &Operation,
+    a: &FittedCandidate,
+    b: &FittedCandidate,
+) -> Option<TestDiscrimination> {
+    let design = MeasurementDesign::measured(context, operation.cycles)?;
+    let test = design.test(context.likelihood.measured.study(), operation);
+    let bench = shop.bench(vec![test]).ok()?;
+    let said = [a, b].map(|j| PlannedResponse::of(&bench, &j.candidate, &j.found.state).ok());
+    let [Some(fa), Some(fb)] = said else {
+        return None;
+    };
+    let both = || fa.values.iter().zip(&fb.values);
+    let data = design.with(&both().map(|(a, b)| 0.5 * (a + b)).collect::<Vec<f64>>());
+    let rows = (0..data.observations.len()).collect();
+    let scale = Whitening::new(&data, rows, &context.likelihood.noise);
+    let difference = scale.white(&both().map(|(a, b)| a - b).collect::<Vec<f64>>());
+    let parameters = fa.posterior(a).into_iter().chain(fb.posterior(b));
+    let common: Vec<_> = parameters.map(|column| scale.white(&column)).collect();
+    let own = [fa.scatter(a), fb.scatter(b)].map(|column| scale.white(&column));
+    Some(TestDiscrimination {
+        discrimination: Discrimination::new(&difference, &common, &own),
+        place: Place::of(&data, &fa.values, &fb.values).unwrap_or(Place {
+            largest: 0.0,
+            member: "pair",
+            cycles: operation.cycles,
+        }),
+    })
+}
+
+fn sentence(
+    context: &Context<'_>,
+    test: &NextTest,
+    names: &[String; 2],
+    told: &TestDiscrimination,
+    repetition: f64,
+) -> String {
+    let place = match told.place.largest {
+        0.0 => "with the quantities measured so far".to_owned(),
+        largest => format!(
+            "the largest difference, {largest:.2} µm, is on the {} after {:.2e} cycles",
+            told.place.member, told.place.cycles
+        ),
+    };
+    format!(
+        "A test with {} separates {} from {}: after refitting they differ there by χ² {:.0}, {} (a repetition of a test made already: {:.0}); {place}.",
+        changes(test, &context.likelihood.measured.study().operation),
+        names[0],
+        names[1],
+        told.chi2(),
+        strength(told.chi2()),
+        repetition
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DVector;
+
+    use super::super::candidate_tests::tests::plain;
+    use super::*;
+
+    /// A test in which two candidates differ by so many sigmas, and nothing can be refitted.
+    fn told(sigmas: f64) -> Option<TestDiscrimination> {
+        let difference = DVector::from_column_slice(&[sigmas]);
+        Some(TestDiscrimination {
+            discrimination: Discrimination::new(&difference, &[], &[]),
+            place: Place {
+                largest: 0.0,
+                member: "pair",
+                cycles: 1e6,
+            },
+        })
+    }
+
+    fn tests(changes: &[usize]) -> Vec<(usize, Operation)> {
+        changes.iter().map(|&n| (n, plain())).collect()
+    }
+
+    fn joined(
+        first: f64,
+        found: &[Option<TestDiscrimination>],
+        changes: &[usize],
+    ) -> (Vec<usize>, f64) {
+        beside(&told(first).unwrap().discrimination, found, &tests(changes))
+    }
+
+    #[test]
+    fn tests_join_until_they_are_enough() {
+        let found = [told(3.0), told(2.0), None];
+        // 9 + 9 = 18 beats 9 + 4; then 18 + 4 = 22 is nearly 18 + 9, plainer and enough
+        let (beside, together) = joined(3.0, &found, &[1, 0, 0]);
+        assert_eq!(beside, [0, 1]);
+        assert!((together - 22.0).abs() < 1e-9);
+        assert_eq!(joined(5.0, &found, &[1, 0, 0]), (Vec::new(), 25.0));
+    }
+
+    #[test]
+    fn no_more_join_than_a_campaign_bears() {
+        let (beside, together) = joined(1.0, &[told(1.0)], &[0]);
+        assert_eq!(beside.len(), FURTHER);
+        assert!((together - 4.0).abs() < 1e-9 && together < APART);
+    }
+}

@@ -1,0 +1,275 @@
+//! The table of feasible tests after measurements: how well each separates what a fast diagnosis leaves.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::candidate_tests::{ENOUGH, changes, grid, purpose, ranked, shown, strength};
+use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
+use super::measurement_design::MeasurementDesign;
+use super::next::{Place, existing, plain};
+use super::plan::{Leader, NextTests, Plan, RankedTest, Separated};
+use crate::learn::bench::Workshop;
+use crate::learn::decision::DecisionRule;
+use crate::learn::fidelity::Fidelity;
+use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::likelihood::Likelihood;
+use crate::learn::measured::Measured;
+use crate::learn::model_search::context::Context;
+use crate::learn::model_search::context::{DiagnoseError, Watch};
+use crate::learn::noise::NoiseModel;
+use crate::measure::Quantity;
+use crate::simulate::forward::ContactKind;
+use crate::study::{Operation, Role};
+
+/// Log posterior behind the first from which a candidate leads no longer.
+const LEADING: f64 = 8.0;
+/// Least and most leading candidates.
+const LEADERS: [usize; 2] = [2, 4];
+/// Quantities of the table.
+const QUANTITIES: [Quantity; 3] = [
+    Quantity::WearDepth,
+    Quantity::TransmissionError,
+    Quantity::MassLoss,
+];
+
+/// The table of feasible tests for a study's measurements.
+///
+/// # Errors
+/// [`DiagnoseError`]
+pub fn plan_after(
+    measured: &Measured<'_>,
+    noise: f64,
+    watch: Watch<'_>,
+) -> Result<Plan, DiagnoseError> {
+    let study = measured.study();
+    let fitted = NoiseModel {
+        model_error: Some(Fidelity::Screening.model_error()),
+        ..NoiseModel::of(&study.noise)
+    };
+    let likelihood = Likelihood::new(measured, fitted, Role::Fit);
+    if likelihood.tests.is_empty() {
+        return Err(DiagnoseError::NoObservations);
+    }
+    let numerics = Fidelity::Screening.resolution(study.resolution());
+    let set = study.gear_set();
+    let shop = Workshop::new(set, numerics, ContactKind::Hertz, measured.tests())?;
+    let hertz = measured.bench(&shop)?;
+    let context = Context {
+        likelihood,
+        hertz: &hertz,
+        middle: &hertz,
+        exact: &hertz,
+        fidelity: Fidelity::Screening,
+        approximate: true,
+    };
+    watch(0.0, "fitting the base model".to_owned());
+    let base = context.base(Candidate::base(study))?;
+    let (singles, _) = Candidate::singles(study);
+    watch(0.2, format!("screening {} effects", singles.len()));
+    let screened = context.screen(&base, &singles);
+    let leaders = leaders(&base.fitted, &screened);
+    watch(0.6, "trying feasible tests".to_owned());
+    let plainest = plain(&context);
+    let tests = grid(&plainest);
+    let made = existing(&context);
+    let all: Vec<Operation> = (tests.iter().map(|(_, operation)| *operation))
+        .chain(made)
+        .collect();
+    let found: Vec<Vec<QuantityDiscrimination>> = all
+        .par_iter()
+        .map(|operation| told(&context, &shop, operation, &leaders, noise).unwrap_or_default())
+        .collect();
+    let repetition = (found[tests.len()..].iter().flatten())
+        .map(QuantityDiscrimination::score)
+        .fold(0.0, f64::max);
+    let mut rows: Vec<RankedTest> = Vec::new();
+    for ((changes, operation), told) in tests.iter().zip(&found) {
+        rows.extend(
+            told.iter()
+                .map(|told| row(&context, *changes, operation, told, &leaders)),
+        );
+    }
+    let scores: Vec<(f64, usize)> = rows.iter().map(|r| (r.expected_chi2, r.changes)).collect();
+    let tests: Vec<RankedTest> = ranked(&scores)
+        .into_iter()
+        .map(|i| rows[i].clone())
+        .collect();
+    Ok(Plan::NextTests(NextTests {
+        sentence: tests.first().map_or_else(
+            || "No feasible test could be computed.".to_owned(),
+            |best| {
+                format!(
+                    "Next: {} with {}; {}",
+                    best.quantity.replace('_', " "),
+                    changes(&best.test, &plainest),
+                    best.why
+                )
+            },
+        ),
+        leaders: leaders
+            .iter()
+            .map(|(judged, log)| Leader {
+                effect: judged.candidate.hypothesis().to_string(),
+                form: (judged
+                    .candidate
+                    .forms
+                    .iter()
+                    .flatten()
+                    .map(|form| form.name))
+                .collect::<Vec<_>>()
+                .join(", "),
+                behind: leaders[0].1 - log,
+            })
+            .collect(),
+        noise,
+        repetition_chi2: repetition,
+        tests,
+    }))
+}
+
+/// The leading candidates with their log posterior, one form of each effect.
+fn leaders<'j>(
+    base: &'j FittedCandidate,
+    screened: &'j [FittedCandidate],
+) -> Vec<(&'j FittedCandidate, f64)> {
+    let mut names: Vec<_> = screened.iter().map(|j| &j.candidate.effects).collect();
+    names.sort();
+    names.dedup();
+    let rule = DecisionRule::of_analytic_model();
+    let share = rule.prior_singles / names.len().max(1) as f64;
+    let log = |j: &FittedCandidate| j.log_evidence + (share / j.candidate.siblings as f64).ln();
+    let mut all: Vec<(&FittedCandidate, f64)> = screened.iter().map(|j| (j, log(j))).collect();
+    all.push((base, base.log_evidence + rule.prior_nothing.ln()));
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut leaders: Vec<(&FittedCandidate, f64)> = Vec::new();
+    for (judged, log) in all {
+        let near = leaders.first().is_none_or(|first| first.1 - log < LEADING);
+        let new = leaders
+            .iter()
+            .all(|l| l.0.candidate.effects != judged.candidate.effects);
+        if new && (leaders.len() < LEADERS[0] || (leaders.len() < LEADERS[1] && near)) {
+            leaders.push((judged, log));
+        }
+    }
+    leaders
+}
+
+/// What one quantity in one test says of the leader against each other candidate.
+#[derive(Default)]
+struct QuantityDiscrimination {
+    quantity: Option<Quantity>,
+    chi2: Vec<f64>,
+    /// Where the leader's wear differs most from the second one's.
+    place: Option<Place>,
+}
+
+impl QuantityDiscrimination {
+    fn score(&self) -> f64 {
+        let capped: f64 = self.chi2.iter().map(|c| c.min(ENOUGH)).sum();
+        capped / self.chi2.len().max(1) as f64
+    }
+}
+
+fn told(
+    context: &Context<'_>,
+    shop: &Workshop,
+    operation: &Operation,
+    leaders: &[(&FittedCandidate, f64)],
+    noise: f64,
+) -> Option<Vec<QuantityDiscrimination>> {
+    let study = context.likelihood.measured.study();
+    let design = MeasurementDesign::measured(context, operation.cycles)?
+        .completed(MeasurementDesign::standard(study, operation, noise)?);
+    let bench = shop.bench(vec![design.test(study, operation)]).ok()?;
+    let said: Vec<PlannedResponse> = leaders
+        .iter()
+        .map(|(j, _)| PlannedResponse::of(&bench, &j.candidate, &j.found.state).ok())
+        .collect::<Option<_>>()?;
+    let columns: Vec<Vec<Vec<f64>>> = said
+        .iter()
+        .zip(leaders)
+        .map(|(said, (judged, _))| {
+            let mut columns = said.posterior(judged);
+            columns.push(said.scatter(judged));
+            columns
+        })
+        .collect();
+    let data = design.with(&said[0].values);
+    let noise = noise_ahead(study);
+    let of_quantity = |quantity: Quantity| {
+        let scale = Whitening::new(&data, design.rows(quantity), &noise);
+        let whitened = |columns: &[Vec<f64>]| -> Vec<DVector<f64>> {
+            columns.iter().map(|c| scale.white(c)).collect()
+        };
+        let values: Vec<DVector<f64>> = said.iter().map(|s| scale.white(&s.values)).collect();
+        let first = whitened(&columns[0]);
+        let chi2 = (1..said.len())
+            .map(|other| {
+                let own = [first.clone(), whitened(&columns[other])].concat();
+                Discrimination::new(&(&values[0] - &values[other]), &[], &own).chi2()
+            })
+            .collect();
+        QuantityDiscrimination {
+            quantity: Some(quantity),
+            chi2,
+            place: Place::of(&data, &said[0].values, &said[1].values),
+        }
+    };
+    let there = |quantity: &Quantity| !design.rows(*quantity).is_empty();
+    Some(
+        QUANTITIES
+            .into_iter()
+            .filter(there)
+            .map(of_quantity)
+            .collect(),
+    )
+}
+
+fn row(
+    context: &Context<'_>,
+    changes: usize,
+    operation: &Operation,
+    told: &QuantityDiscrimination,
+    leaders: &[(&FittedCandidate, f64)],
+) -> RankedTest {
+    let test = shown(operation);
+    let names: Vec<String> = leaders
+        .iter()
+        .map(|(j, _)| j.candidate.hypothesis().to_string())
+        .collect();
+    let separates: Vec<Separated> = (names[1..].iter().zip(&told.chi2))
+        .map(|(other, chi2)| Separated {
+            pair: [names[0].clone(), other.clone()],
+            chi2: *chi2,
+        })
+        .collect();
+    let least = told.chi2.iter().copied().fold(f64::INFINITY, f64::min);
+    let weakest = separates.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    let weakest = weakest.map_or(String::new(), |s| {
+        format!(
+            "; hardest to tell apart: {} and {}, χ² {least:.0}, {}",
+            s.pair[0],
+            s.pair[1],
+            strength(least)
+        )
+    });
+    let depth = told
+        .place
+        .as_ref()
+        .filter(|_| told.quantity == Some(Quantity::WearDepth))
+        .map_or(String::new(), |p| {
+            format!(
+                "; {} and {} differ by up to {:.2} µm, on the {} after {:.2e} cycles, before refitting",
+                names[0], names[1], p.largest, p.member, p.cycles
+            )
+        });
+    RankedTest {
+        why: format!("{}{weakest}{depth}", purpose(&test, &plain(context))),
+        quantity: told.quantity.map_or("", Quantity::name).to_owned(),
+        changes,
+        expected_chi2: told.score(),
+        separates,
+        test,
+    }
+}

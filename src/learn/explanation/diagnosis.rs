@@ -1,0 +1,192 @@
+//! The answer: what `diagnosis.json` is written from.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::findings::Findings;
+use super::ranked::{Ranked, form, parameters, ranked};
+use super::sentences::Explanation;
+use super::warnings::warnings;
+use crate::learn::checks::sufficiency::few;
+use crate::learn::decision::posterior::Posterior;
+use crate::learn::decision::{DecisionRule, Verdict};
+use crate::learn::discrepancy::dependence::{self, Driver};
+use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
+use crate::learn::discrepancy::smooth::MapPoint;
+use crate::learn::experiment::next::{NextExperiment, separating};
+use crate::learn::hypothesis::Hypothesis;
+use crate::learn::hypothesis::candidate::NotJudged;
+use crate::learn::model_search::context::Context;
+
+/// One effect, or several.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Named {
+    /// One.
+    One(String),
+    /// Several.
+    Several(Vec<String>),
+}
+
+/// A diagnosis. [`crate::learn::diagnose::Evidence`] can be read from its document.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Diagnosis {
+    /// What is missing.
+    pub verdict: Verdict,
+    /// The named effect or effects; None unless the verdict names some.
+    pub effect: Option<Named>,
+    /// The verdict in a sentence, and why.
+    pub sentence: String,
+    /// Further sentences: why not the runner-up, what cannot be concluded.
+    pub reasons: Vec<String>,
+    /// What to do next.
+    pub next_step: String,
+    /// Sum to 1 over effects, sets, `nothing_missing` and `unknown`.
+    pub probabilities: BTreeMap<String, f64>,
+    /// The most probable first.
+    pub ranking: Vec<Ranked>,
+    /// Groups that the data cannot tell apart.
+    pub indistinguishable: Vec<Vec<String>>,
+    /// What the discrepancy depends on most; None without a discrepancy.
+    pub driver: Option<Driver>,
+    /// All drivers.
+    pub drivers: Vec<Driver>,
+    /// The smooth discrepancy at every fitted row; not part of the document, but a table of its own.
+    #[serde(skip)]
+    pub discrepancy: Vec<MapPoint>,
+    /// What the base model and the leading one leave, against each physical driver.
+    pub residual_drivers: ResidualDrivers,
+    /// Share of the attainable fall of χ² that the leading effect accounts for; None without a discrepancy.
+    pub explained_share: Option<f64>,
+    /// Fall of χ² that anything smooth could bring.
+    pub attainable_drop: f64,
+    /// Standard deviation of that on noise alone.
+    pub attainable_spread: f64,
+    /// Log evidence of a smooth discrepancy of unknown cause over the base model.
+    pub unknown_evidence_gain: f64,
+    /// What a sparse regression on the effects' linear signatures picks, the strongest first: a second opinion that refits nothing.
+    pub sparse_regression: Vec<String>,
+    /// The test that would best separate what is left.
+    pub next_experiment: Option<NextExperiment>,
+    /// Everything fitted, by falling evidence.
+    pub screened: Vec<Screened>,
+    /// The thresholds by which this was decided.
+    pub rule: DecisionRule,
+    /// Effects that could not be judged.
+    pub not_judged: Vec<NotJudged>,
+    /// What is doubtful.
+    pub warnings: Vec<String>,
+}
+
+/// One form of one effect or set as fitted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Screened {
+    /// Effect or set.
+    pub effect: Hypothesis,
+    /// The same as a list.
+    pub effects: Vec<String>,
+    /// Forms.
+    pub form: String,
+    /// Number of accepted forms that share the prior of these effects.
+    pub accepted_forms: usize,
+    /// Whether the data determine the parameter by which the effect is known.
+    pub identified: bool,
+    /// Log evidence over the base model's.
+    pub evidence_gain: f64,
+    /// Fall of the whole χ² against the base model.
+    pub chi2_drop: f64,
+    /// Whether the deciding model was used.
+    pub decided: bool,
+    /// Fitted values in the order of its parameters.
+    pub values: Vec<f64>,
+}
+
+impl Diagnosis {
+    /// Puts the answer together.
+    pub(in crate::learn) fn new(findings: Findings<'_>) -> Self {
+        let Findings {
+            context,
+            base,
+            smooth,
+            posterior,
+            ..
+        } = findings;
+        let likelihood = &context.likelihood;
+        let decision = &posterior.decision;
+        let nothing_missing = decision.verdict == Verdict::NothingMissing;
+        let discrepant = smooth.is_real() || !nothing_missing;
+        let drivers = if discrepant && !few(likelihood, base) {
+            dependence::drivers(likelihood, &base.fitted.found.model, smooth.drop)
+        } else {
+            Vec::new()
+        };
+        let leader = posterior.leader();
+        let next_experiment = separating(context, findings.workshop, base, posterior);
+        let explanation = Explanation::new(&findings, drivers.first(), next_experiment.as_ref());
+        let group = decision.group.iter().map(Hypothesis::to_string).collect();
+        let alone = decision.group.len() < 2;
+        let names = |hypotheses: Vec<Hypothesis>| -> Vec<String> {
+            hypotheses.iter().map(Hypothesis::to_string).collect()
+        };
+        Self {
+            verdict: decision.verdict,
+            effect: named(posterior),
+            sentence: explanation.sentence,
+            reasons: explanation.reasons,
+            next_step: explanation.next_step,
+            probabilities: (decision.log_probabilities.iter())
+                .map(|(hypothesis, log)| (hypothesis.to_string(), log.exp()))
+                .collect(),
+            ranking: ranked(context, base, posterior),
+            indistinguishable: if alone { Vec::new() } else { vec![group] },
+            driver: drivers.first().cloned(),
+            drivers,
+            discrepancy: smooth.map(likelihood),
+            residual_drivers: residual_drivers::of(
+                likelihood,
+                context.exact,
+                &base.fitted,
+                leader.filter(|_| !nothing_missing),
+            ),
+            explained_share: posterior.share_of_leader(),
+            attainable_drop: smooth.drop.max(0.0),
+            attainable_spread: smooth.spread(),
+            unknown_evidence_gain: posterior.evidence.unknown_evidence_gain,
+            next_experiment,
+            screened: screened(context, posterior),
+            rule: posterior.rule,
+            warnings: warnings(context, base, posterior, &findings.not_fitted),
+            sparse_regression: names(findings.sparse_regression),
+            not_judged: findings.not_judged,
+        }
+    }
+}
+
+fn named(posterior: &Posterior) -> Option<Named> {
+    let leader = posterior.decision.leader()?;
+    match posterior.decision.verdict {
+        Verdict::Effect => Some(Named::One(leader.to_string())),
+        Verdict::Effects => Some(Named::Several(leader.clone().into())),
+        _ => None,
+    }
+}
+
+fn screened(context: &Context<'_>, posterior: &Posterior) -> Vec<Screened> {
+    let all = posterior
+        .candidates
+        .iter()
+        .zip(&posterior.evidence.candidates);
+    all.map(|(fitted, figures)| Screened {
+        effect: fitted.candidate.hypothesis(),
+        effects: figures.effects.clone().into(),
+        form: form(fitted),
+        accepted_forms: figures.accepted_forms,
+        identified: figures.identified,
+        evidence_gain: figures.evidence_gain,
+        chi2_drop: figures.chi2_drop,
+        decided: fitted.fidelity == context.fidelity,
+        values: parameters(fitted).iter().map(|p| p.value).collect(),
+    })
+    .collect()
+}

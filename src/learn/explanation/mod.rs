@@ -1,0 +1,10 @@
+//! Stage 8, explanation: the answer as a document, in figures and in sentences.
+
+mod diagnosis;
+pub(in crate::learn) mod findings;
+mod ranked;
+mod sentences;
+mod warnings;
+
+pub use diagnosis::{Diagnosis, Named, Screened};
+pub use ranked::{ParameterValue, Ranked};

@@ -1,0 +1,370 @@
+//! Sentences that a gear engineer can check.
+
+use super::findings::Findings;
+use super::ranked::parameters;
+use crate::effects::Card;
+use crate::learn::checks::identifiability::unidentified;
+use crate::learn::checks::sufficiency::{few, measured_once};
+use crate::learn::decision::Verdict;
+use crate::learn::discrepancy::dependence::Driver;
+use crate::learn::experiment::next::NextExperiment;
+use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::hypothesis::{EffectSet, Hypothesis};
+
+/// Probability of nothing missing below which that is undecided. Of the blind sets of the second and third series with 0.8 or more,
+/// 65 of 72 hide nothing and the others an effect of d < 6; of those with 0.5 to 0.8, 31 of 48, and one an effect of d ≥ 6.
+const SURE: f64 = 0.8;
+/// Probability of nothing missing from which the next effect is not worth a sentence.
+const CERTAIN: f64 = 0.95;
+/// Share of the attainable fall of χ² below which no effect is worth naming.
+const NEGLIGIBLE: f64 = 0.01;
+/// Log evidence to the runner-up below which what separates the two is told.
+const CLOSE: f64 = 5.0;
+/// Pairs of effects that are looked at for one that they have in common.
+const BEST_PAIRS: usize = 3;
+
+/// The verdict in words.
+pub(super) struct Explanation {
+    pub(super) sentence: String,
+    /// Why, and what cannot be concluded.
+    pub(super) reasons: Vec<String>,
+    pub(super) next_step: String,
+}
+
+impl Explanation {
+    /// Of what was found, the driver of the discrepancy and the proposed test among it.
+    pub(super) fn new(
+        findings: &Findings<'_>,
+        driver: Option<&Driver>,
+        next: Option<&NextExperiment>,
+    ) -> Self {
+        let decision = &findings.posterior.decision;
+        let leader = findings.posterior.leader();
+        let mut all = match (decision.verdict, leader) {
+            (Verdict::Effect | Verdict::Effects, Some(leader)) => named(findings, leader),
+            (Verdict::Ambiguous, _) => ambiguous(findings, next),
+            (Verdict::Unknown, _) => unknown(findings),
+            _ => nothing_missing(findings),
+        };
+        if let Some(driver) = driver {
+            all.reasons.extend(depends_on(driver));
+        }
+        if matches!(decision.verdict, Verdict::Effect | Verdict::Effects) {
+            all.reasons.extend(why_not_the_runner_up(findings));
+        }
+        for missing in &findings.not_judged {
+            all.reasons.push(format!(
+                "Not judged: {}, which needs {} in the study.",
+                missing.effect,
+                missing.needs.join(", ")
+            ));
+        }
+        all
+    }
+}
+
+/// χ² per point of the base model.
+fn before(findings: &Findings<'_>) -> f64 {
+    chi2(findings, &findings.base.fitted)
+}
+
+fn chi2(findings: &Findings<'_>, fitted: &FittedCandidate) -> f64 {
+    let likelihood = &findings.context.likelihood;
+    likelihood.chi2_per_point(&fitted.found.model)
+}
+
+fn nothing_missing(findings: &Findings<'_>) -> Explanation {
+    let likelihood = &findings.context.likelihood;
+    let decision = &findings.posterior.decision;
+    let chi2_before = before(findings);
+    let nothing = decision.probability(&Hypothesis::NothingMissing);
+    let shown = if nothing < SURE {
+        "Undecided: most likely nothing is missing, but a weak effect may be"
+    } else {
+        "Nothing is missing that these data show"
+    };
+    let too_few = few(likelihood, findings.base);
+    let sentence = if too_few {
+        format!(
+            "Too few measured values ({}) to tell whether anything is missing: the base model stands at χ² {chi2_before:.2} per point (1 is the noise).",
+            likelihood.len()
+        )
+    } else {
+        format!(
+            "{shown}: the base model stands at χ² {chi2_before:.2} per point (1 is the noise), probability of nothing missing {}.",
+            percent(nothing)
+        )
+    };
+    let leader = findings.posterior.leader().filter(|_| nothing < CERTAIN);
+    let next = leader.map(|leader| {
+        format!(
+            "Next would be {} ({}), which lowers χ² per point to {:.3}: too little against the chance of so many candidates.",
+            leader.candidate.effects,
+            percent(decision.probability_of(&leader.candidate.effects)),
+            chi2(findings, leader)
+        )
+    });
+    let next_step = if too_few {
+        "measure more before concluding anything: gearwear plan STUDY proposes tests"
+    } else if measured_once(likelihood).len() == likelihood.tests.len() {
+        "no effect need be added for what these data show; what changes over life they cannot show: measure at several numbers of cycles"
+    } else if nothing < SURE {
+        "add no effect yet: more of the same measurements, or those that gearwear plan STUDY proposes, would decide"
+    } else {
+        "no effect need be added; a weak effect could still hide below the noise"
+    };
+    Explanation {
+        sentence,
+        reasons: next.into_iter().collect(),
+        next_step: next_step.to_owned(),
+    }
+}
+
+fn unknown(findings: &Findings<'_>) -> Explanation {
+    let decision = &findings.posterior.decision;
+    let next_step = if findings.context.approximate {
+        "repeat with --fidelity middle: what is left may be the analytic model's own error"
+    } else {
+        "look at the measurements named in the warnings, if any; else write the suspected law as an [[effect]] with kind = \"formula\" and diagnose again"
+    };
+    Explanation {
+        sentence: format!(
+            "Something is missing that the catalogue does not hold (probability {}): the base model stands at χ² {:.2} per point.",
+            percent(decision.probability(&Hypothesis::Unknown)),
+            before(findings)
+        ),
+        reasons: best_of_catalogue(findings).into_iter().collect(),
+        next_step: next_step.to_owned(),
+    }
+}
+
+/// How much of the discrepancy the best of the catalogue accounts for.
+fn best_of_catalogue(findings: &Findings<'_>) -> Option<String> {
+    let posterior = findings.posterior;
+    let (leader, share) = (posterior.decision.leader()?, posterior.share_of_leader()?);
+    if share < NEGLIGIBLE {
+        return Some(format!(
+            "No effect of the catalogue accounts for even {} of the attainable reduction of χ².",
+            percent(NEGLIGIBLE)
+        ));
+    }
+    let common = common_to_pairs(&posterior.decision.effects).map_or(String::new(), |card| {
+        format!(" {} stands in all of the best pairs.", card.name)
+    });
+    Some(format!(
+        "The best of the catalogue, {}, accounts for {} of the attainable reduction of χ².{common}",
+        leader.in_words(),
+        percent(share)
+    ))
+}
+
+/// The effect that the most probable pairs have in common.
+fn common_to_pairs(by_probability: &[EffectSet]) -> Option<&'static Card> {
+    let pairs = by_probability.iter().filter(|effects| effects.len() > 1);
+    let best: Vec<&EffectSet> = pairs.take(BEST_PAIRS).collect();
+    let [first, others @ ..] = &best[..] else {
+        return None;
+    };
+    let everywhere = |card: &&&'static Card| {
+        let alone = EffectSet::new([**card]);
+        others.iter().all(|pair| pair.contains(&alone))
+    };
+    let mut common = first.cards().iter().filter(everywhere);
+    common.next().filter(|_| !others.is_empty()).copied()
+}
+
+fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
+    let candidate = &leader.candidate;
+    let several = candidate.effects.len() > 1;
+    let added = candidate.added_forms().map(|(card, form)| match form {
+        None if several => format!("gearwear add STUDY {} --form own", card.name),
+        None => format!("gearwear add STUDY {}", card.name),
+        Some(form) => format!("gearwear add STUDY {} --form \"{}\"", card.name, form.name),
+    });
+    let shows = |card: &&'static Card| format!("How {} shows: {}.", card.name, card.signature);
+    Explanation {
+        sentence: format!(
+            "{} missing: {} (probability {}). With it χ² per point falls from {:.2} to {:.2}; {}.",
+            if several {
+                "These effects are"
+            } else {
+                "One effect is"
+            },
+            candidate.effects.in_words(),
+            percent((findings.posterior.decision).probability_of(&candidate.effects)),
+            before(findings),
+            chi2(findings, leader),
+            values(leader)
+        ),
+        reasons: candidate.effects.cards().iter().map(shows).collect(),
+        next_step: (added.collect::<Vec<_>>()).join(", then the same with the new study: "),
+    }
+}
+
+fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanation {
+    let posterior = findings.posterior;
+    let decision = &posterior.decision;
+    let mut group: Vec<(&Hypothesis, f64)> = (decision.group.iter())
+        .map(|hypothesis| (hypothesis, decision.probability(hypothesis)))
+        .collect();
+    group.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let list: Vec<String> = (group.iter())
+        .map(|(hypothesis, p)| format!("{hypothesis} ({})", percent(*p)))
+        .collect();
+    let doubted = decision.group.contains(&Hypothesis::Unknown);
+    let leader = posterior.leader().filter(|_| doubted);
+    let unidentified = leader.and_then(|j| unidentified(&findings.context.likelihood, j));
+    let reason = match (unidentified, leader, posterior.share_of_leader()) {
+        (Some((card, parameter)), ..) => Some(format!(
+            "These data do not determine {parameter}, by which {} is known: any other cause of the same pattern would look alike. What would show it: {}.",
+            card.name, card.separated_by
+        )),
+        (None, Some(leader), Some(share)) => Some(format!(
+            "{} accounts for {} of the attainable reduction of χ²: neither it nor an uncatalogued cause, or a spoiled measurement, can be ruled out.",
+            leader.candidate.effects,
+            percent(share.max(0.0))
+        )),
+        _ => None,
+    };
+    let next_step = match (next, unidentified) {
+        (Some(_), _) => "make the proposed test before adding one of them".to_owned(),
+        (None, Some((card, _))) => {
+            format!("what shows whether it is {}: {}", card.name, card.separated_by)
+        }
+        (None, None) => "no single test made like these tells them apart: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned(),
+    };
+    Explanation {
+        sentence: format!(
+            "The data cannot tell apart: {}. The base model stands at χ² {:.2} per point.",
+            list.join(", "),
+            before(findings)
+        ),
+        reasons: reason.into_iter().collect(),
+        next_step,
+    }
+}
+
+fn depends_on(driver: &Driver) -> Vec<String> {
+    let mut reasons = vec![format!(
+        "The discrepancy depends most on {}: {} of its variance.",
+        driver.name,
+        percent(driver.variance_share)
+    )];
+    if driver.name == "trace" {
+        reasons.push("Traces are shifted or tilted each by itself, as wear of the same teeth is not: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth.".to_owned());
+    }
+    reasons
+}
+
+fn why_not_the_runner_up(findings: &Findings<'_>) -> Vec<String> {
+    let posterior = findings.posterior;
+    let runner_up = posterior.decision.effects.get(1);
+    let runner_up = runner_up.and_then(|effects| posterior.best_form(effects));
+    let (Some(leader), Some(other)) = (posterior.leader(), runner_up) else {
+        return Vec::new();
+    };
+    let behind = leader.log_evidence - other.log_evidence;
+    let mut reasons = vec![format!(
+        "Why not {}: fitted as well as it can be it leaves χ² {:.2} per point, {}.",
+        other.candidate.effects,
+        chi2(findings, other),
+        against(behind / posterior.rule.temper)
+    )];
+    if let Some(card) = (other.candidate.effects.cards().first()).filter(|_| behind < CLOSE) {
+        reasons.push(format!(
+            "What tells {} from its look-alikes: {}.",
+            card.name, card.separated_by
+        ));
+    }
+    reasons
+}
+
+/// `98 %`, never a certainty.
+fn percent(p: f64) -> String {
+    if p > 0.999 {
+        "over 99.9 %".to_owned()
+    } else if p > 0.0 && p < 0.001 {
+        "under 0.1 %".to_owned()
+    } else {
+        let digits = usize::from(!(0.1..=0.9).contains(&p));
+        format!("{:.digits$} %", 100.0 * p)
+    }
+}
+
+fn against(log: f64) -> String {
+    if log > 14.0 {
+        "more than a million times less probable".to_owned()
+    } else {
+        format!(
+            "about {:.0} times less probable by the data",
+            log.max(0.0).exp()
+        )
+    }
+}
+
+/// `amplitude 1.81 ± 0.04, decay_cycles (1.27 ± 0.03)e5 cycles`.
+fn values(j: &FittedCandidate) -> String {
+    let all: Vec<String> = parameters(j)
+        .iter()
+        .map(|p| {
+            let unit = if p.unit == "-" {
+                String::new()
+            } else {
+                format!(" {}", p.unit)
+            };
+            format!("{} {}{unit}", p.name, uncertain(p.value, p.sigma))
+        })
+        .collect();
+    all.join(", ")
+}
+
+/// A value and its standard deviation with as many digits as the latter has two of.
+fn uncertain(value: f64, sigma: f64) -> String {
+    let size = value.abs().max(sigma);
+    let exponent = if size != 0.0 && !(1e-2..1e4).contains(&size) {
+        size.log10().floor() as i32
+    } else {
+        0
+    };
+    let scale = 10f64.powi(exponent);
+    let (value, sigma) = (value / scale, sigma / scale);
+    let digits = if sigma > 0.0 {
+        (1.0 - sigma.log10().floor()).clamp(0.0, 6.0) as usize
+    } else {
+        3
+    };
+    let both = format!("{value:.digits$} ± {sigma:.digits$}");
+    match exponent {
+        0 => both,
+        _ => format!("({both})e{exponent}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::find;
+
+    #[test]
+    fn values_share_the_digits_and_the_power_of_their_error() {
+        assert_eq!(uncertain(1.8194, 0.0353), "1.819 ± 0.035");
+        assert_eq!(uncertain(123_859.0, 4665.6), "(1.239 ± 0.047)e5");
+        assert_eq!(uncertain(0.0271, 0.0017), "0.0271 ± 0.0017");
+        assert_eq!(uncertain(8.95, 0.0), "8.950 ± 0.000");
+    }
+
+    #[test]
+    fn what_the_best_pairs_have_in_common_is_said() {
+        let set = |names: &[&str]| EffectSet::new(names.iter().map(|name| find(name).unwrap()));
+        let pairs = [
+            set(&["approach_recess"]),
+            set(&["micropitting", "running_in"]),
+            set(&["coating", "micropitting"]),
+            set(&["micropitting", "tip_relief"]),
+            set(&["coating", "tip_relief"]),
+        ];
+        assert_eq!(common_to_pairs(&pairs).unwrap().name, "micropitting");
+        assert!(common_to_pairs(&pairs[..2]).is_none());
+        assert!(common_to_pairs(&pairs[2..]).is_none());
+    }
+}

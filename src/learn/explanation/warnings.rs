@@ -1,0 +1,131 @@
+//! What keeps an answer from being trusted.
+
+use super::ranked::parameters;
+use crate::learn::checks::noise_level;
+use crate::learn::checks::outlying_curves;
+use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
+use crate::learn::decision::posterior::Posterior;
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::hypothesis::Hypothesis;
+use crate::learn::model_search::context::Context;
+
+/// Share of a parameter's prior outside of which a value is told.
+const UNHEARD_OF: f64 = 1e-3;
+
+/// What keeps an answer from being trusted.
+pub(in crate::learn) fn warnings(
+    context: &Context<'_>,
+    base: &BaseFit,
+    posterior: &Posterior,
+    not_fitted: &[Hypothesis],
+) -> Vec<String> {
+    let likelihood = &context.likelihood;
+    let mut warnings = Vec::new();
+    if context.approximate {
+        warnings.push(
+            "decided by the analytic contact model, whose curves differ by 1 to 2 % from finite elements and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
+        );
+    }
+    let factor = likelihood.noise.sigma_factor;
+    if factor > 1.0 {
+        warnings.push(format!(
+            "neighbouring points of a trace scatter {factor:.1} times as much as their stated sigma: it was taken that much larger here"
+        ));
+    }
+    if let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model) {
+        warnings.push(format!(
+            "neighbouring points of a trace scatter only {smooth:.2} times their stated sigma: if the traces were filtered their points are not independent and every probability here is too bold; if sigma is overstated, weak effects stay hidden"
+        ));
+    }
+    let alone = measured_once(likelihood);
+    if alone.len() == likelihood.tests.len() {
+        warnings.push(
+            "every test was measured at one number of cycles only: what changes over life (running-in, debris, ageing, polishing) cannot be told from a constant".to_owned(),
+        );
+    } else if !alone.is_empty() {
+        warnings.push(format!(
+            "measured at one number of cycles only: {}",
+            alone.join(", ")
+        ));
+    }
+    if likelihood.tests.len() == 1 {
+        warnings.push(
+            "there is one test only: what depends on torque, speed or misalignment cannot be told from what does not".to_owned(),
+        );
+    }
+    let unknowns = unknowns(likelihood, base);
+    if likelihood.len() <= unknowns {
+        warnings.push(format!(
+            "there are about {unknowns} unknowns and no more measured values ({}): no effect can show",
+            likelihood.len()
+        ));
+    } else if few(likelihood, base) {
+        warnings.push(format!(
+            "{} measured values are few for about {unknowns} unknowns: only strong effects can show",
+            likelihood.len()
+        ));
+    }
+    let leader = posterior.leader();
+    let suspects = outlying_curves::suspects(likelihood, &base.fitted.found.model);
+    if suspects.is_empty() {
+        let models = std::iter::once(&base.fitted).chain(leader);
+        warnings.extend(
+            models
+                .filter_map(|j| outlying_curves::alone(likelihood, base, &j.found.model))
+                .next(),
+        );
+    }
+    warnings.extend(suspects);
+    if !base.fitted.converged {
+        warnings
+            .push("the fit of the base model did not converge: probabilities are rough".to_owned());
+    }
+    if let Some(leader) = leader {
+        if !leader.converged {
+            warnings.push(format!(
+                "the fit with {} did not converge: its parameters are rough",
+                leader.candidate.hypothesis()
+            ));
+        }
+        for p in parameters(leader).iter().filter(|p| p.at_bound) {
+            warnings.push(format!(
+                "{} of {} lies on its bound, {:e}",
+                p.name,
+                leader.candidate.hypothesis(),
+                p.value
+            ));
+        }
+        if posterior
+            .decision
+            .probability(&leader.candidate.hypothesis())
+            > 0.5
+        {
+            warnings.extend(unheard_of(leader));
+        }
+    }
+    if !not_fitted.is_empty() {
+        let names: Vec<String> = not_fitted.iter().map(Hypothesis::to_string).collect();
+        warnings.push(format!(
+            "could not be fitted and are not judged: {}",
+            names.join(", ")
+        ));
+    }
+    warnings
+}
+
+/// Parameters of the added effects that lie outside nearly all of what the catalogue holds for possible.
+fn unheard_of(leader: &FittedCandidate) -> impl Iterator<Item = String> {
+    let candidate = &leader.candidate;
+    let added =
+        (candidate.parameters.iter().zip(&leader.found.state.theta)).skip(candidate.inherited);
+    added.filter_map(|(parameter, &natural)| {
+        let value = parameter.value(natural);
+        let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
+        (value < low || value > high).then(|| {
+            format!(
+                "{} would be {value:.3e}, known are {low:.3e} to {high:.3e}: the name holds only if such a size makes sense here",
+                parameter.name
+            )
+        })
+    })
+}

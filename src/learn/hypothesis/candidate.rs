@@ -1,0 +1,458 @@
+//! What could be missing: every effect of the catalogue in each accepted form, alone or several together.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::version::{ModelVersion, parameter};
+use super::{EffectSet, Hypothesis};
+use crate::effects::{CATALOGUE, Card, Form, Hook, ParamRole, Prior};
+use crate::learn::parameters::Parameter;
+use crate::numeric::halton::halton;
+use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
+
+/// The base model with nothing, one or several effects more.
+#[derive(Debug, Clone)]
+pub(in crate::learn) struct Candidate {
+    /// The added effects; none for the base model.
+    pub(in crate::learn) effects: EffectSet,
+    /// The forms of those; None the card's own.
+    pub(in crate::learn) forms: Vec<Option<&'static Form>>,
+    /// Number of accepted forms among which the prior is shared.
+    pub(in crate::learn) siblings: usize,
+    /// The model.
+    pub(in crate::learn) version: ModelVersion,
+    /// Its free parameters without the wear coefficient, those of the base model first.
+    pub(in crate::learn) parameters: Vec<Parameter>,
+    /// How many of them the base model has.
+    pub(in crate::learn) inherited: usize,
+    /// Values of the added parameters from which a fit may start.
+    pub(in crate::learn) starts: Vec<Vec<f64>>,
+    /// Weak waves in pairs a quarter of a wave apart, between which every phase lies.
+    pub(in crate::learn) quarters: Vec<[Vec<f64>; 2]>,
+    /// Of the added parameters: lower bound, upper bound, and value without effect where that is finite.
+    strengths: Vec<(f64, f64, Option<f64>)>,
+}
+
+/// An effect that cannot be judged.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct NotJudged {
+    /// Its name.
+    pub effect: String,
+    /// Keys of the study that it needs.
+    pub needs: Vec<String>,
+}
+
+/// How many places of the priors are looked at besides.
+const SPREAD: usize = 8;
+/// How many lengths of waves are looked at, which have a valley each, and how weak, as a share of the prior's median: changes are to be linear.
+const WAVES: usize = 12;
+const WEAK_WAVE: f64 = 0.25;
+/// Starts are scaled to the amplitude that gains most in the linearised model, but to no less than this.
+pub(in crate::learn) const LEAST_AMPLITUDE: f64 = 0.02;
+
+impl Candidate {
+    /// The study's own model.
+    pub(in crate::learn) fn base(study: &Study) -> Self {
+        let version = ModelVersion::of(study);
+        let parameters = parameters(&version.free);
+        Self {
+            effects: EffectSet::new([]),
+            forms: Vec::new(),
+            siblings: 1,
+            inherited: parameters.len(),
+            parameters,
+            version,
+            starts: vec![Vec::new()],
+            quarters: Vec::new(),
+            strengths: Vec::new(),
+        }
+    }
+
+    /// All single effects that the study does not hold yet and can context, and those that it cannot.
+    pub(in crate::learn) fn singles(study: &Study) -> (Vec<Self>, Vec<NotJudged>) {
+        let base = Self::base(study);
+        let mut judged = Vec::new();
+        let mut not_judged = Vec::new();
+        for &card in CATALOGUE {
+            if base.version.effects.has(card.name) {
+                continue;
+            }
+            let missing = card.needs.iter().filter(|key| !study.states(key));
+            let needs: Vec<String> = missing.map(|key| (*key).to_owned()).collect();
+            if needs.is_empty() {
+                judged.extend(forms(card, &base, study));
+            } else {
+                let effect = card.name.to_owned();
+                not_judged.push(NotJudged { effect, needs });
+            }
+        }
+        (judged, not_judged)
+    }
+
+    /// Whether its free parameters are those of another.
+    pub(in crate::learn) fn has_parameters_of(&self, other: &Self) -> bool {
+        let names = self.parameters.iter().map(|p| &p.name);
+        names.eq(other.parameters.iter().map(|p| &p.name))
+    }
+
+    /// Both effects in their forms; the parameters of `self` first.
+    pub(in crate::learn) fn with(&self, other: &Self) -> Self {
+        let added = &other.version.effects.specs()[other.version.effects.specs().len() - 1];
+        let version = self.version.with(added.clone());
+        let effects = EffectSet::new(self.added_forms().chain(other.added_forms()).map(|f| f.0));
+        let form = |card: &&'static Card| {
+            let mut all = self.added_forms().chain(other.added_forms());
+            all.find(|(known, _)| known.name == card.name)
+                .and_then(|f| f.1)
+        };
+        Self {
+            forms: effects.cards().iter().map(form).collect(),
+            effects,
+            siblings: self.siblings * other.siblings,
+            parameters: parameters(&version.free),
+            inherited: self.inherited,
+            version,
+            starts: Vec::new(),
+            quarters: Vec::new(),
+            strengths: Vec::new(),
+        }
+    }
+
+    /// The forms that grow out of this one, a single effect's own, with the values that its parameters were fitted to.
+    pub(in crate::learn) fn grown(
+        &self,
+        study: &Study,
+        base: &Candidate,
+        values: &[f64],
+    ) -> Vec<Self> {
+        let Some(card) = self.effects.single().filter(|_| self.is_own_form()) else {
+            return Vec::new();
+        };
+        let forms = card.forms.iter().filter(|form| !form.grown.is_empty());
+        forms
+            .filter_map(|form| {
+                let (candidate, _) = of_form(card, Some(form), base, study)?;
+                let starts = form.grown.iter().map(|place| [values, place].concat());
+                Some(Self {
+                    starts: starts.collect(),
+                    ..candidate
+                })
+            })
+            .collect()
+    }
+
+    /// Values of a start with `amplitude` times the effect, as far as that is linear in the parameters that have a value without
+    /// effect.
+    pub(in crate::learn) fn scaled(&self, values: &[f64], amplitude: f64) -> Vec<f64> {
+        let all = values.iter().zip(&self.strengths);
+        all.map(|(&x, &(lower, upper, neutral))| {
+            neutral.map_or(x, |none| {
+                (none + amplitude * (x - none)).clamp(lower, upper)
+            })
+        })
+        .collect()
+    }
+
+    /// The wave that is `along` times one and `across` times the one a quarter of a wave on.
+    pub(in crate::learn) fn turned(&self, values: &[f64], [along, across]: [f64; 2]) -> Vec<f64> {
+        let mut turned = self.scaled(values, along.hypot(across).max(LEAST_AMPLITUDE));
+        let own = &self.version.free;
+        let added = own.len() - values.len();
+        if let Some(phase) = phase(&own[added..]) {
+            turned[phase] = across.atan2(along);
+        }
+        turned
+    }
+
+    /// Whether its rate is sharp in the local pressure, which the analytic model knows least.
+    pub(in crate::learn) fn sharp(&self) -> bool {
+        let sharp = |card: &&Card| card.has(ParamRole::PressureSharpness);
+        self.effects.cards().iter().any(sharp)
+    }
+
+    /// Whether it changes how the teeth touch, and not only how what touches wears.
+    pub(in crate::learn) fn changes_contact(&self) -> bool {
+        let wears = |hook| matches!(hook, Hook::WearFactor | Hook::AddedDepth);
+        self.effects.cards().iter().any(|card| !wears(card.hook))
+    }
+
+    /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
+    /// corners with which a tooth's neighbours touch where it stands back.
+    pub(in crate::learn) fn may_be_unseen(&self) -> bool {
+        let all = |hook: Hook| self.effects.cards().iter().all(|card| card.hook == hook);
+        !self.quarters.is_empty() && all(Hook::Profile) || all(Hook::ToothOffset)
+    }
+
+    /// Whether every added effect has its card's own form.
+    pub(in crate::learn) fn is_own_form(&self) -> bool {
+        self.forms.iter().all(Option::is_none)
+    }
+
+    /// Values of its parameters: the base model's own as they are, the added ones' prior medians.
+    pub(in crate::learn) fn medians(&self) -> Vec<f64> {
+        let free = self.version.free.iter();
+        let free: Vec<&FreeParameter> = free.filter(|f| f.name != WEAR_COEFFICIENT).collect();
+        let (own, added) = free.split_at(self.inherited);
+        let added = added.iter().map(|f| median(f));
+        own.iter().map(|f| f.value).chain(added).collect()
+    }
+
+    /// The values of the added parameters at which their effect does nothing, where there are such.
+    pub(in crate::learn) fn neutrals(&self) -> impl Iterator<Item = Option<f64>> {
+        let free = self.version.free.iter();
+        let free = free.filter(|f| f.name != WEAR_COEFFICIENT);
+        free.skip(self.inherited).map(|f| f.neutral)
+    }
+
+    /// What it says to be missing.
+    pub(in crate::learn) fn hypothesis(&self) -> Hypothesis {
+        if self.effects.is_empty() {
+            Hypothesis::NothingMissing
+        } else {
+            Hypothesis::Effects(self.effects.clone())
+        }
+    }
+
+    /// Its effects with their forms, None the card's own.
+    pub(in crate::learn) fn added_forms(
+        &self,
+    ) -> impl Iterator<Item = (&'static Card, Option<&'static Form>)> {
+        let cards = self.effects.cards().iter().copied();
+        cards.zip(self.forms.iter().copied())
+    }
+}
+
+/// The card's effect in its own form and every other accepted one that is fitted for itself.
+fn forms(card: &'static Card, base: &Candidate, study: &Study) -> Vec<Candidate> {
+    let others = card.forms.iter().filter(|form| form.grown.is_empty());
+    let all = std::iter::once(None).chain(others.map(Some));
+    all.filter_map(|form| {
+        let (mut candidate, fitted) = of_form(card, form, base, study)?;
+        candidate.starts = starts(&fitted);
+        let own = &candidate.parameters[base.inherited..];
+        if let Some(phase) = phase(&fitted) {
+            candidate.quarters = quarters(own, &fitted, phase);
+        } else if fitted.len() > 1 && matches!(card.hook, Hook::WearFactor | Hook::Profile) {
+            candidate.starts.extend(spread(own, &fitted, SPREAD));
+        }
+        Some(candidate)
+    })
+    .collect()
+}
+
+/// The card's effect in one of its forms, None the own one, without starts; and its fitted parameters. None: the study does not state
+/// all that the form needs.
+fn of_form(
+    card: &'static Card,
+    form: Option<&'static Form>,
+    base: &Candidate,
+    study: &Study,
+) -> Option<(Candidate, Vec<FreeParameter>)> {
+    // A form's settings lie in the ranges of its card: tests walk the catalogue.
+    let spec = EffectSpec::of_form(card, form, &[]).ok()?;
+    if !study.suits(&spec) {
+        return None;
+    }
+    let fitted = spec.fitted();
+    let version = base.version.with(spec);
+    let candidate = Candidate {
+        effects: EffectSet::new([card]),
+        forms: vec![form],
+        siblings: 1 + card.forms.len(),
+        parameters: parameters(&version.free),
+        inherited: base.inherited,
+        version,
+        starts: Vec::new(),
+        quarters: Vec::new(),
+        strengths: (fitted.iter())
+            .map(|f| (f.lower, f.upper, f.neutral.filter(|none| none.is_finite())))
+            .collect(),
+    };
+    Some((candidate, fitted))
+}
+
+/// The defaults, the priors' medians, the mirror image of each where both signs are possible, and a weak effect.
+fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
+    let defaults: Vec<f64> = fitted.iter().map(|f| f.value).collect();
+    let medians: Vec<f64> = fitted.iter().map(median).collect();
+    let mirrored = |values: &[f64]| -> Vec<f64> {
+        fitted
+            .iter()
+            .zip(values)
+            .map(|(f, &value)| mirror(f, value).clamp(f.lower, f.upper))
+            .collect()
+    };
+    // Effects far from the defaults act far from linearly: each end of a wide prior is tried too.
+    let ends = (0..fitted.len()).flat_map(|i| {
+        let medians = medians.clone();
+        far(&fitted[i]).into_iter().map(move |value| {
+            let mut values = medians.clone();
+            values[i] = value;
+            values
+        })
+    });
+    let weak = fitted.iter().map(|f| weak_ratio(f).unwrap_or(median(f)));
+    let mut starts: Vec<Vec<f64>> = Vec::new();
+    let plain = [
+        defaults.clone(),
+        mirrored(&defaults),
+        medians.clone(),
+        mirrored(&medians),
+    ];
+    for values in plain.into_iter().chain([weak.collect()]).chain(ends) {
+        if !starts.contains(&values) {
+            starts.push(values);
+        }
+    }
+    starts
+}
+
+/// Places spread over the priors, for laws of several parameters that cost little to look at, and each with a weak effect.
+fn spread(parameters: &[Parameter], fitted: &[FreeParameter], count: usize) -> Vec<Vec<f64>> {
+    let mut places = Vec::new();
+    for i in 0..count {
+        let shares = parameters.iter().zip(halton(i, parameters.len()));
+        let place: Vec<f64> = shares.map(|(p, share)| p.quantile(share)).collect();
+        let weak = place.iter().zip(fitted);
+        let weak: Vec<f64> = weak.map(|(&x, f)| weak_ratio(f).unwrap_or(x)).collect();
+        if weak != place {
+            places.push(weak);
+        }
+        places.push(place);
+    }
+    places
+}
+
+/// Which of the parameters is the phase of a wave.
+fn phase(fitted: &[FreeParameter]) -> Option<usize> {
+    fitted.iter().position(|f| f.role == ParamRole::WavePhase)
+}
+
+/// Weak waves a quarter of a wave apart, their other parameters spread over the priors.
+fn quarters(
+    parameters: &[Parameter],
+    fitted: &[FreeParameter],
+    phase: usize,
+) -> Vec<[Vec<f64>; 2]> {
+    let wave = |i: usize, turn: f64| -> Vec<f64> {
+        let mut shares = halton(i, parameters.len()).into_iter();
+        let mut value = |at: usize| match fitted[at].neutral {
+            _ if at == phase => turn,
+            Some(none) => none + WEAK_WAVE * (median(&fitted[at]) - none),
+            None => parameters[at].quantile(shares.next().unwrap_or(0.5)),
+        };
+        (0..parameters.len()).map(&mut value).collect()
+    };
+    let pair = |i| [wave(i, 0.0), wave(i, FRAC_PI_2)];
+    (0..WAVES).map(pair).collect()
+}
+
+/// The prior's median; one standard deviation up where the median is no effect.
+fn median(free: &FreeParameter) -> f64 {
+    match free.prior {
+        Prior::Normal { mean, sd } if free.neutral.is_some() => mean + sd,
+        prior => prior.median().clamp(free.lower, free.upper),
+    }
+}
+
+/// For a ratio, a quarter of the way (of its logarithm) from no effect to the prior's median.
+///
+/// Laws are nearly linear in a ratio near 1, so fits find their way from there. From a coating ten times as hard as its base none
+/// finds to one twice as hard: they look too unlike.
+fn weak_ratio(free: &FreeParameter) -> Option<f64> {
+    match (free.neutral, free.prior) {
+        (Some(neutral), Prior::LogNormal { median, .. })
+            if neutral > 0.0 && neutral.is_finite() =>
+        {
+            let ratio = neutral * (median / neutral).powf(0.25);
+            Some(ratio.clamp(free.lower, free.upper))
+        }
+        _ => None,
+    }
+}
+
+/// Values one standard deviation from the middle of a parameter's prior, and for a scale beyond which nothing happens much smaller ones
+/// too: conditions may lie far below what is usual, and from too large a scale no search sees a slope.
+fn far(free: &FreeParameter) -> Vec<f64> {
+    let values = match free.prior {
+        Prior::Uniform { low, high } => [0.2, 0.8].map(|share| low + share * (high - low)).to_vec(),
+        Prior::LogNormal { median, spread } => {
+            let small: &[i32] = match free.neutral {
+                Some(f64::INFINITY) => &[-3, -5],
+                _ => &[],
+            };
+            let sigmas = [-1, 1].iter().chain(small);
+            sigmas.map(|&sigmas| median * spread.powi(sigmas)).collect()
+        }
+        Prior::Normal { .. } | Prior::HalfNormal { .. } => Vec::new(),
+    };
+    let inside = values
+        .into_iter()
+        .map(|value| value.clamp(free.lower, free.upper));
+    inside.collect()
+}
+
+/// The other side of the value without effect, for a parameter that can lie on both.
+fn mirror(free: &FreeParameter, value: f64) -> f64 {
+    match (free.neutral, free.prior) {
+        (Some(neutral), Prior::LogNormal { .. }) if neutral > free.lower && neutral.is_finite() => {
+            neutral * neutral / value
+        }
+        (Some(neutral), Prior::Normal { .. } | Prior::Uniform { .. })
+            if neutral > free.lower && neutral < free.upper =>
+        {
+            2.0 * neutral - value
+        }
+        _ => value,
+    }
+}
+
+fn parameters(free: &[FreeParameter]) -> Vec<Parameter> {
+    free.iter()
+        .filter(|free| free.name != WEAR_COEFFICIENT)
+        .map(parameter)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::{ProfileAt, find};
+    use crate::gear::Member;
+
+    /// u cos θ − v sin θ is the wave that `turned` makes of cos θ and cos(θ + π/2).
+    #[test]
+    fn a_turned_wave_is_the_sum_of_its_two_quarters() {
+        let text = include_str!("../../../validation/paper/study.toml");
+        let study = Study::parse(text, "study.toml").unwrap();
+        let (singles, _) = Candidate::singles(&study);
+        let card = find("profile_form").unwrap();
+        let candidate = singles
+            .iter()
+            .find(|c| c.effects == EffectSet::new([card]))
+            .unwrap();
+        assert!(candidate.may_be_unseen());
+        let profile = |own: &[f64], along: f64| {
+            let mut values = card.defaults();
+            values[..own.len()].copy_from_slice(own);
+            let at = ProfileAt {
+                member: Member::Pinion,
+                along,
+                radius: 27.0,
+                path: 0.0,
+                from_tip: 1.0,
+            };
+            (card.build)(&values).profile(&at)
+        };
+        for [first, second] in &candidate.quarters {
+            for shares in [[2.0, -3.0], [-1.5, 0.5], [0.0, 4.0]] {
+                let turned = candidate.turned(first, shares);
+                for along in [0.0, 0.13, 0.4, 0.77, 1.0] {
+                    let sum =
+                        shares[0] * profile(first, along) + shares[1] * profile(second, along);
+                    let off = profile(&turned, along) - sum;
+                    assert!(off.abs() < 1e-12, "{turned:?} {along} {off}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! A model as a fit takes it: its effects, and what is free in them.
+
+use crate::learn::parameters::Parameter;
+use crate::study::{EffectModel, EffectSpec, FreeParameter, Study};
+
+/// One version of a model: its effects, and what of it a fit may adjust.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelVersion {
+    /// The effects.
+    pub effects: EffectModel,
+    /// Free parameters, the wear coefficient among them or not.
+    pub free: Vec<FreeParameter>,
+}
+
+impl ModelVersion {
+    /// The study's own.
+    pub fn of(study: &Study) -> Self {
+        Self {
+            effects: study.effect_model().clone(),
+            free: study.free().to_vec(),
+        }
+    }
+
+    /// The same with one more effect, whose fitted parameters are free, and with the wear coefficient free.
+    pub fn with(&self, effect: EffectSpec) -> Self {
+        let mut free = self.free.clone();
+        free.extend(effect.fitted());
+        Self {
+            effects: self.effects.with(effect),
+            free,
+        }
+    }
+}
+
+/// A free parameter of a study as a fit takes it.
+pub(in crate::learn) fn parameter(free: &FreeParameter) -> Parameter {
+    Parameter {
+        name: free.name.clone(),
+        unit: free.unit.to_owned(),
+        start: free.value,
+        lower: free.lower,
+        upper: free.upper,
+        prior: free.prior,
+    }
+}

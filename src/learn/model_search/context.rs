@@ -1,0 +1,36 @@
+//! What a search works with: the likelihood, and the model at three fidelities.
+
+use crate::learn::bench::Bench;
+use crate::learn::fidelity::Fidelity;
+use crate::learn::likelihood::Likelihood;
+use crate::learn::predictor::PredictError;
+use crate::simulate::forward::ForwardError;
+
+/// Why there is no diagnosis.
+#[derive(Debug, thiserror::Error)]
+pub enum DiagnoseError {
+    /// No test with role fit has a measurement.
+    #[error("no test with role \"fit\" has a measurement")]
+    NoObservations,
+    /// The gears cannot run.
+    #[error(transparent)]
+    Forward(#[from] ForwardError),
+    /// The base model has no answer.
+    #[error("the base model cannot be fitted: {0}")]
+    BaseFit(#[from] PredictError),
+}
+
+/// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
+pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
+
+/// What is judged on, and the benches: the analytic one to screen, coarse finite elements for changes, the exact one that decides.
+pub(in crate::learn) struct Context<'a> {
+    pub(in crate::learn) likelihood: Likelihood<'a>,
+    pub(in crate::learn) hertz: &'a Bench<'a>,
+    pub(in crate::learn) middle: &'a Bench<'a>,
+    pub(in crate::learn) exact: &'a Bench<'a>,
+    /// By which candidates are compared at last.
+    pub(in crate::learn) fidelity: Fidelity,
+    /// Whether that is the analytic model in place of the study's finite elements.
+    pub(in crate::learn) approximate: bool,
+}

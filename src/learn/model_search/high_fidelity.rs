@@ -1,0 +1,194 @@
+//! The fits that decide: coarse finite elements say how predictions change, exact ones where they stand.
+
+use super::context::Context;
+use crate::learn::candidate_model::{Anchored, model, offset, predictions};
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::predictor::PredictError;
+use crate::learn::quadratic::State;
+use crate::learn::search::{Effort, Found};
+
+/// A deciding fit between two anchors.
+pub(in crate::learn) const DECIDE: Effort = Effort {
+    iterations: 8,
+    tolerance: 0.05,
+    floor: 0.2,
+    carry: 0.4,
+    ..Effort::STAY
+};
+/// The leader's last steps with derivatives of the exact model, if anchors did not bring it to rest.
+const POLISH: Effort = Effort {
+    iterations: 4,
+    tolerance: 0.1,
+    floor: 0.3,
+    carry: 1.0,
+    ..Effort::STAY
+};
+/// Anchors of a deciding fit.
+const ANCHORS: usize = 4;
+/// Gain of ln posterior for which another anchor is worth its runs.
+const WORTH: f64 = 0.15;
+/// The same as a share of what the candidate gains: the contact's own rounding in sharp laws grows with it.
+const WORTH_SHARE: f64 = 0.003;
+/// Ln posterior behind the leader, and share of its gain, from which a candidate is not followed further.
+const HOPELESS: f64 = 15.0;
+const HOPELESS_SHARE: f64 = 0.05;
+
+/// Log evidence behind the leader within which candidates are decided by finite elements.
+const WITHIN: f64 = 10.0;
+/// The same as a share of the leader's gain, for the middle fidelity's own error.
+const WITHIN_SHARE: f64 = 0.02;
+/// Least and most single candidates decided by finite elements.
+const DECIDED: [usize; 2] = [3, 7];
+/// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
+const GAIN: f64 = 0.0;
+
+impl Context<'_> {
+    /// Fits a candidate from a state on the exact bench, unless it turns out hopeless against the least objective so far.
+    pub(in crate::learn) fn decide(
+        &self,
+        candidate: &Candidate,
+        start: State,
+        base: Option<&BaseFit>,
+        least: f64,
+    ) -> Result<FittedCandidate, PredictError> {
+        let parameters = &candidate.parameters;
+        let exact = model(self.exact, candidate);
+        let cheap = model(self.middle, candidate);
+        let mut state = start;
+        let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
+        let mut converged = false;
+        for _ in 0..ANCHORS {
+            let at = predictions(&self.likelihood, &exact, candidate, &state)?;
+            let near = predictions(&self.likelihood, &cheap, candidate, &state)?;
+            let offset = offset(&self.likelihood, &at, &near);
+            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+            let here = self
+                .likelihood
+                .fit(&predictor, parameters, state.clone(), &Effort::STAY)?;
+            let next = self
+                .likelihood
+                .fit(&predictor, parameters, state.clone(), &DECIDE)?;
+            let promised = here.objective - next.objective;
+            let better = best
+                .as_ref()
+                .is_none_or(|(b, _)| here.objective < b.objective);
+            let own = base.map_or(0.0, |b| b.fitted.found.objective - here.objective);
+            let worth = WORTH.max(WORTH_SHARE * own);
+            if better {
+                best = Some((here, offset));
+                state = next.state.clone();
+                if promised < worth {
+                    converged = next.converged;
+                    break;
+                }
+                let gain = base.map_or(0.0, |b| (b.fitted.found.objective - least).max(0.0));
+                if next.objective > least + HOPELESS + HOPELESS_SHARE * gain {
+                    break;
+                }
+            } else if let Some((b, _)) = &best {
+                // The cheap model's changes led too far: back half the way.
+                if b.objective - next.objective < worth {
+                    converged = true;
+                    break;
+                }
+                state = between(&b.state, &state);
+            }
+        }
+        let (mut found, offset) = best.expect("at least one anchor was taken");
+        found.converged = converged;
+        Ok(FittedCandidate::new(
+            &self.likelihood,
+            candidate.clone(),
+            found,
+            offset,
+            base,
+            self.fidelity,
+        ))
+    }
+
+    /// A fit on the exact bench with its own derivatives; None if it finds nothing better.
+    pub(in crate::learn) fn polish(
+        &self,
+        base: &BaseFit,
+        judged: &FittedCandidate,
+    ) -> Option<FittedCandidate> {
+        let candidate = &judged.candidate;
+        let exact = model(self.exact, candidate);
+        let start = judged.found.state.clone();
+        let found = self
+            .likelihood
+            .fit(&exact, &candidate.parameters, start, &POLISH)
+            .ok()?;
+        if found.objective > judged.found.objective {
+            return None;
+        }
+        let at = predictions(&self.likelihood, &exact, candidate, &found.state).ok()?;
+        let cheap = model(self.middle, candidate);
+        let near = predictions(&self.likelihood, &cheap, candidate, &found.state).ok()?;
+        let offset = offset(&self.likelihood, &at, &near);
+        Some(FittedCandidate::new(
+            &self.likelihood,
+            candidate.clone(),
+            found,
+            offset,
+            Some(base),
+            self.fidelity,
+        ))
+    }
+}
+
+/// Finite elements for the leaders of the screening; the others stay as screened.
+pub(in crate::learn) fn decide_leaders(
+    context: &Context<'_>,
+    base: &BaseFit,
+    mut screened: Vec<FittedCandidate>,
+    watch: &dyn Fn(f64, String),
+) -> Vec<FittedCandidate> {
+    screened.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    let before = base.fitted.log_evidence;
+    let leader = screened
+        .first()
+        .map_or(before, |j| j.log_evidence.max(before));
+    let within = WITHIN + WITHIN_SHARE * (leader - before).max(0.0);
+    let chosen = screened
+        .iter()
+        .enumerate()
+        .take_while(|(i, j)| {
+            let near = *i < DECIDED[0] || j.log_evidence > leader - within;
+            *i == 0 || *i < DECIDED[1] && near && j.log_evidence > before + GAIN
+        })
+        .count();
+    let rest = screened.split_off(chosen);
+    let mut judged: Vec<FittedCandidate> = Vec::with_capacity(screened.len() + rest.len());
+    let mut least = base.fitted.found.objective;
+    for (i, candidate) in screened.into_iter().enumerate() {
+        watch(
+            i as f64 / chosen as f64,
+            format!("deciding: {}", candidate.candidate.effects),
+        );
+        let start = candidate.found.state.clone();
+        let decided = context.decide(&candidate.candidate, start, Some(base), least);
+        let decided = decided.unwrap_or(candidate);
+        least = least.min(decided.found.objective);
+        judged.push(decided);
+    }
+    judged.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    if let Some(leader) = judged.first_mut().filter(|j| !j.converged) {
+        watch(1.0, format!("polishing: {}", leader.candidate.effects));
+        if let Some(better) = context.polish(base, leader) {
+            *leader = better;
+        }
+    }
+    judged.extend(rest);
+    judged
+}
+
+fn between(a: &State, b: &State) -> State {
+    let mean = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| 0.5 * (a + b)).collect();
+    State {
+        log_k: 0.5 * (a.log_k + b.log_k),
+        theta: mean(&a.theta, &b.theta),
+        epsilon: mean(&a.epsilon, &b.epsilon),
+    }
+}

@@ -1,0 +1,16 @@
+//! Stage 5, model search: which of the catalogue's effects, alone and in pairs, come nearest to the measurements.
+//!
+//! ```text
+//! screening (analytic) -> nested forms -> medium fidelity (coarse finite elements) -> high fidelity -> pairs, pair exchange
+//! ```
+
+mod base_fit;
+pub(in crate::learn) mod context;
+pub(in crate::learn) mod high_fidelity;
+pub(in crate::learn) mod matching_pursuit;
+mod medium_fidelity;
+pub(in crate::learn) mod nested_forms;
+mod pair_exchange;
+mod pair_fit;
+pub(in crate::learn) mod pairs;
+mod screening;

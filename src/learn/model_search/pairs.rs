@@ -1,0 +1,186 @@
+//! Two effects at once: those that hide each other are found jointly, not one after the other.
+//!
+//! ```text
+//! gain(a, b) = ½ rᵀP r       P onto the changes of a and b that k cannot make; amplitudes not negative
+//! ```
+//! The changes are those of the singly fitted effects. The most promising pairs are then fitted in full, by the middle fidelity,
+//! and the best of these by finite elements. The best one's effects, as fitted in the pair, are then given other partners: what fits
+//! an effect best alone may hide the right partner.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use super::context::Context;
+use super::pair_exchange;
+use super::pair_fit::{self, PROMISE, PairStart};
+use crate::learn::fidelity::Fidelity;
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+
+/// [`PROMISE`] as a share of the best one's own gain: what adds less is taken for a mending of its form (`second_share` of the decision rule).
+const PROMISE_SHARE: f64 = 0.06;
+/// Pairs fitted by the middle fidelity, and by finite elements.
+const FITTED: [usize; 2] = [5, 2];
+/// The fitted pairs that promise more than the best single effect.
+pub(in crate::learn) fn pairs(
+    context: &Context<'_>,
+    base: &BaseFit,
+    singles: &[FittedCandidate],
+) -> Vec<FittedCandidate> {
+    let Some(best) = singles
+        .iter()
+        .max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence))
+    else {
+        return Vec::new();
+    };
+    // What the best single effect leaves is all that a second one could explain.
+    let left = 0.5 * (best.square - context.likelihood.len() as f64);
+    let spread = (0.5 * context.likelihood.len() as f64).sqrt();
+    if left < PROMISE.min(spread) && best.log_evidence - base.fitted.log_evidence < PROMISE {
+        return Vec::new();
+    }
+    let promising = promising(context, base, singles, best);
+    let starts = promising
+        .iter()
+        .map(|&(a, b)| PairStart::of(base, &singles[a], &singles[b]));
+    let mut fitted = pair_fit::fit(context, base, starts.collect());
+    if fitted.is_empty() && left > promise(base, best) {
+        // What a law with a threshold was fitted to alone says little of what it would be beside another effect.
+        fitted = pair_exchange::fit(context, base, singles, &[], best, best);
+        fitted.retain(|pair| pair.log_evidence > best.log_evidence + promise(base, best));
+    }
+    fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    if let Some(pair) = fitted.first() {
+        let more: Vec<FittedCandidate> = (pair_exchange::kept(context, singles, pair, best)
+            .into_iter())
+        .flat_map(|kept| pair_exchange::fit(context, base, singles, &fitted, pair, kept))
+        .collect();
+        fitted.extend(more);
+        fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    }
+    if let Some(leader) = fitted.first_mut().filter(|pair| !pair.converged) {
+        let start = PairStart {
+            candidate: leader.candidate.clone(),
+            state: leader.found.state.clone(),
+            offset: leader.offset.clone(),
+        };
+        let further = pair_fit::fit(context, base, vec![start]).pop();
+        if let Some(further) = further.filter(|f| f.log_evidence > leader.log_evidence) {
+            *leader = further;
+        }
+    }
+    let mut decided = Vec::with_capacity(fitted.len());
+    for (i, pair) in fitted.into_iter().enumerate() {
+        let better = pair.log_evidence > best.log_evidence;
+        if i < FITTED[1] && better && context.fidelity != Fidelity::Middle {
+            let start = pair.found.state.clone();
+            decided.push(
+                context
+                    .decide(&pair.candidate, start, Some(base), best.found.objective)
+                    .unwrap_or(pair),
+            );
+        } else {
+            decided.push(pair);
+        }
+    }
+    decided
+}
+
+/// What a pair must promise beyond the best single effect to be fitted.
+fn promise(base: &BaseFit, best: &FittedCandidate) -> f64 {
+    let single = 0.5 * (base.fitted.square - best.square);
+    PROMISE.max(PROMISE_SHARE * single)
+}
+
+/// Places of the pairs with the largest gain, one form each.
+fn promising(
+    context: &Context<'_>,
+    base: &BaseFit,
+    singles: &[FittedCandidate],
+    best: &FittedCandidate,
+) -> Vec<(usize, usize)> {
+    let seen: Vec<DVector<f64>> = singles
+        .par_iter()
+        .map(|s| base.visible(&context.likelihood, &s.change))
+        .collect();
+    let along: Vec<f64> = seen.iter().map(|v| v.dot(&base.residual)).collect();
+    let single = 0.5 * (base.fitted.square - best.square);
+    let promise = promise(base, best);
+    let mut found: Vec<(f64, usize, usize)> = Vec::new();
+    for a in 0..singles.len() {
+        for b in a + 1..singles.len() {
+            if singles[a].candidate.effects == singles[b].candidate.effects {
+                continue;
+            }
+            let gain = joint_gain(&seen[a], &seen[b], along[a], along[b]);
+            // A linear gain counts the fitted effects' own gain at least.
+            let own = [a, b].map(|i| 0.5 * (base.fitted.square - singles[i].square));
+            let gain = gain.max(own[0]).max(own[1]);
+            if gain > single + promise {
+                found.push((gain, a, b));
+            }
+        }
+    }
+    // Second effects on top of the best one, as fitted: its change makes the residual smaller before the other is looked at.
+    let leader = singles
+        .iter()
+        .position(|s| std::ptr::eq(s, best))
+        .unwrap_or(0);
+    let left = context.likelihood.residual(&best.found.model);
+    let left = DVector::from_vec(context.likelihood.covariance.whiten(&left));
+    let direction = &seen[leader];
+    let length = direction.norm_squared();
+    for b in (0..singles.len()).filter(|&b| singles[b].candidate.effects != best.candidate.effects)
+    {
+        let mut other = seen[b].clone();
+        if length > 0.0 {
+            let share = other.dot(direction) / length;
+            other.axpy(-share, direction, 1.0);
+        }
+        let square = other.norm_squared();
+        let gain = if square > 1e-9 {
+            0.5 * other.dot(&left).powi(2) / square
+        } else {
+            0.0
+        };
+        if gain > promise {
+            found.push((single + gain, leader.min(b), leader.max(b)));
+        }
+    }
+    found.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut chosen: Vec<(usize, usize)> = Vec::new();
+    for (_, a, b) in found {
+        let names = |(a, b): (usize, usize)| {
+            let mut names = [&singles[a].candidate.effects, &singles[b].candidate.effects];
+            names.sort();
+            names
+        };
+        if chosen.iter().all(|&known| names(known) != names((a, b))) {
+            chosen.push((a, b));
+        }
+        if chosen.len() == FITTED[0] {
+            break;
+        }
+    }
+    chosen
+}
+
+/// ½ of the fall of χ² by two changes with amplitudes that are not negative.
+fn joint_gain(a: &DVector<f64>, b: &DVector<f64>, ra: f64, rb: f64) -> f64 {
+    let (aa, bb, ab) = (a.norm_squared(), b.norm_squared(), a.dot(b));
+    let alone = |r: f64, square: f64| {
+        if square > 1e-9 {
+            0.5 * r.max(0.0).powi(2) / square
+        } else {
+            0.0
+        }
+    };
+    let determinant = aa * bb - ab * ab;
+    if determinant > 1e-6 * aa * bb {
+        let x = (bb * ra - ab * rb) / determinant;
+        let y = (aa * rb - ab * ra) / determinant;
+        if x > 0.0 && y > 0.0 {
+            return 0.5 * (x * ra + y * rb);
+        }
+    }
+    alone(ra, aa).max(alone(rb, bb))
+}

@@ -1,0 +1,253 @@
+//! Which candidates matter: all are looked at by the analytic model, those that stay in play are fitted by it.
+
+use nalgebra::{DVector, Matrix2, Vector2};
+use rayon::prelude::*;
+
+use super::context::Context;
+use crate::learn::candidate_model::{Anchored, model, predictions};
+use crate::learn::fidelity::Fidelity;
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::hypothesis::candidate::{Candidate, LEAST_AMPLITUDE};
+use crate::learn::quadratic::State;
+use crate::learn::search::{Effort, Found};
+
+/// The first look at a candidate: two steps with the derivatives of its start.
+pub(in crate::learn) const LOOK: Effort = Effort {
+    iterations: 2,
+    tolerance: 0.2,
+    floor: 0.3,
+    carry: 1.0,
+    ..Effort::STAY
+};
+/// The screening fit of those that the first look leaves in play.
+pub(in crate::learn) const SCREEN: Effort = Effort {
+    iterations: 6,
+    tolerance: 0.1,
+    floor: 0.3,
+    carry: 0.4,
+    ..Effort::STAY
+};
+/// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.
+const IN_PLAY: usize = 8;
+const IN_PLAY_SHARE: f64 = 0.5;
+/// Linear gain (of ln likelihood) behind the leader's, and share of it, from which a candidate is not even looked at. Not safe
+/// where all starts lie far from the truth: a coating with a small ratio was given up so.
+const FAR_BEHIND: f64 = 20.0;
+const FAR_BEHIND_SHARE: f64 = 0.8;
+/// Second starts are followed if their linear gain is this share of the best one's.
+const SECOND_START: f64 = 0.6;
+/// How many starts are followed at most.
+const FOLLOWED: usize = 2;
+/// Change of ln k from which wear is worn anew with it.
+const SCALED: f64 = 0.1;
+
+impl Context<'_> {
+    /// Fits all candidates by the analytic model: the gain of each start in the linearised model, a first look at each candidate,
+    /// then in full those that the look leaves in play.
+    pub(in crate::learn) fn screen(
+        &self,
+        base: &BaseFit,
+        candidates: &[Candidate],
+    ) -> Vec<FittedCandidate> {
+        // one predictor for all that is asked of a candidate: it keeps its histories
+        let predictors: Vec<Anchored> = candidates
+            .iter()
+            .map(|candidate| Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone()))
+            .collect();
+        let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter().zip(&predictors))
+            .map(|(candidate, predictor)| self.starts(base, candidate, predictor))
+            .collect();
+        let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
+        let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
+        let looks: Vec<Option<Found>> = (candidates.par_iter().zip(&predictors).zip(starts))
+            .map(|((candidate, predictor), starts)| {
+                let behind = leader - best(&starts);
+                let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
+                let effort = if hopeless { &Effort::STAY } else { &LOOK };
+                self.look(candidate, predictor, starts, effort)
+            })
+            .collect();
+        let least = (looks.iter().flatten()).map(|found| found.objective);
+        let bar = in_play(base.fitted.found.objective, least, IN_PLAY);
+        (candidates.par_iter().zip(&predictors).zip(looks))
+            .filter_map(|((candidate, predictor), found)| {
+                let mut found = found?;
+                if found.objective <= bar && !found.converged {
+                    let state = found.state.clone();
+                    let parameters = &candidate.parameters;
+                    if let Ok(further) = self.likelihood.fit(predictor, parameters, state, &SCREEN)
+                    {
+                        found = further;
+                    }
+                }
+                Some(FittedCandidate::new(
+                    &self.likelihood,
+                    candidate.clone(),
+                    found,
+                    base.hertz_offset.clone(),
+                    Some(base),
+                    Fidelity::Screening,
+                ))
+            })
+            .collect()
+    }
+
+    /// A candidate's starts with their gain in the linearised model, the largest first.
+    pub(in crate::learn) fn starts(
+        &self,
+        base: &BaseFit,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+    ) -> Vec<(f64, State)> {
+        let seen = |values: &[f64]| {
+            let state = base.added(candidate, values);
+            let (_, predicted) = self.at_measured_wear(state, candidate, predictor)?;
+            let rescaled = self.likelihood.rescaled(&predicted);
+            let change: Vec<f64> = (rescaled.iter().zip(&base.fitted.found.model))
+                .map(|(f, b)| f - b)
+                .collect();
+            Some(base.visible(&self.likelihood, &change))
+        };
+        let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
+            .map(|(gain, values)| (gain, base.added(candidate, &values)))
+            .collect();
+        starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        starts
+    }
+
+    /// The state, with its predictions, where k may have to be another one to bring wear to the size of what was measured: neither a
+    /// transmission error nor how wear shifts load between pairs scales with k as wear does.
+    fn at_measured_wear(
+        &self,
+        state: State,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+    ) -> Option<(State, Vec<f64>)> {
+        let predicted = |state: &State| {
+            let of_tests = predictions(&self.likelihood, predictor, candidate, state).ok()?;
+            Some(self.likelihood.joined(&of_tests))
+        };
+        let model = predicted(&state)?;
+        let more = self.likelihood.wear_scale(&model).ln();
+        if more.abs() < SCALED
+            || !self
+                .likelihood
+                .k_does_more_than_scale(candidate.changes_contact())
+        {
+            return Some((state, model));
+        }
+        let state = State {
+            log_k: state.log_k + more,
+            ..state
+        };
+        let model = predicted(&state)?;
+        Some((state, model))
+    }
+
+    /// A fit from the first of the starts, and from a near second.
+    pub(in crate::learn) fn look(
+        &self,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+        starts: Vec<(f64, State)>,
+        effort: &Effort,
+    ) -> Option<Found> {
+        let best = starts.first()?.0;
+        let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
+        let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
+        let parameters = &candidate.parameters;
+        (starts.into_iter().take(if second { FOLLOWED } else { 1 }))
+            .filter_map(|(_, state)| {
+                let state = match effort.iterations {
+                    // not fitted on: k stays where the base model is best
+                    0 => state,
+                    _ => self
+                        .at_measured_wear(state.clone(), candidate, predictor)
+                        .map_or(state, |(at, _)| at),
+                };
+                self.likelihood
+                    .fit(predictor, parameters, state, effort)
+                    .ok()
+            })
+            .min_by(|a, b| a.objective.total_cmp(&b.objective))
+    }
+}
+
+/// A candidate's starts, brought to the amplitude and waves to the phase too that gain most on what is left in the linearised model, with
+/// that gain. `seen` is the visible change by values of the added parameters.
+pub(in crate::learn) fn scaled_starts(
+    candidate: &Candidate,
+    seen: impl Fn(&[f64]) -> Option<DVector<f64>>,
+    left: &DVector<f64>,
+) -> impl Iterator<Item = (f64, Vec<f64>)> {
+    let alone = candidate.starts.iter().map(|values| (values, None));
+    let quarters = candidate.quarters.iter();
+    let waves = quarters.map(|[first, second]| (first, Some(second)));
+    alone.chain(waves).filter_map(move |(first, second)| {
+        let along = seen(first)?;
+        let Some(second) = second else {
+            let (gain, amplitude) = linear_gain(&along, left);
+            let amplitude = amplitude.max(LEAST_AMPLITUDE);
+            return Some((gain, candidate.scaled(first, amplitude)));
+        };
+        let (gain, shares) = plane_gain([&along, &seen(second)?], left)?;
+        Some((gain, candidate.turned(first, shares)))
+    })
+}
+
+/// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change, and that amplitude.
+fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> (f64, f64) {
+    let length = seen.norm_squared();
+    if length < 1e-12 {
+        return (0.0, 0.0);
+    }
+    let along = seen.dot(residual);
+    let amplitude = (along / length).clamp(0.0, 4.0);
+    let gain = amplitude * along - 0.5 * amplitude * amplitude * length;
+    (gain, amplitude)
+}
+
+/// Largest fall of χ²/2 by any sum of two changes, and their shares in it; None if they are one.
+fn plane_gain(seen: [&DVector<f64>; 2], residual: &DVector<f64>) -> Option<(f64, [f64; 2])> {
+    let dot = |i: usize, j: usize| seen[i].dot(seen[j]);
+    let gram = Matrix2::new(dot(0, 0), dot(0, 1), dot(1, 0), dot(1, 1));
+    let along = Vector2::new(seen[0].dot(residual), seen[1].dot(residual));
+    let shares = gram.cholesky()?.solve(&along);
+    Some((0.5 * shares.dot(&along), [shares.x, shares.y]))
+}
+
+/// The objective up to which candidates stay in play after a first look: the best `count`, and those near the leader.
+pub(in crate::learn) fn in_play(
+    before: f64,
+    looks: impl Iterator<Item = f64>,
+    count: usize,
+) -> f64 {
+    let mut objectives: Vec<f64> = looks.collect();
+    objectives.sort_by(f64::total_cmp);
+    let Some(leader) = objectives.first() else {
+        return before;
+    };
+    let share = before - IN_PLAY_SHARE * (before - leader).max(0.0);
+    objectives[(count - 1).min(objectives.len() - 1)].max(share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is a sum of two changes is explained whole, by its own shares; what stands across both is left.
+    #[test]
+    fn a_plane_of_two_changes_explains_their_sums() {
+        let (a, b) = (
+            DVector::from_vec(vec![1.0, 2.0, 0.0, 1.0]),
+            DVector::from_vec(vec![0.5, -1.0, 1.0, 0.0]),
+        );
+        // (4, 1, −1, −6) stands across both
+        let sum = 2.0 * &a - 3.0 * &b;
+        let residual = &sum + DVector::from_vec(vec![4.0, 1.0, -1.0, -6.0]);
+        let (gain, shares) = plane_gain([&a, &b], &residual).unwrap();
+        assert!((shares[0] - 2.0).abs() < 1e-12 && (shares[1] + 3.0).abs() < 1e-12);
+        assert!((gain - 0.5 * sum.norm_squared()).abs() < 1e-12);
+        assert!(plane_gain([&a, &(0.0 * &a)], &residual).is_none());
+    }
+}
