@@ -3,8 +3,6 @@
 mod evidence;
 pub(in crate::learn) mod posterior;
 mod rule;
-#[cfg(test)]
-mod tests;
 mod verdict;
 
 pub use evidence::{CandidateEvidence, Evidence};

@@ -1,10 +1,13 @@
-//! Properties that the decision rule must have whatever the measurements.
+//! Claim: the decision of a diagnosis has the properties that a rule of evidence must have, whatever the measurements.
+//!
+//! Source: what probabilities are (they sum to 1, order and names decide nothing, more evidence never counts against a hypothesis), and
+//! the thresholds as the guide states them. Tolerance: rounding; the order of the candidates may not change one bit.
 
+use gearwear::effects::CATALOGUE;
+use gearwear::learn::diagnose::{
+    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, Verdict, decide,
+};
 use proptest::prelude::*;
-
-use super::*;
-use crate::effects::CATALOGUE;
-use crate::learn::hypothesis::{EffectSet, Hypothesis};
 
 /// One form of the effects at these places of the catalogue, that accounts for `drop` of χ² with `gain` of log evidence.
 fn candidate(places: &[usize], gain: f64, drop: f64) -> CandidateEvidence {
