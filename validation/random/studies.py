@@ -20,6 +20,7 @@ import sys
 import tempfile
 import threading
 import time
+from math import pi
 from pathlib import Path
 
 from gears import Pair, contact_modulus, nominal_line_load
@@ -107,7 +108,7 @@ def draw_effect(rng, kind, s):
         "dynamic_load": lambda: {"amplitude": u(0.05, 0.3), "phase": u(-3, 3)},
         "extra_flexibility": lambda: {"flexibility": clip(u(0.1, 0.5) * s["compliance"], 0, 1)},
         "bearing_compliance": lambda: {"flexibility": clip(u(0, 0.05) * 1e3 * s["module"] / s["force"], 0, 1)},
-        "thermal_expansion": lambda: {"heating": u(0, 3)},
+        "thermal_expansion": lambda: {"heating": u(0, 20) / s["power"]},
         "lead_misalignment": lambda: {"slope": clip(s["deflection"] * u(0.2, 1), 0, 200)},
         "radial_misalignment": lambda: {"amount": u(0, 0.05) * s["module"]},
         "tip_relief": lambda: {"amount": u(1, 8) * size, "length": u(0.3, 0.6) * s["base_pitch"]},
@@ -158,6 +159,7 @@ def draw(seed, number, numerics="coarse"):
         "compliance": compliance,
         "deflection": compliance * line_load,
         "force": line_load * width,
+        "power": max(1e-6 * line_load * width * pair.base[0] * speed * 2 * pi / 60, 0.2),  # kW
     }
     kinds = rng.sample(EFFECTS, rng.choice([0, 0, 1, 1, 2]))
     effects = [{"kind": kind, **draw_effect(rng, kind, scales)} for kind in kinds]
