@@ -24,9 +24,9 @@ pub struct CycleSpec {
     pub reach: f64,
 }
 
-/// How far outside the path of contact corners are looked at, in base pitches: those of the reference pair are 0.15 mm apart
-/// at 0.35, 20 times what its load closes.
-const CORNER_MARGIN: f64 = 0.75;
+/// How far outside the path of contact corners are looked at, in base pitches: even those of gears of 86 and 116 teeth are more than a
+/// quarter of a module apart there, the most that flanks may close by. (Up to 2.75 base pitches the distance grows steadily.)
+const CORNER_MARGIN: f64 = 1.5;
 
 /// How far beyond that the distance of corners is still known, in base pitches: one more tooth on either side.
 const BEYOND: f64 = 1.0;
@@ -99,6 +99,8 @@ pub struct PairContact {
     pub facing: Facing,
     /// Signed sliding distance per path of contact, mm/mm (its sign changes at the pitch point).
     pub slip: f64,
+    /// Sliding distance that the position stands for, mm.
+    pub slid: f64,
 }
 
 /// One mesh position.
@@ -273,15 +275,13 @@ impl Position {
         let arc_at: Vec<[f64; 2]> = xi.iter().map(|&x| frame.facing(pair, x).arc).collect();
         let arc = [0, 1].map(|side| arc_at.iter().map(|a| a[side]).collect::<Vec<f64>>());
         let motion = Motion::at(pair, path, &frame);
-        let wear = [0, 1].map(|side| {
-            let travel = Travel {
-                step: pair.base_pitch / spec.positions as f64,
-                speed: motion.speed[side],
-                slip: motion.slip,
-                slip_slope: motion.slip_slope,
-            };
-            deposit(&xi, &arc[side], &stations.arc[side], travel)
+        let travel = motion.speed.map(|speed| Travel {
+            step: pair.base_pitch / spec.positions as f64,
+            speed,
+            slip: motion.slip,
+            slip_slope: motion.slip_slope,
         });
+        let wear = [0, 1].map(|side| deposit(&xi, &arc[side], &stations.arc[side], travel[side]));
         let lever = cross(frame.origin, frame.normal);
         self.arm.extend(
             coupling
@@ -307,6 +307,7 @@ impl Position {
             wear,
             arc,
             slip: motion.slip,
+            slid: travel[0].slid(),
         });
     }
 

@@ -25,6 +25,19 @@ pub struct Travel {
     pub slip_slope: f64,
 }
 
+impl Travel {
+    /// The sliding distance that the position stands for, ∫ hat |v| dy, mm.
+    ///
+    /// ```text
+    /// |v₀| s                      with one sign of v = v₀ + v' y over the hat of half width s
+    /// |v₀| s + |v'| t³/(3 s)      where it changes its sign within it, at t = s − |v₀/v'| from the hat's end
+    /// ```
+    pub fn slid(&self) -> f64 {
+        let beyond = (self.step - (self.slip / self.slip_slope).abs()).max(0.0);
+        self.slip.abs() * self.step + self.slip_slope.abs() * beyond.powi(3) / (3.0 * self.step)
+    }
+}
+
 /// The operator D of one flank: rows are the hats on `xi`, columns the stations `stations` (ascending arc, mm).
 ///
 /// `arc` holds the flank's arc coordinate at each node of `xi`. What would fall beyond the last station is kept there.
@@ -162,6 +175,39 @@ pub fn tributary(stations: &[f64], i: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What is laid down along the flank is the sliding distance times the length of each hat, also at the pitch point and
+    /// where the flank ends.
+    #[test]
+    fn the_area_laid_down_is_the_sliding_distance_in_closed_form() {
+        let stations: Vec<f64> = (0..=40).map(|i| 0.01 * f64::from(i)).collect();
+        let xi = [-0.03, -0.01, 0.02, 0.05];
+        for (slip, slip_slope, centre) in [
+            (0.3, 0.2, 0.2),
+            (-0.004, 0.2, 0.2),
+            (0.0, -0.2, 0.2),
+            (0.01, -0.3, 0.01),
+            (0.02, 0.3, 0.39),
+        ] {
+            let travel = Travel {
+                step: 0.08,
+                speed: -0.7,
+                slip,
+                slip_slope,
+            };
+            let arc: Vec<f64> = xi.iter().map(|x| centre + 1.1 * x).collect();
+            let d = deposit(&xi, &arc, &stations, travel);
+            let lengths = [0.01, 0.025, 0.03, 0.015];
+            for (k, length) in lengths.iter().enumerate() {
+                let mut depth = vec![0.0; stations.len()];
+                d.scatter(k, 1.0, &mut depth);
+                let area: f64 = (0..stations.len())
+                    .map(|i| depth[i] * tributary(&stations, i))
+                    .sum();
+                assert!((area / (length * travel.slid()) - 1.0).abs() < 1e-12);
+            }
+        }
+    }
 
     #[test]
     fn worn_area_is_conserved_and_a_pass_leaves_no_scallops() {

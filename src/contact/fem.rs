@@ -388,7 +388,10 @@ impl<'a> FemContact<'a> {
                 }
             }
         }
+        let levers = &self.compliance.positions[q].lever;
+        let products = solution.pressure.iter().zip(levers).map(|(p, l)| p * l);
         Ok(PositionContact {
+            torque_error: (products.sum::<f64>() / self.torque - 1.0).abs(),
             pressure: solution.pressure,
             approach: solution.approach,
             active: solution.active,
@@ -414,6 +417,7 @@ impl<'a> FemContact<'a> {
             active: Vec::new(),
             iterations: 0,
             penetration: 0.0,
+            torque_error: 0.0,
         };
         for (measured, own) in pairs.iter().enumerate() {
             let mut gap = gap.to_vec();
@@ -428,6 +432,7 @@ impl<'a> FemContact<'a> {
             joint.approach += solved.approach / pairs.len() as f64;
             joint.iterations = joint.iterations.max(solved.iterations);
             joint.penetration = joint.penetration.max(solved.penetration);
+            joint.torque_error = joint.torque_error.max(solved.torque_error);
         }
         Ok(joint)
     }

@@ -105,56 +105,63 @@ impl<'a> HertzContact<'a> {
         (from < to).then_some((from, to))
     }
 
-    /// Mean line loads of `springs` (N/mm) and approach (mm) over the time for which their position stands.
+    /// Mean line loads and approach of `springs` over the time for which their position stands.
     ///
     /// Pairs come and go within it. Were they there for all of it or not at all, the wear next to the ends of the path would jump wherever
     /// another mounting moves an end past a position.
-    fn loads(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
+    fn loads(&self, springs: &[Spring]) -> Carried {
         if springs.iter().all(|s| s.present == (-0.5, 0.5)) {
             return self.loads_of(springs);
         }
         let ends = springs.iter().flat_map(|s| [s.present.0, s.present.1]);
         let mut times: Vec<f64> = ends.collect();
         times.sort_by(f64::total_cmp);
-        let mut mean = (vec![0.0; springs.len()], 0.0);
+        let mut mean = Carried::none(springs.len());
         for (from, to) in times.iter().zip(&times[1..]).filter(|(a, b)| a < b) {
             let there = |s: &&Spring| s.present.0 <= *from && *to <= s.present.1;
             let now: Vec<Spring> = springs.iter().filter(there).copied().collect();
-            let (loads, delta) = self.loads_of(&now);
-            for (mean, spring) in mean.0.iter_mut().zip(springs) {
+            let carried = self.loads_of(&now);
+            for (mean, spring) in mean.loads.iter_mut().zip(springs) {
                 let at = now.iter().position(|s| s.index == spring.index);
-                *mean += (to - from) * at.map_or(0.0, |at| loads[at]);
+                *mean += (to - from) * at.map_or(0.0, |at| carried.loads[at]);
             }
-            mean.1 += (to - from) * delta;
+            mean.approach += (to - from) * carried.approach;
+            mean.torque_error = mean.torque_error.max(carried.torque_error);
         }
         mean
     }
 
     /// Line loads of `springs` (N/mm) and the approach (mm); where teeth differ, each pair's with its own tooth measured,
     /// and the mean approach.
-    fn loads_of(&self, springs: &[Spring]) -> (Vec<f64>, f64) {
+    fn loads_of(&self, springs: &[Spring]) -> Carried {
         let carried = |springs: &[Spring]| {
-            let delta = share(springs, self.load);
+            let approach = share(springs, self.load);
             let loads: Vec<f64> = (springs.iter())
-                .map(|s| s.stiffness * (delta - s.gap).max(0.0))
+                .map(|s| s.stiffness * (approach - s.gap).max(0.0))
                 .collect();
-            (loads, delta)
+            let counted = springs.iter().zip(&loads).map(|(s, load)| load / s.factor);
+            Carried {
+                torque_error: (counted.sum::<f64>() / self.load - 1.0).abs(),
+                loads,
+                approach,
+            }
         };
         let Some(alteration) = self.alteration.filter(|a| a.tooth_offset.is_some()) else {
             return carried(springs);
         };
-        let mut joint = (vec![0.0; springs.len()], 0.0);
-        for (own, measured) in joint.0.iter_mut().zip(springs) {
+        let mut joint = Carried::none(springs.len());
+        for (own, measured) in joint.loads.iter_mut().zip(springs) {
             let set_back: Vec<Spring> = (springs.iter())
                 .map(|s| Spring {
                     gap: s.gap + alteration.offset(measured.index, s.index),
                     ..*s
                 })
                 .collect();
-            let (loads, delta) = carried(&set_back);
+            let carried = carried(&set_back);
             let at = springs.iter().position(|s| s.index == measured.index);
-            *own = at.map_or(0.0, |at| loads[at]);
-            joint.1 += delta / springs.len() as f64;
+            *own = at.map_or(0.0, |at| carried.loads[at]);
+            joint.approach += carried.approach / springs.len() as f64;
+            joint.torque_error = joint.torque_error.max(carried.torque_error);
         }
         joint
     }
@@ -188,7 +195,11 @@ impl ContactModel for HertzContact<'_> {
         let springs = self.springs(q, depth);
         let mut pressure = vec![0.0; position.gap.len()];
         let mut active = Vec::new();
-        let (loads, delta) = self.loads(&springs);
+        let Carried {
+            loads,
+            approach,
+            torque_error,
+        } = self.loads(&springs);
         for (spring, load) in springs.iter().zip(loads).filter(|(_, load)| *load > 0.0) {
             let pair = &position.pairs[spring.index];
             let ContactPoint { centre, radius, .. } = self.points[q][spring.index];
@@ -209,13 +220,13 @@ impl ContactModel for HertzContact<'_> {
                 active.push(pair.offset + k);
             }
         }
-        let approach = delta / self.cycle.pair.pinion.base_radius;
         Ok(PositionContact {
             pressure,
-            approach,
+            approach: approach / self.cycle.pair.pinion.base_radius,
             active,
             iterations: 1,
             penetration: 0.0,
+            torque_error,
         })
     }
 
@@ -240,6 +251,26 @@ struct Spring {
     factor: f64,
     /// From when to when it is there, of the time from −½ to ½ for which its position stands.
     present: (f64, f64),
+}
+
+/// What tooth pairs carry together.
+struct Carried {
+    /// Line load of each, N/mm.
+    loads: Vec<f64>,
+    /// mm.
+    approach: f64,
+    /// Largest relative difference between the loads' sum and the load.
+    torque_error: f64,
+}
+
+impl Carried {
+    fn none(springs: usize) -> Self {
+        Self {
+            loads: vec![0.0; springs],
+            approach: 0.0,
+            torque_error: 0.0,
+        }
+    }
 }
 
 /// The approach δ at which springs with gaps carry `load` together: Σ c_i (δ − g_i)/f_i = load over those that touch.
@@ -297,7 +328,7 @@ mod tests {
                     .iter()
                     .map(|s| s.present.1 - s.present.0)
                     .sum::<f64>();
-                let (loads, _) = hertz.loads(&springs);
+                let Carried { loads, .. } = hertz.loads(&springs);
                 assert!((loads.iter().sum::<f64>() / hertz.load - 1.0).abs() < 1e-12);
             }
             let mean = there / spec.positions as f64;

@@ -18,6 +18,9 @@ pub struct PositionContact {
     pub iterations: usize,
     /// Largest penetration relative to the approach.
     pub penetration: f64,
+    /// Largest relative difference between the torque that the pressures carry and the load; where teeth differ, of the solution
+    /// that each pair's pressures are taken from.
+    pub torque_error: f64,
 }
 
 /// A contact model over one mesh cycle.

@@ -469,11 +469,4 @@ impl<'a> Forward<'a> {
             None => line_load(pair, contact) * self.cycle.pair.pinion.base_radius,
         }
     }
-
-    /// Torque per face width of the contact forces of position `q` on the pinion, N·mm/mm.
-    pub fn torque_of(&self, q: usize, contact: &PositionContact) -> f64 {
-        (0..self.cycle.positions[q].pairs.len())
-            .map(|index| self.moment(q, index, contact))
-            .sum()
-    }
 }

@@ -136,12 +136,10 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
         let view = self.view(n, u);
         let cycle = self.model.cycle();
-        let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
         let mut work = [0.0; 2];
         for (position, contact) in cycle.positions.iter().zip(contacts) {
             let factors = self.wear_factors(&view, position, contact);
             for pair in &position.pairs {
-                let slip = pair.slip.abs() * step;
                 for (side, work) in work.iter_mut().enumerate() {
                     let load: f64 = (pair.length.iter().enumerate())
                         .map(|(k, length)| {
@@ -150,7 +148,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
                             factors.as_ref().map_or(plain, |f| plain * f[side][at])
                         })
                         .sum();
-                    *work += load * slip;
+                    *work += load * pair.slid;
                 }
             }
         }

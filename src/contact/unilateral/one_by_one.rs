@@ -1,29 +1,21 @@
 //! The method that cannot cycle, for sets that do not settle.
 
-use super::trial::Trial;
-use super::{Drive, PRIMAL_DUAL_LIMIT, Problem, Solution, UnilateralError};
+use super::trial::{CLOSED, Trial};
+use super::{Drive, PRIMAL_DUAL_LIMIT, Problem, Solution, UnilateralError, nearest};
 
 /// Primal active-set method, one change per iteration.
 pub(super) fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError> {
     let n = problem.gap.len();
     let limit = 50 * n + 100;
-    let (start, _) = problem
-        .gap
-        .iter()
-        .zip(problem.arm)
-        .map(|(g, a)| g / a)
-        .enumerate()
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .ok_or(UnilateralError::Separated {
-            gap: f64::NAN,
-            approach: 0.0,
-        })?;
+    let (start, _) = nearest(problem)?;
     let mut feasible = vec![0.0; n];
     let mut active = vec![start];
     if let Drive::Load(load) = problem.drive {
         feasible[start] = load / problem.lever[start];
     }
     let mut last = Vec::new();
+    // points that were taken in and had to go at once, without a step between: rounding, not contact
+    let mut barred = vec![false; n];
     for iteration in 1..=limit {
         let trial = Trial::on(problem, active.clone())?;
         // largest step towards the trial that keeps every pressure ≥ 0
@@ -44,6 +36,7 @@ pub(super) fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError>
         if let Some(k) = blocking {
             feasible[k] = 0.0;
             active.retain(|&a| a != k);
+            barred[k] |= step == 0.0 && last == [k];
             last = vec![k];
             if active.is_empty() {
                 return Err(UnilateralError::Separated {
@@ -56,11 +49,11 @@ pub(super) fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError>
         let residual = trial.residual(problem);
         let scale = trial.scale(problem);
         let worst = (0..n)
-            .filter(|k| trial.active.binary_search(k).is_err())
+            .filter(|k| !barred[*k] && trial.active.binary_search(k).is_err())
             .map(|k| (k, residual[k] / problem.arm[k].abs()))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         match worst {
-            Some((k, violation)) if violation < -1e-12 * scale => {
+            Some((k, violation)) if violation < -CLOSED * scale => {
                 active.push(k);
                 last = vec![k];
             }

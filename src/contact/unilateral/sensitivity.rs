@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::factor::Factor;
 use super::{Drive, Problem, UnilateralError};
 
 /// Sensitivity of the pressures on the active set to their weighted gaps at fixed load:
@@ -11,14 +12,8 @@ use super::{Drive, Problem, UnilateralError};
 /// [`UnilateralError::Singular`] if the set's compliance cannot be inverted.
 pub fn sensitivity(problem: &Problem, active: &[usize]) -> Result<DMatrix<f64>, UnilateralError> {
     let m = active.len();
-    let singular = UnilateralError::Singular { active: m };
-    let w = DMatrix::from_fn(m, m, |i, j| problem.w[(active[i], active[j])]);
     let arm = DVector::from_fn(m, |i, _| problem.arm[active[i]]);
-    let mut s = if problem.symmetric {
-        w.cholesky().ok_or(singular)?.inverse()
-    } else {
-        w.try_inverse().ok_or(singular)?
-    };
+    let mut s = Factor::of_any(problem, active)?.inverse(m);
     if matches!(problem.drive, Drive::Load(_)) {
         let x = &s * &arm;
         let lever = DVector::from_fn(m, |i, _| problem.lever[active[i]]);

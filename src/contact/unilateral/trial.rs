@@ -2,7 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Drive, Problem, Solution, UnilateralError};
+use super::factor::Factor;
+use super::{Drive, Problem, Solution, UnilateralError, symmetric_difference};
+
+/// Gaps smaller than this against the approach are closed, in either direction: rounding.
+pub(super) const CLOSED: f64 = 1e-12;
 
 /// Equality-constrained solution on one set.
 pub(super) struct Trial {
@@ -16,6 +20,13 @@ pub(super) struct Trial {
 impl Trial {
     pub(super) fn on(problem: &Problem, mut active: Vec<usize>) -> Result<Self, UnilateralError> {
         active.sort_unstable();
+        if let (true, Drive::Approach(approach)) = (active.is_empty(), problem.drive) {
+            return Ok(Self {
+                active,
+                pressure: DVector::zeros(0),
+                approach,
+            });
+        }
         let reduced = Reduced::new(problem, &active)?;
         let approach = match problem.drive {
             Drive::Load(load) => {
@@ -52,12 +63,17 @@ impl Trial {
         let residual = self.residual(problem);
         let scale = self.scale(problem);
         for (k, flag) in keep.iter_mut().enumerate() {
-            *flag = residual[k] < -1e-12 * scale * problem.arm[k].abs();
+            *flag = residual[k] < -CLOSED * scale * problem.arm[k].abs();
         }
         for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
             keep[k] = p > 0.0;
         }
         (0..keep.len()).filter(|&k| keep[k]).collect()
+    }
+
+    /// Points on the wrong side, ascending: pressures below 0 and gaps closed further than rounding explains.
+    pub(super) fn wrong(&self, problem: &Problem) -> Vec<usize> {
+        symmetric_difference(&self.primal_dual_set(problem), &self.active)
     }
 
     /// A length typical of the approach, for tolerances relative to it.
@@ -81,7 +97,8 @@ impl Trial {
             .fold(0.0, f64::max);
         let mut pressure = vec![0.0; problem.gap.len()];
         for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
-            pressure[k] = p;
+            // what is below 0 here is rounding
+            pressure[k] = p.max(0.0);
         }
         Solution {
             pressure,
@@ -103,14 +120,8 @@ struct Reduced {
 impl Reduced {
     fn new(problem: &Problem, active: &[usize]) -> Result<Self, UnilateralError> {
         let m = active.len();
-        let w = DMatrix::from_fn(m, m, |i, j| problem.w[(active[i], active[j])]);
         let mut rhs = DMatrix::from_fn(m, 2, |i, c| [problem.arm, problem.gap][c][active[i]]);
-        let singular = UnilateralError::Singular { active: m };
-        if problem.symmetric {
-            w.cholesky().ok_or(singular)?.solve_mut(&mut rhs);
-        } else if !w.lu().solve_mut(&mut rhs) {
-            return Err(singular);
-        }
+        Factor::of(problem, active)?.solve(&mut rhs);
         let lever = DVector::from_fn(m, |i, _| problem.lever[active[i]]);
         Ok(Self {
             lever,

@@ -120,6 +120,7 @@ impl ContactModel for Prescribed<'_> {
             approach: 0.0,
             iterations: 1,
             penetration: 0.0,
+            torque_error: 0.0,
         })
     }
 
