@@ -1,5 +1,5 @@
 //! Claim: in a browser every report opens without an error, its charts hold data and are painted, values are told under the
-//! pointer, the slider moves the wear curves and the worn profile and brings them back, and nothing is wider than a phone's or a
+//! pointer, a drag zooms and a double click goes back, the slider moves the wear curves and the worn profile and brings them back, and nothing is wider than a phone's or a
 //! desktop's window.
 //!
 //! Source: Chromium as it is installed (`CHROMIUM` names another program); the page tests itself when its address ends with
@@ -121,6 +121,14 @@ fn opened(home: &TempDir, folder: &str, charts: usize) -> Value {
             assert!(all("points", |n| n.as_u64() > Some(0)), "{chart}");
             assert!(all("inked", |n| n.as_u64() > Some(500)), "{chart}");
             assert!(all("hovered", |said| said != ""), "{chart}");
+            let near = |value: &Value, wanted: f64| (value.as_f64().unwrap() - wanted).abs() < 0.02;
+            for zoomed in chart["zoomed"].as_array().unwrap() {
+                // a drag over half of the axis shows that half, a double click the whole again
+                assert!(
+                    zoomed.is_null() || (near(&zoomed[0], 0.5) && near(&zoomed[1], 1.0)),
+                    "{chart}"
+                );
+            }
         }
         photographed(home, &page, folder, width);
         last = found;

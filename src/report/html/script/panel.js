@@ -120,12 +120,22 @@ function makePanel(panel, place) {
   const axis = { stroke: ink, font, labelFont: font, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1, size: 5 } };
   const values = (u, splits) => splits.map((v) => (v === null ? "" : tick(v, Math.abs(splits[1] - splits[0]) || 1)));
   const named = panel.names.length > 0;
+  // what a drag has selected; nothing: the whole axis
+  let zoom = null;
+  const select = (u) => {
+    const { left, width } = u.select;
+    if (width < 3) return;
+    const [min, max] = [u.posToVal(left, "x"), u.posToVal(left + width, "x")];
+    zoom = [min, max];
+    u.setScale("x", { min, max });
+    u.setSelect({ left: 0, width: 0 }, false);
+  };
   const plot = new uPlot({
     width: place.width,
     height: place.height,
     padding: [panel.marks.some((mark) => mark[1]) ? 20 : 8, place.x[1] >= 1e4 ? 30 : 14, 0, 0],
     scales: {
-      x: { time: false, range: () => place.x },
+      x: { time: false, range: () => zoom || place.x },
       y: { distr: panel.log ? 3 : 1, range: (u) => spanY(panel, (curve) => {
         const series = u.series[1 + slots.findIndex((slot) => slot.curves.includes(curve))];
         return !series || series.show;
@@ -144,13 +154,15 @@ function makePanel(panel, place) {
     ],
     cursor: {
       dataIdx: nearest,
-      drag: { x: !named, y: false },
+      drag: { x: !named, y: false, setScale: false },
+      bind: { dblclick: (u, target, handler) => (event) => { zoom = null; return handler(event); } },
       sync: { key: panel.x, scales: ["x", null] },
       points: { size: 7 },
     },
     hooks: {
       drawClear: [(u) => drawMarks(u, panel)],
       draw: [(u) => drawErrors(u, sigmas)],
+      setSelect: [select],
     },
   }, data, place.host);
   const rows = plot.root.querySelectorAll(".u-legend .u-series");

@@ -1,5 +1,5 @@
 // Asked for by #selftest: what a browser test wants to know of this page, as JSON in the page.
-function selftest() {
+async function selftest() {
   const inked = (plot) => {
     const { width, height } = plot.ctx.canvas;
     const bytes = plot.ctx.getImageData(0, 0, width, height).data;
@@ -38,6 +38,18 @@ function selftest() {
     at(0);
     return found;
   });
+  // which part of the axis a drag over its middle half shows, and which a double click after it
+  const zoomed = (plot) => {
+    const span = () => plot.scales.x.max - plot.scales.x.min, whole = span();
+    if (!plot.cursor.drag.x) return null;
+    const width = plot.over.clientWidth;
+    plot.setSelect({ left: width / 4, width: width / 2, top: 0, height: plot.over.clientHeight });
+    return new Promise((done) => setTimeout(() => {
+      const part = span() / whole;
+      plot.over.dispatchEvent(new MouseEvent("dblclick", { bubbles: true }));
+      setTimeout(() => done([part, span() / whole]), 5);
+    }, 5));
+  };
   const values = (plot) => JSON.stringify(plot.data.slice(1));
   const points = (plot) => plot.data.slice(1).flat().filter((v) => v !== null && v !== undefined).length;
   const report = charts.map(({ spec, chart }) => ({
@@ -45,6 +57,10 @@ function selftest() {
     points: chart.plots().map(points), inked: chart.plots().map(inked),
     width: chart.plots().map((plot) => plot.width), hovered: chart.plots().map(hovered),
   }));
+  for (const [i, { chart }] of charts.entries()) {
+    report[i].zoomed = [];
+    for (const plot of chart.plots()) report[i].zoomed.push(await zoomed(plot));
+  }
   const worn = () => [...document.querySelectorAll("path[data-worn]")].map((path) => path.getAttribute("d")).join();
   const last = given.states.length - 1;
   if (document.querySelector(".slider")) {
