@@ -102,7 +102,7 @@ fn init_answers_in_json() {
     assert_eq!(code, Some(0));
     assert_eq!(
         document,
-        serde_json::json!({ "written": ["a/b/study.toml", "a/b/measurements.csv"] })
+        serde_json::json!({ "written": ["a/b/study.toml", "a/b/measurements.csv", "a/b/template.csv"] })
     );
 }
 
@@ -225,4 +225,17 @@ fn a_closed_pipe_is_no_error() {
         String::from_utf8_lossy(&output.stderr)
     );
     assert!(output.stderr.is_empty());
+}
+
+#[test]
+fn a_mistyped_command_is_told() {
+    let home = tempfile::tempdir().unwrap();
+    let (code, _, message) = gearwear(&home, &["rnu", "study.toml"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("did you mean `gearwear run`?"),
+        "{message}"
+    );
+    let (_, _, message) = gearwear(&home, &["frobnicate"]);
+    assert!(!message.contains("did you mean"), "{message}");
 }

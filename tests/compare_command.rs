@@ -475,3 +475,196 @@ fn unusable_input_writes_nothing() {
         assert_eq!(names(home.path()), before, "{line}");
     }
 }
+
+/// Measurements of the model itself, each row as `change` (of member, quantity, value, sigma, cycles) makes it, compared: the document.
+fn spoiled(home: &TempDir, change: impl Fn(&mut Vec<String>)) -> Value {
+    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+    let changed = data.lines().map(|line| {
+        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if !line.starts_with('#') && !line.starts_with("test,") {
+            change(&mut cells);
+        }
+        cells.join(",") + "\n"
+    });
+    fs::write(
+        home.path().join("measurements.csv"),
+        changed.collect::<String>(),
+    )
+    .unwrap();
+    let told = succeed(home, "compare base.toml --json");
+    serde_json::from_str(&told).unwrap()
+}
+
+/// Member, quantity, value and sigma of a row.
+const MEMBER: usize = 1;
+const QUANTITY: usize = 3;
+const VALUE: usize = 5;
+const SIGMA: usize = 6;
+
+fn times(cells: &mut [String], factor: f64) {
+    for column in [VALUE, SIGMA] {
+        let value: f64 = cells[column].parse().unwrap();
+        let scaled = value * factor;
+        cells[column] = if column == SIGMA {
+            scaled.abs()
+        } else {
+            scaled
+        }
+        .to_string();
+    }
+}
+
+/// Wrong signs, units and zeros are told first, each with what to do; right measurements, also of an effect that the model lacks, of nothing.
+#[test]
+fn measurements_that_cannot_be_meant_so_are_told_first() {
+    let home = tempfile::tempdir().unwrap();
+    let base = BASE.replace("id = \"H, held out\"", "id = \"H\"");
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    write("truth.toml", base.clone());
+    write("base.toml", format!("{base}{FILE}"));
+    write("running_in.toml", format!("{base}{RUNNING_IN}"));
+    succeed(&home, "synthesize running_in.toml -o data --seed 4");
+    let none = |document: &Value| assert_eq!(document["sanity"], serde_json::json!([]));
+    none(&spoiled(&home, |_| ()));
+    fs::remove_dir_all(home.path().join("data")).unwrap();
+    succeed(&home, "synthesize truth.toml -o data --seed 5");
+    none(&spoiled(&home, |_| ()));
+
+    let told = |change: &dyn Fn(&mut Vec<String>), words: &[&str]| {
+        let document = spoiled(&home, change);
+        let said = document["sanity"].as_array().unwrap();
+        assert_eq!(said.len(), 1, "{words:?}: {said:?}");
+        for word in words {
+            assert!(said[0].as_str().unwrap().contains(word), "{word}: {said:?}");
+        }
+    };
+    let is = |cells: &[String], quantity: &str| cells[QUANTITY] == quantity;
+    told(
+        &|cells| {
+            if is(cells, "wear_depth") {
+                times(cells, -1.0);
+            }
+        },
+        &["wear_depth has the other sign"],
+    );
+    told(
+        &|cells| {
+            if is(cells, "wear_depth") && cells[MEMBER] == "gear" {
+                times(cells, -1.0);
+            }
+        },
+        &["wear_depth of the gear has the other sign"],
+    );
+    told(
+        &|cells| {
+            if is(cells, "mass_loss") {
+                times(cells, 1e-3);
+            }
+        },
+        &["times more wear than its masses", "look like g"],
+    );
+    told(
+        &|cells| {
+            let teeth = if cells[MEMBER] == "pinion" {
+                27.0
+            } else {
+                53.0
+            };
+            if is(cells, "mass_loss") {
+                times(cells, 1.0 / teeth);
+            }
+        },
+        &["53 times more wear", "one tooth"],
+    );
+    let shift = |cells: &mut Vec<String>| {
+        if is(cells, "wear_depth") {
+            // no trace, and a zero of each curve's own
+            let zero = (cells[2].parse::<f64>().unwrap() * 0.77e-3).sin() * 3.0;
+            cells[VALUE] = (cells[VALUE].parse::<f64>().unwrap() + zero).to_string();
+            *cells.last_mut().unwrap() = String::new();
+        }
+    };
+    told(
+        &shift,
+        &[
+            "a constant of its own",
+            "name each curve in the column trace",
+        ],
+    );
+    let text = succeed(&home, "compare base.toml");
+    assert!(
+        text.contains("\ncheck first: a constant of its own"),
+        "{text}"
+    );
+}
+
+/// A fit adjusts k and keeps the proportion that the members' own stand in.
+#[test]
+fn members_own_coefficients_are_scaled_by_a_fit() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let gear = |k: &str| format!("[wear.gear]\ncoefficient = {k}\n");
+    write("truth.toml", format!("{BASE}{RUNNING_IN}{}", gear("8e-10")));
+    succeed(&home, "synthesize truth.toml -o data --seed 3");
+    let guess = BASE.replace("2e-10", "5e-10");
+    let file = FILE.replace("measurements.csv", "data/measurements.csv");
+    write("base.toml", format!("{guess}{}{file}", gear("20e-10")));
+    succeed(&home, "add base.toml running_in -o new.toml");
+    let told = succeed(&home, "compare new.toml --json");
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let chi2 = number(&told, "/fit/chi2_per_point");
+    assert!((0.8..1.2).contains(&chi2), "{told}");
+    let k = number(&told, "/parameters/0/value");
+    assert!((k / 2e-10 - 1.0).abs() < 0.05, "{told}");
+    // what add wrote has both at their fitted values
+    let new = fs::read_to_string(home.path().join("new.toml")).unwrap();
+    let study = gearwear::study::Study::parse(&new, "new.toml").unwrap();
+    assert!((study.wear.members[1] - 4.0).abs() < 1e-3, "{new}");
+    assert!((study.wear.coefficient / 2e-10 - 1.0).abs() < 0.05, "{new}");
+}
+
+/// What holds k's scatter where there is one test is an assumption.
+#[test]
+fn the_scatter_between_tests_is_not_known_from_one() {
+    let home = tempfile::tempdir().unwrap();
+    let (one, _) = BASE.split_once("[[test]]\nid = \"B\"").unwrap();
+    let one = one.replace("coefficient_scatter = 0.0", "datum = 0.5");
+    fs::write(home.path().join("one.toml"), format!("{one}{FILE}")).unwrap();
+    succeed(&home, "synthesize one.toml -o data --seed 5");
+    fs::copy(
+        home.path().join("data/measurements.csv"),
+        home.path().join("measurements.csv"),
+    )
+    .unwrap();
+    let text = succeed(&home, "compare one.toml");
+    assert!(
+        text.contains("scatter of k      not known from one test"),
+        "{text}"
+    );
+}
+
+/// A spreadsheet of central Europe gives the figures of the plain file, and it is said how it was read.
+#[test]
+fn a_spreadsheets_own_form_is_read_and_told() {
+    let home = home();
+    let told = |home: &TempDir| {
+        let (code, out, err) = common::line(home, "compare try/base.toml --json");
+        assert_eq!(code, Some(0), "{err}");
+        (serde_json::from_str::<Value>(&out).unwrap(), err)
+    };
+    let (plain, silent) = told(&home);
+    assert_eq!(silent, "");
+    let file = home.path().join("try/measurements.csv");
+    let text = fs::read_to_string(&file).unwrap();
+    let rows = text.lines().filter(|line| !line.starts_with('#'));
+    // the id of a test has a comma of its own
+    let rows = rows.map(|row| row.replace("\"H, held out\"", "H@ held out"));
+    let written = rows.map(|row| row.replace(',', ";").replace('.', ",").replace('@', ",") + "\n");
+    fs::write(&file, written.collect::<String>()).unwrap();
+    let (european, said) = told(&home);
+    assert_eq!(plain["parameters"], european["parameters"]);
+    assert_eq!(
+        said,
+        "note: try/measurements.csv: semicolons between columns, decimal commas\n"
+    );
+}

@@ -92,6 +92,7 @@ fn wear_data(tests: &[(&str, f64)], points: usize, traces: bool) -> Dataset {
         tests: tests.iter().map(|(id, _)| (*id).to_owned()).collect(),
         observations: Vec::new(),
         traces: Vec::new(),
+        reading: String::new(),
     };
     for (test, (id, cycles)) in tests.iter().enumerate() {
         for (member, low) in [(Subject::Pinion, 26.0), (Subject::Gear, 52.0)] {

@@ -101,18 +101,26 @@ refusals! {
         => UnknownKey "A" at 1:1, "`A`", "test, member, cycles", "first line that is no comment names the columns";
     misspelt_column: with("quantity", "quantitiy")
         => UnknownKey "quantitiy" at 2:20, "`quantitiy`", "quantity, position", "the nearest column is `quantity`";
-    capital_column: with("test,member", "Test,member")
-        => UnknownKey "Test" at 2:1, "`Test`", "test, member", "the nearest column is `test`";
-    nameless_column: with("sigma,trace", "sigma,trace,")
-        => UnknownKey "" at 2:56, "nothing", "optional trace, face, tooth", "a comma too many";
+    nameless_column: with("sigma,trace", "sigma,,trace")
+        => UnknownKey "" at 2:50, "nothing", "optional trace, face, tooth", "a comma too many";
+    something_below_no_name: with("sigma,trace", "sigma,trace,,").replace("A-p-1", "A-p-1,,7")
+        => Inconsistent "" at 3:51, "`7`", "nothing", "a column without a name";
     missing_column: with(",sigma,", ",")
         => MissingKey "sigma" at 2:1, "this header", "value, sigma", "no column `sigma`";
     missing_position: "test,member,cycles,quantity,value,sigma\n"
         => MissingKey "position" at 1:1, "this header", "position", "empty in rows of mass_loss";
     duplicate_column: with("value,sigma", "value,value")
         => Syntax "value" at 2:44, "`value`", "each column once", "stands twice";
-    semicolons: GOOD.replace(',', ";")
-        => UnknownKey "test;member;cycles;quantity;position;value;sigma;trace" at 2:1, "`test;member", "test, member", "separated by commas";
+    bars: GOOD.replace(',', "|")
+        => UnknownKey "test|member|cycles|quantity|position|value|sigma|trace" at 2:1, "`test|member", "test, member", "commas, semicolons or tabulators";
+    points_and_commas: GOOD.replace(',', ";").replace("2.1;", "2,1;")
+        => Inconsistent "" at 4:31, "`2,1`", "one of the two in all numbers", "marks between thousands";
+    thousands: european().replace("A;pinion;250000", "A;pinion;250.000")
+        => BadValue "cycles" at 3:10, "`250.000`", "without marks between thousands", "250000 or 2.5e5";
+    another_unit_in_the_header: with("position,value", "position [m],value")
+        => Inconsistent "position" at 3:28, "`26.31`", "position of wear_depth in mm", "the header says position in m";
+    one_unit_for_two: with("value,sigma", "value (µm),sigma")
+        => Inconsistent "value" at 6:39, "`-14.2`", "value of transmission_error in urad", "where rows differ";
     short_row: with("182.0,4.0,", "182.0,4.0")
         => Syntax "" at 7:1, "7 fields", "8 fields", "empty fields at the end need their commas";
     decimal_comma: with("3.42", "3,42")
@@ -279,6 +287,64 @@ fn line_ends_marks_blanks_quotes_and_column_order_change_nothing() {
         (b.value, b.sigma, b.position)
     );
     assert_eq!((a.face, a.tooth.as_deref()), (Some(-2.5), Some("7, left")));
+}
+
+/// `GOOD` as a spreadsheet of central Europe writes it.
+fn european() -> String {
+    GOOD.replace(',', ";").replace('.', ",")
+}
+
+#[test]
+fn the_forms_that_spreadsheets_write_are_read_and_told() {
+    let plain = parse(GOOD).unwrap();
+    assert_eq!(plain.reading, "");
+    let read = |text: &str| {
+        let data = parse(text).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(data.observations, plain.observations, "{text}");
+        data.reading
+    };
+    let semicolons = "semicolons between columns, decimal commas";
+    assert_eq!(read(&european()), semicolons);
+    assert_eq!(
+        read(&GOOD.replace(',', ";")),
+        "semicolons between columns, decimal points"
+    );
+    assert_eq!(
+        read(&european().replace(';', "\t")),
+        "tabulators between columns, decimal commas"
+    );
+    let header = "test,member,cycles,quantity,position,value,sigma,trace\n";
+    let upper = with(
+        header,
+        "Test,MEMBER,Cycles [rev],Quantity,Position [mm],VALUE,Sigma,Trace\n",
+    );
+    let upper = upper
+        .replace(",pinion,", ",Pinion,")
+        .replace("wear_depth", "Wear_depth");
+    // a rotation has no millimetres
+    let upper = upper.replace(
+        "A,pair,250000,transmission_error,0.25,-14.2,0.5,A-te-1\n",
+        "\n",
+    );
+    let data = parse(&upper).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((data.observations.len(), data.reading.as_str()), (4, ""));
+    // what stands in line 1 is not a comment: all lines are one further down
+    let stated = parse(&format!("sep=;\n{}", european())).unwrap();
+    assert_eq!(stated.observations[0].line, 4);
+    assert_eq!(stated.observations[0].value, 3.42);
+    assert_eq!(stated.reading, semicolons);
+    let wider: String = european()
+        .lines()
+        .map(|line| match line {
+            line if line.starts_with('#') || line.is_empty() => format!("{line}\n"),
+            line if line.starts_with("test") => format!("{line};Comment;;\n"),
+            line => format!("{line};seen by eye;;\n"),
+        })
+        .collect();
+    assert_eq!(
+        read(&format!("{wider};;;;;;;;;;\n;;;;;;;;;;\n")),
+        format!("{semicolons}; passed over: the column `Comment`, 2 empty columns, 2 empty rows")
+    );
 }
 
 #[test]

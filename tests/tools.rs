@@ -310,6 +310,86 @@ fn a_sweep_is_a_table_of_runs_and_goes_on_after_an_interruption() {
     assert!(!home.ok(&resumed).contains("done already"));
 }
 
+/// Members' own coefficients are those of the effect that shares one k out between members.
+#[test]
+fn each_member_wears_by_its_own_coefficient() {
+    let home = Home::with(STUDY);
+    let ratio = 4.0f64;
+    // k1 = k sqrt(ratio), k2 = k/sqrt(ratio)
+    let own = format!(
+        "[wear.pinion]\ncoefficient = {:e}\n[wear.gear]\ncoefficient = {:e}\n",
+        6e-10 * ratio.sqrt(),
+        6e-10 / ratio.sqrt()
+    );
+    let effect = format!(
+        "[[effect]]\nkind = \"member_hardness\"\nlog_ratio = {:?}\n",
+        ratio.ln()
+    );
+    home.write("own.toml", &format!("{STUDY}{own}"));
+    home.write("effect.toml", &format!("{STUDY}{effect}"));
+    for name in ["own", "effect", "study"] {
+        home.ok(&["run", &format!("{name}.toml"), "-o", name]);
+    }
+    let wear = |name: &str, member: &str| {
+        let summary = home.json(&format!("{name}/summary.json"));
+        summary["wear"][member]["worn_area_mm2"].as_f64().unwrap()
+    };
+    for member in ["pinion", "gear"] {
+        let (own, effect) = (wear("own", member), wear("effect", member));
+        assert!(
+            (own / effect - 1.0).abs() < 1e-9,
+            "{member}: {own} {effect}"
+        );
+    }
+    let pinion = wear("own", "pinion") / wear("study", "pinion");
+    // twice the coefficient; where a flank is worn deeper it bears a little less
+    assert!((1.9..2.0).contains(&pinion), "{pinion}");
+    let conditions = home.json("own/summary.json")["conditions"].clone();
+    assert_eq!(conditions["coefficient_gear"], 3e-10, "{conditions}");
+    let page = home.read("own/report.html");
+    assert!(page.contains("mm²/N pinion, "), "both stand in the report");
+    let message = {
+        home.write(
+            "none.toml",
+            &format!("{STUDY}[wear.gear]\ncoefficient = 1\n"),
+        );
+        home.refused(&["run", "none.toml"])
+    };
+    assert!(message.contains("wear.gear.coefficient"), "{message}");
+}
+
+/// Points whose values are right one by one and no pair that runs together are rows with their reason.
+#[test]
+fn a_sweep_tells_the_points_that_are_no_pair() {
+    let home = Home::with(STUDY);
+    let vary = "gears.pinion.profile_shift=-0.1,0.3";
+    let text = home.ok(&["sweep", "study.toml", "--vary", vary, "-o", "out"]);
+    assert!(
+        text.contains("1 of 2 points are no pair that runs"),
+        "{text}"
+    );
+    let table = home.read("out/sweep.csv");
+    let rows: Vec<&str> = table.lines().collect();
+    assert!(
+        rows[1].starts_with("-0.1,") && rows[1].ends_with(','),
+        "{table}"
+    );
+    assert!(
+        rows[2].starts_with("0.3,,,,,,,,,") && rows[2].contains("the teeth jam"),
+        "{table}"
+    );
+    let points = home.json("out/sweep.json")["points"].clone();
+    assert!(
+        points[0]["figures"].is_object() && points[1].get("figures").is_none(),
+        "{points}"
+    );
+    // none that runs is no sweep
+    let vary = "gears.pinion.profile_shift=0.3,0.4";
+    let message = home.refused(&["sweep", "study.toml", "--vary", vary]);
+    assert!(message.contains("the teeth jam"), "{message}");
+    assert_eq!(message.matches("error: ").count(), 1, "{message}");
+}
+
 #[test]
 fn a_sweep_refuses_what_it_cannot_vary() {
     let home = Home::with(STUDY);
@@ -335,7 +415,11 @@ fn a_sweep_refuses_what_it_cannot_vary() {
         ("gears.pinion.teeth=20.5", "a whole number"),
         ("operation.torque=1..2", "FROM..TO:COUNT"),
         ("operation.torque", "KEY=VALUE"),
-        ("operation.misalignment=0,30", "misalignment"),
+        ("operation.misalignment=25,30", "misalignment"),
+        (
+            "running_in.amplitude=1,2",
+            "the study has no effect running_in",
+        ),
         ("test.torque=1,2", "no such key"),
         ("fit.free=1,2", "no such key"),
     ] {

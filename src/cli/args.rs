@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::{
-    CliError, Context, Outcome, add, compare, completions, diagnose, effects, export, init, ladder,
-    mesh, models, plan, run, sweep, synthesize, validate,
+    CliError, Context, Outcome, add, check, compare, completions, diagnose, effects, export,
+    import, init, ladder, mesh, models, plan, run, sweep, synthesize, validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -62,6 +62,10 @@ pub enum Command {
     Init(init::InitArgs),
     /// Mesh, contact and wear history at the study's operation or a test's conditions: fields, tables, plots, report
     Run(run::RunArgs),
+    /// Read the study and its measurements, say what was understood and what a comparison could conclude
+    Check(check::CheckArgs),
+    /// Turn a table with a column for each checkpoint or radius (.xlsx or text) into a measurement file
+    Import(import::ImportArgs),
     /// Run the study over a grid of values: one table, one picture
     Sweep(sweep::SweepArgs),
     /// Compare the finite-element, Hertz and published models, and say which assumption makes each difference
@@ -99,6 +103,8 @@ impl Command {
             Command::Models(args) => models::execute(args, context),
             Command::Mesh(args) => mesh::execute(args, context),
             Command::Export(args) => export::execute(args, context),
+            Command::Check(args) => check::execute(args, context),
+            Command::Import(args) => import::execute(args, context),
             Command::Sweep(args) => sweep::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
             Command::Diagnose(args) => diagnose::execute(args, context),

@@ -24,6 +24,7 @@ pub(super) fn execute(args: &CompareArgs, context: &Context) -> Result<Outcome, 
     let study = Study::load(path)?;
     contact_of(&study)?;
     let data = study.dataset_to_fit()?;
+    context.tell_reading(&data);
     let target = args
         .paths
         .output

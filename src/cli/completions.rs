@@ -1,11 +1,13 @@
 //! `gearwear completions`: the script that completes commands and options in a shell.
 
-use clap::{Args, CommandFactory};
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Command, CommandFactory};
 use clap_complete::{Shell, generate};
 use serde_json::json;
 
 use super::args::Arguments;
 use super::{CliError, Outcome};
+use crate::effects::CATALOGUE;
 
 /// Arguments of `completions`.
 #[derive(Debug, Args)]
@@ -18,12 +20,27 @@ pub struct CompletionsArgs {
     shell: Shell,
 }
 
+/// The command with the catalogue's effects where one is named: a script offers them, the commands themselves have better words for an
+/// unknown one.
+fn with_effects(command: Command) -> Command {
+    let offers = |command: Command| {
+        command.mut_arg("effect", |argument| {
+            argument.value_parser(PossibleValuesParser::new(
+                CATALOGUE.iter().map(|card| card.name),
+            ))
+        })
+    };
+    command
+        .mut_subcommand("effects", offers)
+        .mut_subcommand("add", offers)
+}
+
 /// The script is the result, so it is printed also with `--quiet`.
 pub(super) fn execute(args: &CompletionsArgs) -> Result<Outcome, CliError> {
     let mut script = Vec::new();
     generate(
         args.shell,
-        &mut Arguments::command(),
+        &mut with_effects(Arguments::command()),
         "gearwear",
         &mut script,
     );
@@ -33,4 +50,20 @@ pub(super) fn execute(args: &CompletionsArgs) -> Result<Outcome, CliError> {
         text,
         success: true,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn effects_are_offered() {
+        for shell in [Shell::Bash, Shell::Zsh, Shell::Fish] {
+            let told =
+                execute(&CompletionsArgs { shell }).unwrap_or_else(|error| panic!("{error}"));
+            for card in CATALOGUE {
+                assert!(told.text.contains(card.name), "{shell}: {}", card.name);
+            }
+        }
+    }
 }

@@ -43,6 +43,7 @@ enum Deciding {
 pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
     let data = study.dataset_to_fit()?;
+    context.tell_reading(&data);
     let target = args
         .paths
         .output

@@ -21,7 +21,7 @@ pub struct InitArgs {
     /// Gear set to start from
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Example::Paper)]
     example: Example,
-    /// Overwrite study.toml and measurements.csv
+    /// Overwrite study.toml, measurements.csv and template.csv
     #[arg(long)]
     force: bool,
 }
@@ -37,6 +37,9 @@ enum Example {
     /// A measured pair with an effect that the model lacks: try compare, diagnose and add on it
     HiddenEffect,
 }
+
+/// An empty measurement file that says what stands where.
+const TEMPLATE: &str = include_str!("examples/template.csv");
 
 /// What an independent program measured on a pair like the reference one, something hidden in it.
 const HIDDEN: &str = include_str!("../../validation/challenges/running_in_L1/measurements.csv");
@@ -91,6 +94,7 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
     let files = [
         (folder.join("study.toml"), args.example.study().into()),
         (folder.join("measurements.csv"), args.example.measurements()),
+        (folder.join("template.csv"), TEMPLATE.into()),
     ];
     if let Some((path, _)) = files
         .iter()
@@ -115,8 +119,10 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
         .map(|(path, _)| path.display().to_string())
         .collect();
     let text = format!(
-        "wrote {}\nnext: gearwear {} {}\n",
-        written.join(" and "),
+        "wrote {}, {} and {}, an empty measurement file that says what stands where\nnext: gearwear {} {}\n",
+        written[0],
+        written[1],
+        written[2],
         args.example.next(),
         written[0]
     );
@@ -130,7 +136,7 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::{KEYS, Study};
+    use crate::study::{KEY_DOCS, KEYS, Study, Without};
 
     use crate::effects::CATALOGUE;
     use crate::measure::Dataset;
@@ -161,6 +167,61 @@ mod tests {
             for key in keys.iter().filter(|key| !["pinion", "gear"].contains(key)) {
                 assert!(text.contains(key), "{table}: {key} is not in the example");
             }
+        }
+    }
+
+    /// The template is a measurement file of every quantity once its examples are no comments.
+    #[test]
+    fn the_template_shows_every_quantity() {
+        let study = study(Example::Paper);
+        let filled = TEMPLATE.replace("\n# A,", "\nA,");
+        let data = Dataset::parse(&filled, "template.csv", &study.known());
+        let data = data.unwrap_or_else(|error| panic!("{error}"));
+        for quantity in crate::measure::Quantity::ALL {
+            assert!(
+                data.observations.iter().any(|o| o.quantity == quantity),
+                "{quantity:?}"
+            );
+            assert!(
+                TEMPLATE.contains(&format!("{:<22}", quantity.name())),
+                "{quantity:?}"
+            );
+        }
+        for (column, _) in crate::measure::COLUMNS {
+            assert!(
+                TEMPLATE.contains(&format!("# {column}"))
+                    || TEMPLATE.contains(&format!(", {column}")),
+                "{column}"
+            );
+        }
+    }
+
+    /// What an example calls a default is the default.
+    #[test]
+    fn defaults_in_examples_are_the_defaults() {
+        for example in Example::value_variants() {
+            let text = example.study();
+            let mut stated = 0;
+            for (key, line) in text
+                .lines()
+                .filter_map(|l| Some((l.split_once(" =")?.0, l)))
+            {
+                let Some((_, default)) = line.split_once("; default ") else {
+                    continue;
+                };
+                let doc = KEY_DOCS.iter().find(|doc| doc.key == key).unwrap();
+                assert_eq!(
+                    doc.without,
+                    Without::Default(default),
+                    "{example:?}: {line}"
+                );
+                stated += 1;
+            }
+            assert!(stated >= 6 || !text.contains("[numerics]"), "{example:?}");
+            assert!(
+                !text.contains("these are the defaults\norder"),
+                "{example:?}"
+            );
         }
     }
 

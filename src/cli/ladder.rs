@@ -31,6 +31,7 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
         let study = Study::load(path)?;
         contact_of(&study)?;
         let data = study.dataset_to_fit()?;
+        context.tell_reading(&data);
         if loaded
             .first()
             .is_some_and(|first| first.0.gears != study.gears)

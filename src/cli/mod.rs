@@ -10,6 +10,7 @@
 
 mod add;
 pub mod args;
+mod check;
 mod compare;
 mod completions;
 mod diagnose;
@@ -18,7 +19,9 @@ mod error;
 mod export;
 mod fitting;
 mod folder;
+mod import;
 mod init;
+mod interrupt;
 mod ladder;
 mod mesh;
 mod models;
@@ -34,6 +37,7 @@ use std::io::{self, IsTerminal, Write};
 
 use clap::Parser;
 
+use crate::measure::Dataset;
 pub use error::CliError;
 use progress::Progress;
 
@@ -55,6 +59,13 @@ pub(crate) struct Context {
 }
 
 impl Context {
+    /// Says how a measurement file was read that is not written in the format's own way; silent with `--quiet`.
+    pub(crate) fn tell_reading(&self, data: &Dataset) {
+        if !self.quiet && !data.reading.is_empty() {
+            let _ = writeln!(io::stderr(), "note: {}: {}", data.name, data.reading);
+        }
+    }
+
     /// A progress bar on standard error, hidden with `--quiet` and where nobody looks.
     pub(crate) fn progress(&self, what: &'static str) -> Progress {
         Progress::new(what, self.quiet)
@@ -69,6 +80,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         // Help and version are asked for; the rest is a mistake. A closed pipe is neither.
         Err(usage) => {
             let _ = usage.print();
+            if let Some(near) = near_command(&usage) {
+                let _ = writeln!(io::stderr(), "did you mean `gearwear {near}`?");
+            }
             return if usage.use_stderr() { 2 } else { 0 };
         }
     };
@@ -81,6 +95,24 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             error.exit_code()
         }
     }
+}
+
+/// Most letters by which a mistyped command may differ from the one that is meant.
+const MISTYPED: usize = 2;
+
+/// The command that an unknown one is like, where the parser of arguments names none.
+fn near_command(usage: &clap::Error) -> Option<String> {
+    use clap::error::{ContextKind, ContextValue};
+    let Some(ContextValue::String(written)) = usage.get(ContextKind::InvalidSubcommand) else {
+        return None;
+    };
+    if usage.get(ContextKind::SuggestedSubcommand).is_some() {
+        return None;
+    }
+    let command = <args::Arguments as clap::CommandFactory>::command();
+    let names = command.get_subcommands().map(clap::Command::get_name);
+    let near = crate::source_text::nearest(written, names)?;
+    (strsim::damerau_levenshtein(written, near) <= MISTYPED).then(|| near.to_owned())
 }
 
 fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {

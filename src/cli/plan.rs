@@ -35,6 +35,9 @@ pub(super) fn execute(args: &PlanArgs, context: &Context) -> Result<Outcome, Cli
         Some(_) => Some(study.dataset()?),
         None => None,
     };
+    if let Some(data) = &data {
+        context.tell_reading(data);
+    }
     let default = || folder::default_path(&args.paths.study, "plan");
     let target = args.paths.output.clone().unwrap_or_else(default);
     folder::check(&target, &args.paths.study, &study)?;

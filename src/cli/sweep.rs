@@ -13,7 +13,7 @@ use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
 use crate::report::Staging;
-use crate::report::format::significant;
+use crate::report::format::{plain, significant};
 use crate::report::plots::sweep_picture;
 use crate::study::Study;
 use figures::COLUMNS;
@@ -53,7 +53,8 @@ pub(super) fn execute(
     let kept = Kept::open(&target, args.resume)?;
     let progress = context.progress("sweep");
     let (results, reused) = points::compute(&points, &kept, &progress)?;
-    let failures = results.iter().filter(|result| result.is_err()).count();
+    let impossible = points.iter().filter(|point| !point.is_possible()).count();
+    let failures = results.iter().filter(|result| result.is_err()).count() - impossible;
     let document = document(&study.title, &args.vary, &points, &results);
     let mut staging = Staging::begin(&target)?;
     staging.write("sweep.csv", csv(&args.vary, &points, &results).as_bytes())?;
@@ -62,7 +63,7 @@ pub(super) fn execute(
         &crate::report::json::text("sweep.json", &document)?,
     )?;
     let drawn = drawn(&args.vary, &points, &results);
-    if let Some(svg) = sweep_picture(&study.title, &args.vary[0].key, &drawn)? {
+    if let Some(svg) = sweep_picture(&study.title, &with_unit(&args.vary[0].key), &drawn)? {
         staging.write("sweep.svg", svg.as_bytes())?;
     }
     let folder = staging.commit()?;
@@ -70,6 +71,12 @@ pub(super) fn execute(
     let mut text = table(&args.vary, &points, &results);
     if reused > 0 {
         text += &format!("{reused} of {} points were done already\n", points.len());
+    }
+    if impossible > 0 {
+        text += &format!(
+            "{impossible} of {} points are no pair that runs; the column error says why\n",
+            points.len()
+        );
     }
     if failures > 0 {
         text += &format!("{failures} of {} points failed\n", points.len());
@@ -116,6 +123,7 @@ fn csv(axes: &[Axis], points: &[Point], results: &[Result]) -> String {
             text.to_owned()
         }
     };
+    let reason = |text: &str| quoted(text.lines().next().unwrap_or_default());
     let heads = axes.iter().map(|axis| quoted(&axis.key));
     let figures = COLUMNS.iter().map(|column| column.name.to_owned());
     let head: Vec<String> = heads.chain(figures).chain(["error".to_owned()]).collect();
@@ -126,27 +134,26 @@ fn csv(axes: &[Axis], points: &[Point], results: &[Result]) -> String {
             let value = result.as_ref().ok().and_then(column.of);
             value.map_or(String::new(), |value| value.to_string())
         }));
-        row.push(result.as_ref().err().map_or(String::new(), |e| quoted(e)));
+        row.push(result.as_ref().err().map_or(String::new(), |e| reason(e)));
         out += &(row.join(",") + "\n");
     }
     out
 }
 
 fn table(axes: &[Axis], points: &[Point], results: &[Result]) -> String {
-    let short = |key: &str| key.rsplit('.').next().unwrap_or(key).to_owned();
-    let heads = axes.iter().map(|axis| short(&axis.key));
+    let heads = axes.iter().map(|axis| with_unit(&axis.key));
     let mut lines: Vec<Vec<String>> = vec![
         heads
             .chain(COLUMNS.iter().map(|column| column.head.to_owned()))
             .collect(),
     ];
     for (point, result) in points.iter().zip(results) {
-        let mut line = point.values.clone();
+        let mut line: Vec<String> = point.values.iter().map(|value| readable(value)).collect();
         match result {
             Ok(figures) => line.extend(COLUMNS.iter().map(|column| {
                 (column.of)(figures).map_or("-".to_owned(), |value| significant(value, 4))
             })),
-            Err(error) => line.push(format!("failed: {}", error.lines().next().unwrap_or(""))),
+            Err(error) => line.push(reason(error)),
         }
         lines.push(line);
     }
@@ -168,6 +175,35 @@ fn table(axes: &[Axis], points: &[Point], results: &[Result]) -> String {
             format!("  {}\n", padded.join("  "))
         })
         .collect()
+}
+
+/// The end of a key with its unit: `torque, N m`.
+fn with_unit(key: &str) -> String {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    match crate::study::unit_of(key) {
+        None | Some("" | "-" | "1") => name.to_owned(),
+        Some(unit) => format!("{name}, {unit}"),
+    }
+}
+
+/// A value as people read it: 1.0·10⁻¹⁰ rather than nine zeros.
+fn readable(value: &str) -> String {
+    match value.parse::<f64>() {
+        Ok(number) if number != 0.0 && !(1e-4..1e7).contains(&number.abs()) => plain(number),
+        _ => value.to_owned(),
+    }
+}
+
+/// Why there are no figures, without the values that stand beside it.
+fn reason(error: &str) -> String {
+    let first = error.lines().next().unwrap_or_default();
+    match first
+        .strip_prefix("--vary ")
+        .and_then(|rest| rest.split_once(": "))
+    {
+        Some((_, why)) => format!("none: {why}"),
+        None => format!("failed: {first}"),
+    }
 }
 
 /// Curves over the first axis: for every combination of the others, the points that are numbers.

@@ -14,8 +14,10 @@ use crate::wear::acting::Acting;
 pub struct MeasuredTest {
     /// Its id.
     pub id: String,
-    /// Conditions; the wear coefficient in it is not used.
+    /// Conditions.
     pub conditions: Conditions,
+    /// The study's wear coefficient, mm²/N, and those of pinion and gear over it.
+    pub wear: (f64, [f64; 2]),
     /// Oil and heat.
     pub surroundings: Surroundings,
     /// Whether the drive direction is the other one.

@@ -7,6 +7,7 @@ use super::fitted::Fit;
 use super::parameters::Estimate;
 use super::ratio::{Ratio, ratios};
 use super::region::Map;
+use super::sanity::sanity;
 use super::tally::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
 use super::uncertainty::{Validation, validate};
 use super::worst::{sentence, worst_first};
@@ -41,6 +42,9 @@ pub struct Comparison {
     pub places: Vec<Cell>,
     /// Where the model fails worst, in plain words.
     pub worst: String,
+    /// What looks wrong about the measurements themselves, signs and units first; until it is put right the rest means little.
+    #[serde(default)]
+    pub sanity: Vec<String>,
     /// What is doubtful about the measurements or the fit.
     pub warnings: Vec<String>,
     /// Each test with its own wear coefficient.
@@ -159,6 +163,7 @@ impl Comparison {
             places,
             worst,
             correlation: correlation(fit),
+            sanity: sanity(study, data, fit),
             warnings: doubts(data, fit),
             tests: test_records(study, fit, &rows),
             coefficient_scatter: fit.scatter,

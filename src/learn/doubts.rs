@@ -194,6 +194,7 @@ mod tests {
                 tests: vec!["A".to_owned(), "B".to_owned()],
                 observations,
                 traces: vec![trace("1", 2), trace("2", 5)],
+                reading: String::new(),
             })
         };
         let (pinion, gear) = (Subject::Pinion, Subject::Gear);
@@ -241,6 +242,7 @@ mod tests {
                 tests: vec!["A".to_owned()],
                 observations,
                 traces: Vec::new(),
+                reading: String::new(),
             })
         };
         let (a, b) = (row(2, Some(26.0), 1.0), row(3, Some(26.0), 1.1));

@@ -88,8 +88,10 @@ impl<'a> GearModel<'a> {
         acting: Option<&'b Acting>,
     ) -> Result<Forward<'b>, ForwardError> {
         let template = &self.bench.templates[test];
+        let (_, members) = self.bench.tests[test].wear;
+        let coefficients = members.map(|factor| factor * coefficient);
         if !acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
-            return template.again([coefficient; 2], acting);
+            return template.again(coefficients, acting);
         }
         let kept = || {
             self.mountings
@@ -102,9 +104,9 @@ impl<'a> GearModel<'a> {
             mountings.last().map(|(_, mounting)| mounting.clone())
         });
         if let Some(mounting) = known {
-            return template.again_at(&mounting, [coefficient; 2], acting);
+            return template.again_at(&mounting, coefficients, acting);
         }
-        let forward = template.again([coefficient; 2], acting)?;
+        let forward = template.again(coefficients, acting)?;
         let mut all = kept();
         let mountings = all.entry(test).or_default();
         if mountings.len() == MOUNTINGS {
@@ -127,7 +129,7 @@ impl<'a> GearModel<'a> {
         let acting = (!effects.is_empty()).then(|| self.bench.acting(test, effects));
         // one history in a coefficient of the test's own serves all others
         let worn_with = if self.stretches {
-            measured.conditions.coefficient[0]
+            measured.wear.0
         } else {
             coefficient
         };

@@ -39,6 +39,7 @@ impl<'a> Measured<'a> {
             .map(|(number, test)| MeasuredTest {
                 id: test.id.clone(),
                 conditions: test.conditions.simulated(&study.wear),
+                wear: (study.wear.coefficient, study.wear.members),
                 surroundings: study.surroundings(&test.conditions),
                 reversed: test.conditions.reversed,
                 observations: of_test(number),

@@ -151,6 +151,7 @@ fn places(study: &Study) -> Result<Dataset, CompareError> {
         tests: study.tests.iter().map(|test| test.id.clone()).collect(),
         observations: Vec::new(),
         traces: Vec::new(),
+        reading: String::new(),
     };
     for (number, test) in study.tests.iter().enumerate() {
         let pair = pair(study, test)?;

@@ -200,15 +200,18 @@ fn factor(ratios: &[Ratio]) -> String {
         return String::new();
     };
     let told = |r: &Ratio| {
-        format!(
-            "{:.2} times the computed at {:.0} cycles",
-            r.measured_over_computed, r.cycles
-        )
+        let times = r.measured_over_computed;
+        let times = if times.abs() < 100.0 {
+            format!("{times:.2}")
+        } else {
+            format!("{times:.1e}")
+        };
+        format!("{times} times the computed at {:.0} cycles", r.cycles)
     };
     let mut text = format!(
         " In size the measured wear of that member is {}, which explains {:.0} % of the misfit then",
         told(first),
-        100.0 * first.explains()
+        100.0 * first.explains().min(1.0)
     );
     let far = |r: &&Ratio| ((r.cycles / first.cycles).ln().abs() * 1e6) as i64;
     if let Some(second) = ratios

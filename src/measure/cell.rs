@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use csv::StringRecord;
 
+use super::dialect::Dialect;
 use super::table::field_spans;
 use crate::source_text::{Diagnostic, Fault, list, nearest};
 
@@ -13,6 +14,8 @@ const SHOWN: usize = 40;
 /// One record with its place.
 pub(super) struct Row<'r> {
     pub(super) text: &'r str,
+    /// How the text is written.
+    pub(super) dialect: Dialect,
     pub(super) record: &'r StringRecord,
     /// Its bytes in the text.
     pub(super) span: Range<usize>,
@@ -21,6 +24,11 @@ pub(super) struct Row<'r> {
 }
 
 impl<'r> Row<'r> {
+    /// Whether nothing stands in any field: a line of separators alone, as spreadsheets write below a table.
+    pub(super) fn is_blank(&self) -> bool {
+        self.record.iter().all(str::is_empty)
+    }
+
     /// Number of fields.
     pub(super) fn len(&self) -> usize {
         self.record.len()
@@ -37,7 +45,7 @@ impl<'r> Row<'r> {
 
     /// Where the field of a column stands; the row's end if there is none.
     pub(super) fn span_of(&self, column: usize) -> Range<usize> {
-        let spans = field_spans(self.text, self.span.clone());
+        let spans = field_spans(self.text, self.span.clone(), self.dialect.separator);
         match spans.get(column) {
             Some(span) => span.clone(),
             None => self.span.end..self.span.end,
@@ -80,7 +88,7 @@ impl<'c> Cell<'c, '_> {
                 .fault(Fault::MissingKey, format!("{key} is missing"), allowed)
                 .into());
         }
-        match self.text().parse::<f64>() {
+        match self.row.dialect.point(self.text()).parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             Ok(_) => Err(self
                 .fault(
@@ -109,7 +117,8 @@ impl<'c> Cell<'c, '_> {
         choices: &[T],
         name: impl Fn(T) -> &'static str,
     ) -> Result<T, Box<Diagnostic>> {
-        if let Some(found) = choices.iter().find(|c| name(**c) == self.text()) {
+        let same = |c: &&T| name(**c).eq_ignore_ascii_case(self.text());
+        if let Some(found) = choices.iter().find(same) {
             return Ok(*found);
         }
         let names: Vec<&str> = choices.iter().map(|c| name(*c)).collect();

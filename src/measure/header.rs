@@ -1,4 +1,4 @@
-//! The header line: which column stands where.
+//! The header line: which column stands where, and in which unit it says its numbers are.
 
 use super::cell::{Row, shown};
 use super::table::Table;
@@ -18,13 +18,45 @@ pub const COLUMNS: [(&str, bool); 10] = [
     ("tooth", false),
 ];
 
+/// Names of columns that are for people: they are passed over.
+const FOR_PEOPLE: [&str; 6] = ["comment", "comments", "note", "notes", "remark", "remarks"];
+
 /// Where the columns stand.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Columns {
     /// Place of each of [`COLUMNS`].
     at: [Option<usize>; COLUMNS.len()],
+    /// The unit that the header states for each of them.
+    units: [Option<String>; COLUMNS.len()],
     /// Number of fields in the header.
     pub(super) count: usize,
+    /// How many of these, at its end, have no name.
+    pub(super) nameless: usize,
+    /// Names of the columns that are passed over, as written.
+    pub(super) passed_over: Vec<String>,
+}
+
+/// Which of [`COLUMNS`] a header's field names, whatever its letters, with a unit in brackets behind it or without.
+pub(super) fn column_named(field: &str) -> Option<usize> {
+    let (name, _) = name_and_unit(field);
+    COLUMNS.iter().position(|(known, _)| *known == name)
+}
+
+/// `Position [mm]` as `position` and `mm`.
+fn name_and_unit(field: &str) -> (String, Option<String>) {
+    let field = field.trim();
+    let opening = field
+        .find(['[', '('])
+        .filter(|_| field.ends_with([']', ')']));
+    let (name, unit) = match opening {
+        Some(at) => (&field[..at], Some(&field[at + 1..field.len() - 1])),
+        None => (field, None),
+    };
+    let unit = unit.map(|unit| unit.trim().replace(['µ', 'μ'], "u"));
+    (
+        name.trim().to_lowercase(),
+        unit.filter(|unit| !unit.is_empty()),
+    )
 }
 
 impl Columns {
@@ -48,19 +80,30 @@ impl Columns {
             ));
         };
         let mut at = [None; COLUMNS.len()];
-        for column in 0..row.len() {
-            let name = row.record.get(column).unwrap_or_default();
-            let Some(which) = COLUMNS.iter().position(|(known, _)| *known == name) else {
-                return Err(unknown(&row, column, name));
+        let mut units = [const { None }; COLUMNS.len()];
+        let named =
+            (0..row.len()).rfind(|at| row.record.get(*at).is_some_and(|name| !name.is_empty()));
+        let named = named.map_or(row.len(), |last| last + 1);
+        let mut passed_over = Vec::new();
+        for column in 0..named {
+            let written = row.record.get(column).unwrap_or_default();
+            let (name, unit) = name_and_unit(written);
+            if FOR_PEOPLE.contains(&name.as_str()) {
+                passed_over.push(written.to_owned());
+                continue;
+            }
+            let Some(which) = column_named(written) else {
+                return Err(unknown(&row, column, written));
             };
+            units[which] = unit;
             if at[which].replace(column).is_some() {
                 return Err(Box::new(
                     Diagnostic::new(
                         Fault::Syntax,
-                        name,
+                        name.as_str(),
                         format!("the column `{name}` stands twice"),
                     )
-                    .with_values(shown(name), "each column once")
+                    .with_values(shown(written), "each column once")
                     .with_span(row.span_of(column)),
                 ));
             }
@@ -83,8 +126,17 @@ impl Columns {
         }
         Ok(Self {
             at,
+            units,
             count: row.len(),
+            nameless: row.len() - named,
+            passed_over,
         })
+    }
+
+    /// The unit that the header states for a column, if it states one.
+    pub(super) fn unit_of(&self, name: &str) -> Option<&str> {
+        let which = COLUMNS.iter().position(|(known, _)| *known == name)?;
+        self.units[which].as_deref()
     }
 
     /// Place of a column by its name in [`COLUMNS`].
@@ -103,8 +155,8 @@ fn names() -> String {
 
 fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
     let near = nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default();
-    let hint = if row.len() == 1 && name.contains([';', '\t']) {
-        "columns are separated by commas, decimals are written with a point".to_owned()
+    let hint = if row.len() == 1 && name.contains([';', '\t', '|']) {
+        "columns are separated by commas, semicolons or tabulators".to_owned()
     } else if name.parse::<f64>().is_ok() || row.record.iter().all(|f| !is_column(f)) {
         "the first line that is no comment names the columns".to_owned()
     } else if name.is_empty() {
@@ -129,5 +181,5 @@ fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
 }
 
 fn is_column(name: &str) -> bool {
-    COLUMNS.iter().any(|(known, _)| *known == name)
+    column_named(name).is_some()
 }

@@ -2,13 +2,15 @@
 //! [`TextError`] that shows the place, what was found, what is allowed and a way out. No row is dropped silently.
 //!
 //! ```text
-//! text -> csv records with places (table) -> columns (header) -> cells -> Observation -> units of the whole (units)
+//! text -> how it is written (dialect) -> csv records with places (table) -> columns (header) -> cells -> Observation -> units of the whole (units)
 //! ```
 //!
 //! Knows the study by [`Known`] only: ids and lengths of the tests, the flanks' radii, the face width.
 
 mod cell;
+mod dialect;
 mod header;
+pub mod import;
 mod known;
 mod observation;
 mod quantity;
@@ -24,6 +26,7 @@ pub use known::{Known, KnownTest};
 pub use observation::Observation;
 pub use quantity::{Place, Quantity, Subject};
 
+use dialect::Dialect;
 use header::Columns;
 use observation::Reader;
 use table::Table;
@@ -39,6 +42,8 @@ pub struct Dataset {
     pub observations: Vec<Observation>,
     /// The traces by first appearance; [`Observation::trace`] counts in them.
     pub traces: Vec<Trace>,
+    /// How the file was read where it is not written in the format's own way, in one line; empty otherwise.
+    pub reading: String,
 }
 
 /// Points that share one unknown constant datum offset.
@@ -98,11 +103,19 @@ impl Dataset {
     }
 
     fn rows(source: &Source, known: &Known) -> Result<Self, Box<Diagnostic>> {
-        let mut table = Table::new(source);
-        let columns = Columns::read(&mut table)?;
+        let dialect = Dialect::of(&source.text);
+        let columns = Columns::read(&mut Table::new(source, dialect))?;
+        let dialect = dialect.with_decimals(source, &columns)?;
+        let mut table = Table::new(source, dialect);
+        table.next()?;
         let mut reader = Reader::new(&columns, known);
         let mut observations = Vec::new();
+        let mut blank = 0;
         while let Some(row) = table.next()? {
+            if row.is_blank() && row.len() > 1 {
+                blank += 1;
+                continue;
+            }
             let observation = reader.observation(&row)?;
             observations.push(observation);
         }
@@ -114,12 +127,35 @@ impl Dataset {
                     .with_span(end..end),
             ));
         }
-        units::check(source, &columns, &observations)?;
+        units::check(source, (&columns, dialect.separator), &observations)?;
         Ok(Self {
             name: source.name.clone(),
             tests: known.tests.iter().map(|test| test.id.clone()).collect(),
             observations,
             traces: reader.into_traces(),
+            reading: reading(dialect, &columns, blank),
         })
     }
+}
+
+/// How a file was read that is not written in the format's own way.
+fn reading(dialect: Dialect, columns: &Columns, blank: usize) -> String {
+    let mut said: Vec<String> = dialect.said().into_iter().collect();
+    let mut passed_over: Vec<String> = Vec::new();
+    match columns.passed_over.as_slice() {
+        [] => {}
+        [one] => passed_over.push(format!("the column `{one}`")),
+        more => passed_over.push(format!("the columns `{}`", more.join("`, `"))),
+    }
+    let count = |number: usize, one: &str| match number {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {one}s")),
+    };
+    passed_over.extend(count(columns.nameless, "empty column"));
+    passed_over.extend(count(blank, "empty row"));
+    if !passed_over.is_empty() {
+        said.push(format!("passed over: {}", passed_over.join(", ")));
+    }
+    said.join("; ")
 }

@@ -80,6 +80,7 @@ impl<'k> Reader<'k> {
             Place::Rotation => Some(rotation(cell("position"))?),
             Place::Whole => no_position(cell("position"), quantity)?,
         };
+        self.stated_units(row, quantity)?;
         let value = self.value(cell("value"), quantity)?;
         let sigma = sigma(cell("sigma"), quantity)?;
         let face = self.face(cell("face"))?;
@@ -118,8 +119,8 @@ impl<'k> Reader<'k> {
                 .with_hint("a quotation mark that is never closed swallows the lines after it"),
             ));
         }
-        if found == wanted {
-            return Ok(());
+        if (wanted - self.columns.nameless..=wanted).contains(&found) {
+            return self.nothing_nameless(row);
         }
         let hint = if found > wanted {
             "decimals are written with a point, texts with commas in quotes"
@@ -134,6 +135,81 @@ impl<'k> Reader<'k> {
             .with_values(format!("{found} fields"), format!("{wanted} fields"))
             .with_hint(hint),
         ))
+    }
+
+    /// Nothing below a header without a name.
+    fn nothing_nameless(&self, row: &Row<'_>) -> Result<()> {
+        let named = self.columns.count - self.columns.nameless;
+        let written = |column: &usize| !row.record.get(*column).unwrap_or_default().is_empty();
+        let Some(column) = (named..row.len()).find(written) else {
+            return Ok(());
+        };
+        let cell = row.cell("", Some(column));
+        Err(cell
+            .fault(
+                Fault::Inconsistent,
+                "this stands in a column without a name",
+                "nothing",
+            )
+            .with_hint("name the column in the header: `comment` if it is for people only")
+            .into())
+    }
+
+    /// The units that the header states are those of the row's numbers.
+    fn stated_units(&self, row: &Row<'_>, quantity: Quantity) -> Result<()> {
+        let of_position: &[&str] = match quantity.place() {
+            Place::Flank => &["mm"],
+            Place::Rotation => &["base pitches", "pitches", "1", "-"],
+            Place::Whole => &[],
+        };
+        let of_value = [quantity.unit(), quantity.plain_unit()];
+        let counts = [
+            "pinion revolutions",
+            "revolutions",
+            "rev",
+            "cycles",
+            "1",
+            "-",
+        ];
+        for (column, allowed) in [
+            ("position", of_position),
+            ("value", &of_value),
+            ("sigma", &of_value),
+            ("cycles", &counts),
+            ("face", &["mm"]),
+        ] {
+            self.stated_unit(row, quantity, column, allowed)?;
+        }
+        Ok(())
+    }
+
+    /// Without `allowed` any unit will do.
+    fn stated_unit(
+        &self,
+        row: &Row<'_>,
+        quantity: Quantity,
+        column: &'static str,
+        allowed: &[&str],
+    ) -> Result<()> {
+        match self.columns.unit_of(column) {
+            Some(unit) if differs(unit, allowed) => {
+                let name = quantity.name();
+                let message =
+                    format!("the header says {column} in {unit}, {name} has another unit");
+                let cell = row.cell(column, self.columns.of(column));
+                Err(cell
+                    .fault(
+                        Fault::Inconsistent,
+                        message,
+                        &format!("{column} of {name} in {}", allowed[0]),
+                    )
+                    .with_hint(
+                        "convert the numbers, or take the unit out of the header where rows differ",
+                    )
+                    .into())
+            }
+            _ => Ok(()),
+        }
     }
 
     fn test(&self, cell: Cell<'_, '_>) -> Result<(usize, &'k KnownTest)> {
@@ -246,6 +322,10 @@ impl<'k> Reader<'k> {
         self.numbers.insert(cell.text().to_owned(), number);
         Ok(Some(number))
     }
+}
+
+fn differs(unit: &str, allowed: &[&str]) -> bool {
+    !allowed.is_empty() && !allowed.iter().any(|known| known.eq_ignore_ascii_case(unit))
 }
 
 fn measurable(cell: Cell<'_, '_>, member: Subject, quantity: Quantity) -> Result<()> {

@@ -111,6 +111,15 @@ impl Quantity {
         }
     }
 
+    /// The unit without brackets, as a header may state it.
+    pub(super) fn plain_unit(self) -> &'static str {
+        match self {
+            Quantity::LoadShare => "-",
+            Quantity::MeshStiffness => "N/mm/um",
+            other => other.unit(),
+        }
+    }
+
     /// What its position means.
     pub fn place(self) -> Place {
         match self {

@@ -16,7 +16,7 @@ const NOISE_PART: f64 = 0.5;
 /// Refuses a file whose values of one quantity are all too small for its unit, or for their sigmas.
 pub(super) fn check(
     source: &Source,
-    columns: &Columns,
+    (columns, separator): (&Columns, u8),
     observations: &[Observation],
 ) -> Result<(), Box<Diagnostic>> {
     for quantity in Quantity::ALL {
@@ -58,7 +58,7 @@ pub(super) fn check(
         } else {
             continue;
         };
-        let span = value_span(source, columns, largest.line);
+        let span = value_span(source, columns, separator, largest.line);
         let written = &source.text[span.clone()];
         let message = format!("every {name} {message}");
         return Err(Box::new(
@@ -72,7 +72,12 @@ pub(super) fn check(
 }
 
 /// Where the value stands in the row that begins on `line`.
-fn value_span(source: &Source, columns: &Columns, line: usize) -> std::ops::Range<usize> {
+fn value_span(
+    source: &Source,
+    columns: &Columns,
+    separator: u8,
+    line: usize,
+) -> std::ops::Range<usize> {
     let start: usize = source
         .text
         .split_inclusive('\n')
@@ -80,7 +85,7 @@ fn value_span(source: &Source, columns: &Columns, line: usize) -> std::ops::Rang
         .map(str::len)
         .sum();
     let row = source.text[start..].lines().next().unwrap_or_default();
-    let spans = field_spans(&source.text, start..start + row.len());
+    let spans = field_spans(&source.text, start..start + row.len(), separator);
     let column = columns.of("value").unwrap_or_default();
     spans
         .get(column)

@@ -73,6 +73,11 @@ const TABLES: &[(&str, &str, &str)] = &[
         "`[wear]`",
         "Needed. One cycle is one turn of the pinion.",
     ),
+    (
+        "wear.pinion",
+        "`[wear.pinion]` and `[wear.gear]`",
+        "May be absent, each by itself: a steel pinion against a plastic gear does not wear like it. A fit keeps the proportion of the coefficients; the effect `member_hardness` has it fitted.",
+    ),
     ("model", "`[model]`", "May be absent."),
     ("fit", "`[fit]`", "May be absent."),
     (

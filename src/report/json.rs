@@ -23,11 +23,11 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
     let mut contact = contact_of(run.first());
     contact["single_pair_stiffness"] = json!(run.single_pair_stiffness());
     let cost = &run.cost;
-    let document = json!({
+    let mut document = json!({
         "title": run.title,
         "conditions": {
             "test": c.test, "model": c.model, "effects": c.effects, "torque": c.torque / 1000.0, "speed": c.speed_rpm,
-            "misalignment": c.misalignment, "coefficient": c.wear_coefficient, "cycles": c.cycles, "face_width": c.face_width,
+            "misalignment": c.misalignment, "coefficient": c.wear_coefficient[0], "cycles": c.cycles, "face_width": c.face_width,
         },
         "geometry": {
             "working_pressure_angle": g.working_pressure_angle_deg, "contact_ratio": g.contact_ratio,
@@ -47,6 +47,9 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
             "stages": cost.stages.iter().map(|(name, seconds)| json!({"name": name, "seconds": seconds})).collect::<Vec<_>>(),
         },
     });
+    if c.wear_coefficient[1] != c.wear_coefficient[0] {
+        document["conditions"]["coefficient_gear"] = json!(c.wear_coefficient[1]);
+    }
     check_numbers(run)?;
     Ok(document)
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use super::format::{plain, significant};
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, NextTest, NextTests, Plan, RankedTest};
 
@@ -22,7 +23,7 @@ pub fn summary(title: &str, plan: &Plan, folder: &Path) -> String {
             let _ = writeln!(text, "to separate: {}\n", names.join(", "));
             heading(&mut text, "measure", ["χ² mean", "χ² least"]);
             for row in next.tests.iter().take(SHOWN) {
-                let figures = [row.expected_chi2, least(row)].map(|c| format!("{c:.1}"));
+                let figures = [row.expected_chi2, least(row)].map(|c| significant(c, 4));
                 line(&mut text, &row.test, &row.quantity, figures);
             }
             let _ = writeln!(
@@ -39,14 +40,17 @@ pub fn summary(title: &str, plan: &Plan, folder: &Path) -> String {
             }
             let _ = writeln!(
                 text,
-                "\n  {:<26}{:>10}{:>10}  nearest look-alike",
+                "\n  {:<26} {:>12} {:>12}  nearest look-alike",
                 "effect", "χ² shown", "χ² apart"
             );
             for effect in &campaign.effects {
                 let _ = writeln!(
                     text,
-                    "  {:<26}{:>10.1}{:>10.1}  {}",
-                    effect.effect, effect.detection_chi2, effect.nearest_chi2, effect.nearest
+                    "  {:<26} {:>12} {:>12}  {}",
+                    effect.effect,
+                    significant(effect.detection_chi2, 4),
+                    significant(effect.nearest_chi2, 4),
+                    effect.nearest
                 );
             }
             for (what, count) in &campaign.told_apart_with {
@@ -154,10 +158,15 @@ fn newly(names: &[String]) -> String {
     }
 }
 
+/// A figure of a condition: six digits at most, so that columns stay apart.
+fn short(value: f64) -> String {
+    plain(value).replace('\u{202f}', "")
+}
+
 fn heading(text: &mut String, what: &str, figures: [&str; 2]) {
     let _ = writeln!(
         text,
-        "  {:>8}{:>9}{:>7}{:>10} {:>8}  {:<38}{:>10}{:>11}",
+        "  {:>8} {:>8} {:>6} {:>9} {:>8}  {:<38} {:>12} {:>12}",
         "N·m", "rpm", "mm", "cycles", "reversed", what, figures[0], figures[1]
     );
 }
@@ -165,10 +174,10 @@ fn heading(text: &mut String, what: &str, figures: [&str; 2]) {
 fn line(text: &mut String, test: &NextTest, what: &str, figures: [String; 2]) {
     let _ = writeln!(
         text,
-        "  {:>8}{:>9}{:>7}{:>10.2e} {:>8}  {:<38}{:>10}{:>11}",
-        test.torque,
-        test.speed,
-        test.misalignment,
+        "  {:>8} {:>8} {:>6} {:>9.2e} {:>8}  {:<38} {:>12} {:>12}",
+        short(test.torque),
+        short(test.speed),
+        short(test.misalignment),
         test.cycles,
         if test.reversed { "yes" } else { "" },
         what,
@@ -179,9 +188,9 @@ fn line(text: &mut String, test: &NextTest, what: &str, figures: [String; 2]) {
 
 fn conditions(test: &NextTest) -> Vec<Cell> {
     vec![
-        Cell::number(test.torque.to_string()),
-        Cell::number(test.speed.to_string()),
-        Cell::number(test.misalignment.to_string()),
+        Cell::number(plain(test.torque)),
+        Cell::number(plain(test.speed)),
+        Cell::number(plain(test.misalignment)),
         Cell::number(format!("{:.2e}", test.cycles)),
         Cell::text(if test.reversed { "yes" } else { "" }),
     ]

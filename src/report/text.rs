@@ -13,6 +13,10 @@ pub fn summary(run: &Run, folder: &Path) -> String {
     }
     lines.push(asked_for(run));
     lines.push(String::new());
+    if let Some(failed) = failed_checks(run) {
+        lines.push(failed);
+        lines.push(String::new());
+    }
     let (first, last) = (run.first(), run.last());
     for member in Member::BOTH {
         let flank = last.profile(member);
@@ -56,22 +60,15 @@ pub fn summary(run: &Run, folder: &Path) -> String {
         percent(run.balance_error, 2)
     ));
     lines.extend(jammed(run).map(|words| format!("  note: {words}")));
-    let failed: Vec<_> = run.checks.iter().filter(|check| !check.passed()).collect();
-    for check in &failed {
-        lines.push(format!(
-            "  warning: {} is {} {}, allowed {}",
-            check.name,
-            significant(check.value, 3),
-            check.unit,
-            significant(check.limit, 3)
-        ));
-    }
     let cost = &run.cost;
     lines.push(format!(
-        "  {:<20}{} on {} threads, {} wear steps, {} contact solves",
+        "  {:<20}{} on {}, {} wear steps, {} contact solves",
         "cost",
         duration(cost.seconds),
-        cost.threads,
+        match cost.threads {
+            1 => "1 thread".to_owned(),
+            n => format!("{n} threads"),
+        },
         whole(cost.wear_steps),
         whole(cost.contact_solves)
     ));
@@ -81,7 +78,7 @@ pub fn summary(run: &Run, folder: &Path) -> String {
     if !run.fields.is_empty() {
         lines.push("  fields/wear.pvd      open in ParaView".to_owned());
     }
-    if !failed.is_empty() {
+    if failed_checks(run).is_some() {
         lines.push("Next: read Checks in report.html before using the figures".to_owned());
     } else if last.cycles > 0.0 {
         let what = if run.conditions.model == "fem" {
@@ -132,10 +129,36 @@ pub fn asked_for(run: &Run) -> String {
     line
 }
 
+/// That the run's own checks failed, which comes before all that it found.
+fn failed_checks(run: &Run) -> Option<String> {
+    let failed = run.checks.iter().filter(|check| !check.passed());
+    let failed: Vec<String> = failed
+        .map(|check| {
+            let said = format!(
+                "{} is {} {}",
+                check.name,
+                significant(check.value, 3),
+                check.unit
+            );
+            format!(
+                "{}, allowed {}",
+                said.trim_end(),
+                significant(check.limit, 3)
+            )
+        })
+        .collect();
+    (!failed.is_empty()).then(|| {
+        format!(
+            "This run fails its own check, so its figures are not to be relied on: {}.",
+            failed.join("; ")
+        )
+    })
+}
+
 /// What came out, in two or three sentences.
 pub fn conclusion(run: &Run) -> String {
     let (first, last) = (run.first(), run.last());
-    let mut said = Vec::new();
+    let mut said: Vec<String> = failed_checks(run).into_iter().collect();
     if last.cycles > 0.0 {
         let wear = Member::BOTH.map(|member| {
             let flank = last.profile(member);

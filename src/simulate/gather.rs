@@ -29,7 +29,7 @@ pub fn conditions(plan: &Plan) -> Conditions {
         torque: plan.conditions.torque,
         speed_rpm: plan.conditions.speed,
         misalignment: plan.conditions.misalignment,
-        wear_coefficient: plan.conditions.coefficient[0],
+        wear_coefficient: plan.conditions.coefficient,
         cycles: plan.conditions.cycles,
         face_width: set.face_width,
         youngs_modulus: set.materials.map(|m| m.youngs_modulus),

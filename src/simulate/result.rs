@@ -104,8 +104,8 @@ pub struct Conditions {
     pub speed_rpm: f64,
     /// Radial misalignment added to the centre distance, mm.
     pub misalignment: f64,
-    /// Specific wear coefficient k, mm²/N.
-    pub wear_coefficient: f64,
+    /// Specific wear coefficient k of pinion and gear, mm²/N.
+    pub wear_coefficient: [f64; 2],
     /// Pinion revolutions asked for.
     pub cycles: f64,
     /// Face width, mm.

@@ -53,6 +53,9 @@ pub enum Event<'a> {
     },
 }
 
+/// The stage in which the stresses of the last state are computed at all positions that are drawn.
+pub const FIELDS_STAGE: &str = "stress fields of the last state";
+
 /// Who watches a run.
 pub trait Observer {
     /// Told of every event; `false` stops the run.
@@ -275,6 +278,9 @@ fn wear(
         }
         let Some(reached) = &progress else { continue };
         stages.end("contact and wear");
+        if reached.stand.n >= end && plan.drawn_positions > 0 {
+            observer.event(Event::Stage(FIELDS_STAGE));
+        }
         kept.push(keep(plan, forward, reached, stages).map_err(failed)?);
         stored.push(Stored {
             preparation: forward.preparation(),

@@ -82,6 +82,15 @@ impl Edit<'_> {
     /// Sets a parameter: `wear.coefficient`, or one of an effect by its name (`running_in.amplitude`). A parameter that the
     /// study does not state is written behind the effect's kind. An unknown name changes nothing.
     pub fn set(&mut self, name: &str, value: f64) {
+        if name == super::WEAR_COEFFICIENT {
+            // members' own keep their proportion to the common one
+            let wear = &self.study.wear;
+            for (member, factor) in ["pinion", "gear"].into_iter().zip(wear.members) {
+                if let Some(span) = self.span(&format!("wear.{member}.coefficient")) {
+                    self.changes.push((span, number(factor * value)));
+                }
+            }
+        }
         let number = number(value);
         if let Some(span) = self.span(name).filter(|_| name == super::WEAR_COEFFICIENT) {
             self.changes.push((span, number));

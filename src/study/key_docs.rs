@@ -42,6 +42,35 @@ enum Value {
     Table,
 }
 
+/// The unit of a study's key, or of a parameter of an effect in the catalogue; none for what has no number.
+pub fn unit_of(key: &str) -> Option<&'static str> {
+    let (table, name) = key.rsplit_once('.')?;
+    if let Some(card) = crate::effects::CATALOGUE
+        .iter()
+        .find(|card| card.name == table)
+    {
+        let parameter = card
+            .params
+            .iter()
+            .find(|parameter| parameter.name == name)?;
+        return Some(parameter.unit);
+    }
+    // what is said of one member can be said of the other, or of both
+    let of_gear = table
+        .replace("gears.gear", "gears.pinion")
+        .replace("wear.gear", "wear.pinion");
+    let plain = of_gear
+        .trim_end_matches(".pinion")
+        .trim_end_matches(".gear");
+    let doc = KEY_DOCS
+        .iter()
+        .find(|doc| doc.key == name && [table, &of_gear, plain].contains(&doc.table))?;
+    match doc.value {
+        Value::Number(quantity) | Value::WordOr(_, quantity) => Some(quantity.unit),
+        _ => None,
+    }
+}
+
 impl KeyDoc {
     /// The allowed values, as a refusal states them.
     pub fn allowed(&self) -> String {
@@ -139,6 +168,8 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("wear", "coefficient", &q::WEAR_COEFFICIENT, Refused, "specific wear coefficient k = K/H of both members"),
     number("wear", "cycles", &q::CYCLES, Refused, "length of the run"),
 
+    number("wear.pinion", "coefficient", &q::WEAR_COEFFICIENT, Words("that of `[wear]`"), "the member's own k; a fit scales it with that of `[wear]`"),
+
     doc("model", "contact", Value::Word(CONTACTS), Default("\"fem\""), "finite elements, analytic line contact, or the published model with its mistakes"),
 
     doc("fit", "free", Value::Texts, Default("[\"wear.coefficient\"]"), "what a comparison may adjust: `wear.coefficient`, `EFFECT.PARAMETER`"),
@@ -213,6 +244,7 @@ mod tests {
         ("thermal", &[]),
         ("operation", &[("torque", "100.0"), ("speed", "2000.0")]),
         ("wear", &[("coefficient", "6e-10"), ("cycles", "1e6")]),
+        ("wear.pinion", &[]),
         ("model", &[]),
         ("fit", &[]),
         ("noise", &[]),

@@ -42,7 +42,7 @@ pub use free::{
     COEFFICIENT_BOUNDS, COEFFICIENT_PRIOR, FreeParameter, WEAR_COEFFICIENT, wear_coefficient_fault,
 };
 pub use gears::Gears;
-pub use key_docs::{KEY_DOCS, KeyDoc, Without};
+pub use key_docs::{KEY_DOCS, KeyDoc, Without, unit_of};
 pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
 pub use operation::{Operation, Role, Test};
@@ -81,6 +81,7 @@ pub const KEYS: &[(&str, &[&str])] = &[
     ("thermal", materials::THERMAL_KEYS),
     ("operation", operation::OPERATION_KEYS),
     ("wear", settings::WEAR_KEYS),
+    ("wear.pinion", settings::MEMBER_WEAR_KEYS),
     ("model", settings::MODEL_KEYS),
     ("fit", settings::FIT_KEYS),
     ("noise", settings::NOISE_KEYS),

@@ -11,6 +11,10 @@ use super::reader::Table;
 use crate::source_text::{Diagnostic, Fault, nearest};
 
 pub(super) const WEAR_KEYS: &[&str] = &["coefficient", "cycles"];
+/// Of `[wear.pinion]` and `[wear.gear]`.
+pub(super) const MEMBER_WEAR_KEYS: &[&str] = &["coefficient"];
+/// `[wear]` with the tables in it.
+const WEAR_TABLE_KEYS: &[&str] = &["coefficient", "cycles", "pinion", "gear"];
 pub(super) const MODEL_KEYS: &[&str] = &["contact"];
 pub(super) const FIT_KEYS: &[&str] = &["free"];
 pub(super) const NOISE_KEYS: &[&str] = &["coefficient_scatter", "datum"];
@@ -19,8 +23,11 @@ pub(super) const MEASUREMENTS_KEYS: &[&str] = &["file"];
 /// `[wear]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wear {
-    /// Specific wear coefficient k = K/H of both members, mm²/N.
+    /// Specific wear coefficient k = K/H, mm²/N: of both members unless `[wear.pinion]` or `[wear.gear]` state their own. A fit adjusts it, and
+    /// members' own go with it in proportion.
     pub coefficient: f64,
+    /// Wear coefficient of pinion and gear over `coefficient`.
+    pub members: [f64; 2],
     /// Length of the run, pinion revolutions.
     pub cycles: f64,
 }
@@ -68,9 +75,26 @@ pub enum Scatter {
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
 pub(super) fn read_wear(root: &Table<'_>) -> Result<Wear> {
-    let table = root.required_table("wear", WEAR_KEYS)?;
+    let table = root.required_table("wear", WEAR_TABLE_KEYS)?;
+    let coefficient = table.required_number("coefficient", &q::WEAR_COEFFICIENT)?;
+    let mut members = [1.0; 2];
+    for (factor, member) in members.iter_mut().zip(["pinion", "gear"]) {
+        let Some(own) = table.table(member, MEMBER_WEAR_KEYS)? else {
+            continue;
+        };
+        let own = own.required_number("coefficient", &q::WEAR_COEFFICIENT)?;
+        if coefficient <= 0.0 {
+            return Err(Box::new(table.refuse(
+                "coefficient",
+                "is the scale of a member's own and cannot be 0",
+                "above 0 mm2/N",
+            )));
+        }
+        *factor = own / coefficient;
+    }
     Ok(Wear {
-        coefficient: table.required_number("coefficient", &q::WEAR_COEFFICIENT)?,
+        coefficient,
+        members,
         cycles: table.required_number("cycles", &q::CYCLES)?,
     })
 }

@@ -100,14 +100,14 @@ impl Study {
 }
 
 impl Operation {
-    /// The conditions of a simulation with the wear coefficient of `wear` on both members.
+    /// The conditions of a simulation with the wear coefficients of `wear`.
     pub fn simulated(&self, wear: &Wear) -> Conditions {
         Conditions {
             torque: self.torque_nmm,
             speed: self.speed_rpm,
             misalignment: self.misalignment_mm,
             cycles: self.cycles,
-            coefficient: [wear.coefficient; 2],
+            coefficient: wear.members.map(|factor| factor * wear.coefficient),
         }
     }
 }

@@ -119,6 +119,7 @@ const UNITS: &[Unit] = &[
     unit("1/MPa", Wear, 1.0, 1.0),
     unit("1/Pa", Wear, 1e6, 1.0),
     unit("mm3/(N m)", Wear, 1.0, 1e3),
+    unit("mm3/(N mm)", Wear, 1.0, 1.0),
     unit("pinion revolutions", Revolutions, 1.0, 1.0),
     unit("revolutions", Revolutions, 1.0, 1.0),
     unit("cycles", Revolutions, 1.0, 1.0),
@@ -246,6 +247,8 @@ fn spelled(unit: &str) -> String {
         "W/m/K" | "W/mK" | "W/(mK)" => "W/(m K)",
         "J/kg/K" | "J/kgK" | "J/(kgK)" => "J/(kg K)",
         "kJ/kg/K" | "kJ/(kgK)" => "kJ/(kg K)",
+        "mm3/(Nmm)" | "mm3/Nmm" | "mm3/N mm" | "mm3/N/mm" => "mm3/(N mm)",
+        "m3/(N m)" | "m3/(Nm)" | "m3/Nm" | "m3/N m" => "m2/N",
         "mm3/(Nm)" | "mm3/Nm" | "mm3/N m" => "mm3/(N m)",
         "rev/min" | "U/min" | "min-1" => "1/min",
         "Hz" | "rev/s" | "s-1" => "1/s",
@@ -290,7 +293,7 @@ mod tests {
     /// Factors by definition: SI prefixes, 180° = π rad, 1 min = 60 s, 0 °C = 273.15 K, 1 in = 25.4 mm, 1 cP = 1 mPa s.
     #[test]
     fn units_convert_by_their_definition() {
-        let same: [(&str, Quantity, f64); 20] = [
+        let same: [(&str, Quantity, f64); 23] = [
             ("2 mm", q::MODULE, 2.0),
             ("0.002m", q::MODULE, 2.0),
             ("1 in", q::MODULE, 25.4),
@@ -311,6 +314,9 @@ mod tests {
             ("60 °C", q::TEMPERATURE, 60.0),
             ("6e-16 m2/N", q::WEAR_COEFFICIENT, 6e-10),
             ("6e-7 mm3/(N m)", q::WEAR_COEFFICIENT, 6e-10),
+            ("6e-10 mm³/(N·mm)", q::WEAR_COEFFICIENT, 6e-10),
+            ("6e-10 mm3/Nmm", q::WEAR_COEFFICIENT, 6e-10),
+            ("6e-16 m³/(N·m)", q::WEAR_COEFFICIENT, 6e-10),
         ];
         for (text, quantity, expected) in same {
             let found = value(text, &quantity).unwrap();

@@ -28,7 +28,7 @@ pub(crate) fn run() -> Run {
             torque: 100_000.0,
             speed_rpm: 2000.0,
             misalignment: 0.0,
-            wear_coefficient: 6e-10,
+            wear_coefficient: [6e-10; 2],
             cycles: 50_000.0,
             face_width: 33.0,
             youngs_modulus: [2.1e5; 2],

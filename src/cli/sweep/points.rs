@@ -16,6 +16,7 @@ use crate::simulate::forward::{ContactKind, ForwardError, GearSet};
 use crate::simulate::members::Members;
 use crate::simulate::paper_run;
 use crate::simulate::run::{Event, Observer, Plan, RunError, run};
+use crate::source_text::Fault;
 use crate::study::{self, KEYS, Study, nearest};
 
 /// Most points of a sweep.
@@ -33,18 +34,26 @@ pub(super) struct Point {
     pub values: Vec<String>,
     /// What its figures depend on, as a hash.
     pub key: String,
-    study: Study,
+    /// Its study, or why its values make none: gears that jam, a misalignment that pulls them apart.
+    study: std::result::Result<Study, String>,
     /// Points with equal bodies share meshes and compliance.
     bodies: String,
+}
+
+impl Point {
+    /// Whether its values make a pair that can run.
+    pub(super) fn is_possible(&self) -> bool {
+        self.study.is_ok()
+    }
 }
 
 /// Figures of a point, or why there are none.
 pub(super) type Result = std::result::Result<Figures, String>;
 
-/// Every combination of the axes' values, the last axis fastest, each as a valid study.
+/// Every combination of the axes' values, the last axis fastest, each as a valid study or the reason why it is none.
 ///
 /// # Errors
-/// [`CliError`] for a key that does not exist and for values that make no valid study.
+/// [`CliError`] for a key that does not exist, for values that it never takes, and if no combination makes a valid study.
 pub(super) fn prepare(study: &Study, axes: &[Axis]) -> std::result::Result<Vec<Point>, CliError> {
     for (i, axis) in axes.iter().enumerate() {
         check_key(study, &axis.key)?;
@@ -68,10 +77,15 @@ pub(super) fn prepare(study: &Study, axes: &[Axis]) -> std::result::Result<Vec<P
         }
         points.push(point(study, axes, values)?);
     }
+    if points.iter().all(|point| !point.is_possible()) {
+        let why = points.iter().find_map(|point| point.study.as_ref().err());
+        return Err(CliError::Unusable(why.cloned().unwrap_or_default()));
+    }
     // the mesh depends on all loads that it has to resolve, so these belong to each point's key
     let mut loads: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for point in &points {
-        let (torque, misalignment) = load(&point.study);
+        let Ok(study) = &point.study else { continue };
+        let (torque, misalignment) = load(study);
         let all = loads.entry(point.bodies.clone()).or_default();
         all.push(format!("{torque:?} {misalignment:?}"));
     }
@@ -80,8 +94,9 @@ pub(super) fn prepare(study: &Study, axes: &[Axis]) -> std::result::Result<Vec<P
         all.dedup();
     }
     for point in &mut points {
+        let Ok(study) = &point.study else { continue };
         let parts = [
-            point.study.text().as_bytes(),
+            study.text().as_bytes(),
             point.bodies.as_bytes(),
             &loads[&point.bodies].join(",").into_bytes(),
         ];
@@ -97,6 +112,7 @@ fn check_key(study: &Study, key: &str) -> std::result::Result<(), CliError> {
         // what is said of one member can be said of the other
         let homes: &[&str] = match *table {
             "gears.pinion" => &["gears.pinion", "gears.gear"],
+            "wear.pinion" => &["wear.pinion", "wear.gear"],
             "material" => &["material", "material.pinion", "material.gear"],
             table => &[table],
         };
@@ -115,6 +131,19 @@ fn check_key(study: &Study, key: &str) -> std::result::Result<(), CliError> {
     };
     if all().any(|name| name == key) {
         return Ok(());
+    }
+    if let Some((kind, _)) = key.split_once('.')
+        && crate::effects::CATALOGUE
+            .iter()
+            .any(|card| card.name == kind)
+        && !of_effects
+            .iter()
+            .any(|name| name.starts_with(&format!("{kind}.")))
+    {
+        return Err(CliError::Unusable(format!(
+            "--vary {key}: the study has no effect {kind}; put [[effect]] with kind = \"{kind}\" into it, or take the study that `gearwear add` \
+             writes"
+        )));
     }
     let last = key.rsplit('.').next().unwrap_or(key);
     let same_end = all().find(|name| !key.contains('.') && name.rsplit('.').next() == Some(last));
@@ -144,9 +173,12 @@ fn point(
         .zip(&values)
         .map(|(axis, value)| format!("{}={value}", axis.key))
         .collect();
-    let failed = |why: &dyn std::fmt::Display| {
-        CliError::Unusable(format!("--vary {}: {why}", shown.join(" ")))
+    let said = |why: &dyn std::fmt::Display| {
+        let why = why.to_string();
+        let why = why.strip_prefix("error: ").unwrap_or(&why);
+        format!("--vary {}: {why}", shown.join(" "))
     };
+    let failed = |why: &dyn std::fmt::Display| CliError::Unusable(said(why));
     let mut edit = study.edit();
     for (axis, value) in axes.iter().zip(&values) {
         let of_effect = study.effect_model().parameter(&axis.key).is_some();
@@ -159,10 +191,17 @@ fn point(
             return Err(failed(&why));
         }
     }
-    let study = edit
-        .finish(&study.source().name)
-        .map_err(|error| failed(&error))?;
-    let bodies = bodies(&study)?;
+    // values that are right one by one and impossible together belong into the table
+    let (study, bodies) = match edit.finish(&study.source().name) {
+        Ok(study) => {
+            let bodies = bodies(&study)?;
+            (Ok(study), bodies)
+        }
+        Err(error) if error.diagnostic().fault == Fault::Inconsistent => {
+            (Err(said(&error)), String::new())
+        }
+        Err(error) => return Err(failed(&error)),
+    };
     Ok(Point {
         values,
         key: String::new(),
@@ -210,6 +249,10 @@ pub(super) fn compute(
     let reused = results.iter().flatten().count();
     let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (i, point) in points.iter().enumerate() {
+        if let Err(why) = &point.study {
+            results[i] = Some(Err(why.clone()));
+            continue;
+        }
         groups.entry(&point.bodies).or_default().push(i);
     }
     let mut order: Vec<Vec<usize>> = groups.into_values().collect();
@@ -224,7 +267,9 @@ pub(super) fn compute(
             .collect();
         let Some(&first) = open.first() else { continue };
         progress.stage("mesh, factor and condense both gears");
-        let set = points[first].study.gear_set();
+        let Ok(set) = points[first].study.as_ref().map(Study::gear_set) else {
+            continue;
+        };
         let members = match members(&set, points, &group) {
             Ok(members) => members,
             Err(Unbuilt::Input(error)) => return Err(error),
@@ -245,7 +290,12 @@ pub(super) fn compute(
             );
             let computed: Vec<(usize, Result)> = now
                 .par_iter()
-                .map(|&i| (i, one(&points[i].study, &set, members.as_ref())))
+                .map(|&i| {
+                    let study = points[i].study.as_ref();
+                    let result = study.map_err(Clone::clone);
+                    let result = result.and_then(|study| one(study, &set, members.as_ref()));
+                    (i, result)
+                })
                 .collect();
             limit.learn();
             for (i, result) in computed {
@@ -276,12 +326,17 @@ fn members(
     points: &[Point],
     group: &[usize],
 ) -> std::result::Result<Option<Members>, Unbuilt> {
-    let study = &points[group[0]].study;
+    let studies: Vec<&Study> = (group.iter())
+        .filter_map(|&i| points[i].study.as_ref().ok())
+        .collect();
+    let Some(study) = studies.first() else {
+        return Ok(None);
+    };
     if study.contact != study::ContactKind::Fem {
         return Ok(None);
     }
     let (torques, misalignments): (Vec<f64>, Vec<f64>) =
-        group.iter().map(|&i| load(&points[i].study)).unzip();
+        studies.iter().map(|study| load(study)).unzip();
     let mut own = [None, None];
     for (slot, (member, path)) in own.iter_mut().zip(study.own_meshes()) {
         if let Some(path) = path {

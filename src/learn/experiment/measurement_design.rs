@@ -146,6 +146,7 @@ impl MeasurementDesign {
         MeasuredTest {
             id: "next".to_owned(),
             conditions: operation.simulated(&study.wear),
+            wear: (study.wear.coefficient, study.wear.members),
             surroundings: study.surroundings(operation),
             reversed: operation.reversed,
             observations: self.observations.clone(),
@@ -169,6 +170,7 @@ impl MeasurementDesign {
             tests: vec!["next".to_owned()],
             observations,
             traces: self.traces.clone(),
+            reading: String::new(),
         }
     }
 

@@ -19,7 +19,9 @@ pub(super) fn lacks(comparison: &Comparison) -> bool {
 
 /// How wrong the model is, and where it fails worst.
 pub fn conclusion(comparison: &Comparison) -> String {
-    let mut said = Vec::new();
+    let mut said: Vec<String> = (comparison.sanity.iter())
+        .map(|suspect| format!("Check first: {suspect}."))
+        .collect();
     let shares = [
         (&comparison.fit, "the tests it is fitted to"),
         (&comparison.holdout, "held-out tests"),
@@ -78,6 +80,9 @@ pub fn summary(result: &super::Result<'_>, folder: &Path) -> String {
         lines.push(result.study.title.clone());
     }
     lines.push(what(result.study, c));
+    for suspect in &c.sanity {
+        lines.push(format!("check first: {suspect}"));
+    }
     lines.push(String::new());
     figures(&mut lines, c);
     parameters(&mut lines, c);
@@ -129,13 +134,24 @@ fn figures(lines: &mut Vec<String>, c: &Comparison) {
             significant(noise, 3)
         ));
     }
+    lines.push(format!("  scatter of k      {}", scatter(c)));
+}
+
+/// The scatter of k between tests. From one test there is none: what a fit holds is its prior.
+pub(crate) fn scatter(c: &Comparison) -> String {
+    let fitted = c.tests.iter().filter(|t| t.role == "fit" && t.points > 0);
     let [low, high] = c.coefficient_scatter_interval;
-    lines.push(format!(
-        "  scatter of k      {} between tests (68 %: {} to {})",
-        percent(c.coefficient_scatter, 2),
-        percent(low, 2),
-        percent(high, 2)
-    ));
+    match fitted.count() {
+        0 | 1 if high > low => {
+            "not known from one test; what stands for it is an assumption".to_owned()
+        }
+        _ => format!(
+            "{} between tests (68 %: {} to {})",
+            percent(c.coefficient_scatter, 2),
+            percent(low, 2),
+            percent(high, 2)
+        ),
+    }
 }
 
 fn parameters(lines: &mut Vec<String>, c: &Comparison) {

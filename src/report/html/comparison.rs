@@ -89,15 +89,12 @@ fn figures(result: &Result<'_>) -> Section {
             Cell::number(uncertain(t.coefficient, t.coefficient_sigma)),
         ]);
     }
-    let [low, high] = c.coefficient_scatter_interval;
     let mut section = Section::new("Figures").table(fitted).table(tests).note(format!(
         "χ² per point is the mean of ((model − measured)/sigma)² with each trace's most probable datum subtracted and each \
-         test's most probable wear coefficient; 1 is the noise floor. Signs are model minus measured. The wear coefficient \
-         scatters by {} between tests (68 %: {} to {}). For held-out tests only their datums and their own coefficient are \
+         test's most probable wear coefficient; 1 is the noise floor. Signs are model minus measured. Scatter of the wear \
+         coefficient: {}. For held-out tests only their datums and their own coefficient are \
          estimated. The fit took {} wear histories.",
-        percent(c.coefficient_scatter, 2),
-        percent(low, 2),
-        percent(high, 2),
+        comparison::scatter(c),
         whole(c.evaluations)
     ));
     section.key_figures = key_figures(c);

@@ -149,7 +149,7 @@ fn inputs(run: &Run) -> Section {
             ("pinion revolutions", count(c.cycles)),
             (
                 "specific wear coefficient k",
-                format!("{} mm²/N", plain(c.wear_coefficient)),
+                coefficients(c.wear_coefficient),
             ),
             ("module", format!("{} mm", plain(g.module))),
             (
@@ -166,6 +166,15 @@ fn inputs(run: &Run) -> Section {
         ],
     );
     Section::new("Inputs").table(table)
+}
+
+/// One k, or those of pinion and gear.
+fn coefficients([pinion, gear]: [f64; 2]) -> String {
+    if pinion == gear {
+        format!("{} mm²/N", plain(pinion))
+    } else {
+        format!("{} mm²/N pinion, {} mm²/N gear", plain(pinion), plain(gear))
+    }
 }
 
 fn backlash(run: &Run) -> String {
@@ -366,8 +375,8 @@ pub fn files_of_run(run: &Run, names: &[String]) -> Section {
     section.note(
         "To look at the fields, open `fields/wear.pvd` in ParaView, press Apply and choose an array to colour by \
          (`von_mises`, `contact_pressure`, `wear_depth`). The time slider runs over pinion revolutions; \
-         `fields/mesh_cycle_NNN.pvd` runs over one base pitch instead. The filter Warp By Vector with `displacement` or \
-         `wear_vector` and a scale factor of about 1000 makes deflection or wear visible. Quadratic triangles are drawn \
+         `fields/mesh_cycle_NNN.pvd` runs over one base pitch instead. The filter Warp By Vector makes deflection \
+         visible (`displacement`, scale factor 10 to 50) or wear (`wear_vector`, 50 to 200). Quadratic triangles are drawn \
          smoothly after raising Nonlinear Subdivision Level. Units are mm, N and MPa; `wear_depth` is in µm.",
     )
 }

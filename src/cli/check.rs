@@ -1,0 +1,214 @@
+//! `gearwear check`: everything that a comparison would read, what was understood of it, and what it could conclude.
+
+use std::collections::BTreeMap;
+
+use clap::Args;
+use serde_json::json;
+
+use super::args::StudyAndOutput;
+use super::{CliError, Context, Outcome, fitting, folder};
+use crate::learn::{Comparison, ModelVersion, Prospects, contact_of, prospects};
+use crate::measure::{Dataset, Observation};
+use crate::report::format::{count, plain, significant};
+use crate::report::{self, comparison};
+use crate::study::{Role, Study};
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Reads the study and its measurements, fits k alone by the analytic contact model (seconds) to look for wrong signs, units and\nzeros, and draws measurements against it. Exit code 2 where something cannot be read.\n\nExamples:\n  gearwear check study.toml\n  gearwear check study.toml -o looked-at"
+)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    paths: StudyAndOutput,
+}
+
+/// Reads all, looks at it by the analytic model, says what was understood.
+pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, CliError> {
+    let path = &args.paths.study;
+    let study = Study::load(path)?;
+    contact_of(&study)?;
+    let data = study.dataset_to_fit()?;
+    let default = || folder::default_path(path, "check");
+    let target = args.paths.output.clone().unwrap_or_else(default);
+    folder::check(&target, path, &study)?;
+    // the analytic model without effects: what is looked for is far larger than what they do
+    let mut edit = study.edit();
+    edit.put("model.contact", "\"hertz\"");
+    let quick = edit.finish(&study.source().name)?;
+    let version = ModelVersion::of(&quick);
+    let compared = fitting::fitted(&quick, &data, &version, context, "check")?;
+    let name = path.display().to_string();
+    let result = comparison::Result {
+        study: &quick,
+        name: &name,
+        data: &data,
+        fit: &compared.fit,
+        comparison: &compared.comparison,
+    };
+    let written = report::write_comparison(&result, &target)?;
+    let prospects = prospects(&study, &data);
+    let sanity = &compared.comparison.sanity;
+    Ok(Outcome {
+        json: json!({
+            "reading": data.reading,
+            "points": data.observations.len(),
+            "curves": curves(&study, &data).len(),
+            "sanity": sanity,
+            "can_show": prospects.can,
+            "cannot_show": prospects.cannot,
+        }),
+        text: told(
+            &study,
+            &data,
+            &compared.comparison,
+            &prospects,
+            &format!(
+                "drawn:   {}\nnext:    gearwear compare {name}\n",
+                written.folder.join("report.html").display()
+            ),
+        ),
+        success: true,
+    })
+}
+
+/// What belongs to one line: test, member and quantity.
+type Key = (usize, &'static str, &'static str);
+
+fn curves<'d>(study: &Study, data: &'d Dataset) -> BTreeMap<Key, Vec<&'d Observation>> {
+    let mut curves: BTreeMap<Key, Vec<&Observation>> = BTreeMap::new();
+    for o in data
+        .observations
+        .iter()
+        .filter(|o| o.test < study.tests.len())
+    {
+        let key = (o.test, o.member.name(), o.quantity.name());
+        curves.entry(key).or_default().push(o);
+    }
+    curves
+}
+
+fn told(
+    study: &Study,
+    data: &Dataset,
+    comparison: &Comparison,
+    prospects: &Prospects,
+    end: &str,
+) -> String {
+    let mut lines = Vec::new();
+    if !study.title.is_empty() {
+        lines.push(study.title.clone());
+    }
+    let gears = [&study.gears.pinion, &study.gears.gear];
+    let flanks = gears.map(|g| format!("{:.3} to {:.3} mm", g.form_radius, g.tip_radius));
+    lines.push(format!(
+        "gears:   {} and {} teeth, module {} mm; flanks {} and {}",
+        gears[0].spec.teeth,
+        gears[1].spec.teeth,
+        plain(gears[0].rack.module),
+        flanks[0],
+        flanks[1]
+    ));
+    lines.push(format!(
+        "file:    {}, {} values{}",
+        data.name,
+        data.observations.len(),
+        if data.reading.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", data.reading)
+        }
+    ));
+    lines.push(String::new());
+    let mut rows = vec![
+        [
+            "test", "member", "quantity", "values", "times", "places", "from", "to", "sigma",
+            "traces",
+        ]
+        .map(str::to_owned),
+    ];
+    for ((test, member, quantity), own) in curves(study, data) {
+        let distinct = |mut bits: Vec<u64>| {
+            bits.sort_unstable();
+            bits.dedup();
+            bits.len().to_string()
+        };
+        let values = || own.iter().map(|o| o.value);
+        let sigmas = own.iter().map(|o| o.sigma).sum::<f64>() / own.len() as f64;
+        let traces: Vec<u64> = own
+            .iter()
+            .filter_map(|o| o.trace)
+            .map(|t| t as u64)
+            .collect();
+        rows.push([
+            study.tests[test].id.clone(),
+            member.to_owned(),
+            quantity.to_owned(),
+            own.len().to_string(),
+            distinct(own.iter().map(|o| o.cycles.to_bits()).collect()),
+            distinct(
+                own.iter()
+                    .filter_map(|o| o.position)
+                    .map(f64::to_bits)
+                    .collect(),
+            ),
+            significant(values().fold(f64::INFINITY, f64::min), 3),
+            significant(values().fold(f64::NEG_INFINITY, f64::max), 3),
+            format!("{} {}", significant(sigmas, 2), own[0].quantity.unit()),
+            distinct(traces),
+        ]);
+    }
+    let widths: Vec<usize> = (0..rows[0].len())
+        .map(|c| {
+            rows.iter()
+                .map(|row| row[c].chars().count())
+                .max()
+                .unwrap_or(0)
+        })
+        .collect();
+    for row in &rows {
+        let cells = row.iter().zip(&widths).enumerate();
+        let padded: Vec<String> = cells
+            .map(|(c, (cell, w))| {
+                if c < 3 {
+                    format!("{cell:<w$}")
+                } else {
+                    format!("{cell:>w$}")
+                }
+            })
+            .collect();
+        lines.push(format!("  {}", padded.join("  ")).trim_end().to_owned());
+    }
+    lines.push(String::new());
+    for (number, test) in study.tests.iter().enumerate() {
+        let held = if test.role == Role::Holdout {
+            ", held out"
+        } else {
+            ""
+        };
+        let bare = data.observations.iter().all(|o| o.test != number);
+        lines.push(format!(
+            "test {}: {} N·m, {} rpm, {} cycles{held}{}",
+            test.id,
+            plain(1e-3 * test.conditions.torque_nmm),
+            plain(test.conditions.speed_rpm),
+            count(test.conditions.cycles),
+            if bare { "; no measurement" } else { "" }
+        ));
+    }
+    lines.push(String::new());
+    if comparison.sanity.is_empty() {
+        lines.push("signs, units and zeros look right".to_owned());
+    }
+    for suspect in &comparison.sanity {
+        lines.push(format!("check first: {suspect}"));
+    }
+    for can in &prospects.can {
+        lines.push(format!("can show:    {can}"));
+    }
+    for cannot in &prospects.cannot {
+        lines.push(format!("cannot show: {cannot}"));
+    }
+    lines.push(String::new());
+    lines.join("\n") + end
+}

@@ -1,0 +1,405 @@
+//! `gearwear import`: a table from a spreadsheet as rows of a measurement file, the mapping shown before anything is written.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use serde_json::json;
+
+use super::{CliError, Context, Outcome};
+use crate::measure::import::{self, Mapping, Sheet, Wanted};
+use crate::measure::{Dataset, Quantity, Subject};
+use crate::study::Study;
+
+/// Arguments of `import`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "A table has a column for each checkpoint and positions in its first column, or the other way round. A sheet with the\ncolumns of a measurement file (test,member,...) is taken as it stands. Nothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2"
+)]
+pub struct ImportArgs {
+    /// Table: .xlsx, or text with commas, semicolons or tabulators
+    #[arg(value_name = "TABLE")]
+    table: PathBuf,
+    /// Study that the measurements belong to: its tests and gears
+    #[arg(long, value_name = "STUDY")]
+    study: PathBuf,
+    /// Sheet of the spreadsheet [default: its only one]
+    #[arg(long, value_name = "NAME")]
+    sheet: Option<String>,
+    /// Id of the test [default: the study's only one]
+    #[arg(long, value_name = "ID")]
+    test: Option<String>,
+    /// What was measured on
+    #[arg(long, value_enum, value_name = "MEMBER", default_value_t = On::Pinion)]
+    member: On,
+    /// What was measured: wear_depth, transmission_error, load_share, contact_pressure or mesh_stiffness
+    #[arg(long, value_name = "QUANTITY", default_value = "wear_depth")]
+    quantity: String,
+    /// How places on the flank are told [default: what the header says, a radius otherwise]
+    #[arg(long, value_enum, value_name = "KIND")]
+    position: Option<PositionKind>,
+    /// What the columns are [default: what the numbers say]
+    #[arg(long, value_enum, value_name = "WHAT")]
+    columns: Option<Across>,
+    /// Unit of the values [default: the quantity's own]
+    #[arg(long, value_name = "UNIT")]
+    unit: Option<String>,
+    /// Lost material is negative in the table
+    #[arg(long)]
+    turn_sign: bool,
+    /// One standard deviation of every value, in the quantity's own unit (um of depth)
+    #[arg(long, value_name = "SIGMA")]
+    sigma: Option<f64>,
+    /// The instrument's zero is the same for all checkpoints: no trace of its own for each
+    #[arg(long)]
+    no_traces: bool,
+    /// Measurement file to write
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write the rows behind those of FILE
+    #[arg(long, requires = "output")]
+    append: bool,
+    /// Overwrite FILE
+    #[arg(long, requires = "output", conflicts_with = "append")]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum On {
+    Pinion,
+    Gear,
+    Pair,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PositionKind {
+    /// Radius, mm
+    Radius,
+    /// Diameter, mm
+    Diameter,
+    /// Roll angle from the base circle, degrees
+    RollAngle,
+    /// Roll length from the base circle, mm
+    RollLength,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Across {
+    /// Checkpoints, in pinion revolutions
+    Checkpoints,
+    /// Positions
+    Positions,
+}
+
+/// Columns of the file that is written.
+const HEADER: &str = "test,member,cycles,quantity,position,value,sigma,trace";
+
+/// Rows that are shown of the mapping.
+const SHOWN: usize = 3;
+
+/// Reads the table, shows how, writes if asked.
+pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliError> {
+    let study = Study::load(&args.study)?;
+    let unusable = |why: String| CliError::Unusable(why);
+    if study.tests.is_empty() {
+        return Err(unusable(format!(
+            "{} has no [[test]] to which measurements could belong",
+            args.study.display()
+        )));
+    }
+    let sheets = import::sheets(&args.table).map_err(|error| unusable(error.to_string()))?;
+    let sheet = chosen(&sheets, args)?;
+    let (rows, mut text, document) = match import::as_measurements(sheet) {
+        Some(table) => {
+            let mut lines = table.lines();
+            let header = lines.next().unwrap_or_default().to_owned();
+            let rows: Vec<String> = lines.map(str::to_owned).collect();
+            let text = format!(
+                "{}: {} rows in the columns of a measurement file\n",
+                named(args, sheet),
+                rows.len()
+            );
+            let document = json!({ "rows": rows.len() });
+            ((header, rows), text, document)
+        }
+        None => {
+            let (mapping, text, document) = wide(args, &study, sheet)?;
+            ((HEADER.to_owned(), mapping.rows), text, document)
+        }
+    };
+    let (header, rows) = rows;
+    let whole = whole(args, &header, &rows)?;
+    let name = args.output.as_ref().unwrap_or(&args.table);
+    // what cannot be read back is not written
+    let data = Dataset::parse(&whole, &name.display().to_string(), &study.known())?;
+    let mut document = document;
+    match &args.output {
+        None => {
+            text += "nothing is written yet: -o measurements.csv writes it\n";
+            document["written"] = json!([]);
+        }
+        Some(path) => {
+            fs::write(path, &whole).map_err(|source| CliError::Io {
+                doing: "write",
+                path: path.clone(),
+                source,
+            })?;
+            let _ = writeln!(
+                text,
+                "wrote {}: {} rows\nnext: gearwear check {}",
+                path.display(),
+                data.observations.len(),
+                args.study.display()
+            );
+            document["written"] = json!([path.display().to_string()]);
+        }
+    }
+    Ok(Outcome {
+        json: document,
+        text,
+        success: true,
+    })
+}
+
+/// The sheet that is meant.
+fn chosen<'s>(sheets: &'s [Sheet], args: &ImportArgs) -> Result<&'s Sheet, CliError> {
+    let names = || {
+        let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
+        names.join(", ")
+    };
+    match (&args.sheet, sheets) {
+        (None, [one]) => Ok(one),
+        (Some(name), _) => sheets
+            .iter()
+            .find(|sheet| sheet.name == *name)
+            .ok_or_else(|| {
+                CliError::Unusable(format!(
+                    "{} has no sheet {name}; its sheets: {}",
+                    args.table.display(),
+                    names()
+                ))
+            }),
+        (None, _) => Err(CliError::Unusable(format!(
+            "{} has several sheets, name one with --sheet: {}",
+            args.table.display(),
+            names()
+        ))),
+    }
+}
+
+/// The table and its sheet.
+fn named(args: &ImportArgs, sheet: &Sheet) -> String {
+    match sheet.name.as_str() {
+        "" => args.table.display().to_string(),
+        name => format!("{}, sheet {name}", args.table.display()),
+    }
+}
+
+/// A wide table: its mapping, the words about it and its document.
+fn wide(
+    args: &ImportArgs,
+    study: &Study,
+    sheet: &Sheet,
+) -> Result<(Mapping, String, serde_json::Value), CliError> {
+    let unusable = |why: String| CliError::Unusable(why);
+    let test = match (&args.test, study.tests.as_slice()) {
+        (Some(id), tests) if tests.iter().any(|test| test.id == *id) => id.as_str(),
+        (None, [one]) => one.id.as_str(),
+        (stated, tests) => {
+            let ids: Vec<&str> = tests.iter().map(|test| test.id.as_str()).collect();
+            let what = match stated {
+                Some(id) => format!("the study has no test {id}"),
+                None => "name the test with --test".to_owned(),
+            };
+            return Err(unusable(format!("{what}; its tests: {}", ids.join(", "))));
+        }
+    };
+    let quantity = Quantity::ALL
+        .into_iter()
+        .find(|quantity| quantity.name() == args.quantity && *quantity != Quantity::MassLoss)
+        .ok_or_else(|| {
+            let names = Quantity::ALL.map(Quantity::name);
+            unusable(format!(
+                "--quantity {}: {}; a mass is written into the measurement file by hand",
+                args.quantity,
+                names.join(", ")
+            ))
+        })?;
+    let member = match args.member {
+        _ if quantity.subjects() == [Subject::Pair] => Subject::Pair,
+        On::Pinion => Subject::Pinion,
+        On::Gear => Subject::Gear,
+        On::Pair => Subject::Pair,
+    };
+    if !quantity.subjects().contains(&member) {
+        return Err(unusable(format!(
+            "{} is measured on one member: --member pinion or --member gear",
+            quantity.name()
+        )));
+    }
+    let sigma = args.sigma.filter(|sigma| *sigma > 0.0).ok_or_else(|| {
+        unusable(format!(
+            "--sigma states one standard deviation of the values, above 0 {}: how well does a repeated measurement agree?",
+            quantity.unit()
+        ))
+    })?;
+    let factor = factor(args.unit.as_deref(), quantity)? * if args.turn_sign { -1.0 } else { 1.0 };
+    let wanted = Wanted {
+        test,
+        member,
+        gear: Wanted::gear_of(member, [&study.gears.pinion, &study.gears.gear]),
+        quantity,
+        position: args.position.map(|kind| match kind {
+            PositionKind::Radius => import::PositionKind::Radius,
+            PositionKind::Diameter => import::PositionKind::Diameter,
+            PositionKind::RollAngle => import::PositionKind::RollAngle,
+            PositionKind::RollLength => import::PositionKind::RollLength,
+        }),
+        across: args.columns.map(|across| match across {
+            Across::Checkpoints => import::Across::Checkpoints,
+            Across::Positions => import::Across::Positions,
+        }),
+        factor,
+        sigma,
+        traces: !args.no_traces,
+    };
+    let mapping = import::map(sheet, &wanted)
+        .map_err(|error| unusable(format!("{}: {error}", named(args, sheet))))?;
+    let text = told(args, sheet, &wanted, &mapping);
+    let document = json!({
+        "columns": match mapping.across {
+            import::Across::Checkpoints => "checkpoints",
+            import::Across::Positions => "positions",
+        },
+        "position": mapping.position.name(),
+        "checkpoints": mapping.checkpoints,
+        "from_to": mapping.from_to,
+        "empty": mapping.empty,
+        "rows": mapping.rows.len(),
+    });
+    Ok((mapping, text, document))
+}
+
+/// Factor from a stated unit to the quantity's own.
+fn factor(unit: Option<&str>, quantity: Quantity) -> Result<f64, CliError> {
+    let units: &[(&str, f64)] = match quantity {
+        Quantity::WearDepth => &[("um", 1.0), ("mm", 1e3), ("nm", 1e-3), ("in", 25.4e3)],
+        Quantity::TransmissionError => &[("urad", 1.0), ("mrad", 1e3), ("arcsec", 4.848_136_811)],
+        Quantity::ContactPressure => &[("MPa", 1.0), ("GPa", 1e3), ("N/mm2", 1.0)],
+        Quantity::LoadShare => &[("1", 1.0), ("%", 0.01)],
+        Quantity::MeshStiffness => &[("N/(mm um)", 1.0), ("N/mm/um", 1.0)],
+        Quantity::MassLoss => &[],
+    };
+    let Some(unit) = unit else { return Ok(1.0) };
+    let plain = unit.replace(['µ', 'μ'], "u");
+    let found = units.iter().find(|(name, _)| *name == plain);
+    found.map(|(_, factor)| *factor).ok_or_else(|| {
+        let names: Vec<&str> = units.iter().map(|(name, _)| *name).collect();
+        CliError::Unusable(format!(
+            "--unit {unit}: units of {} are {}",
+            quantity.name(),
+            names.join(", ")
+        ))
+    })
+}
+
+/// The mapping in words.
+fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping) -> String {
+    let [from, to] = mapping.from_to;
+    let (corner, words) = &mapping.corner;
+    let places = format!("{}, {from} to {to}", mapping.position.name());
+    let times: Vec<String> = mapping.checkpoints.iter().map(f64::to_string).collect();
+    let times = format!("pinion revolutions, {}", times.join(" "));
+    let (down, across) = match mapping.across {
+        import::Across::Checkpoints => (places, times),
+        import::Across::Positions => (times, places),
+    };
+    let unit = args.unit.as_deref().unwrap_or(wanted.quantity.unit());
+    let sign = if args.turn_sign {
+        ", their sign turned"
+    } else {
+        ""
+    };
+    let mut text = format!(
+        "table    {}\n\
+         header   row of {corner}{}\n\
+         down     {down}\n\
+         across   {across}\n\
+         values   {} of the {} in test {}, in {unit}{sign}\n\
+         sigma    {} {} for each\n\
+         traces   {}\n",
+        named(args, sheet),
+        if words.is_empty() {
+            String::new()
+        } else {
+            format!(" `{words}`")
+        },
+        wanted.quantity.name(),
+        wanted.member.name(),
+        wanted.test,
+        wanted.sigma,
+        wanted.quantity.unit(),
+        if wanted.traces {
+            "one for each checkpoint: the instrument's zero is not known (--no-traces: it is the same for all)"
+        } else {
+            "none: the instrument's zero is the same for all checkpoints"
+        }
+    );
+    if mapping.empty > 0 {
+        let _ = writeln!(
+            text,
+            "empty    {} cells without a value passed over",
+            mapping.empty
+        );
+    }
+    let _ = writeln!(
+        text,
+        "rows     {}, the first:\n  {HEADER}",
+        mapping.rows.len()
+    );
+    for row in mapping.rows.iter().take(SHOWN) {
+        let _ = writeln!(text, "  {row}");
+    }
+    text
+}
+
+/// The text of the file with these rows.
+fn whole(args: &ImportArgs, header: &str, rows: &[String]) -> Result<String, CliError> {
+    let mut text = format!("{header}\n");
+    if let Some(path) = &args.output
+        && path.exists()
+    {
+        if !args.append && !args.force {
+            return Err(CliError::Unusable(format!(
+                "{} is there already; --append writes behind its rows, --force overwrites it",
+                path.display()
+            )));
+        }
+        if args.append {
+            let before = fs::read_to_string(path).map_err(|source| CliError::Io {
+                doing: "read",
+                path: path.clone(),
+                source,
+            })?;
+            let own = before
+                .lines()
+                .find(|line| !line.is_empty() && !line.starts_with('#'));
+            if own != Some(header) {
+                return Err(CliError::Unusable(format!(
+                    "{} has other columns than {header}; write into a file of its own",
+                    path.display()
+                )));
+            }
+            text = before;
+            if !text.ends_with('\n') {
+                text.push('\n');
+            }
+        }
+    }
+    for row in rows {
+        text += row;
+        text.push('\n');
+    }
+    Ok(text)
+}

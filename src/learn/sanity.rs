@@ -1,0 +1,312 @@
+//! What is wrong with measurements as a whole before any physics: signs, units, zeros. A line each, with what to do.
+//!
+//! ```text
+//! y ≈ s·f per quantity and member        f the fitted model, each trace's datum removed, least squares weighted by 1/σ²
+//! s < 0: the sign is the other one;  s_depth/s_mass far from 1: two units;  k outside [1e-13, 1e-5] mm²/N: a unit or a count
+//! ```
+//! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
+
+use std::collections::BTreeMap;
+
+use super::fitted::Fit;
+use super::tally::{Fitted, fitted};
+use crate::measure::{Dataset, Observation, Quantity, Subject};
+use crate::study::Study;
+
+/// Share of what is measured that `s·f` must explain for a sign or a unit to be told.
+const EXPLAINS: f64 = 0.5;
+/// The same where a model's law may turn a curve round: what stands over a rotation.
+const EXPLAINS_OVER_A_ROTATION: f64 = 0.8;
+/// Factor between two quantities from which it is no law that the model lacks.
+const FACTOR: f64 = 2.5;
+/// How far from a known factor it is told by name.
+const NEAR: f64 = 0.25;
+/// Specific wear coefficients that a gear may have, mm²/N (a thousandth of the figure in mm³/(N m)): steel under a full film lies at the
+/// lower end, unlubricated adhesive wear of metals at 1e-7 to 1e-6.
+const COEFFICIENTS: [f64; 2] = [1e-13, 1e-5];
+/// Misfit beyond the noise, in its standard deviations, and share of it that constants must explain to be told.
+const REAL: f64 = 10.0;
+const CONSTANTS: f64 = 0.85;
+/// How much of what constants leave a factor on each curve may leave at least: a law of wear changes a curve in proportion.
+const BETTER_THAN_FACTORS: f64 = 0.5;
+
+/// All that there is to say, the worst first.
+pub(super) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    let rows = fitted(data, fit);
+    let mut said = signs(&rows);
+    if said.is_empty() {
+        said.extend(depths_and_masses(study, &rows));
+        said.extend(other_units(study, &rows));
+        said.extend(coefficient(fit.coefficient));
+        said.extend(constants(&rows));
+    }
+    said
+}
+
+/// s of some rows, and the share of their weighted squares that it explains.
+#[derive(Debug, Clone, Copy)]
+struct Scale {
+    factor: f64,
+    explains: f64,
+}
+
+/// s of the rows of one quantity, of one member or of all.
+fn scale(rows: &[Fitted<'_>], quantity: Quantity, member: Option<Subject>) -> Option<Scale> {
+    let own: Vec<&Fitted<'_>> = rows
+        .iter()
+        .filter(|(o, _)| o.quantity == quantity && member.is_none_or(|m| o.member == m))
+        .collect();
+    // the constant that a trace may have, and the mean that a transmission error has not
+    let mut means: BTreeMap<_, [f64; 3]> = BTreeMap::new();
+    let key = |o: &Observation| match (o.trace, quantity) {
+        (None, Quantity::TransmissionError) => Some((o.test, o.cycles.to_bits(), None)),
+        (trace, _) => trace.map(|trace| (0, 0, Some(trace))),
+    };
+    for (o, row) in &own {
+        let Some(key) = key(o) else { continue };
+        let sums = means.entry(key).or_default();
+        for (sum, x) in sums.iter_mut().zip([1.0, row.model, o.value]) {
+            *sum += o.sigma.powi(-2) * x;
+        }
+    }
+    let (mut ff, mut fy, mut yy) = (0.0, 0.0, 0.0);
+    for (o, row) in &own {
+        let [w, f, y] = key(o).map_or([1.0, 0.0, 0.0], |key| means[&key]);
+        let (f, y) = ((row.model - f / w) / o.sigma, (o.value - y / w) / o.sigma);
+        (ff, fy, yy) = (ff + f * f, fy + f * y, yy + y * y);
+    }
+    (own.len() > 2 && ff > 0.0 && yy > own.len() as f64).then(|| Scale {
+        factor: fy / ff,
+        explains: fy * fy / (ff * yy),
+    })
+}
+
+/// Quantities that run against the computed ones.
+fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
+    let turned = |quantity, member, explains: f64| {
+        scale(rows, quantity, member).is_some_and(|s| s.factor < 0.0 && s.explains > explains)
+    };
+    let mut said = Vec::new();
+    let [pinion, gear] = [Subject::Pinion, Subject::Gear]
+        .map(|member| turned(Quantity::WearDepth, Some(member), EXPLAINS));
+    let whose = match (pinion, gear) {
+        (true, true) => Some("wear_depth"),
+        (true, false) => Some("wear_depth of the pinion"),
+        (false, true) => Some("wear_depth of the gear"),
+        _ => None,
+    };
+    if let Some(whose) = whose {
+        said.push(format!(
+            "{whose} has the other sign: lost material counts positive, here it counts negative. Turn the sign of these values and compare again; \
+             k and all that follows mean nothing until then"
+        ));
+    }
+    if turned(Quantity::MassLoss, None, EXPLAINS) {
+        said.push(
+            "mass_loss has the other sign: lost mass counts positive. Turn the sign of these values and compare again".to_owned(),
+        );
+    }
+    if turned(Quantity::TransmissionError, None, EXPLAINS_OVER_A_ROTATION) {
+        said.push(
+            "transmission_error runs against the computed one: a gear that lags counts negative, and rotations from the pitch point in the sense of \
+             the pinion's turning. Turn the sign (or the sense of the positions) and compare again"
+                .to_owned(),
+        );
+    }
+    said
+}
+
+/// Depths and masses of a member that call for different coefficients.
+fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<String> {
+    let of = |member: Subject| {
+        let depth = scale(rows, Quantity::WearDepth, Some(member))?;
+        let mass = scale(rows, Quantity::MassLoss, Some(member))?;
+        let sure = depth.explains.min(mass.explains) > EXPLAINS && mass.factor > 0.0;
+        sure.then(|| depth.factor / mass.factor)
+    };
+    let gears = &study.gears;
+    let members = [
+        (Subject::Pinion, gears.pinion.spec.teeth),
+        (Subject::Gear, gears.gear.spec.teeth),
+    ];
+    let (member, teeth, ratio) = members
+        .into_iter()
+        .filter_map(|(member, teeth)| Some((member, teeth, of(member)?)))
+        .max_by(|a, b| a.2.ln().abs().total_cmp(&b.2.ln().abs()))?;
+    if ratio.ln().abs() < FACTOR.ln() {
+        return None;
+    }
+    let teeth = f64::from(teeth);
+    let known = [
+        (
+            1e3,
+            "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm)",
+        ),
+        (
+            1e-3,
+            "the depths look like mm: they are wanted in µm (or the masses like µg, wanted in mg)",
+        ),
+        (1e6, "the masses look like kg: they are wanted in mg"),
+        (
+            teeth,
+            "the masses look like those of one tooth: the loss of all teeth is wanted",
+        ),
+    ];
+    let hint = (known.iter())
+        .find(|(factor, _)| (ratio / factor - 1.0).abs() < NEAR)
+        .map_or(
+            "look at their units (µm and mg), at density and face_width, and whether the mass is the whole member's",
+            |(_, hint)| hint,
+        );
+    let (more, by) = if ratio > 1.0 {
+        ("more", ratio)
+    } else {
+        ("less", ratio.recip())
+    };
+    Some(format!(
+        "the {}'s depths say {} times {more} wear than its masses: {hint}",
+        member.name(),
+        rounded(by)
+    ))
+}
+
+/// Quantities that k hardly changes and that are off by a factor.
+fn other_units(study: &Study, rows: &[Fitted<'_>]) -> Vec<String> {
+    let face_width = study.gears.face_width;
+    let radius = study.gears.gear.base_radius;
+    let known: [(Quantity, &[(f64, &str)]); 4] = [
+        (
+            Quantity::TransmissionError,
+            &[
+                (1e-3, "mrad"),
+                (1.0 / 4.848, "seconds of arc"),
+                (1e-3 * radius, "µm along the line of action"),
+            ],
+        ),
+        (Quantity::LoadShare, &[(100.0, "percent")]),
+        (
+            Quantity::ContactPressure,
+            &[(1e-3, "GPa"), (145.0, "psi"), (10.0, "bar")],
+        ),
+        (
+            Quantity::MeshStiffness,
+            &[
+                (face_width, "N/µm of the whole face width"),
+                (1e3, "N/mm per mm"),
+            ],
+        ),
+    ];
+    let mut said = Vec::new();
+    for (quantity, units) in known {
+        let Some(found) = scale(rows, quantity, None) else {
+            continue;
+        };
+        if found.explains < EXPLAINS_OVER_A_ROTATION
+            || found.factor <= 0.0
+            || found.factor.ln().abs() < FACTOR.ln()
+        {
+            continue;
+        }
+        let near = |&&(factor, _): &&(f64, &str)| (found.factor / factor - 1.0).abs() < NEAR;
+        let looks = match units.iter().find(near) {
+            Some((_, unit)) => format!("this looks like {unit}"),
+            None => "look at its unit".to_owned(),
+        };
+        said.push(format!(
+            "{} is {} times the computed one: {looks}, it is wanted in {}",
+            quantity.name(),
+            rounded(found.factor),
+            match quantity.unit() {
+                "1" => "parts of 1",
+                unit => unit,
+            }
+        ));
+    }
+    said
+}
+
+/// A wear coefficient that nothing has.
+fn coefficient(k: f64) -> Option<String> {
+    let [low, high] = COEFFICIENTS;
+    let (word, hint) = if k <= 0.0 || (low..=high).contains(&k) {
+        return None;
+    } else if k < low {
+        (
+            "below",
+            "values too small by their unit (mm for µm, g for mg), or cycles too many (contacts, or revolutions of the gear, times a thousand)",
+        )
+    } else {
+        (
+            "above",
+            "values too large by their unit (nm for µm), cycles too few (thousands of revolutions), or a torque in N mm or kN m",
+        )
+    };
+    Some(format!(
+        "k = {k:.1e} mm²/N is {word} what gears are known to have ({low:.0e} to {high:.0e}): look for {hint}"
+    ))
+}
+
+/// Curves without a named trace that a constant each would bring to the model.
+fn constants(rows: &[Fitted<'_>]) -> Option<String> {
+    let mut curves: BTreeMap<_, Vec<(f64, f64, f64)>> = BTreeMap::new();
+    for (o, row) in rows {
+        if o.trace.is_none() && o.quantity == Quantity::WearDepth {
+            let key = (o.test, o.member, o.cycles.to_bits());
+            let entry = (row.model / o.sigma, row.standardised, o.sigma);
+            curves.entry(key).or_default().push(entry);
+        }
+    }
+    let curves: Vec<_> = curves
+        .into_values()
+        .filter(|curve| curve.len() > 3)
+        .collect();
+    let count: usize = curves.iter().map(Vec::len).sum();
+    let (mut all, mut by_constants, mut by_factors) = (0.0, 0.0, 0.0);
+    let mut largest = 0.0f64;
+    for curve in &curves {
+        let sum = |f: &dyn Fn(&(f64, f64, f64)) -> f64| curve.iter().map(f).sum::<f64>();
+        let (ones, of_model) = (sum(&|r| r.2.powi(-2)), sum(&|r| r.0 * r.0));
+        let shift = sum(&|r| r.1 / r.2);
+        all += sum(&|r| r.1 * r.1);
+        by_constants += shift * shift / ones;
+        by_factors += sum(&|r| r.1 * r.0).powi(2) / of_model.max(f64::MIN_POSITIVE);
+        largest = largest.max((shift / ones).abs());
+    }
+    let excess = all - count as f64;
+    let left = |explained: f64| (excess - explained).max(0.0);
+    (curves.len() > 2
+        && excess > REAL * (2.0 * count as f64).sqrt()
+        && by_constants > CONSTANTS * excess
+        && left(by_constants) < BETTER_THAN_FACTORS * left(by_factors))
+    .then(|| {
+        format!(
+            "a constant of its own brings each depth curve to the model (up to {} µm): if the instrument's zero changes between traces, name each \
+             curve in the column trace, and a datum is fitted to each",
+            rounded(largest)
+        )
+    })
+}
+
+/// Two digits, whole from 10 on.
+fn rounded(value: f64) -> String {
+    if value >= 10.0 {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coefficient_is_doubted_outside_what_is_known() {
+        for k in [2e-13, 6e-10, 9e-6] {
+            assert_eq!(coefficient(k), None, "{k}");
+        }
+        let said = |k| coefficient(k).unwrap_or_default();
+        assert!(said(4e-15).starts_with("k = 4.0e-15 mm²/N is below"));
+        assert!(said(2e-5).starts_with("k = 2.0e-5 mm²/N is above"));
+    }
+}

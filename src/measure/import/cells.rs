@@ -1,0 +1,95 @@
+//! A table file as sheets of cells, each as the text that a person reads in it.
+
+use std::path::Path;
+
+use super::{ImportError, xlsx};
+use crate::measure::table::field_spans;
+
+/// One sheet.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sheet {
+    /// Its name; empty for a text file.
+    pub name: String,
+    /// Its rows from the first on, empty cells as empty texts.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Spreadsheets that have to be saved in another form first.
+const OTHERS: [&str; 5] = ["xls", "xlsb", "ods", "numbers", "gsheet"];
+
+/// The sheets of a file.
+///
+/// # Errors
+/// [`ImportError`] for a file that cannot be read.
+pub fn sheets(path: &Path) -> Result<Vec<Sheet>, ImportError> {
+    let ending = path
+        .extension()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
+    let cannot = |why: String| ImportError(format!("cannot read {}: {why}", path.display()));
+    if OTHERS.contains(&ending.as_str()) {
+        return Err(cannot(format!(
+            ".{ending} is not read; save it as .xlsx or .csv"
+        )));
+    }
+    let bytes = std::fs::read(path).map_err(|error| cannot(error.to_string()))?;
+    if ["xlsx", "xlsm"].contains(&ending.as_str()) {
+        return xlsx::sheets(&bytes).map_err(cannot);
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|_| cannot("it is not UTF-8 text; save it as UTF-8 or as .xlsx".to_owned()))?;
+    Ok(vec![of_text(&text)])
+}
+
+/// A text with the separator that most of its lines have most of; `#` begins comments, a line `sep=;` states the separator.
+fn of_text(text: &str) -> Sheet {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let lines = || {
+        text.lines()
+            .map(|line| if line.starts_with('#') { "" } else { line })
+    };
+    let count = |separator: u8| {
+        let fields = lines().map(|line| field_spans(line, 0..line.len(), separator).len());
+        fields.filter(|&n| n > 1).count()
+    };
+    // a comma stands inside numbers too, so the others come first
+    let separators = [b';', b'\t', b','];
+    let most = separators.into_iter().map(count).max().unwrap_or(0);
+    let separator = separators
+        .into_iter()
+        .find(|&separator| 2 * count(separator) > most)
+        .unwrap_or(b',');
+    let rows = lines().map(|line| {
+        if line.to_lowercase().starts_with("sep=") {
+            return Vec::new();
+        }
+        let spans = field_spans(line, 0..line.len(), separator);
+        let fields = spans.into_iter().map(|span| &line[span]);
+        fields
+            .map(|field| field.trim_matches('"').trim().to_owned())
+            .collect()
+    });
+    Sheet {
+        name: String::new(),
+        rows: rows.collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_cut_at_their_separator() {
+        let rows = |text: &str| of_text(text).rows;
+        let cells = vec![
+            vec!["r".to_owned(), "1e5".to_owned()],
+            vec!["26,5".to_owned(), "1,2".to_owned()],
+        ];
+        assert_eq!(rows("r;1e5\n26,5;1,2\n"), cells);
+        assert_eq!(rows("\u{feff}r\t1e5\n26,5\t1,2"), cells);
+        assert_eq!(rows("r,1e5\n\"26,5\",\"1,2\"\n"), cells);
+        assert_eq!(rows("# note; note\nsep=;\nr;1e5\n")[2], cells[0]);
+    }
+}

@@ -1,0 +1,270 @@
+//! Claim: `import` turns tables with a column for each checkpoint or for each position, from spreadsheets and texts, into rows of a
+//! measurement file, shows how before it writes and writes nothing unasked; `check` says what it understood of a study and its
+//! measurements, what is wrong with them as a whole and what a comparison could conclude.
+//!
+//! Source: `data/tables.xlsx`, written by openpyxl 3.1; radii of roll angles and lengths by r² = r_b² + ρ², ρ = r_b φ (ISO 21771) with
+//! r_b = 27 mm cos 20°, computed apart from this program (Python's math). Tolerance: the nine digits that are written.
+
+use std::fs;
+use std::path::Path;
+
+use tempfile::TempDir;
+
+mod common;
+
+use common::{gears, line, succeed};
+
+const STUDY: &str = concat!(
+    gears!("centre_distance = 80.0\n"),
+    r#"[operation]
+torque = 100.0
+speed = 2000.0
+[wear]
+coefficient = 2e-10
+cycles = 1e6
+[model]
+contact = "hertz"
+[numerics]
+positions = 40
+[[test]]
+id = "A"
+[[test]]
+id = "B"
+torque = 170.0
+role = "holdout"
+[measurements]
+file = "m.csv"
+"#
+);
+
+fn home() -> TempDir {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("study.toml"), STUDY).unwrap();
+    let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/tables.xlsx");
+    fs::copy(tables, home.path().join("tables.xlsx")).unwrap();
+    home
+}
+
+fn read(home: &TempDir, name: &str) -> String {
+    fs::read_to_string(home.path().join(name)).unwrap()
+}
+
+const PINION: &str = "import tables.xlsx --sheet pinion --study study.toml --test A --unit mm --turn-sign --sigma 0.2";
+
+#[test]
+fn a_sheet_with_a_column_for_each_checkpoint_is_shown_and_then_written() {
+    let home = home();
+    let shown = succeed(&home, PINION);
+    for part in [
+        "table    tables.xlsx, sheet pinion\n",
+        "header   row of A3 `radius [mm]`\n",
+        "down     radius, mm, 26 to 28.5\n",
+        "across   pinion revolutions, 100000 250000\n",
+        "values   wear_depth of the pinion in test A, in mm, their sign turned\n",
+        "empty    1 cells without a value",
+        "A,pinion,100000,wear_depth,26,3.1,0.2,A-pinion-100000\n",
+        "nothing is written yet",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    assert!(!home.path().join("m.csv").exists());
+    succeed(&home, &format!("{PINION} -o m.csv"));
+    assert_eq!(
+        read(&home, "m.csv"),
+        "test,member,cycles,quantity,position,value,sigma,trace\n\
+         A,pinion,100000,wear_depth,26,3.1,0.2,A-pinion-100000\n\
+         A,pinion,100000,wear_depth,27,1.2,0.2,A-pinion-100000\n\
+         A,pinion,100000,wear_depth,28.5,1.7,0.2,A-pinion-100000\n\
+         A,pinion,250000,wear_depth,26,6.2,0.2,A-pinion-250000\n\
+         A,pinion,250000,wear_depth,27,2.5,0.2,A-pinion-250000\n"
+    );
+    // the other orientation, behind the rows that are there
+    let gear = "import tables.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.1 --no-traces -o m.csv";
+    let (code, _, message) = line(&home, gear);
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("--append") && message.contains("--force"),
+        "{message}"
+    );
+    succeed(&home, &format!("{gear} --append"));
+    let rows = read(&home, "m.csv");
+    assert_eq!(rows.lines().count(), 10, "{rows}");
+    assert!(
+        rows.ends_with(
+            "A,gear,250000,wear_depth,52,2.9,0.1,\nA,gear,250000,wear_depth,53.5,1.4,0.1,\n"
+        ),
+        "{rows}"
+    );
+    // a sheet that is a measurement file is one
+    succeed(
+        &home,
+        "import tables.xlsx --sheet rows --study study.toml -o rows.csv",
+    );
+    assert_eq!(
+        read(&home, "rows.csv"),
+        "test,member,cycles,quantity,position,value,sigma,trace\n\
+         A,pinion,100000,wear_depth,26.5,2.5,0.1,p1\nA,gear,100000,mass_loss,,55,1.5,\n"
+    );
+}
+
+#[test]
+fn roll_angles_and_lengths_are_radii() {
+    let home = home();
+    let radii = |header: &str, places: [&str; 2], options: &str| {
+        let text = format!("{header};100000\n{};1,5\n{};2,5\n", places[0], places[1]);
+        fs::write(home.path().join("table.csv"), text).unwrap();
+        let told = succeed(
+            &home,
+            &format!(
+                "import table.csv --study study.toml --test A --sigma 0.2 -o out.csv --force {options}"
+            ),
+        );
+        let rows = read(&home, "out.csv");
+        let radius = |row: &str| row.split(',').nth(4).unwrap().parse::<f64>().unwrap();
+        let found: Vec<f64> = rows.lines().skip(1).map(radius).collect();
+        (found, told)
+    };
+    let near = |found: &[f64], expected: [f64; 2]| {
+        assert!(
+            found
+                .iter()
+                .zip(expected)
+                .all(|(a, b)| (a - b).abs() < 1e-7),
+            "{found:?}"
+        );
+    };
+    let (by_angle, told) = radii("roll angle [deg]", ["12", "24"], "");
+    near(&by_angle, [25.92219240, 27.50764687]);
+    assert!(
+        told.contains("down     roll angle, deg, 12 to 24"),
+        "{told}"
+    );
+    let (by_length, _) = radii("where", ["7", "12,5"], "--position roll-length");
+    near(&by_length, [26.31963525, 28.28379747]);
+    let (by_diameter, _) = radii("diameter", ["52", "57"], "");
+    near(&by_diameter, [26.0, 28.5]);
+}
+
+#[test]
+fn what_cannot_be_told_is_refused_with_its_cell() {
+    let home = home();
+    let table = "import table.csv --study study.toml --test A --sigma 0.2";
+    for (text, command, says) in [
+        ("radius;100000\n26;x\n", table, "B2: `x` is not a number"),
+        (
+            "radius;100 000\n26;1\n",
+            table,
+            "B1: several numbers in the header `100 000`",
+        ),
+        ("radius;100000\n;1\n", table, "A2: nothing stands here"),
+        (
+            "radius;100000\n40;1\n",
+            table,
+            "neither the first column (40 to 40)",
+        ),
+        (
+            "radius;100000\n",
+            table,
+            "no row of numbers below the header",
+        ),
+        ("a;b\nc;d\n", table, "no header row"),
+        (
+            "radius;26\n27;1\n",
+            table,
+            "--columns checkpoints or --columns positions",
+        ),
+        (
+            "radius;100000\n26;1\n",
+            "import table.csv --study study.toml --sigma 0.2",
+            "its tests: A, B",
+        ),
+        (
+            "radius;100000\n26;1\n",
+            "import table.csv --study study.toml --test C --sigma 0.2",
+            "no test C",
+        ),
+        (
+            "radius;100000\n26;1\n",
+            "import table.csv --study study.toml --test A",
+            "--sigma states one standard deviation",
+        ),
+        (
+            "radius;2000000\n26;1\n",
+            table,
+            "the test A ends before these cycles",
+        ),
+        (
+            "radius;100000\n26;1\n",
+            "import table.csv --study study.toml --test A --sigma 0.2 --unit furlong",
+            "units of wear_depth are um, mm",
+        ),
+        (
+            "",
+            "import tables.xlsx --study study.toml --test A --sigma 0.2",
+            "name one with --sheet: pinion, gear, rows",
+        ),
+        (
+            "",
+            "import study.ods --study study.toml --test A --sigma 0.2",
+            "save it as .xlsx or .csv",
+        ),
+    ] {
+        fs::write(home.path().join("table.csv"), text).unwrap();
+        let (code, _, message) = line(&home, command);
+        assert_eq!(code, Some(2), "{text} {command}: {message}");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    // bytes that are no workbook, and every truncation of one
+    let whole = fs::read(home.path().join("tables.xlsx")).unwrap();
+    for end in (0..whole.len()).step_by(whole.len() / 12) {
+        fs::write(home.path().join("part.xlsx"), &whole[..end]).unwrap();
+        let (code, _, message) = line(
+            &home,
+            "import part.xlsx --study study.toml --test A --sigma 0.2",
+        );
+        assert_eq!(code, Some(2), "{end}: {message}");
+    }
+}
+
+#[test]
+fn a_check_tells_what_was_understood_and_what_could_be_concluded() {
+    let home = home();
+    succeed(&home, "synthesize study.toml -o data --seed 2");
+    fs::copy(
+        home.path().join("data/measurements.csv"),
+        home.path().join("m.csv"),
+    )
+    .unwrap();
+    let told = succeed(&home, "check study.toml");
+    for part in [
+        "gears:   27 and 53 teeth",
+        "signs, units and zeros look right",
+        "can show:    the wear coefficient k",
+        "can show:    laws of time",
+        "can show:    whether what was fitted holds elsewhere",
+        "cannot show: laws of the load (pressure exponent, flexibility) apart from k: a second torque",
+        "cannot show: how k scatters between tests: a second fit test",
+        "test B: 170 N·m",
+        "next:    gearwear compare study.toml",
+    ] {
+        assert!(told.contains(part), "no `{part}` in:\n{told}");
+    }
+    assert!(home.path().join("study.out/check/report.html").is_file());
+    // depths with the other sign
+    let turned: String = read(&home, "m.csv")
+        .lines()
+        .map(|row| {
+            let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+            if cells.len() > 5 && cells[3] == "wear_depth" {
+                cells[5] = (-cells[5].parse::<f64>().unwrap()).to_string();
+            }
+            cells.join(",") + "\n"
+        })
+        .collect();
+    fs::write(home.path().join("m.csv"), turned).unwrap();
+    let told = succeed(&home, "check study.toml");
+    assert!(
+        told.contains("check first: wear_depth has the other sign"),
+        "{told}"
+    );
+}
