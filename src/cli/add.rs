@@ -91,6 +91,7 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
 
 /// Fits the free parameters of the drafts to their measurements.
 fn fit(drafts: &[Draft], data: &Dataset, context: &Context) -> Result<Fitted, CliError> {
+    context.tell_reading(data);
     let forms: Vec<AddedForm> = drafts
         .iter()
         .map(|draft| AddedForm {
@@ -153,6 +154,9 @@ fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
             "  form of the law: {chosen} (chi2 per point by form: {})",
             each.join(", ")
         );
+    }
+    for suspect in &comparison.sanity {
+        let _ = writeln!(text, "  check first: {suspect}");
     }
     for warning in &comparison.warnings {
         let _ = writeln!(text, "  warning: {warning}");

@@ -76,7 +76,7 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
     let json = report::json::summary(&result)?;
     Ok(Outcome {
         json,
-        text: report::text::summary(&result, &written.folder),
+        text: report::text::summary(&result, &args.paths.study, &written.folder),
         success: true,
     })
 }

@@ -6,7 +6,7 @@ use crate::gear::JAM_TOLERANCE;
 use crate::simulate::result::{Member, Run, State};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
-pub fn summary(run: &Run, folder: &Path) -> String {
+pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     let mut lines = Vec::new();
     if !run.title.is_empty() {
         lines.push(run.title.clone());
@@ -86,7 +86,10 @@ pub fn summary(run: &Run, folder: &Path) -> String {
         } else {
             "what solving the contact by finite elements changes, and why"
         };
-        lines.push(format!("Next: gearwear models STUDY shows {what}"));
+        lines.push(format!(
+            "Next: gearwear models {} shows {what}",
+            study.display()
+        ));
     }
     lines.push(String::new());
     lines.join("\n")

@@ -1,6 +1,7 @@
 //! Claim: pages stand on their own, carry the figures of the data, and say first what matters; plots are drawn to scale.
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use gearwear::report::html::{self, Case, Verdict};
 use gearwear::report::plots::{Plot, Style};
@@ -254,13 +255,17 @@ fn validation_is_written_for_people_and_programs() {
 #[test]
 fn the_terminal_summary_tells_figures_files_and_next_step() {
     let (dir, run) = written();
-    let said = text::summary(&run, &dir.path().join("study.out/run"));
+    let said = text::summary(
+        &run,
+        Path::new("my/study.toml"),
+        &dir.path().join("study.out/run"),
+    );
     let deepest = format!("{:.3} µm", run.last().pinion.max_depth());
     for part in [
         deepest.as_str(),
         "report.html",
         "ParaView",
-        "Next:",
+        "Next: gearwear models my/study.toml shows",
         "100 N·m",
         "50\u{202f}000 pinion revolutions",
     ] {

@@ -207,7 +207,12 @@ fn tests(lines: &mut Vec<String>, tests: &[TestRecord]) {
 }
 
 fn next(lines: &mut Vec<String>, result: &super::Result<'_>) {
-    if lacks(result.comparison) {
+    if !result.comparison.sanity.is_empty() {
+        lines.push(format!(
+            "next:      put right what stands under `check first`, then gearwear compare {}",
+            result.name
+        ));
+    } else if lacks(result.comparison) {
         let name = result.name;
         lines.push(format!(
             "next:      gearwear diagnose {name}     which effect is missing"

@@ -20,6 +20,8 @@ pub fn summary(title: &str, comparison: &Comparison, folder: &Path) -> String {
         count(c.speed),
         count(c.cycles)
     ));
+    lines.push(String::new());
+    lines.extend(conclusions(comparison));
     for mounted in &comparison.mounted {
         lines.push(String::new());
         lines.push(format!(
@@ -31,7 +33,6 @@ pub fn summary(title: &str, comparison: &Comparison, folder: &Path) -> String {
         table(&mut lines, mounted, Quantity::DepthGear);
     }
     lines.push(String::new());
-    lines.extend(conclusions(comparison));
     if comparison
         .mounted
         .iter()
