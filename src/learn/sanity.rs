@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use super::fitted::Fit;
+use super::fitted::{Fit, RowFit};
 use super::tally::{Fitted, fitted};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Study;
@@ -32,15 +32,32 @@ const BETTER_THAN_FACTORS: f64 = 0.5;
 
 /// All that there is to say, the worst first.
 pub(super) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
-    let rows = fitted(data, fit);
+    let of_one_k = of_one_k(data, fit);
+    let rows: Vec<Fitted<'_>> = data.observations.iter().zip(&of_one_k).collect();
     let mut said = signs(&rows);
     if said.is_empty() {
         said.extend(depths_and_masses(study, &rows));
         said.extend(other_units(study, &rows));
         said.extend(coefficient(fit.coefficient));
-        said.extend(constants(&rows));
+        said.extend(constants(&fitted(data, fit)));
     }
     said
+}
+
+/// The fitted rows as if all tests had worn by the common k: where the data make no sense, tests' own lie orders of magnitude apart.
+fn of_one_k(data: &Dataset, fit: &Fit) -> Vec<RowFit> {
+    let wears = |o: &Observation| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss);
+    let over_own = |o: &Observation| {
+        let test = fit.tests.iter().find(|test| test.test == o.test);
+        test.filter(|test| wears(o) && test.coefficient > 0.0)
+            .map_or(1.0, |test| fit.coefficient / test.coefficient)
+    };
+    let rows = data.observations.iter().zip(&fit.rows);
+    rows.map(|(o, row)| RowFit {
+        model: row.model * over_own(o),
+        ..*row
+    })
+    .collect()
 }
 
 /// s of some rows, and the share of their weighted squares that it explains.
