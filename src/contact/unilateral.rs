@@ -26,7 +26,7 @@ use nalgebra::DMatrix;
 use by_approach::by_approach;
 use factor::ridged;
 use one_by_one::one_by_one;
-pub use sensitivity::sensitivity;
+pub use sensitivity::{Linearised, sensitivity};
 use trial::Trial;
 
 /// The rigid motion that presses the bodies together.
