@@ -114,8 +114,9 @@ pub struct Position {
     pub gap: Vec<f64>,
     /// Weighted lever arm about the pinion's centre: closing of the gap per rotation (mm·mm/rad).
     pub arm: Vec<f64>,
-    /// Smallest distance of a tooth pair that was left out as out of reach, mm.
-    pub left_out: f64,
+    /// Smallest distance, before wear, of a tooth pair that was left out as out of reach, mm: of those where the pinion's tip
+    /// corner would touch, and the gear's.
+    pub left_out: [f64; 2],
 }
 
 /// The mesh cycle of one gear pair at one centre distance.
@@ -225,7 +226,7 @@ impl Position {
             pairs: Vec::new(),
             gap: Vec::new(),
             arm: Vec::new(),
-            left_out: f64::INFINITY,
+            left_out: [f64::INFINITY; 2],
         };
         let [start, .., end] = pair.path_points();
         let margin = CORNER_MARGIN * pair.base_pitch;
@@ -240,7 +241,8 @@ impl Position {
             };
             let beyond = path < start - margin || path > end + margin;
             if beyond || frame.separation > spec.reach {
-                out.left_out = out.left_out.min(frame.separation);
+                let nearest = &mut out.left_out[usize::from(frame.touch == Touch::GearTip)];
+                *nearest = nearest.min(frame.separation);
                 continue;
             }
             let (low, high) = frame.extent(spec.window);

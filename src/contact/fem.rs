@@ -30,9 +30,13 @@ pub struct ToothFlank {
     pub order: usize,
 }
 
-/// Flanks that close by more than this, in modules, have left their path of contact: the turn under load is then no
-/// longer small against the tooth, and gaps taken at the unloaded position no longer hold.
-const MOST_CLOSING: f64 = 0.25;
+/// Flanks that give way by more than this under load, in modules, have left their path of contact: the turn is then no longer
+/// small against the tooth, and gaps taken at the unloaded position no longer hold. What the turn makes up for in wear does
+/// not count: turned by as much as they have gone back, worn flanks meet as they did.
+const MOST_GIVING: f64 = 0.25;
+
+/// How far down from a tip its worn corner reaches, modules: no more than the least depth there is sure to have gone.
+const CORNER: f64 = 0.1;
 
 /// Condensed compliance of one member's candidate flanks.
 #[derive(Debug, Clone)]
@@ -336,6 +340,16 @@ impl<'a> FemContact<'a> {
         self
     }
 
+    /// Depth that the whole tip corners of pinion and gear have lost, mm.
+    fn lost_corners(&self, depth: [&[f64]; 2]) -> [f64; 2] {
+        let reach = CORNER * self.cycle.pair.pinion.rack.module;
+        [0, 1].map(|side| {
+            let arc = &self.cycle.stations.arc[side];
+            let first = arc.partition_point(|s| *s < arc[arc.len() - 1] - reach);
+            depth[side][first..].iter().fold(f64::INFINITY, |m, h| m.min(*h))
+        })
+    }
+
     fn problem<'b>(&'b self, q: usize, gap: &'b [f64]) -> Problem<'b> {
         let elastic = &self.compliance.positions[q];
         Problem {
@@ -353,6 +367,7 @@ impl<'a> FemContact<'a> {
         q: usize,
         gap: &[f64],
         start: &[usize],
+        corners: [f64; 2],
     ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
         let solution =
@@ -360,19 +375,22 @@ impl<'a> FemContact<'a> {
                 theta: position.theta,
                 source,
             })?;
-        // a rigid turn closes a corner by r_b times it; the tooth's own wear would only open it
+        // a rigid turn closes a corner by r_b times it, less what the corner itself has lost
         let closing = solution.approach * self.cycle.pair.pinion.base_radius;
-        if closing > position.left_out {
-            return Err(ContactError::OutOfReach {
-                theta: position.theta,
-                separation: position.left_out,
-            });
+        for (apart, lost) in position.left_out.iter().zip(corners) {
+            if closing > apart + lost {
+                return Err(ContactError::OutOfReach {
+                    theta: position.theta,
+                    separation: *apart,
+                });
+            }
         }
-        let limit = MOST_CLOSING * self.cycle.pair.pinion.rack.module;
-        if closing > limit {
+        let limit = MOST_GIVING * self.cycle.pair.pinion.rack.module;
+        let giving = closing - mean_gap(position, gap, &solution.pressure);
+        if giving > limit {
             return Err(ContactError::TooSoft {
                 theta: position.theta,
-                closing,
+                closing: giving,
                 limit,
             });
         }
@@ -413,6 +431,7 @@ impl<'a> FemContact<'a> {
         q: usize,
         gap: &[f64],
         start: &[usize],
+        corners: [f64; 2],
         alteration: &Alteration,
     ) -> Result<PositionContact, ContactError> {
         let pairs = &self.cycle.positions[q].pairs;
@@ -426,7 +445,7 @@ impl<'a> FemContact<'a> {
         };
         for measured in 0..pairs.len() {
             let (unknowns, solved) =
-                self.one_tooth_measured(q, gap, start, alteration, measured)?;
+                self.one_tooth_measured(q, gap, start, corners, alteration, measured)?;
             joint.pressure[unknowns.clone()].copy_from_slice(&solved.pressure[unknowns.clone()]);
             let active = solved.active.iter().copied();
             joint.active.extend(active.filter(|k| unknowns.contains(k)));
@@ -444,6 +463,7 @@ impl<'a> FemContact<'a> {
         q: usize,
         gap: &[f64],
         start: &[usize],
+        corners: [f64; 2],
         alteration: &Alteration,
         measured: usize,
     ) -> Result<(Range<usize>, PositionContact), ContactError> {
@@ -454,7 +474,7 @@ impl<'a> FemContact<'a> {
         }
         let own = &pairs[measured];
         let unknowns = own.offset..own.offset + own.xi.len();
-        Ok((unknowns, self.solve_gap(q, &gap, start)?))
+        Ok((unknowns, self.solve_gap(q, &gap, start, corners)?))
     }
 
     /// Weighted gaps of the flanks as effects make them and as worn (depths in mm).
@@ -469,6 +489,19 @@ impl<'a> FemContact<'a> {
     }
 }
 
+/// Mean gap, mm, of what carries load, weighted with the load; `gap` is weighted with the hats.
+fn mean_gap(position: &Position, gap: &[f64], pressure: &[f64]) -> f64 {
+    let (mut work, mut load) = (0.0, 0.0);
+    for pair in &position.pairs {
+        for (k, length) in pair.length.iter().enumerate() {
+            let p = pressure[pair.offset + k];
+            work += p * gap[pair.offset + k];
+            load += p * length;
+        }
+    }
+    if load > 0.0 { work / load } else { 0.0 }
+}
+
 impl ContactModel for FemContact<'_> {
     fn cycle(&self) -> &Cycle {
         self.cycle
@@ -481,11 +514,12 @@ impl ContactModel for FemContact<'_> {
         start: &[usize],
     ) -> Result<PositionContact, ContactError> {
         let gap = self.gap(q, depth);
+        let corners = self.lost_corners(depth);
         match self.alteration {
             Some(alteration) if alteration.tooth_offset.is_some() => {
-                self.each_tooth_measured(q, &gap, start, alteration)
+                self.each_tooth_measured(q, &gap, start, corners, alteration)
             }
-            _ => self.solve_gap(q, &gap, start),
+            _ => self.solve_gap(q, &gap, start, corners),
         }
     }
 

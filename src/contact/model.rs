@@ -93,14 +93,14 @@ pub enum ContactError {
         /// Its distance before loading, mm.
         separation: f64,
     },
-    /// The flanks give way too far: the gears are too soft for the load, or worn too far.
+    /// The flanks give way too far: the gears are too soft for the load.
     #[error(
-        "at mesh position {theta:.4} the pinion turns until its flanks have closed by {closing:.4} mm under load and wear; beyond {limit:.4} mm (a quarter of a module) neither is small any more"
+        "at mesh position {theta:.4} the flanks give way by {closing:.4} mm under load; beyond {limit:.4} mm (a quarter of a module) that is not small any more"
     )]
     TooSoft {
         /// Pinion rotation, base pitches.
         theta: f64,
-        /// Turn of the pinion under load times its base radius, mm.
+        /// Turn of the pinion under load times its base radius, without what wear has left open, mm.
         closing: f64,
         /// Largest that is computed with, mm.
         limit: f64,

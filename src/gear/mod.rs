@@ -7,10 +7,11 @@
 //!
 //! ```text
 //! BasicRack + ToothSpec -> Gear (one member) -> Pair (two members at a centre distance) -> cycle (who touches when)
+//!                      Gear + depth along the arc -> WornFlank
 //! ```
 //!
 //! A [`Gear`] or [`Pair`] that exists is possible: what cannot be cut or cannot mesh is refused with the values and the
-//! limits. Not in here: helix, internal teeth, pitch errors, worn material.
+//! limits. Not in here: helix, internal teeth, pitch errors.
 
 mod cycle;
 mod error;
@@ -21,6 +22,7 @@ mod pair;
 mod rack;
 mod tip;
 mod tooth;
+mod worn_flank;
 
 pub use cycle::{Region, ToothContact, contacts_at};
 pub use error::{GearError, PairError};
@@ -31,6 +33,7 @@ pub use pair::{JAM_TOLERANCE, Pair};
 pub use rack::BasicRack;
 pub use tip::TipRounding;
 pub use tooth::{Gear, MIN_TEETH, ToothSpec};
+pub use worn_flank::{Thinnest, WornFlank};
 
 /// One of the two members of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -43,8 +43,8 @@ const REFINEMENT: f64 = 0.25;
 /// No refinement goes below this tolerance; measurements are made up with it.
 const FINEST_TOLERANCE: f64 = 2.5e-4;
 
-/// Members are condensed anew only after this depth in fits, mm; what that leaves out is 4e-5 of the depth at 15 µm.
-const CONDENSE_AFTER: f64 = 0.1;
+/// Members are condensed anew only after this depth in fits, modules; with module 2 what that leaves out is 4e-5 of the depth at 15 µm.
+const CONDENSE_AFTER: f64 = 0.05;
 
 /// Contact is looked for in a strip so much wider than a single run starts with, so that no parameter that
 /// a fit tries calls for another.

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::gear::Thinnest;
+
 /// Why there is no mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshError {
@@ -59,6 +61,12 @@ pub enum MeshError {
         /// Centre of that element, mm.
         y: f64,
     },
+    /// Wear has taken most of a tooth.
+    #[error(
+        "a tooth is worn to a point: {:.4} mm deep at radius {:.4} mm, where {:.4} mm of its thickness are left; fewer cycles or a smaller wear coefficient leave more",
+        .0.depth, .0.radius, .0.left
+    )]
+    WornThrough(Thinnest),
     /// A displacement list does not fit the flank it is for.
     #[error("flank {flank}: {given} displacements for {nodes} nodes")]
     WrongLength {

@@ -9,9 +9,8 @@
 use super::gear_outline::{FineFlank, gear_outline};
 use super::order::Order;
 use super::triangulate::{TriangulateOptions, triangulate};
-use super::worn::wear_outline;
 use super::{FlankChain, Mesh, MeshError, SizeField, check_jacobians, raise_order};
-use crate::gear::Gear;
+use crate::gear::{Gear, WornFlank};
 
 /// What the mesh of a gear is to be like. Sizes are edge lengths (the side of a quadratic element), mm.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,25 +104,30 @@ impl MeshSpec {
 /// # Errors
 /// Sizes out of range, or a mesh that stays below `min_angle_deg` or has a Jacobian that is not positive.
 pub fn mesh_gear(gear: &Gear, spec: &MeshSpec) -> Result<Mesh, MeshError> {
-    mesh_worn_gear(gear, spec, &|_, _| 0.0)
+    mesh_worn_gear(gear, spec, &WornFlank::unworn(gear))
 }
 
-/// Meshes a worn gear: when [`super::relocate`] cannot move the nodes any further.
+/// Slope, in depth per arc, between whose likes nothing may stand proud in a mesh: its corners are then wider than 70°.
+const SPIKE_SLOPE: f64 = 0.7;
+
+/// Thinnest that a worn tooth may be, modules.
+const LEAST_THICKNESS: f64 = 0.05;
+
+/// Meshes a gear whose fine flanks are `worn`, all alike.
 ///
-/// `depth(tooth, arc)` is the material lost on the fine flank of a tooth at an arc coordinate, mm, normal to the nominal
-/// involute. It should be zero at the start of the fine part. The chains keep the nominal arc coordinates, so that
-/// [`super::relocate`] goes on from here with the depth lost since.
+/// The chains keep the arc coordinates of the unworn flank; where wear has left ledges they have more nodes. What stands proud
+/// between steep slopes is left out ([`WornFlank::without_spikes`]).
 ///
 /// # Errors
-/// As [`mesh_gear`]; a depth so uneven that the outline crosses itself is a [`MeshError::Outline`].
-pub fn mesh_worn_gear(
-    gear: &Gear,
-    spec: &MeshSpec,
-    depth: &dyn Fn(i32, f64) -> f64,
-) -> Result<Mesh, MeshError> {
+/// As [`mesh_gear`]; [`MeshError::WornThrough`] if a tooth is worn to a point.
+pub fn mesh_worn_gear(gear: &Gear, spec: &MeshSpec, worn: &WornFlank) -> Result<Mesh, MeshError> {
     spec.check(gear)?;
-    let (mut outline, fine_flanks) = gear_outline(gear, spec);
-    wear_outline(&mut outline, &fine_flanks, gear, depth);
+    let worn = worn.clone().without_spikes(SPIKE_SLOPE);
+    let thinnest = worn.thinnest();
+    if !worn.is_unworn() && !(thinnest.left >= LEAST_THICKNESS * gear.rack.module) {
+        return Err(MeshError::WornThrough(thinnest));
+    }
+    let (outline, fine_flanks) = gear_outline(gear, spec, &worn);
     let field = SizeField::of_outline(&outline, spec.growth, f64::INFINITY);
     let options = TriangulateOptions {
         min_angle_deg: spec.min_angle_deg,

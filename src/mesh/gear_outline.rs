@@ -1,9 +1,9 @@
 //! The outline of a whole gear with its edges as the mesh wants them.
 
 use super::gear_mesh::MeshSpec;
-use super::profile::{Curve, involute_down, involute_up, root, rounding_down, tip_land};
+use super::profile::{Curve, involute_down, involute_up, ledge, root, rounding_down, tip_land};
 use super::{Loop, Outline, SizeField};
-use crate::gear::Gear;
+use crate::gear::{Gear, WornFlank};
 use crate::numeric::{Vec2, cross, rotate};
 
 /// A finely divided flank in the outline.
@@ -16,10 +16,14 @@ pub(super) struct FineFlank {
     pub(super) arcs: Vec<f64>,
 }
 
-/// The teeth counter-clockwise from tooth 0, then the bore; and where the fine flanks are.
-pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFlank>) {
+/// The teeth counter-clockwise from tooth 0, the fine ones worn, then the bore; and where the fine flanks are.
+pub(super) fn gear_outline(
+    gear: &Gear,
+    spec: &MeshSpec,
+    worn: &WornFlank,
+) -> (Outline, Vec<FineFlank>) {
     let z = gear.spec.teeth as i32;
-    let tooth = Tooth::new(gear, spec);
+    let tooth = Tooth::new(gear, spec, worn);
     let wanted = wanted_sizes(gear, spec, &tooth);
     let mut outer = Loop {
         points: Vec::new(),
@@ -30,40 +34,45 @@ pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFl
     for k in 0..z {
         let angle = f64::from(k) * gear.pitch_angle();
         let size = |p: Vec2| wanted.size(rotate(p, angle)).min(shape.size(p));
-        let mut add = |curve: &Curve, cuts: Vec<f64>| {
-            for w in cuts.windows(2) {
-                outer.points.push(rotate(curve.at(w[0]), angle));
-                outer
-                    .mids
-                    .push(rotate(curve.at(0.5 * (w[0] + w[1])), angle));
-            }
-            outer.points.len()
-        };
-        match spec.fine_teeth.iter().find(|t| t.rem_euclid(z) == k) {
+        let fine = spec.fine_teeth.iter().find(|t| t.rem_euclid(z) == k);
+        match fine {
             Some(&number) => {
                 let mut start = 0;
                 for curve in tooth.before.iter().chain(&tooth.rounding) {
-                    start = add(curve, curve.divide(&size));
+                    start = outer.add(curve, curve.divide(&size), angle);
                 }
-                let cuts = tooth.fine_cuts(spec);
-                let top = gear.arc(tooth.top);
                 flanks.push(FineFlank {
                     tooth: number,
                     start,
-                    arcs: cuts.iter().map(|s| top - s).collect(),
+                    arcs: tooth.flank.arcs.clone(),
                 });
-                add(&tooth.active, cuts);
-                if let Some(rest) = &tooth.rest {
-                    add(rest, rest.divide(&size));
+                let edges = tooth.flank.arcs.len() - 1;
+                let points = tooth.flank.points[..edges].iter();
+                outer.points.extend(points.map(|p| rotate(*p, angle)));
+                outer
+                    .mids
+                    .extend(tooth.flank.mids.iter().map(|p| rotate(*p, angle)));
+                for curve in tooth.ledge.iter().chain(&tooth.rest) {
+                    outer.add(curve, curve.divide(&size), angle);
                 }
             }
             None => {
                 for curve in tooth.coarse_before.iter().chain([&tooth.coarse_flank]) {
-                    add(curve, curve.divide(&size));
+                    outer.add(curve, curve.divide(&size), angle);
                 }
             }
         }
-        add(&tooth.root, tooth.root.divide(&size));
+        let foot = outer.points.len();
+        outer.add(&tooth.root, tooth.root.divide(&size), angle);
+        if let (true, Some(lowest)) = (
+            fine.is_some() && tooth.steps_down,
+            tooth.flank.points.last(),
+        ) {
+            // a step too small for an edge of its own
+            let shift = rotate(*lowest, angle) - outer.points[foot];
+            outer.points[foot] += shift;
+            outer.mids[foot] += 0.5 * shift;
+        }
     }
     let bore = bore(gear, spec, &wanted);
     (
@@ -74,21 +83,33 @@ pub(super) fn gear_outline(gear: &Gear, spec: &MeshSpec) -> (Outline, Vec<FineFl
     )
 }
 
-/// The pieces of one tooth, counter-clockwise; teeth that are not fine keep a sharp corner.
+impl Loop {
+    fn add(&mut self, curve: &Curve, cuts: Vec<f64>, angle: f64) -> usize {
+        for w in cuts.windows(2) {
+            self.points.push(rotate(curve.at(w[0]), angle));
+            self.mids.push(rotate(curve.at(0.5 * (w[0] + w[1])), angle));
+        }
+        self.points.len()
+    }
+}
+
+/// The pieces of one tooth, counter-clockwise; teeth that are not fine are unworn and keep a sharp corner.
 struct Tooth {
     before: Vec<Curve>,
     rounding: Option<Curve>,
-    active: Curve,
+    flank: WornEdges,
+    /// From the lowest point of the worn flank out to what is not worn.
+    ledge: Option<Curve>,
+    /// Whether that is too short for a curve of its own.
+    steps_down: bool,
     rest: Option<Curve>,
     root: Curve,
-    /// Curvature radius at the upper end of the active part.
-    top: f64,
     coarse_before: Vec<Curve>,
     coarse_flank: Curve,
 }
 
 impl Tooth {
-    fn new(gear: &Gear, spec: &MeshSpec) -> Tooth {
+    fn new(gear: &Gear, spec: &MeshSpec, worn: &WornFlank) -> Tooth {
         // A short rest between form circle and fine part would only make small triangles.
         let lowest = gear.arc(gear.rho_form) + 0.5 * spec.flank_spacing;
         let wanted = spec.active_from_rho.max(0.0);
@@ -100,31 +121,37 @@ impl Tooth {
         let sharp = gear.half_angle(gear.tip_radius);
         // So is a rounding far below the spacing.
         let shown = gear.spec.tip_rounding > 0.25 * spec.flank_spacing;
-        let rounding = rounding_down(gear).filter(|_| shown);
-        let (top, end) = if rounding.is_some() {
-            (gear.rho_end, gear.tip_land_half_angle())
+        let top = if shown && gear.tip_rounding_arc().is_some() {
+            gear.rho_end
         } else {
-            (gear.rho_tip, sharp)
+            gear.rho_tip
         };
+        let back = worn.depth(gear.arc(top)) / gear.base_radius;
+        let rounding = rounding_down(gear).filter(|_| shown);
+        let end = match rounding {
+            Some(_) => gear.tip_land_half_angle(),
+            None => sharp,
+        };
+        let lost = worn.depth(gear.arc(from));
+        let ledge = ledge(gear, from, lost / gear.base_radius);
+        let long = ledge.length > 0.5 * spec.flank_spacing;
         Tooth {
-            before: vec![involute_up(gear, gear.rho_tip), tip_land(gear, -sharp, end)],
-            rounding,
-            active: involute_down(gear, top, from),
+            before: vec![
+                involute_up(gear, gear.rho_tip),
+                tip_land(gear, -sharp, end - back),
+            ],
+            rounding: rounding.map(|curve| curve.turned(-back)),
+            flank: WornEdges::new(gear, involute_down(gear, top, from), top, spec, worn),
+            ledge: Some(ledge).filter(|_| long),
+            steps_down: !long && rest.is_none() && lost != 0.0,
             rest,
             root: root(gear),
-            top,
             coarse_before: vec![
                 involute_up(gear, gear.rho_tip),
                 tip_land(gear, -sharp, sharp),
             ],
             coarse_flank: involute_down(gear, gear.rho_tip, gear.rho_form),
         }
-    }
-
-    fn fine_cuts(&self, spec: &MeshSpec) -> Vec<f64> {
-        let length = self.active.length;
-        let n = (length / spec.flank_spacing - 1e-9).ceil().max(1.0) as usize;
-        (0..=n).map(|i| length * i as f64 / n as f64).collect()
     }
 
     /// Sizes that the shape itself asks for, in the frame of tooth 0: edges turn by no more than about 30° and fit the land.
@@ -153,18 +180,70 @@ impl Tooth {
     }
 }
 
+/// The edges of a fine flank from the tip down.
+struct WornEdges {
+    /// Length of the edges where the flank is not steep against the unworn one, mm.
+    edge: f64,
+    /// Arc coordinates of the corners, mm.
+    arcs: Vec<f64>,
+    /// Corners where wear has left them, mm, tooth 0.
+    points: Vec<Vec2>,
+    /// Points half-way along each edge.
+    mids: Vec<Vec2>,
+}
+
+/// Longest edge of a worn flank over the length that its unworn edges have.
+const LONGEST: f64 = 1.4;
+
+impl WornEdges {
+    /// `unworn` runs from curvature radius `top` down. Its edges are of equal arcs; where wear has left ledges they are divided.
+    fn new(gear: &Gear, unworn: Curve, top: f64, spec: &MeshSpec, worn: &WornFlank) -> WornEdges {
+        let (top, length) = (gear.arc(top), unworn.length);
+        let n = (length / spec.flank_spacing - 1e-9).ceil().max(1.0);
+        let edge = length / n;
+        let place = |d: f64, h: f64| gear.turned_back(unworn.at(d), h);
+        let depth = |d: f64| worn.depth(top - d);
+        let mut cuts = vec![0.0];
+        for i in 0..n as usize {
+            let mut ahead = vec![length * (i + 1) as f64 / n];
+            while let Some(to) = ahead.pop() {
+                let from = cuts[cuts.len() - 1];
+                let chord = (place(from, depth(from)) - place(to, depth(to))).norm();
+                if chord > LONGEST * edge && to - from > 1e-9 * length {
+                    ahead.extend([to, 0.5 * (from + to)]);
+                } else {
+                    cuts.push(to);
+                }
+            }
+        }
+        let mids = cuts.windows(2).map(|w| {
+            // the depth is taken as linear along an edge: a mid-side node at a kink would spoil the element
+            let h = 0.5 * (depth(w[0]) + depth(w[1]));
+            place(0.5 * (w[0] + w[1]), h)
+        });
+        WornEdges {
+            edge,
+            arcs: cuts.iter().map(|d| top - d).collect(),
+            points: cuts.iter().map(|d| place(*d, depth(*d))).collect(),
+            mids: mids.collect(),
+        }
+    }
+}
+
 /// Sizes wanted near fine flanks and fillets, growing away from them without an upper limit.
 fn wanted_sizes(gear: &Gear, spec: &MeshSpec, tooth: &Tooth) -> SizeField {
     let mut sources = Vec::new();
     let pitch = gear.pitch_angle();
     for k in &spec.fine_teeth {
         let angle = f64::from(*k) * pitch;
-        let cuts = tooth.fine_cuts(spec);
-        let edge = cuts[1] - cuts[0];
-        sources.extend(
-            cuts.iter()
-                .map(|s| (rotate(tooth.active.at(*s), angle), edge)),
-        );
+        let edge = tooth.flank.edge;
+        let on_flank = tooth.flank.points.iter();
+        sources.extend(on_flank.map(|p| (rotate(*p, angle), edge)));
+        if let Some(curve) = &tooth.ledge {
+            let n = (curve.length / edge).ceil();
+            let at = |i: usize| curve.at(curve.length * i as f64 / n);
+            sources.extend((0..=n as usize).map(|i| (rotate(at(i), angle), edge)));
+        }
         if let Some(curve) = &tooth.rounding {
             let size = edge.min(curve.length);
             let n = (curve.length / size).ceil() as usize;

@@ -17,7 +17,6 @@ mod smooth;
 mod triangulate;
 mod user;
 mod vtu;
-mod worn;
 
 pub use boundary::{BoundaryEdge, boundary_edges, outer_area};
 pub use error::MeshError;
@@ -27,7 +26,7 @@ pub use msh::read_msh;
 pub use order::{Order, raise_order};
 pub use outline::{Loop, Outline};
 pub use quality::{Quality, check_jacobians};
-pub use relocate::{relocate, unworn};
+pub use relocate::{relocate, steepness, unworn};
 pub use triangulate::{Triangles, TriangulateOptions, triangulate};
 pub use user::{BORE_TOLERANCE, FLANK_TOLERANCE};
 pub use vtu::read_vtu;

@@ -21,6 +21,15 @@ impl Curve {
         }
     }
 
+    /// The same curve turned about the gear's centre.
+    pub(super) fn turned(self, angle: f64) -> Curve {
+        let place = self.place;
+        Curve {
+            place: Box::new(move |s| rotate(place(s), angle)),
+            ..self
+        }
+    }
+
     /// Point at distance `s` (0 to `length`) from the start, mm.
     pub(super) fn at(&self, s: f64) -> Vec2 {
         (self.place)(s)
@@ -84,6 +93,13 @@ pub(super) fn involute_up(gear: &Gear, top: f64) -> Curve {
 pub(super) fn tip_land(gear: &Gear, from: f64, to: f64) -> Curve {
     let r = gear.tip_radius;
     Curve::new(r * (to - from), 1, move |s| polar(r, from + s / r))
+}
+
+/// The ledge below a worn flank of tooth 0: along the circle through the involute's point at curvature radius `rho`, from the
+/// angle `back` behind it up to it.
+pub(super) fn ledge(gear: &Gear, rho: f64, back: f64) -> Curve {
+    let (to, r) = (gear.involute_point(rho), gear.radius_at_rho(rho));
+    Curve::new(r * back, 1, move |s| rotate(to, s / r - back))
 }
 
 /// The rounding of the loaded tip corner, from the land to the involute; `None` for a sharp corner.

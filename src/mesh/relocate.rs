@@ -1,6 +1,6 @@
 //! Nodes follow the worn flank.
 //!
-//! Flank nodes move along the inward normal of the nominal involute by the worn depth; the tip land slides with the tip
+//! Flank nodes are turned back by the worn depth as [`crate::gear::WornFlank`] has it; the tip land slides with the tip
 //! corner; all other boundary nodes stay. Inside, the displacement u is the harmonic extension, which at the flank is nearly
 //! a rigid shift, so that depths of several element sides keep the elements' shape as long as the depth varies slowly:
 //!
@@ -9,20 +9,20 @@
 //! ```
 //! Mid-side nodes move by the mean of their ends unless they lie on the flank. A step of the depth between two neighbouring
 //! nodes of more than an element side turns elements inside out: that is reported, and the body has to be meshed again.
+//! [`steepness`] tells beforehand.
 
 use super::boundary::boundary_edges;
-use super::worn::{follow_tip, on_tip_circle};
 use super::{Cells, Mesh, MeshError, check_jacobians};
 use crate::gear::Gear;
-use crate::numeric::{Vec2, cross, rotate};
+use crate::numeric::{Vec2, cross};
 
 /// Relative residual at which the extension counts as solved; it only shapes the inside.
 const TOLERANCE: f64 = 1e-5;
 
 /// The mesh of the worn gear.
 ///
-/// `nominal` is the mesh of the new gear; `depths[f][i]` is the material lost at node `i` of flank `f` since then, mm,
-/// positive inwards. The depth should be zero at the first node (the root end): the profile below stays.
+/// `nominal` is the mesh of the new gear, or of a worn one; `depths[f][i]` is the depth lost at node `i` of flank `f` since
+/// then, mm, positive inwards. The profile below the first node (the root end) stays.
 ///
 /// # Errors
 /// Wrong numbers of depths; [`MeshError::Inverted`] if an element lost its positive Jacobian.
@@ -53,10 +53,15 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
                 nodes: chain.nodes.len(),
             });
         }
-        let turn = f64::from(chain.tooth) * gear.pitch_angle();
-        for ((node, s), h) in chain.nodes.iter().zip(&chain.arc).zip(depth) {
-            let normal = rotate(gear.involute_normal(gear.rho_at_arc(*s)), turn);
-            moved[*node as usize] = Some(-*h * normal);
+        for (node, h) in chain.nodes.iter().zip(depth) {
+            let p = nominal.points[*node as usize];
+            // a turn by nothing would still round
+            let to = if *h == 0.0 {
+                p
+            } else {
+                gear.turned_back(p, *h)
+            };
+            moved[*node as usize] = Some(to - p);
         }
         // below a worn lowest node the boundary has a ledge, of a straight edge
         let lowest = chain.nodes.first().copied();
@@ -64,8 +69,8 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
         if let Some((mid, start)) = ledge.and_then(|e| Some((e.mid?, e.start))) {
             moved[mid as usize] = moved[start as usize].map(|u| 0.5 * u);
         }
-        if let Some(tip) = chain.nodes.last() {
-            slide_tip(nominal, gear, *tip, &edges, &before, &mut moved);
+        if let (Some(tip), Some(h)) = (chain.nodes.last(), depth.last()) {
+            slide_tip(nominal, gear, (*tip, *h), &edges, &before, &mut moved);
         }
     }
     let fixed: Vec<bool> = moved.iter().map(Option::is_some).collect();
@@ -90,35 +95,48 @@ pub fn relocate(nominal: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Result<Mesh
     Ok(mesh)
 }
 
+/// Largest slope of `depths` (as for [`relocate`]) between neighbouring nodes of `mesh`, in depth per length of the edge
+/// between them: what shears the elements there.
+pub fn steepness(mesh: &Mesh, depths: &[Vec<f64>]) -> f64 {
+    let mut most = 0.0f64;
+    for (chain, depth) in mesh.flanks.iter().zip(depths) {
+        for (nodes, h) in chain.nodes.windows(2).zip(depth.windows(2)) {
+            let [a, b] = [nodes[0], nodes[1]].map(|k| mesh.points[k as usize]);
+            most = most.max((h[1] - h[0]).abs() / (a - b).norm());
+        }
+    }
+    most
+}
+
 /// The nodes of a worn mesh with its flanks back where they were before they wore by `depths` (as for [`relocate`]); all
 /// other nodes stay.
 pub fn unworn(worn: &Mesh, gear: &Gear, depths: &[Vec<f64>]) -> Vec<Vec2> {
     let mut points = worn.points.clone();
     for (chain, depth) in worn.flanks.iter().zip(depths) {
-        let turn = f64::from(chain.tooth) * gear.pitch_angle();
-        for ((node, s), h) in chain.nodes.iter().zip(&chain.arc).zip(depth) {
-            let normal = rotate(gear.involute_normal(gear.rho_at_arc(*s)), turn);
-            points[*node as usize] += *h * normal;
+        for (node, h) in chain.nodes.iter().zip(depth) {
+            let p = &mut points[*node as usize];
+            *p = gear.turned_back(*p, -*h);
         }
     }
     points
 }
 
-/// Lets the nodes of rounding and tip land behind the corner `tip` follow it.
+/// Lets the nodes behind the corner `tip` follow its depth: a rounding turns with it, the tip land slides.
 fn slide_tip(
     mesh: &Mesh,
     gear: &Gear,
-    tip: u32,
+    (tip, depth): (u32, f64),
     edges: &[super::BoundaryEdge],
     before: &[u32],
     moved: &mut [Option<Vec2>],
 ) {
     let at = |k: u32| mesh.points[k as usize];
-    let on_circle = |k: u32| on_tip_circle(gear, at(k));
-    let mut path = vec![(tip, 0.0)];
+    let on_circle = |k: u32| (at(k).norm() - gear.tip_radius).abs() < 1e-6 * gear.tip_radius;
+    let mut behind = Vec::new();
     let (mut node, mut length) = (tip, 0.0);
+    let mut land = on_circle(tip).then_some(0.0);
     // The boundary is walked against its direction; it ends where it leaves the tip circle.
-    while path.len() < mesh.points.len() {
+    while behind.len() < mesh.points.len() {
         let Some(e) = edges.get(before[node as usize] as usize) else {
             break;
         };
@@ -127,17 +145,25 @@ fn slide_tip(
         }
         let step = (at(e.start) - at(e.end)).norm();
         if let Some(mid) = e.mid {
-            path.push((mid, length + 0.5 * step));
+            behind.push((mid, length + 0.5 * step));
         }
         length += step;
-        path.push((e.start, length));
+        behind.push((e.start, length));
         node = e.start;
+        if on_circle(node) {
+            land.get_or_insert(length);
+        }
     }
-    let shift = moved[tip as usize].unwrap_or_default();
-    let behind: Vec<(Vec2, f64)> = path[1..].iter().map(|(k, s)| (at(*k), *s)).collect();
-    let places = follow_tip(gear, at(tip), shift, &behind);
-    for (((k, _), (p, _)), to) in path[1..].iter().zip(&behind).zip(places) {
-        moved[*k as usize] = Some(to - p);
+    let land = land.unwrap_or(0.0);
+    for (k, s) in behind {
+        let share = ((length - s) / (length - land)).min(1.0);
+        let p = at(k);
+        let to = if depth == 0.0 {
+            p
+        } else {
+            gear.turned_back(p, share * depth)
+        };
+        moved[k as usize] = Some(to - p);
     }
 }
 

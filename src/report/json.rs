@@ -89,7 +89,8 @@ fn contact_of(state: &State) -> Value {
 /// Sums over both members; the worse of the two for angle and spacing.
 fn mesh(both: Option<&[MeshSummary; 2]>) -> Value {
     let Some([pinion, gear]) = both else {
-        return json!({"nodes": 0, "elements": 0, "dof": 0, "min_angle": null, "flank_spacing": null});
+        return json!({"nodes": 0, "elements": 0, "dof": 0, "min_angle": null, "flank_spacing": null,
+                      "edges_per_half_width": null});
     };
     let member = |m: &MeshSummary| {
         json!({"element": m.element, "nodes": m.nodes, "elements": m.elements, "dof": m.dof,
@@ -101,6 +102,7 @@ fn mesh(both: Option<&[MeshSummary; 2]>) -> Value {
         "dof": pinion.dof + gear.dof,
         "min_angle": pinion.min_angle_deg.min(gear.min_angle_deg),
         "flank_spacing": pinion.flank_spacing.max(gear.flank_spacing),
+        "edges_per_half_width": pinion.edges_per_half_width.min(gear.edges_per_half_width),
         "pinion": member(pinion),
         "gear": member(gear),
     })

@@ -60,6 +60,15 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
         percent(run.balance_error, 2)
     ));
     lines.extend(jammed(run).map(|words| format!("  note: {words}")));
+    if let Some([mesh, _]) = &run.mesh
+        && mesh.edges_per_half_width < FEW_EDGES
+    {
+        lines.push(format!(
+            "  note: {} flank edges on Hertz's half width: contacts of the new flanks are too narrow to be resolved better; depths are \
+             right, peak pressures at 0 cycles are rough",
+            significant(mesh.edges_per_half_width, 2)
+        ));
+    }
     let cost = &run.cost;
     lines.push(format!(
         "  {:<20}{} on {}, {} wear steps, {} contact solves",
@@ -94,6 +103,9 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     lines.push(String::new());
     lines.join("\n")
 }
+
+/// Edges per half width below which peak pressures of new flanks are more than some per cent off.
+const FEW_EDGES: f64 = 3.0;
 
 /// What to say of gears whose axes effects have moved closer than teeth of full thickness allow.
 pub(super) fn jammed(run: &Run) -> Option<String> {

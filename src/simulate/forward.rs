@@ -13,6 +13,7 @@ use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::effects::Hook;
 use crate::gear::PairError;
+use crate::simulate::blanks::Blanks;
 pub use crate::simulate::gear_set::GearSet;
 use crate::simulate::gear_set::MOST_UNKNOWNS;
 use crate::simulate::history::{
@@ -92,13 +93,45 @@ impl From<WearError> for ForwardError {
     }
 }
 
+/// The new members of a run.
+#[derive(Clone)]
+pub enum Fresh<'a> {
+    /// None: the analytic model.
+    None,
+    /// Lent by someone who has other uses for them.
+    Lent(&'a Members),
+    /// The run's own; let go of once they are worn.
+    Own(Arc<Members>),
+    /// Let go of: only their meshes are left.
+    Blanks(Arc<Blanks>),
+}
+
+impl Fresh<'_> {
+    /// The members, factored and condensed.
+    pub fn condensed(&self) -> Option<&Members> {
+        match self {
+            Fresh::Lent(members) => Some(members),
+            Fresh::Own(members) => Some(members),
+            Fresh::None | Fresh::Blanks(_) => None,
+        }
+    }
+
+    /// Their meshes.
+    pub fn blanks(&self) -> Option<&Arc<Blanks>> {
+        match self {
+            Fresh::Blanks(blanks) => Some(blanks),
+            other => other.condensed().map(|members| &members.blanks),
+        }
+    }
+}
+
 /// A gear pair under one test's conditions, ready to run.
 pub struct Forward<'a> {
     set: &'a GearSet,
     conditions: Conditions,
     numerics: Numerics,
     kind: ContactKind,
-    members: Option<&'a Members>,
+    fresh: Fresh<'a>,
     cycle: Arc<Cycle>,
     compliance: Option<Arc<CycleCompliance>>,
     /// Where tooth pairs touch, analytically only.
@@ -131,7 +164,7 @@ impl<'a> Forward<'a> {
                 ..self.numerics
             },
             kind: self.kind,
-            members: self.members,
+            fresh: self.fresh.clone(),
             cycle: Arc::clone(&self.cycle),
             compliance: self.compliance.clone(),
             points: Vec::new(),
@@ -172,6 +205,21 @@ impl<'a> Forward<'a> {
         numerics: Numerics,
         acting: Option<&'a Acting>,
     ) -> Result<Self, ForwardError> {
+        let members = members.map_or(Fresh::None, Fresh::Lent);
+        Self::on(set, members, conditions, numerics, acting)
+    }
+
+    /// As [`Forward::with_effects`], on members that may be the run's own.
+    ///
+    /// # Errors
+    /// As [`Forward::with_effects`].
+    pub fn on(
+        set: &'a GearSet,
+        members: Fresh<'a>,
+        conditions: Conditions,
+        numerics: Numerics,
+        acting: Option<&'a Acting>,
+    ) -> Result<Self, ForwardError> {
         Self::mounted(set, members, conditions, numerics, acting, (None, 0.0))
     }
 
@@ -179,7 +227,7 @@ impl<'a> Forward<'a> {
     /// with the axes this much (mm) farther apart than effects move them.
     fn mounted(
         set: &'a GearSet,
-        members: Option<&'a Members>,
+        fresh: Fresh<'a>,
         mut conditions: Conditions,
         numerics: Numerics,
         acting: Option<&'a Acting>,
@@ -192,12 +240,12 @@ impl<'a> Forward<'a> {
         }
         let torque = conditions.torque / set.face_width;
         let modulus = set.modulus();
-        let spacing = match (as_before, members) {
+        let spacing = match (as_before, fresh.blanks()) {
             (Some(before), _) => before.spec.spacing,
-            (None, Some(members)) => members.spacing(),
+            (None, Some(blanks)) => blanks.spacing(),
             (None, None) => numerics.flank_spacing(&pair, modulus, torque),
         };
-        let spec = match (as_before, members) {
+        let spec = match (as_before, fresh.blanks()) {
             (Some(before), _) => before.spec,
             (None, Some(_)) => numerics.cycle(&pair, modulus, torque, spacing),
             (None, None) => numerics.analytic_cycle(&pair, modulus, torque, spacing),
@@ -206,17 +254,17 @@ impl<'a> Forward<'a> {
             Some(before) => before.stations.like(&pair),
             None => Stations::new(&pair, spacing),
         };
-        let kind = if members.is_some() {
-            ContactKind::Fem
-        } else {
-            ContactKind::Hertz
+        let kind = match fresh {
+            Fresh::None => ContactKind::Hertz,
+            _ => ContactKind::Fem,
         };
         let mut out = Self {
             set,
             conditions,
             numerics,
             kind,
-            members,
+            factorisations: if kind == ContactKind::Fem { 2 } else { 0 },
+            fresh,
             cycle: Arc::new(Cycle::new(&pair, &stations, spec)),
             compliance: None,
             points: Vec::new(),
@@ -225,7 +273,6 @@ impl<'a> Forward<'a> {
             extended: None,
             prepared: Shelf::default(),
             shares: false,
-            factorisations: if members.is_some() { 2 } else { 0 },
             acting,
             altered: None,
         };
@@ -268,7 +315,7 @@ impl<'a> Forward<'a> {
             ..self.conditions
         };
         let as_before = (Some(self.cycle.as_ref()), farther);
-        let (members, numerics) = (self.members(), self.numerics);
+        let (members, numerics) = (self.lent(), self.numerics);
         let mut out = Forward::mounted(self.set, members, conditions, numerics, acting, as_before)?;
         out.shares = true;
         Ok(out)
@@ -294,7 +341,7 @@ impl<'a> Forward<'a> {
             },
             numerics: self.numerics,
             kind: self.kind,
-            members: self.members(),
+            fresh: self.lent(),
             cycle: mounting.start.cycle,
             compliance: mounting.start.compliance,
             points: Vec::new(),
@@ -345,9 +392,25 @@ impl<'a> Forward<'a> {
         self.conditions
     }
 
-    /// The elastic members, by finite elements only.
-    pub fn members(&self) -> Option<&Members> {
-        self.extended.as_deref().or(self.members)
+    /// The new members, for another run.
+    fn lent(&self) -> Fresh<'_> {
+        match (&self.fresh, self.members()) {
+            (Fresh::Blanks(blanks), None) => Fresh::Blanks(Arc::clone(blanks)),
+            (_, members) => members.map_or(Fresh::None, Fresh::Lent),
+        }
+    }
+
+    /// The new members, by finite elements and unless they have been let go of.
+    fn members(&self) -> Option<&Members> {
+        self.extended.as_deref().or(self.fresh.condensed())
+    }
+
+    /// The meshes of the new members, by finite elements only.
+    pub fn blanks(&self) -> Option<&Arc<Blanks>> {
+        match &self.extended {
+            Some(members) => Some(&members.blanks),
+            None => self.fresh.blanks(),
+        }
     }
 
     /// The members as last condensed: unworn, or worn by then.
@@ -459,8 +522,8 @@ impl<'a> Forward<'a> {
             // here and not after the step that calls for it: a run resumed from that step does the same
             self.condense_if_stale(progress.as_ref())?;
             let preparation = self.preparation();
-            let elastic = self.members.is_some();
-            let condense_after = self.numerics.condense_after;
+            let elastic = self.kind == ContactKind::Fem;
+            let condense_after = self.condense_after();
             let mut go_on = true;
             let mut stale = false;
             let directions = self.directions(variations);

@@ -5,10 +5,11 @@ use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Gear, Member, Pair};
 use crate::numeric::{Vec2, interpolate};
+use crate::simulate::blanks::DrawnMesh;
 use crate::simulate::fields::MemberFields;
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
 use crate::simulate::history::{WearState, line_load, worn_area};
-use crate::simulate::members::DrawnMesh;
+use crate::simulate::members::MemberError;
 use crate::simulate::result::{
     Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State,
     WheelGeometry,
@@ -200,17 +201,14 @@ pub fn frame(
     state: &WearState,
     q: usize,
 ) -> Result<Option<FieldFrame>, ForwardError> {
-    let (Some(members), Some(condensed)) = (forward.members(), forward.condensed()) else {
+    let (Some(blanks), Some(condensed)) = (forward.blanks(), forward.condensed()) else {
         return Ok(None);
     };
     let cycle = forward.cycle();
     let contact = &state.contacts[q];
-    let drawn = members.drawn_meshes(
-        condensed,
-        &cycle.pair,
-        &cycle.stations,
-        [&state.depth[0], &state.depth[1]],
-    )?;
+    let depth = [&state.depth[0][..], &state.depth[1]];
+    let drawn = blanks.drawn_meshes(condensed, &cycle.pair, &cycle.stations, depth);
+    let drawn = drawn.map_err(MemberError::from)?;
     let points = [&drawn[0].mesh.points[..], &drawn[1].mesh.points[..]];
     let Some([pinion, gear]) = forward.fields_on(q, contact, points)? else {
         return Ok(None);

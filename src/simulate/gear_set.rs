@@ -4,9 +4,10 @@ use crate::contact::cycle::Cycle;
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
+use crate::simulate::blanks::Blanks;
 use crate::simulate::forward::ForwardError;
-use crate::simulate::members::{self, Members};
-use crate::simulate::numerics::Numerics;
+use crate::simulate::members::{MemberError, Members};
+use crate::simulate::numerics::{LEAST_EDGES, Numerics, USUAL_UNKNOWNS};
 
 /// The gears as they are, before they are mounted.
 #[derive(Debug, Clone)]
@@ -110,13 +111,15 @@ impl GearSet {
         own: [Option<Mesh>; 2],
     ) -> Result<[Mesh; 2], ForwardError> {
         let fineness = self.fineness(numerics, torques, misalignments)?;
-        Ok(members::meshes(
+        let blanks = Blanks::new(
             &self.gears,
+            self.materials,
             &fineness.teeth,
             fineness.spacing,
             numerics.order,
             own,
-        )?)
+        );
+        Ok(blanks.map_err(MemberError::from)?.meshes)
     }
 
     fn fineness(
@@ -130,10 +133,28 @@ impl GearSet {
             .iter()
             .map(|m| self.mount_moved(*m))
             .collect::<Result<Vec<Pair>, PairError>>()?;
-        let spacing = pairs
+        let finest = pairs
             .iter()
             .map(|p| numerics.flank_spacing(p, self.modulus(), least))
             .fold(f64::INFINITY, f64::min);
+        let fineness = self.with_edges(numerics, torques, &pairs, finest);
+        if numerics.gives_way && fineness.unknowns > USUAL_UNKNOWNS {
+            let coarsest = finest * numerics.elements_per_half_width / LEAST_EDGES;
+            let fewer = finest * fineness.unknowns as f64 / USUAL_UNKNOWNS as f64;
+            let coarser = self.with_edges(numerics, torques, &pairs, fewer.min(coarsest));
+            return coarser.checked();
+        }
+        fineness.checked()
+    }
+
+    /// Which teeth have to be fine, with flank edges of a length `spacing`, mm.
+    fn with_edges(
+        &self,
+        numerics: &Numerics,
+        torques: &[f64],
+        pairs: &[Pair],
+        spacing: f64,
+    ) -> Fineness {
         let mut teeth = Vec::new();
         for (pair, torque) in pairs
             .iter()
@@ -153,18 +174,29 @@ impl GearSet {
             .fold(0.0, f64::max);
         let edges = (longest / spacing).ceil() as usize;
         let unknowns = 2 * teeth.len() * (numerics.order * edges + 1);
-        if unknowns > MOST_UNKNOWNS {
-            return Err(ForwardError::TooFine {
-                unknowns,
-                edge_um: 1e3 * spacing,
-            });
+        Fineness {
+            teeth,
+            spacing,
+            unknowns,
         }
-        Ok(Fineness { teeth, spacing })
     }
 }
 
-/// Which of the pinion's teeth are meshed finely, and how finely (mm).
+/// Which of the pinion's teeth are meshed finely, how finely (mm), and the unknowns that one member's flanks then have.
 struct Fineness {
     teeth: Vec<i32>,
     spacing: f64,
+    unknowns: usize,
+}
+
+impl Fineness {
+    fn checked(self) -> Result<Self, ForwardError> {
+        if self.unknowns > MOST_UNKNOWNS {
+            return Err(ForwardError::TooFine {
+                unknowns: self.unknowns,
+                edge_um: 1e3 * self.spacing,
+            });
+        }
+        Ok(self)
+    }
 }

@@ -11,31 +11,42 @@ pub struct Numerics {
     pub order: usize,
     /// Flank element edges per Hertz half width at the pitch point under the smallest torque.
     pub elements_per_half_width: f64,
+    /// Whether that number gives way where it asks for more than [`USUAL_UNKNOWNS`]: nobody has stated it.
+    pub gives_way: bool,
     /// Mesh positions per base pitch.
     pub positions: usize,
     /// Error allowed in a wear step, relative to the largest depth.
     pub step_tolerance: f64,
     /// Coulomb friction (full slip) in the contact.
     pub friction: f64,
-    /// Wear since the last condensation after which the members are condensed again, mm.
+    /// Wear since the last condensation after which the members are condensed again, modules.
     pub condense_after: f64,
     /// Factor on the strip in which contact is looked for from the start; it grows by itself when wear calls for it, which
     /// changes the contact's unknowns.
     pub room: f64,
 }
 
-/// Wear since the last condensation after which the members are condensed again, mm.
+/// Wear since the last condensation after which the members are condensed again, modules.
 ///
-/// Condensing again after 15.3 µm changes load shares by 1.8e-4, peak pressures by 0.06 % within 4.2 mm of the pitch point and
+/// With module 2, condensing again after 15.3 µm changes load shares by 1.8e-4, peak pressures by 0.06 % within 4.2 mm of the pitch point and
 /// by 2.6 % next to worn tips; condensing every 4 µm would change the depth after the same cycles by 0.004 % inside the
 /// flank (the validation's case `recondensation`).
-pub const CONDENSE_AFTER: f64 = 0.02;
+pub const CONDENSE_AFTER: f64 = 0.01;
+
+/// Unknowns on the flanks of one member up to which a half width gets the edges it should: members condensed on so many take
+/// about 1 GB and 10 s.
+pub const USUAL_UNKNOWNS: usize = 6_000;
+
+/// Edges per half width that a contact gets all the same. With one, peak pressures of new flanks say little; depths do not
+/// suffer, because wear soon makes contacts wider.
+pub const LEAST_EDGES: f64 = 1.0;
 
 impl Default for Numerics {
     fn default() -> Self {
         Self {
             order: 2,
             elements_per_half_width: 5.0,
+            gives_way: false,
             positions: 100,
             step_tolerance: 2e-3,
             friction: 0.0,
@@ -51,8 +62,8 @@ const WINDOW: f64 = 2.2;
 /// The same of the analytic model, whose contacts keep Hertz's width: room for four times the load, by factors on it.
 const ANALYTIC_WINDOW: f64 = 2.0;
 
-/// Room for corners that wear brings into contact beyond those the load does, mm.
-const WORN_REACH: f64 = 0.008;
+/// Room for corners that wear brings into contact beyond those the load does, modules.
+const WORN_REACH: f64 = 0.004;
 
 /// Stiffness of a tooth pair over 2 E* that the reach allows for; solid steel gears show 0.05 to 0.06.
 const LEAST_STIFFNESS: f64 = 0.045;
@@ -60,7 +71,12 @@ const LEAST_STIFFNESS: f64 = 0.045;
 impl Numerics {
     /// Length of a flank element's edge for the least pinion torque per width (N·mm/mm) it has to resolve, mm.
     pub fn flank_spacing(&self, pair: &Pair, modulus: f64, least_torque: f64) -> f64 {
-        half_width_at(pair, 0.0, modulus, least_torque) / self.elements_per_half_width
+        Self::half_width(pair, modulus, least_torque) / self.elements_per_half_width
+    }
+
+    /// Hertz's half width at the pitch point for a pinion torque per width (N·mm/mm), mm.
+    pub fn half_width(pair: &Pair, modulus: f64, torque: f64) -> f64 {
+        half_width_at(pair, 0.0, modulus, torque)
     }
 
     /// Resolution of the mesh cycle up to the pinion torque per width `torque` (N·mm/mm) with flank edges `spacing` (mm).
@@ -71,7 +87,7 @@ impl Numerics {
             spacing,
             window: self.room * (WINDOW * widest).max(12.0 * spacing),
             reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus)
-                + WORN_REACH,
+                + WORN_REACH * pair.pinion.rack.module,
         }
     }
 

@@ -186,6 +186,8 @@ pub struct MeshSummary {
     pub min_angle_deg: f64,
     /// Largest length of a flank edge within the contact zone, mm.
     pub flank_spacing: f64,
+    /// Such edges on Hertz's half width at the pitch point of the new flanks.
+    pub edges_per_half_width: f64,
 }
 
 /// One stored wear state.

@@ -6,7 +6,7 @@ use crate::contact::model::PositionContact;
 use crate::gear::{Member, Pair};
 use crate::mesh::Quality;
 use crate::simulate::checkpoint::{Checkpoint, Stored};
-use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, GearSet};
+use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, Fresh, GearSet};
 use crate::simulate::gather;
 use crate::simulate::history::{Progress, StepReport, WearState};
 use crate::simulate::members::Members;
@@ -145,23 +145,29 @@ pub fn run(
 ) -> Result<Run, RunError> {
     let begun = Instant::now();
     let mut stages = Stages::default();
-    let built;
     let members = match (plan.kind, members) {
-        (ContactKind::Hertz, _) => None,
-        (ContactKind::Fem, Some(members)) => Some(members),
+        (ContactKind::Hertz, _) => Fresh::None,
+        (ContactKind::Fem, Some(members)) => Fresh::Lent(members),
         (ContactKind::Fem, None) => {
             observer.event(Event::Stage("mesh, factor and condense both gears"));
-            built = plan.set.members(
+            let built = plan.set.members(
                 &plan.numerics,
                 &[plan.conditions.torque],
                 &[plan.conditions.misalignment],
             )?;
-            Some(&built)
+            Fresh::Own(Arc::new(built))
         }
+    };
+    let mesh = match members.condensed() {
+        Some(m) => {
+            let pair = pair_of(plan)?;
+            Some(Member::BOTH.map(|which| mesh_summary(plan, m, &pair, which)))
+        }
+        None => None,
     };
     stages.end("mesh and compliance");
     observer.event(Event::Stage("mesh cycle"));
-    let mut forward = Forward::with_effects(
+    let mut forward = Forward::on(
         plan.set,
         members,
         plan.conditions,
@@ -195,7 +201,7 @@ pub fn run(
         title: plan.title.to_owned(),
         conditions: gather::conditions(plan),
         geometry: gather::geometry(&pair),
-        mesh: members.map(|m| [Member::Pinion, Member::Gear].map(|which| mesh_summary(m, which))),
+        mesh,
         states,
         fields: frames.into_iter().flatten().collect(),
         balance_error: worn.progress.balance.error(),
@@ -311,7 +317,7 @@ fn keep(
     let worn = forward.state(progress)?;
     let state = gather::state(plan, forward, &worn);
     stages.end("contact and wear");
-    let drawn = match (plan.drawn_positions, forward.members()) {
+    let drawn = match (plan.drawn_positions, forward.blanks()) {
         (0, _) | (_, None) => 0,
         (all, Some(_)) if worn.cycles == plan.conditions.cycles => all,
         _ => 1,
@@ -348,9 +354,10 @@ fn check(name: &str, value: f64, limit: f64) -> Check {
     }
 }
 
-fn mesh_summary(members: &Members, which: Member) -> MeshSummary {
+fn mesh_summary(plan: &Plan, members: &Members, pair: &Pair, which: Member) -> MeshSummary {
     let member = &members.members[usize::from(which == Member::Gear)];
     let quality = Quality::of(&member.mesh);
+    let torque = plan.conditions.torque / plan.set.face_width;
     MeshSummary {
         element: if member.order() == 1 { "T3" } else { "T6" }.to_owned(),
         nodes: quality.nodes,
@@ -358,6 +365,8 @@ fn mesh_summary(members: &Members, which: Member) -> MeshSummary {
         dof: member.body.dof_count(),
         min_angle_deg: quality.min_angle_deg,
         flank_spacing: members.spacing(),
+        edges_per_half_width: Numerics::half_width(pair, plan.set.modulus(), torque)
+            / members.spacing(),
     }
 }
 

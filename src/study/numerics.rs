@@ -27,6 +27,8 @@ pub struct Numerics {
     pub order: Order,
     /// Flank elements on the smallest Hertz half width.
     pub elements_per_half_width: usize,
+    /// Whether the study states that number; one run may take fewer where it would ask for too many unknowns if not.
+    pub edges_stated: bool,
     /// Mesh positions on one base pitch.
     pub positions: usize,
     /// Relative error allowed in one wear step.
@@ -57,6 +59,7 @@ impl Default for Numerics {
         Self {
             order: Order::Quadratic,
             elements_per_half_width: 5,
+            edges_stated: false,
             positions: 100,
             step_tolerance: 2e-3,
             fields: 4,
@@ -88,15 +91,15 @@ pub(super) fn read(
             .name(key, "relative to the study file")
             .map(|file| file.map(|file| relative::joined(folder, Path::new(file))))
     };
+    let edges = table.count(
+        "elements_per_half_width",
+        1..=64,
+        "flank elements on the smallest Hertz half width; 5 is the default",
+    )?;
     let numerics = Numerics {
         order,
-        elements_per_half_width: table
-            .count(
-                "elements_per_half_width",
-                1..=64,
-                "flank elements on the smallest Hertz half width; 5 is the default",
-            )?
-            .unwrap_or(default.elements_per_half_width),
+        elements_per_half_width: edges.unwrap_or(default.elements_per_half_width),
+        edges_stated: edges.is_some(),
         positions: table
             .count(
                 "positions",

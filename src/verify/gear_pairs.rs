@@ -295,7 +295,7 @@ fn alone(position: Position, path: f64) -> Position {
     let own = pair.offset..pair.offset + pair.xi.len();
     Position {
         theta: position.theta,
-        left_out: f64::INFINITY,
+        left_out: [f64::INFINITY; 2],
         gap: position.gap[own.clone()].to_vec(),
         arm: position.arm[own].to_vec(),
         pairs: vec![PairContact {

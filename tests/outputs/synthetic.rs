@@ -114,6 +114,7 @@ fn mesh_summary(nodes: usize) -> MeshSummary {
         dof: 2 * nodes,
         min_angle_deg: 25.3,
         flank_spacing: 0.01,
+        edges_per_half_width: 5.0,
     }
 }
 

@@ -82,7 +82,7 @@ impl Forward<'_> {
         if slope.is_zero() {
             return None;
         }
-        let elastic = self.members().is_some();
+        let elastic = self.kind == ContactKind::Fem;
         let profile = slope.profile.is_some().then_some(after.profile.as_ref());
         let points = profile.filter(|_| !elastic).map(|profile| {
             let after = ContactPoint::all(&self.cycle, profile);

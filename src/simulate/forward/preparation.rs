@@ -3,15 +3,16 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{ContactKind, Forward, ForwardError};
+use super::{ContactKind, Forward, ForwardError, Fresh};
 use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, CycleSpec};
 use crate::contact::fem::CycleCompliance;
 use crate::contact::model::ContactError;
 use crate::effects::Effect;
+use crate::simulate::blanks::Blanks;
 use crate::simulate::history::Progress;
-use crate::simulate::members::Members;
+use crate::simulate::members::{MemberError, Members};
 
 /// How a [`Forward`] has prepared its contact: what a resumed run must restore before it goes on.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -49,8 +50,8 @@ pub(super) struct Prepared {
     pub(super) extended: Option<Arc<Members>>,
 }
 
-/// Corners farther apart than this are never looked at, in modules: flanks that close farther are refused.
-const MOST_REACH: f64 = 0.25;
+/// Corners farther apart than this are never looked at, in modules: more than half of what a tooth is thick.
+const MOST_REACH: f64 = 0.8;
 
 /// What runs at one mounting share.
 #[derive(Clone)]
@@ -127,40 +128,64 @@ impl Forward<'_> {
         }
         // what the new preparation replaces is let go first: it is as large as what takes its place
         (self.compliance, self.altered) = (None, None);
-        let more_teeth = self.extend_members()?;
-        if self.members().is_none() {
-            return self.project();
+        if preparation.condensed_at.is_some() {
+            self.let_go();
         }
+        let more_teeth = self.extend_members()?;
         if more_teeth || preparation.condensed_at != self.condensed_at {
             (self.worn, self.condensed_at) = (None, None);
-            let Some(fresh) = self.members() else {
-                return self.project();
-            };
-            let worn = match &preparation.condensed_at {
-                Some(u) => self.condensed_worn(fresh, u).map(Some),
-                None => Ok(None),
-            };
-            match worn {
-                Ok(worn) => {
-                    self.factorisations += 2 * usize::from(worn.is_some());
-                    self.condensed_at.clone_from(&preparation.condensed_at);
-                    self.worn = worn;
-                }
-                Err(error) => {
-                    // what was reached is still read, on the members as they were new
-                    self.project()?;
-                    return Err(error);
-                }
+            match preparation.condensed_at.as_deref() {
+                Some(u) => match self.condensed_worn(u) {
+                    Ok(worn) => {
+                        self.factorisations += 2;
+                        self.condensed_at = Some(u.to_vec());
+                        self.worn = Some(worn);
+                    }
+                    Err(error) => {
+                        // what was reached is still read, on the members as they were new
+                        self.take_back()?;
+                        self.project()?;
+                        return Err(error);
+                    }
+                },
+                None => self.take_back()?,
             }
         }
         self.project()
     }
 
-    /// Members condensed anew, worn by `u` (mm at the stations of pinion and gear).
-    fn condensed_worn(&self, fresh: &Members, u: &[f64]) -> Result<Box<Members>, ForwardError> {
+    /// Lets go of new members that nobody else uses: all but their meshes.
+    fn let_go(&mut self) {
+        if self.shares {
+            return;
+        }
+        if let Some(extended) = self.extended.take() {
+            self.fresh = Fresh::Blanks(Arc::clone(&extended.blanks));
+        }
+        if let Fresh::Own(members) = &self.fresh {
+            self.fresh = Fresh::Blanks(Arc::clone(&members.blanks));
+        }
+    }
+
+    /// Makes again the new members that were let go of.
+    fn take_back(&mut self) -> Result<(), ForwardError> {
+        if let Fresh::Blanks(blanks) = &self.fresh
+            && self.extended.is_none()
+        {
+            self.fresh = Fresh::Own(Arc::new(blanks.condensed()?));
+            self.factorisations += 2;
+        }
+        Ok(())
+    }
+
+    /// Members condensed worn by `u` (mm at the stations of pinion and gear).
+    fn condensed_worn(&self, u: &[f64]) -> Result<Box<Members>, ForwardError> {
+        let blanks = self.blanks().expect("only elastic members are condensed");
         let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
-        let meshes = fresh.worn_meshes(&self.cycle.pair, &self.cycle.stations, [pinion, gear])?;
-        Ok(Box::new(fresh.condensed_on(meshes)?))
+        let meshes = blanks
+            .worn_meshes(&self.cycle.pair, &self.cycle.stations, [pinion, gear])
+            .map_err(MemberError::from)?;
+        Ok(Box::new(blanks.condensed_on(meshes)?))
     }
 
     /// Prepares for contacts that were not looked for when `error` arose.
@@ -189,31 +214,42 @@ impl Forward<'_> {
 
     /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
     pub(super) fn extend_members(&mut self) -> Result<bool, ForwardError> {
-        let Some(members) = self.members() else {
+        let Some(blanks) = self.blanks() else {
             return Ok(false);
         };
         let mut teeth = Cycle::teeth(&self.cycle.pair, self.cycle.spec);
-        let fine = members.teeth();
-        if members.of_user() || teeth.iter().all(|t| fine.contains(t)) {
+        let fine = blanks.teeth();
+        if blanks.of_user() || teeth.iter().all(|t| fine.contains(t)) {
             // a tooth that a user's own mesh lacks is refused by the coupling
             return Ok(false);
         }
         teeth.extend(fine);
         teeth.sort_unstable();
         teeth.dedup();
-        let (spacing, order) = (members.spacing(), self.numerics.order);
+        let (spacing, order) = (blanks.spacing(), self.numerics.order);
         (self.worn, self.condensed_at, self.extended) = (None, None, None);
-        let built = Members::build(
+        let more = Blanks::new(
             &self.set.gears,
             self.set.materials,
             &teeth,
             spacing,
             order,
             [None, None],
-        )?;
+        );
+        let more = Arc::new(more.map_err(MemberError::from)?);
+        if matches!(self.fresh, Fresh::Blanks(_)) {
+            self.fresh = Fresh::Blanks(more);
+            return Ok(true);
+        }
+        let built = more.condensed()?;
         self.factorisations += 2;
         self.extended = Some(Arc::new(built));
         Ok(true)
+    }
+
+    /// Wear since the last condensation after which the members are condensed again, mm.
+    pub(super) fn condense_after(&self) -> f64 {
+        self.numerics.condense_after * self.cycle.pair.pinion.rack.module
     }
 
     /// Condenses the members anew if they have worn too far since they were last.
@@ -224,8 +260,8 @@ impl Forward<'_> {
         let preparation = self.preparation();
         match progress {
             Some(progress)
-                if self.members.is_some()
-                    && preparation.is_stale(&progress.stand.u, self.numerics.condense_after) =>
+                if self.kind == ContactKind::Fem
+                    && preparation.is_stale(&progress.stand.u, self.condense_after()) =>
             {
                 self.prepare(&Preparation {
                     condensed_at: Some(progress.stand.u.clone()),

@@ -188,7 +188,7 @@ const APART: f64 = 1.0;
 fn held_to_line(cycle: &Cycle) -> Cycle {
     let mut held = cycle.clone();
     for position in &mut held.positions {
-        position.left_out = f64::INFINITY;
+        position.left_out = [f64::INFINITY; 2];
         for pair in position
             .pairs
             .iter()
