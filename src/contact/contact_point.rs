@@ -115,6 +115,7 @@ mod tests {
         let spec = CycleSpec {
             positions: 10,
             spacing: 0.01,
+            even: 0.2,
             window: 0.2,
             reach: 0.02,
         };

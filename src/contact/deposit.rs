@@ -44,18 +44,24 @@ impl Travel {
 pub fn deposit(xi: &[f64], arc: &[f64], stations: &[f64], travel: Travel) -> SparseRows {
     let times = instants(travel, stations);
     let last = xi.len() - 1;
+    let spacing = spacing(stations);
     let mut row = Accumulator::new(stations);
     SparseRows::from_rows((0..xi.len()).map(|k| {
         for (from, to) in [(k.saturating_sub(1), k), (k, (k + 1).min(last))] {
             if from == to {
                 continue;
             }
-            for (u, weight) in GAUSS {
-                let hat = if to == k { u } else { 1.0 - u };
-                let s = arc[from] + u * (arc[to] - arc[from]);
-                let amount = hat * weight * (xi[to] - xi[from]);
-                for &(shift, slide) in &times {
-                    row.add(s + shift, amount * slide);
+            // an interval longer than the stations' spacing is divided, or it would be felt at four of them only
+            let pieces = ((arc[to] - arc[from]).abs() / spacing).round().max(1.0);
+            for piece in 0..pieces as usize {
+                for (u, weight) in GAUSS {
+                    let u = (piece as f64 + u) / pieces;
+                    let hat = if to == k { u } else { 1.0 - u };
+                    let s = arc[from] + u * (arc[to] - arc[from]);
+                    let amount = hat * weight / pieces * (xi[to] - xi[from]);
+                    for &(shift, slide) in &times {
+                        row.add(s + shift, amount * slide);
+                    }
                 }
             }
         }
@@ -73,7 +79,7 @@ const GAUSS: [(f64, f64); 4] = [
 
 /// Shift along the flank and weight (hat × sliding × dy) of the instants that stand for the position.
 fn instants(travel: Travel, stations: &[f64]) -> Vec<(f64, f64)> {
-    let spacing = (stations[stations.len() - 1] - stations[0]) / (stations.len() - 1) as f64;
+    let spacing = spacing(stations);
     let mut cuts = vec![-travel.step, 0.0, travel.step];
     let zero = -travel.slip / travel.slip_slope;
     if zero.abs() < travel.step {
@@ -94,6 +100,10 @@ fn instants(travel: Travel, stations: &[f64]) -> Vec<(f64, f64)> {
         }
     }
     out
+}
+
+fn spacing(stations: &[f64]) -> f64 {
+    (stations[stations.len() - 1] - stations[0]) / (stations.len() - 1) as f64
 }
 
 /// Sums contributions to neighbouring stations.

@@ -325,6 +325,7 @@ mod tests {
             let spec = CycleSpec {
                 positions,
                 spacing: 0.02,
+                even: 0.2,
                 window: 0.2,
                 reach,
             };

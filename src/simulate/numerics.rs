@@ -62,6 +62,9 @@ const WINDOW: f64 = 2.2;
 /// The same of the analytic model, whose contacts keep Hertz's width: room for four times the load, by factors on it.
 const ANALYTIC_WINDOW: f64 = 2.0;
 
+/// How far the contact grid stays even, in half widths of the strip that is searched from the start. Two widenings fit in.
+const EVEN: f64 = 2.0;
+
 /// Room for corners that wear brings into contact beyond those the load does, modules.
 const WORN_REACH: f64 = 0.004;
 
@@ -82,10 +85,12 @@ impl Numerics {
     /// Resolution of the mesh cycle up to the pinion torque per width `torque` (N·mm/mm) with flank edges `spacing` (mm).
     pub fn cycle(&self, pair: &Pair, modulus: f64, torque: f64, spacing: f64) -> CycleSpec {
         let widest = widest(pair, modulus, torque);
+        let window = self.room * (WINDOW * widest).max(12.0 * spacing);
         CycleSpec {
             positions: self.positions,
             spacing,
-            window: self.room * (WINDOW * widest).max(12.0 * spacing),
+            even: EVEN * window,
+            window,
             reach: torque / pair.pinion.base_radius / (LEAST_STIFFNESS * 2.0 * modulus)
                 + WORN_REACH * pair.pinion.rack.module,
         }
@@ -99,8 +104,10 @@ impl Numerics {
         torque: f64,
         spacing: f64,
     ) -> CycleSpec {
+        let window = ANALYTIC_WINDOW * widest(pair, modulus, torque) + spacing;
         CycleSpec {
-            window: ANALYTIC_WINDOW * widest(pair, modulus, torque) + spacing,
+            even: EVEN * window,
+            window,
             ..self.cycle(pair, modulus, torque, spacing)
         }
     }
