@@ -124,7 +124,7 @@ pub fn mesh_worn_gear(gear: &Gear, spec: &MeshSpec, worn: &WornFlank) -> Result<
     spec.check(gear)?;
     let worn = worn.clone().without_spikes(SPIKE_SLOPE);
     let thinnest = worn.thinnest();
-    if !worn.is_unworn() && !(thinnest.left >= LEAST_THICKNESS * gear.rack.module) {
+    if !worn.is_unworn() && thinnest.left < LEAST_THICKNESS * gear.rack.module {
         return Err(MeshError::WornThrough(thinnest));
     }
     let (outline, fine_flanks) = gear_outline(gear, spec, &worn);
