@@ -350,8 +350,8 @@ fn sliding_work(teeth: [f64; 2], module: f64, centre_distance: f64, torque: f64)
 }
 
 /// Wherever the ends of the path lie between mesh positions. Measured: 1.63e-3 at 20 of them and 1.1e-4 at 80, of second order; a pair
-/// counted for all of its position or not at all leaves 2.4e-2 and 7.7e-3. (The area is that which the flanks lose, with the sliding of each
-/// position integrated over its hat; its sliding at the middle, which overlooks the kink at the pitch point, happens to leave 9.9e-4 and 7.2e-5.)
+/// counted for all of its position or not at all leaves 2.4e-2 and 7.7e-3. The area is that which the flanks lose, with the sliding of each
+/// position integrated over its hat.
 #[test]
 fn a_pass_of_the_hertz_model_does_the_work_of_its_loads() {
     let set = published_pair();
@@ -376,7 +376,7 @@ fn a_pass_of_the_hertz_model_does_the_work_of_its_loads() {
             assert!(near(area.law[1] * 53.0 / 27.0, area.law[0], 1e-12));
         }
     }
-    assert!(worst[0] < 2e-3, "{worst:?}");
+    assert!(worst[1] < 1.5e-4, "{worst:?}");
     assert!(worst[0] > 10.0 * worst[1], "{worst:?}");
 }
 
