@@ -346,7 +346,9 @@ impl<'a> FemContact<'a> {
         [0, 1].map(|side| {
             let arc = &self.cycle.stations.arc[side];
             let first = arc.partition_point(|s| *s < arc[arc.len() - 1] - reach);
-            depth[side][first..].iter().fold(f64::INFINITY, |m, h| m.min(*h))
+            depth[side][first..]
+                .iter()
+                .fold(f64::INFINITY, |m, h| m.min(*h))
         })
     }
 

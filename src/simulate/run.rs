@@ -1,5 +1,6 @@
 //! One whole run: members, mesh cycle, wear history, fields, gathered as a [`Run`].
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::contact::model::PositionContact;

@@ -45,9 +45,10 @@ impl<'m> FemLinear<'m> {
         let mut each = Vec::new();
         if let Some(alteration) = model.alteration.filter(|a| a.tooth_offset.is_some()) {
             let gap = model.gap(q, depth);
+            let (corners, start) = (model.lost_corners(depth), &contact.active);
             for index in 0..model.cycle.positions[q].pairs.len() {
                 let (own, solved) =
-                    model.one_tooth_measured(q, &gap, &contact.active, alteration, index)?;
+                    model.one_tooth_measured(q, &gap, start, corners, alteration, index)?;
                 let on = OnSet::new(model, q, &solved)?;
                 each.push(Measured { index, own, on });
             }

@@ -6,7 +6,7 @@
 //! no tangent: such a parameter is differentiated by central differences of two runs on the same steps, at mountings
 //! a little apart ([`Forward::again_moved`]).
 
-use super::{Forward, ForwardError};
+use super::{ContactKind, Forward, ForwardError};
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::model::PositionContact;
 use crate::contact::tangent::{AlterationChange, ContactTangent};
