@@ -6,7 +6,6 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::learn::evaluate::Evaluator;
-use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::hypothesis::version::parameter;
 use crate::learn::measured::Measured;
 use crate::learn::noise::{Covariance, ModelError, NoiseModel};
@@ -16,7 +15,7 @@ use crate::learn::quadratic::{Layout, Normal, State};
 use crate::learn::scatter::marginal;
 use crate::learn::search::{Effort, Found, Search};
 use crate::measure::{Observation, Quantity};
-use crate::study::{Role, WEAR_COEFFICIENT};
+use crate::study::{Role, Scatter, WEAR_COEFFICIENT};
 
 /// How far an effect's own contribution may differ from its formula, relative: nature does not use our formulas.
 ///
@@ -140,13 +139,34 @@ impl<'a> Likelihood<'a> {
         start: State,
         effort: &Effort,
     ) -> Result<Found, PredictError> {
+        let mut evaluator = self.evaluator(predictor);
+        self.search(parameters).run(&mut evaluator, start, effort)
+    }
+
+    /// Each test's own coefficient at a given scatter; everything common to the tests is held. For held-out tests.
+    pub(super) fn fit_held(
+        &self,
+        predictor: &dyn Predictor,
+        parameters: &[Parameter],
+        state: State,
+        scatter: f64,
+        effort: &Effort,
+    ) -> Result<Found, PredictError> {
+        let mut search = self.search(parameters);
+        search.coefficient = None;
+        search.layout.coefficient = None;
+        search.layout.parameters.clear();
+        search.scatter = Scatter::Relative(scatter);
+        search.run(&mut self.evaluator(predictor), state, effort)
+    }
+
+    fn evaluator<'e>(&'e self, predictor: &'e dyn Predictor) -> Evaluator<'e> {
         let data = &self.measured.data;
         let counts = data.tests.iter().enumerate().map(|(test, id)| {
             let rows = data.observations.iter().filter(|o| o.test == test).count();
             (id.as_str(), rows)
         });
-        let mut evaluator = Evaluator::new(predictor, counts.collect());
-        self.search(parameters).run(&mut evaluator, start, effort)
+        Evaluator::new(predictor, counts.collect())
     }
 
     fn search<'s>(&'s self, parameters: &'s [Parameter]) -> Search<'s> {
@@ -283,7 +303,7 @@ impl<'a> Likelihood<'a> {
         off.iter().map(|z| z * z).sum::<f64>() / self.len() as f64
     }
 
-    /// (model − measured)/sigma with each trace's most probable datum.
+    /// (measured − model − datum)/sigma with each trace's most probable datum.
     pub(super) fn standardised(&self, model: &[f64]) -> Vec<f64> {
         let residual = self.residual(model);
         let datums = self.covariance.datums(&residual);
@@ -291,7 +311,7 @@ impl<'a> Likelihood<'a> {
             .map(|row| {
                 let o = self.observation(row);
                 let datum = datums.iter().find(|d| Some(d.trace) == o.trace);
-                (datum.map_or(0.0, |d| d.value) - residual[row]) / o.sigma
+                (residual[row] - datum.map_or(0.0, |d| d.value)) / o.sigma
             })
             .collect()
     }
@@ -305,29 +325,4 @@ pub(super) fn whiten(covariance: &Covariance, jacobian: &DMatrix<f64>) -> DMatri
         white.column_mut(column).copy_from_slice(&whitened);
     }
     white
-}
-
-impl Likelihood<'_> {
-    /// Each test's own coefficient at a given scatter; everything common to the tests is held. For held-out tests.
-    pub(super) fn fit_held(
-        &self,
-        predictor: &dyn Predictor,
-        candidate: &Candidate,
-        state: State,
-        scatter: f64,
-        effort: &Effort,
-    ) -> Result<Found, PredictError> {
-        let data = &self.measured.data;
-        let counts = data.tests.iter().enumerate().map(|(test, id)| {
-            let rows = data.observations.iter().filter(|o| o.test == test).count();
-            (id.as_str(), rows)
-        });
-        let mut evaluator = Evaluator::new(predictor, counts.collect());
-        let mut search = self.search(&candidate.parameters);
-        search.coefficient = None;
-        search.layout.coefficient = None;
-        search.layout.parameters.clear();
-        search.scatter = crate::study::Scatter::Relative(scatter);
-        search.run(&mut evaluator, state, effort)
-    }
 }

@@ -13,18 +13,14 @@
 //! ```
 //! Datums are marginalised in closed form, k_t and θ by a parabola about the most probable state, σ_k by quadrature.
 
-mod add;
 mod anchored;
 mod bench;
 mod candidate_model;
 mod checks;
-mod compare;
 mod comparison;
-mod curves;
 mod decision;
 pub mod diagnose;
 mod discrepancy;
-mod doubts;
 mod evaluate;
 mod experiment;
 mod explanation;
@@ -35,7 +31,6 @@ mod fitted_candidate;
 mod gaussian;
 mod gear_model;
 mod hypothesis;
-mod ladder;
 mod likelihood;
 mod measured;
 mod model_search;
@@ -43,40 +38,29 @@ mod noise;
 mod observe;
 mod parameters;
 mod predictor;
-mod prospects;
 mod quadratic;
-mod ratio;
 mod region;
-mod sanity;
 mod scatter;
 mod search;
 mod starts;
 mod strength_prior;
 mod synthesize;
-mod tally;
 mod trajectory;
-mod uncertainty;
-mod versions;
-mod worst;
 
-pub use add::{AddedForm, Addition, Tried, add};
 pub use bench::{Bench, MeasuredTest, Workshop};
-pub use compare::{CompareError, Compared, Doing, Watch, compare, contact_of};
-pub use comparison::{Comparison, Outlier, ParameterRecord, TestRecord};
-pub use curves::{Curve, CurvePoint, curves};
+pub use comparison::{
+    AddedForm, Addition, Cell, CompareError, Compared, Comparison, Curve, CurvePoint, Doing, Group,
+    Improvement, Item, LadderStep, Outlier, ParameterRecord, Prospects, Ratio, Share, TestRecord,
+    Tried, Validation, Version, Watch, add, compare, compare_all, contact_of, curves, differences,
+    ladder, prospects,
+};
 pub use fit::{Coefficient, FitError, Problem};
 pub use fitted::{Fit, Jacobian, RowFit, TestFit};
 pub use gear_model::{EffectsOf, GearModel};
 pub use hypothesis::version::ModelVersion;
-pub use ladder::{Improvement, LadderStep, Version, ladder};
 pub use measured::Measured;
 pub use noise::{Datum, ModelError, NoiseModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};
 pub use predictor::{PredictError, Predictor};
-pub use prospects::{Prospects, prospects};
-pub use ratio::Ratio;
 pub use search::Effort;
 pub use synthesize::{Synthetic, synthesize};
-pub use tally::{Cell, Group, Share};
-pub use uncertainty::Validation;
-pub use versions::{Item, compare_all, differences};

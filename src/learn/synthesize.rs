@@ -9,7 +9,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::compare::{CompareError, Doing, Watch, contact_of};
+use super::comparison::{CompareError, Doing, Watch, contact_of};
 use super::fit::FitError;
 use super::gear_model::GearModel;
 use super::measured::Measured;

@@ -19,6 +19,11 @@ pub fn rotate(v: Vec2, angle: f64) -> Vec2 {
     Vec2::new(c * v.x - s * v.y, s * v.x + c * v.y)
 }
 
+/// Chebyshev's polynomial of the first kind, T_n(x) = cos(n arccos x), −1 ≤ x ≤ 1.
+pub fn chebyshev(degree: usize, x: f64) -> f64 {
+    (degree as f64 * x.acos()).cos()
+}
+
 /// Piecewise linear interpolation of `y` over ascending `x`, constant beyond the ends.
 pub fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
     let next = x.partition_point(|&v| v <= at);

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use crate::numeric::chebyshev;
+
 /// Functions of a driver: their values at each row, none where all are zero.
 pub(in crate::learn) type Functions = Vec<Vec<f64>>;
 
@@ -20,9 +22,12 @@ pub(in crate::learn) fn numbered<T: Ord>(values: impl Iterator<Item = T>) -> Vec
 /// Chebyshev's polynomials over the range of the values, fewer than there are different values.
 pub(in crate::learn) fn polynomials(kinds: &[usize], values: &[f64], most: usize) -> Functions {
     let (x, distinct) = ranged(kinds, values);
-    let chebyshev = |degree: usize, x: f64| (degree as f64 * (2.0 * x - 1.0).acos()).cos();
     (0..most.min(distinct))
-        .map(|degree| x.iter().map(|&x| chebyshev(degree, x)).collect())
+        .map(|degree| {
+            x.iter()
+                .map(|&x| chebyshev(degree, 2.0 * x - 1.0))
+                .collect()
+        })
         .collect()
 }
 

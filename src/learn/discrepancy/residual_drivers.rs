@@ -137,9 +137,8 @@ pub(in crate::learn) fn of(
                 quantity: o.quantity.name(),
                 position: o.position,
                 values: values(o, conditions, locals[i].as_ref()),
-                // those are model minus measured
-                before: -before[i],
-                after: now.as_ref().map(|now| -now[i]),
+                before: before[i],
+                after: now.as_ref().map(|now| now[i]),
             }
         })
         .collect();

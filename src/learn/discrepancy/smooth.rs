@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::learn::likelihood::{Likelihood, whiten};
+use crate::numeric::chebyshev;
 
 /// Terms along the position and over the cycles that are tried.
 const TERMS: [(usize, usize); 7] = [(1, 1), (1, 3), (3, 1), (4, 2), (7, 3), (12, 3), (18, 4)];
@@ -171,8 +172,8 @@ impl Group {
         for (&row, &(s, n)) in self.rows.iter().zip(&self.places) {
             for p in 0..along {
                 for c in 0..over {
-                    let chebyshev = (c as f64 * (2.0 * n - 1.0).acos()).cos();
-                    columns[(row, p * over + c)] = g[row] * (p as f64 * PI * s).cos() * chebyshev;
+                    let over_cycles = chebyshev(c, 2.0 * n - 1.0);
+                    columns[(row, p * over + c)] = g[row] * (p as f64 * PI * s).cos() * over_cycles;
                 }
             }
         }

@@ -171,7 +171,7 @@ fn held_out(context: &Context<'_>, held: &Likelihood<'_>, fitted: &FittedCandida
     let found = held
         .fit_held(
             &predictor,
-            candidate,
+            &candidate.parameters,
             state,
             fitted.found.scatter,
             &Effort::default(),

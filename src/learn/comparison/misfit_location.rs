@@ -6,9 +6,9 @@
 use std::collections::BTreeMap;
 
 use super::ratio::Ratio;
-use super::region::{Map, words};
-use super::tally::{Cell, CellKey};
+use super::residual_statistics::{Cell, CellKey};
 use crate::gear::Member;
+use crate::learn::region::{Map, words};
 use crate::measure::{Quantity, Subject};
 
 /// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
@@ -29,7 +29,7 @@ fn carried<'c>(cells: impl Iterator<Item = (&'c CellKey, &'c Cell)>) -> BTreeMap
 }
 
 /// The cells, worst first: by what all cells of their quantity carry, then by what they carry themselves.
-pub(super) fn worst_first(cells: BTreeMap<CellKey, Cell>) -> Vec<Cell> {
+pub(in crate::learn) fn worst_first(cells: BTreeMap<CellKey, Cell>) -> Vec<Cell> {
     let carried = carried(cells.iter());
     let mut sorted: Vec<(CellKey, Cell)> = cells.into_iter().collect();
     sorted.sort_by(|(a, first), (b, second)| {
@@ -40,7 +40,7 @@ pub(super) fn worst_first(cells: BTreeMap<CellKey, Cell>) -> Vec<Cell> {
 }
 
 /// Where the model fails worst, in plain words.
-pub(super) fn sentence(
+pub(in crate::learn) fn sentence(
     cells: &BTreeMap<CellKey, Cell>,
     ratios: &BTreeMap<(usize, Subject), Vec<Ratio>>,
     map: &Map,

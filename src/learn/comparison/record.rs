@@ -2,15 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::doubts::{correlation, doubts};
-use super::fitted::Fit;
-use super::parameters::Estimate;
+use super::fit_warnings::{correlation, fit_warnings};
+use super::misfit_location::{sentence, worst_first};
 use super::ratio::{Ratio, ratios};
-use super::region::Map;
+use super::residual_statistics::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
 use super::sanity::sanity;
-use super::tally::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
 use super::uncertainty::{Validation, validate};
-use super::worst::{sentence, worst_first};
+use crate::learn::fitted::Fit;
+use crate::learn::parameters::Estimate;
+use crate::learn::region::Map;
 use crate::measure::{Dataset, Quantity};
 use crate::study::{Role, Study};
 
@@ -164,7 +164,7 @@ impl Comparison {
             worst,
             correlation: correlation(fit),
             sanity: sanity(study, data, fit),
-            warnings: doubts(data, fit),
+            warnings: fit_warnings(data, fit),
             tests: test_records(study, fit, &rows),
             coefficient_scatter: fit.scatter,
             coefficient_scatter_interval: fit.scatter_interval,
@@ -208,7 +208,7 @@ fn noise_rms(rows: &[Fitted<'_>]) -> Option<f64> {
 }
 
 fn test_records(study: &Study, fit: &Fit, rows: &[Fitted<'_>]) -> Vec<TestRecord> {
-    let record = |fitted: &super::fitted::TestFit| {
+    let record = |fitted: &crate::learn::fitted::TestFit| {
         let own: Vec<Fitted<'_>> = rows
             .iter()
             .copied()

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::tally::{Fitted, role_name};
+use super::residual_statistics::{Fitted, role_name};
 use crate::measure::{Quantity, Subject};
 use crate::study::Study;
 
@@ -39,12 +39,12 @@ pub struct Ratio {
 
 impl Ratio {
     /// The share of what exceeds the noise that the factor takes away.
-    pub(super) fn explains(&self) -> f64 {
+    pub(in crate::learn) fn explains(&self) -> f64 {
         (self.chi2_per_point - self.chi2_scaled) / (self.chi2_per_point - 1.0).max(1e-9)
     }
 
     /// Whether it differs from 1 by more than five standard deviations and explains half of the misfit.
-    pub(super) fn matters(&self) -> bool {
+    pub(in crate::learn) fn matters(&self) -> bool {
         (self.measured_over_computed - 1.0).abs() > 5.0 * self.sigma && self.explains() > 0.5
     }
 }
@@ -53,7 +53,10 @@ impl Ratio {
 type Key = (usize, Subject, u64);
 
 /// Of every test, member and checkpoint with wear depths, where the computed wear varies along the flank.
-pub(super) fn ratios(study: &Study, rows: &[Fitted<'_>]) -> BTreeMap<(usize, Subject), Vec<Ratio>> {
+pub(in crate::learn) fn ratios(
+    study: &Study,
+    rows: &[Fitted<'_>],
+) -> BTreeMap<(usize, Subject), Vec<Ratio>> {
     let mut groups: BTreeMap<Key, Vec<Fitted<'_>>> = BTreeMap::new();
     for &(o, row) in rows
         .iter()

@@ -1,12 +1,12 @@
-//! What is doubtful about a fit, in sentences: an end without convergence, values on bounds, parameters that show only together,
+//! Warnings about a fit, in sentences: an end without convergence, values on bounds, parameters that show only together,
 //! traces over several tests, rows that stand twice.
 
 use std::collections::HashSet;
 
 use nalgebra::DMatrix;
 
-use super::fitted::Fit;
-use super::parameters::Estimate;
+use crate::learn::fitted::Fit;
+use crate::learn::parameters::Estimate;
 use crate::measure::{Dataset, Observation};
 
 /// Least eigenvalue of the correlation of parameters that are badly known; of two it is 1 − |correlation|.
@@ -17,28 +17,28 @@ const PART: f64 = 0.2;
 const BADLY_KNOWN: f64 = 0.25;
 
 /// All that there is to say.
-pub(super) fn doubts(data: &Dataset, fit: &Fit) -> Vec<String> {
-    let mut doubts = Vec::new();
+pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
+    let mut warnings = Vec::new();
     if !fit.converged {
-        doubts.push(format!(
+        warnings.push(format!(
             "the fit did not converge in {} steps",
             fit.iterations
         ));
     }
     for parameter in fit.parameters.iter().filter(|p| p.at_bound) {
-        doubts.push(format!(
+        warnings.push(format!(
             "{} lies on its bound, {:.3e}",
             parameter.name, parameter.value
         ));
     }
-    doubts.extend(together(&fit.parameters, &correlation(fit)));
-    doubts.extend(wide_traces(data));
-    doubts.extend(repeated(data));
-    doubts
+    warnings.extend(together(&fit.parameters, &correlation(fit)));
+    warnings.extend(wide_traces(data));
+    warnings.extend(repeated(data));
+    warnings
 }
 
 /// The correlations of a fit's parameters, on their natural scales.
-pub(super) fn correlation(fit: &Fit) -> Vec<Vec<f64>> {
+pub(in crate::learn) fn correlation(fit: &Fit) -> Vec<Vec<f64>> {
     let c = &fit.covariance;
     let size = |i: usize| c[(i, i)].max(f64::MIN_POSITIVE).sqrt();
     let all = 0..fit.parameters.len();
@@ -109,7 +109,7 @@ fn wide_traces(data: &Dataset) -> Option<String> {
 fn repeated(data: &Dataset) -> Option<String> {
     let mut seen = HashSet::new();
     let placed = data.observations.iter().filter(|o| o.position.is_some());
-    let mut again = placed.filter(|o| !seen.insert(said(o)));
+    let mut again = placed.filter(|o| !seen.insert(contents(o)));
     let first = again.next()?;
     let count = 1 + again.count();
     let rows = if count == 1 { "row says" } else { "rows say" };
@@ -120,7 +120,7 @@ fn repeated(data: &Dataset) -> Option<String> {
 }
 
 /// All that a row says but its line.
-fn said(o: &Observation) -> impl Eq + std::hash::Hash + use<> {
+fn contents(o: &Observation) -> impl Eq + std::hash::Hash + use<> {
     let bits = |x: Option<f64>| x.map(f64::to_bits);
     (
         (o.test, o.member, o.quantity, o.trace),

@@ -1,8 +1,8 @@
 //! Several versions of a model, each its own study, compared one after the other on as few benches as possible.
 
 use super::compare::{CompareError, Compared, Doing, contact_of};
-use super::hypothesis::version::ModelVersion;
-use super::measured::Measured;
+use crate::learn::hypothesis::version::ModelVersion;
+use crate::learn::measured::Measured;
 use crate::measure::{Dataset, Observation};
 use crate::study::Study;
 

@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::fitted::Fit;
-use super::tally::{Fitted, role_name};
+use super::residual_statistics::{Fitted, role_name};
+use crate::learn::fitted::Fit;
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Role;
 
@@ -49,7 +49,7 @@ pub struct Validation {
 }
 
 /// Of every test, member and quantity.
-pub(super) fn validate(
+pub(in crate::learn) fn validate(
     data: &Dataset,
     roles: &[Role],
     fit: &Fit,

@@ -8,8 +8,8 @@
 
 use std::collections::BTreeMap;
 
-use super::fitted::{Fit, RowFit};
-use super::tally::{Fitted, fitted};
+use super::residual_statistics::{Fitted, fitted};
+use crate::learn::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Study;
 
@@ -31,7 +31,7 @@ const CONSTANTS: f64 = 0.85;
 const BETTER_THAN_FACTORS: f64 = 0.5;
 
 /// All that there is to say, the worst first.
-pub(super) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let of_one_k = of_one_k(data, fit);
     let rows: Vec<Fitted<'_>> = data.observations.iter().zip(&of_one_k).collect();
     let mut said = signs(&rows);

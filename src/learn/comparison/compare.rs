@@ -4,15 +4,15 @@
 //! study, measurements -> members -> tests on the bench -> fit of what is free -> Comparison
 //! ```
 
-use super::bench::Bench;
-use super::comparison::Comparison;
-use super::fit::FitError;
-use super::fitted::Fit;
-use super::hypothesis::version::ModelVersion;
-use super::measured::Measured;
-use super::noise::NoiseModel;
-use super::search::Effort;
+use super::record::Comparison;
 use crate::gear::JAM_TOLERANCE;
+use crate::learn::bench::Bench;
+use crate::learn::fit::FitError;
+use crate::learn::fitted::Fit;
+use crate::learn::hypothesis::version::ModelVersion;
+use crate::learn::measured::Measured;
+use crate::learn::noise::NoiseModel;
+use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
 use crate::study::{ContactKind, Study, StudyError, WEAR_COEFFICIENT};

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::fitted::Fit;
-use super::region::Map;
-use super::tally::fitted;
+use super::residual_statistics::fitted;
+use crate::learn::fitted::Fit;
+use crate::learn::region::Map;
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::{Role, Study};
 

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::fitted::{Fit, RowFit};
-use super::region::Map;
 use crate::gear::Region;
+use crate::learn::fitted::{Fit, RowFit};
+use crate::learn::region::Map;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::{Role, Study};
 
@@ -70,17 +70,17 @@ pub struct Group {
 }
 
 /// One row with its fit.
-pub(super) type Fitted<'a> = (&'a Observation, &'a RowFit);
+pub(in crate::learn) type Fitted<'a> = (&'a Observation, &'a RowFit);
 /// What rows of one cell share: test, member, quantity, region, cycle interval.
-pub(super) type CellKey = (usize, Subject, Quantity, Option<Region>, usize);
+pub(in crate::learn) type CellKey = (usize, Subject, Quantity, Option<Region>, usize);
 
 /// Every observation with its fit, in order.
-pub(super) fn fitted<'a>(data: &'a Dataset, fit: &'a Fit) -> Vec<Fitted<'a>> {
+pub(in crate::learn) fn fitted<'a>(data: &'a Dataset, fit: &'a Fit) -> Vec<Fitted<'a>> {
     data.observations.iter().zip(&fit.rows).collect()
 }
 
 /// The word for a role.
-pub(super) fn role_name(role: Role) -> &'static str {
+pub(in crate::learn) fn role_name(role: Role) -> &'static str {
     match role {
         Role::Fit => "fit",
         Role::Holdout => "holdout",
@@ -88,7 +88,7 @@ pub(super) fn role_name(role: Role) -> &'static str {
 }
 
 impl Share {
-    pub(super) fn of<'a>(rows: impl Iterator<Item = Fitted<'a>>) -> Self {
+    pub(in crate::learn) fn of<'a>(rows: impl Iterator<Item = Fitted<'a>>) -> Self {
         let rows: Vec<Fitted<'_>> = rows.collect();
         Self {
             points: rows.len(),
@@ -100,7 +100,7 @@ impl Share {
 
 impl Group {
     /// Groups of rows with equal keys, in the keys' order.
-    pub(super) fn by<'a, K: Ord>(
+    pub(in crate::learn) fn by<'a, K: Ord>(
         rows: &[Fitted<'a>],
         key: impl Fn(&'a Observation) -> Option<K>,
         name: impl Fn(&K) -> String,
@@ -123,7 +123,11 @@ impl Group {
 }
 
 /// All cells by key.
-pub(super) fn cells(study: &Study, rows: &[Fitted<'_>], map: &Map) -> BTreeMap<CellKey, Cell> {
+pub(in crate::learn) fn cells(
+    study: &Study,
+    rows: &[Fitted<'_>],
+    map: &Map,
+) -> BTreeMap<CellKey, Cell> {
     let mut parts: BTreeMap<CellKey, Vec<Fitted<'_>>> = BTreeMap::new();
     for &(o, row) in rows {
         let key = (o.test, o.member, o.quantity, map.region(o), map.interval(o));
@@ -160,13 +164,13 @@ pub(super) fn cells(study: &Study, rows: &[Fitted<'_>], map: &Map) -> BTreeMap<C
 }
 
 /// Mean of the squared standardised residuals.
-pub(super) fn chi2(rows: &[Fitted<'_>]) -> Option<f64> {
+pub(in crate::learn) fn chi2(rows: &[Fitted<'_>]) -> Option<f64> {
     let sum: f64 = rows.iter().map(|(_, row)| row.standardised.powi(2)).sum();
     (!rows.is_empty()).then(|| sum / rows.len() as f64)
 }
 
 /// Mean of a function of the residuals of wear depths.
-pub(super) fn wear(rows: &[Fitted<'_>], f: impl Fn(f64) -> f64) -> Option<f64> {
+pub(in crate::learn) fn wear(rows: &[Fitted<'_>], f: impl Fn(f64) -> f64) -> Option<f64> {
     let depths = rows
         .iter()
         .filter(|(o, _)| o.quantity == Quantity::WearDepth);

@@ -4,9 +4,9 @@
 //! a misfit behind, in which the next effect would be looked for in vain.
 
 use super::compare::{CompareError, Compared, Doing, contact_of};
-use super::fitted::Fit;
-use super::hypothesis::version::ModelVersion;
-use super::measured::Measured;
+use crate::learn::fitted::Fit;
+use crate::learn::hypothesis::version::ModelVersion;
+use crate::learn::measured::Measured;
 use crate::measure::Dataset;
 use crate::study::{Study, WEAR_COEFFICIENT};
 

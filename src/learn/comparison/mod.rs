@@ -1,0 +1,30 @@
+//! Comparison, beside the stages of a diagnosis: how wrong a fitted model is and where, and versions of a model side by side.
+//!
+//! ```text
+//! fit -> residual statistics, ratios, location of the misfit, validation uncertainty, fit warnings -> Comparison -> ladder
+//! ```
+
+mod add;
+mod compare;
+mod curves;
+mod fit_warnings;
+mod ladder;
+mod misfit_location;
+mod prospects;
+mod ratio;
+mod record;
+mod residual_statistics;
+mod sanity;
+mod uncertainty;
+mod versions;
+
+pub use add::{AddedForm, Addition, Tried, add};
+pub use compare::{CompareError, Compared, Doing, Watch, compare, contact_of};
+pub use curves::{Curve, CurvePoint, curves};
+pub use ladder::{Improvement, LadderStep, Version, ladder};
+pub use prospects::{Prospects, prospects};
+pub use ratio::Ratio;
+pub use record::{Comparison, Outlier, ParameterRecord, TestRecord};
+pub use residual_statistics::{Cell, Group, Share};
+pub use uncertainty::Validation;
+pub use versions::{Item, compare_all, differences};
