@@ -394,6 +394,8 @@ fn a_study_written_elsewhere_finds_its_measurements() {
 #[test]
 fn what_add_cannot_use_is_refused_with_exit_2_and_nothing_written() {
     let home = home();
+    let files = || fs::read_dir(home.path()).unwrap().count();
+    let before = files();
     for (arguments, says) in [
         (
             &["add", "study.toml", "runing_in"][..],
@@ -471,7 +473,7 @@ fn what_add_cannot_use_is_refused_with_exit_2_and_nothing_written() {
         assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments:?}: {err}");
         assert!(err.contains(says), "no `{says}` in: {err}");
     }
-    assert_eq!(fs::read_dir(home.path()).unwrap().count(), 2);
+    assert_eq!(files(), before);
 }
 
 proptest! {

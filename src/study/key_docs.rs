@@ -244,7 +244,7 @@ mod tests {
         ("thermal", &[]),
         ("operation", &[("torque", "100.0"), ("speed", "2000.0")]),
         ("wear", &[("coefficient", "6e-10"), ("cycles", "1e6")]),
-        ("wear.pinion", &[]),
+        ("wear.pinion", &[("coefficient", "6e-10")]),
         ("model", &[]),
         ("fit", &[]),
         ("noise", &[]),

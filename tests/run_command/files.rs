@@ -304,7 +304,8 @@ fn the_terminal_gets_the_figures_and_json_the_summary() {
         "pinion wear",
         "peak pressure",
         "report.html",
-        "Next: gearwear models STUDY",
+        "Next: gearwear models ",
+        "study.toml shows what",
     ] {
         assert!(answer.out.contains(part), "{part}: {}", answer.out);
     }
