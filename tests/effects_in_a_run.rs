@@ -142,7 +142,7 @@ fn a_power_of_the_pressure_wears_as_over_hertz_ellipse() {
             let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
             let [start, .., end] = cycle.pair.path_points();
             for (position, contact) in cycle.positions.iter().zip(&contacts) {
-                let factors = factors(&acting, cycle, &worn, position, contact, |f, _| f);
+                let [factors] = factors(&acting, cycle, &worn, position, contact, |f, _| [f]);
                 for pair in position
                     .pairs
                     .iter()

@@ -11,7 +11,8 @@ use std::sync::Mutex;
 
 use gearwear::effects::Prior;
 use gearwear::learn::{
-    Coefficient, Effort, Fit, ModelError, NoiseModel, Parameter, PredictError, Predictor, Problem,
+    Coefficient, Effort, Fit, Linearised, ModelError, Move, NoiseModel, Parameter, PredictError,
+    Predictor, Problem,
 };
 use gearwear::measure::{Dataset, Observation, Quantity, Subject, Trace};
 use gearwear::study::{Role, Scatter};

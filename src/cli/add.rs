@@ -116,11 +116,13 @@ fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
     for p in &fit.parameters {
         let [low, high] = p.interval;
         let at_bound = if p.at_bound { ", at a bound" } else { "" };
-        let _ = writeln!(
-            text,
-            "    {}: 95 % between {low:.4e} and {high:.4e}{at_bound}",
-            p.name
-        );
+        // an interval belongs to a most probable state
+        let known = if fit.converged {
+            format!("95 % between {low:.4e} and {high:.4e}")
+        } else {
+            format!("{:.4e} where the fit stopped, no interval", p.value)
+        };
+        let _ = writeln!(text, "    {}: {known}{at_bound}", p.name);
     }
     let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
     if let Some(chi2) = chi2(&comparison.fit) {

@@ -47,6 +47,15 @@ impl ContactPoint {
             .collect()
     }
 
+    /// (`after` − self)/`step`, number by number.
+    pub fn slope_to(&self, after: &Self, step: f64) -> Self {
+        Self {
+            centre: (after.centre - self.centre) / step,
+            gap: (after.gap - self.gap) / step,
+            radius: (after.radius - self.radius) / step,
+        }
+    }
+
     /// The contact point of a pair whose flanks lack `lacks` (mm) of involutes, by side and arc.
     fn of(cycle: &Cycle, pair: &PairContact, lacks: &impl Fn(usize, f64) -> f64) -> Self {
         let deviation = |k: usize| (0..2).map(|side| lacks(side, pair.arc[side][k])).sum();

@@ -1,5 +1,9 @@
 //! Contact of the elastic members: the condensed flank compliance of both, seen by the contact grid of each position.
 
+mod tangent;
+
+use std::ops::Range;
+
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
@@ -7,6 +11,7 @@ use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::contact::mortar::{Trace, couple};
+use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
 use crate::fem::Compliance;
 use crate::numeric::sparse::SparseRows;
@@ -415,13 +420,9 @@ impl<'a> FemContact<'a> {
             iterations: 0,
             penetration: 0.0,
         };
-        for (measured, own) in pairs.iter().enumerate() {
-            let mut gap = gap.to_vec();
-            for (index, pair) in pairs.iter().enumerate() {
-                set_back(&mut gap, pair, alteration.offset(measured, index));
-            }
-            let solved = self.solve_gap(q, &gap, start)?;
-            let unknowns = own.offset..own.offset + own.xi.len();
+        for measured in 0..pairs.len() {
+            let (unknowns, solved) =
+                self.one_tooth_measured(q, gap, start, alteration, measured)?;
             joint.pressure[unknowns.clone()].copy_from_slice(&solved.pressure[unknowns.clone()]);
             let active = solved.active.iter().copied();
             joint.active.extend(active.filter(|k| unknowns.contains(k)));
@@ -430,6 +431,36 @@ impl<'a> FemContact<'a> {
             joint.penetration = joint.penetration.max(solved.penetration);
         }
         Ok(joint)
+    }
+
+    /// The contact with pair number `measured` that of the measured tooth, and that pair's unknowns.
+    fn one_tooth_measured(
+        &self,
+        q: usize,
+        gap: &[f64],
+        start: &[usize],
+        alteration: &Alteration,
+        measured: usize,
+    ) -> Result<(Range<usize>, PositionContact), ContactError> {
+        let pairs = &self.cycle.positions[q].pairs;
+        let mut gap = gap.to_vec();
+        for (index, pair) in pairs.iter().enumerate() {
+            set_back(&mut gap, pair, alteration.offset(measured, index));
+        }
+        let own = &pairs[measured];
+        let unknowns = own.offset..own.offset + own.xi.len();
+        Ok((unknowns, self.solve_gap(q, &gap, start)?))
+    }
+
+    /// Weighted gaps of the flanks as effects make them and as worn (depths in mm).
+    fn gap(&self, q: usize, depth: [&[f64]; 2]) -> Vec<f64> {
+        let mut gap = self.cycle.positions[q].worn_gap(depth);
+        if let Some(opened) = self.opened {
+            for (gap, opened) in gap.iter_mut().zip(&opened[q]) {
+                *gap += opened;
+            }
+        }
+        gap
     }
 }
 
@@ -444,12 +475,7 @@ impl ContactModel for FemContact<'_> {
         depth: [&[f64]; 2],
         start: &[usize],
     ) -> Result<PositionContact, ContactError> {
-        let mut gap = self.cycle.positions[q].worn_gap(depth);
-        if let Some(opened) = self.opened {
-            for (gap, opened) in gap.iter_mut().zip(&opened[q]) {
-                *gap += opened;
-            }
-        }
+        let gap = self.gap(q, depth);
         match self.alteration {
             Some(alteration) if alteration.tooth_offset.is_some() => {
                 self.each_tooth_measured(q, &gap, start, alteration)
@@ -470,5 +496,13 @@ impl ContactModel for FemContact<'_> {
                 theta: position.theta,
                 source,
             })
+    }
+    fn linearised<'m>(
+        &'m self,
+        q: usize,
+        contact: &PositionContact,
+        depth: [&[f64]; 2],
+    ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
+        Ok(Box::new(tangent::FemLinear::new(self, q, contact, depth)?))
     }
 }

@@ -8,6 +8,8 @@
 //! al. (2013); e_i are worn depth and profile deviations where the pair touches (`contact_point`). Assumed away: contact outside the path
 //! of contact, the wear's influence on the pressure's shape, and the bodies beyond the teeth.
 
+mod tangent;
+
 use nalgebra::DMatrix;
 
 use crate::analytic::hertz_line;
@@ -15,6 +17,7 @@ use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::tangent::LinearContact;
 use crate::numeric::interpolate;
 
 /// Analytic contact over one mesh cycle.
@@ -225,6 +228,15 @@ impl ContactModel for HertzContact<'_> {
         _: &PositionContact,
     ) -> Result<Option<DMatrix<f64>>, ContactError> {
         Ok(None)
+    }
+
+    fn linearised<'m>(
+        &'m self,
+        q: usize,
+        contact: &PositionContact,
+        depth: [&[f64]; 2],
+    ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
+        Ok(Box::new(tangent::HertzLinear::new(self, q, contact, depth)))
     }
 }
 

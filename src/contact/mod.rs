@@ -9,4 +9,5 @@ pub mod frame;
 pub mod hertz;
 pub mod model;
 pub mod mortar;
+pub mod tangent;
 pub mod unilateral;

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::contact::cycle::Cycle;
+use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::UnilateralError;
 
 /// Contact of all tooth pairs at one mesh position.
@@ -46,6 +47,17 @@ pub trait ContactModel: Sync {
         q: usize,
         contact: &PositionContact,
     ) -> Result<Option<DMatrix<f64>>, ContactError>;
+
+    /// The contact that was solved for the depths `depth` (mm), linearised.
+    ///
+    /// # Errors
+    /// [`ContactError`] if the active set's compliance cannot be inverted.
+    fn linearised<'m>(
+        &'m self,
+        q: usize,
+        contact: &PositionContact,
+        depth: [&[f64]; 2],
+    ) -> Result<Box<dyn LinearContact + 'm>, ContactError>;
 }
 
 /// Why contact could not be solved.

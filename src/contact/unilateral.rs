@@ -20,7 +20,7 @@ mod trial;
 use nalgebra::DMatrix;
 
 use one_by_one::one_by_one;
-pub use sensitivity::sensitivity;
+pub use sensitivity::{Linearised, sensitivity};
 use trial::Trial;
 
 /// The rigid motion that presses the bodies together.

@@ -122,13 +122,23 @@ struct RunningIn {
 
 impl Effect for RunningIn {
     fn wear_factor(&self, at: &Local) -> f64 {
-        let counted = at.cycles.powf(1.0 - self.own_contacts) * at.contacts.powf(self.own_contacts);
+        // a power of 0 or 1 is not worth its time: this is asked most often of all
+        let counted = if self.own_contacts == 0.0 {
+            at.cycles
+        } else {
+            at.cycles.powf(1.0 - self.own_contacts) * at.contacts.powf(self.own_contacts)
+        };
         let x = counted / self.decay_cycles;
         let left = if self.shape.is_infinite() {
             (-x).exp()
         } else {
             (1.0 + x / self.shape).powf(-self.shape)
         };
-        1.0 + self.amplitude * left * (-at.depth / self.decay_depth).exp()
+        let remembered = if self.decay_depth.is_infinite() {
+            1.0
+        } else {
+            (-at.depth / self.decay_depth).exp()
+        };
+        1.0 + self.amplitude * left * remembered
     }
 }

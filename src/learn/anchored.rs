@@ -5,7 +5,7 @@
 //! ```
 //! Exact at the anchor; away from it the cheap model's own error enters by its change only.
 
-use super::predictor::{PredictError, Predictor};
+use super::predictor::{Linearised, Move, PredictError, Predictor};
 
 /// A cheap model with an offset per test of the data set; none for a test without.
 pub(super) struct Anchored<P> {
@@ -36,15 +36,33 @@ impl<P: Predictor> Anchored<P> {
         }
         Ok(Self::new(model, better))
     }
+
+    fn anchor(&self, test: usize, values: &mut [f64]) {
+        if let Some(offset) = self.offset.get(test) {
+            values.iter_mut().zip(offset).for_each(|(v, o)| *v += o);
+        }
+    }
 }
 
 impl<P: Predictor> Predictor for Anchored<P> {
     fn predict(&self, test: usize, k: f64, parameters: &[f64]) -> Result<Vec<f64>, PredictError> {
         let mut values = self.model.predict(test, k, parameters)?;
-        if let Some(offset) = self.offset.get(test) {
-            values.iter_mut().zip(offset).for_each(|(v, o)| *v += o);
-        }
+        self.anchor(test, &mut values);
         Ok(values)
+    }
+
+    fn linearise(
+        &self,
+        test: usize,
+        k: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let found = self.model.linearise(test, k, parameters, moves)?;
+        Some(found.map(|mut found| {
+            self.anchor(test, &mut found.values);
+            found
+        }))
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::predictor::{PredictError, Predictor};
+use super::predictor::{Linearised, Move, PredictError, Predictor};
 
 /// Arguments of one prediction.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,12 +19,16 @@ type Key = (usize, Vec<u64>);
 /// A prediction, or why there is none.
 pub(super) type Prediction = Result<Arc<[f64]>, PredictError>;
 
+/// A prediction with its derivatives, or why there is none.
+pub(super) type Linearisation = Result<Arc<Linearised>, PredictError>;
+
 /// A predictor with a memory.
 pub(super) struct Evaluator<'a> {
     predictor: &'a dyn Predictor,
     /// Id and number of observations of each test.
     tests: Vec<(&'a str, usize)>,
     known: HashMap<Key, Prediction>,
+    linearised: HashMap<Key, Linearisation>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -33,12 +37,13 @@ impl<'a> Evaluator<'a> {
             predictor,
             tests,
             known: HashMap::new(),
+            linearised: HashMap::new(),
         }
     }
 
     /// How many predictions have been made.
     pub(super) fn evaluations(&self) -> usize {
-        self.known.len()
+        self.known.len() + self.linearised.len()
     }
 
     /// The predictions at all points, in their order.
@@ -58,11 +63,55 @@ impl<'a> Evaluator<'a> {
             .collect()
     }
 
+    /// The same with derivatives along `moves`, which belong to the parameters of all points; None if the predictor has none.
+    pub(super) fn all_linearised(
+        &mut self,
+        points: &[Point],
+        moves: &[Move],
+    ) -> Option<Vec<Linearisation>> {
+        let new: Vec<&Point> = (points.iter())
+            .filter(|point| !self.linearised.contains_key(&key(point)))
+            .collect();
+        let found: Vec<Option<Linearisation>> = (new.par_iter())
+            .map(|point| self.linearise(point, moves))
+            .collect();
+        for (point, found) in new.into_iter().zip(found) {
+            self.linearised.insert(key(point), found?);
+        }
+        let known = points
+            .iter()
+            .map(|point| self.linearised[&key(point)].clone());
+        Some(known.collect())
+    }
+
+    fn linearise(&self, point: &Point, moves: &[Move]) -> Option<Linearisation> {
+        let Point {
+            test, coefficient, ..
+        } = *point;
+        let found = (self.predictor).linearise(test, coefficient, &point.parameters, moves)?;
+        Some(found.and_then(|found| {
+            self.checked(test, &found.values)?;
+            match found.derivatives.iter().all(|slope| slope.is_finite()) {
+                true => Ok(Arc::new(found)),
+                false => Err(PredictError {
+                    test: self.tests[test].0.to_owned(),
+                    reason: "a derivative of the predictions is not finite".to_owned(),
+                }),
+            }
+        }))
+    }
+
     fn predict(&self, point: &Point) -> Prediction {
-        let (id, count) = self.tests[point.test];
         let found = self
             .predictor
             .predict(point.test, point.coefficient, &point.parameters)?;
+        self.checked(point.test, &found)?;
+        Ok(found.into())
+    }
+
+    /// Whether a test's predictions are as many as its observations, and finite.
+    fn checked(&self, test: usize, found: &[f64]) -> Result<(), PredictError> {
+        let (id, count) = self.tests[test];
         let fault = |reason: String| PredictError {
             test: id.to_owned(),
             reason,
@@ -78,7 +127,7 @@ impl<'a> Evaluator<'a> {
                 "the prediction of its observation {} is not finite",
                 row + 1
             ))),
-            None => Ok(found.into()),
+            None => Ok(()),
         }
     }
 }

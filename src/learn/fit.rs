@@ -136,15 +136,15 @@ impl Problem<'_> {
     pub(super) fn scaled(&self, start: &[f64]) -> Result<(f64, Vec<Vec<f64>>), PredictError> {
         let search = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
         let state = self.state(start, search.tests.len());
-        let (state, values) = search.scaled_start(&mut self.evaluator(), state)?;
+        let (state, answer) = search.scaled_start(&mut self.evaluator(), state, false)?;
         let mut all = vec![Vec::new(); self.data.tests.len()];
-        for (&test, values) in search.tests.iter().zip(&values) {
+        for (&test, values) in search.tests.iter().zip(&answer.values) {
             all[test] = values.to_vec();
         }
         Ok((state.log_k.exp(), all))
     }
 
-    /// The fit from where another to the same measurements ended, with the derivatives that it ended with.
+    /// The fit from where another to the same measurements ended.
     ///
     /// # Errors
     /// [`FitError`].
@@ -155,27 +155,14 @@ impl Problem<'_> {
             let known = from.parameters.iter().find(|p| p.name == parameter.name);
             *value = known.map_or(*value, |known| known.value);
         }
-        let params = theta.len();
         let mut state = self.state(&theta, fit.tests.len());
         state.log_k = from.coefficient.ln();
-        let mut jacobian = DMatrix::zeros(fit.measured.len(), params + fit.tests.len());
-        for (i, test) in fit.tests.iter().enumerate() {
-            let Some(known) = from.tests.iter().find(|known| known.test == *test) else {
-                continue;
-            };
-            state.epsilon[i] = known.deviation;
-            let derivatives = &known.uncertainty.derivatives;
-            for (&row, values) in fit.rows[i].iter().zip(derivatives.row_iter()) {
-                for p in 0..params {
-                    jacobian[(row, p)] = values[p];
-                }
-                jacobian[(row, params + i)] = values[params];
-            }
+        for (epsilon, test) in state.epsilon.iter_mut().zip(&fit.tests) {
+            let known = from.tests.iter().find(|known| known.test == *test);
+            *epsilon = known.map_or(0.0, |known| known.deviation);
         }
-        let numbers = self.numbers(&fit.tests);
-        let before: Vec<f64> = numbers.iter().map(|&row| from.rows[row].model).collect();
         let mut evaluator = self.evaluator();
-        let found = fit.go_on(&mut evaluator, state, jacobian, &before, effort)?;
+        let found = fit.go_on(&mut evaluator, state, effort)?;
         self.finish(&fit, found, &mut evaluator, effort)
     }
 

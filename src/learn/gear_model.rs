@@ -1,17 +1,22 @@
 //! The gear pair as a fit sees it: a wear history of each test, read at the measured places and times.
 //!
 //! Histories are kept, so that a wear coefficient more costs nothing where it only stretches time ([`super::trajectory`]).
+//!
+//! Derivatives come with the histories ([`crate::wear::tangent`]), with two exceptions: that by a coefficient which only stretches time is read off
+//! the history's growth, and what moves the axes goes by central differences over the centre distance, on the same steps.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use nalgebra::DMatrix;
+
 use crate::effects::{Combined, Hook, Local};
 use crate::learn::bench::Bench;
 use crate::learn::observe::Reading;
-use crate::learn::predictor::{PredictError, Predictor};
-use crate::learn::trajectory::Trajectory;
+use crate::learn::predictor::{Linearised, Move, PredictError, Predictor};
+use crate::learn::trajectory::{Node, Trajectory};
 use crate::measure::Observation;
-use crate::simulate::forward::{Forward, ForwardError, Mounting};
+use crate::simulate::forward::{Forward, ForwardError, Mounting, Variation};
 use crate::wear::acting::Acting;
 
 /// Builds the effects of a model from the values of its free parameters.
@@ -22,12 +27,22 @@ pub struct GearModel<'a> {
     bench: &'a Bench<'a>,
     effects: EffectsOf<'a>,
     stretches: bool,
-    histories: Mutex<HashMap<Key, Arc<Trajectory>>>,
+    /// Each with its derivatives, without, or both.
+    histories: Mutex<HashMap<Key, Vec<Arc<Trajectory>>>>,
     mountings: Mutex<HashMap<usize, Vec<Mounted>>>,
 }
 
 /// What a history belongs to: test, bits of the parameters, bits of the wear coefficient it was worn with.
 type Key = (usize, Vec<u64>, u64);
+
+/// How far apart the axes are moved to either side for a derivative by their distance, mm.
+const MOVED_AXES: f64 = 2e-3;
+/// How far the law is asked along a derivative by ln k.
+const STEP_K: f64 = 1e-7;
+/// From this share of the largest depth on, by which depths change along a move, a history has no usable derivatives. Moves are 1e-7 of a
+/// prior's standard deviation; ten depths in one of these are no trend. Sharp laws in an uneven pressure make such histories: each
+/// step turns on which place is pressed most, and what a parameter does to that grows from step to step.
+const UNSTEADY: f64 = 1e-6;
 
 /// A mounting that effects make, and the bits of the parameters it belongs to.
 type Mounted = (Vec<u64>, Mounting);
@@ -54,7 +69,7 @@ impl<'a> GearModel<'a> {
         self
     }
 
-    /// The history of a test up to `cycles` at least.
+    /// The history of a test up to `cycles` at least, with its derivatives by `variations` if there are any.
     ///
     /// No lock is held while it wears: whoever else wants the same one meanwhile makes the same steps.
     fn history(
@@ -62,20 +77,32 @@ impl<'a> GearModel<'a> {
         forward: &mut Forward,
         key: Key,
         cycles: f64,
+        variations: &[Variation],
     ) -> Result<Arc<Trajectory>, ForwardError> {
         let kept = || {
             self.histories
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
         };
-        let known = kept().get(&key).cloned().unwrap_or_default();
-        if known.reaches(cycles) {
-            return Ok(known);
-        }
-        let mut longer = Trajectory::clone(&known);
-        longer.reach(forward, cycles)?;
+        let same = |history: &Arc<Trajectory>| history.parameters() == variations.len();
+        let serves = |history: &&Arc<Trajectory>| {
+            history.reaches(cycles) && (variations.is_empty() || same(history))
+        };
+        let known = {
+            let kept = kept();
+            let known = kept.get(&key).map_or(&[][..], Vec::as_slice);
+            if let Some(known) = known.iter().find(serves) {
+                return Ok(Arc::clone(known));
+            }
+            known.iter().find(|known| same(known)).cloned()
+        };
+        let mut longer = known.map_or_else(Trajectory::default, |known| (*known).clone());
+        longer.reach(forward, cycles, variations)?;
         let longer = Arc::new(longer);
-        kept().insert(key, Arc::clone(&longer));
+        let mut kept = kept();
+        let all = kept.entry(key).or_default();
+        all.retain(|known| !same(known));
+        all.push(Arc::clone(&longer));
         Ok(longer)
     }
 
@@ -114,6 +141,64 @@ impl<'a> GearModel<'a> {
         Ok(forward)
     }
 
+    /// A test at some parameters, ready to be worn.
+    fn run(&self, test: usize, coefficient: f64, parameters: &[f64]) -> Run {
+        let measured = &self.bench.tests[test];
+        let effects = (self.effects)(parameters);
+        // one history in a coefficient of the test's own serves all others
+        let worn_with = if self.stretches {
+            measured.conditions.coefficient[0]
+        } else {
+            coefficient
+        };
+        let stretch = coefficient / worn_with;
+        let observed = |row: &usize| stretch * measured.observations[*row].cycles;
+        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
+        order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
+        Run {
+            test,
+            acting: (!effects.is_empty()).then(|| self.bench.acting(test, effects)),
+            worn_with,
+            stretch,
+            bits: parameters.iter().map(|p| p.to_bits()).collect(),
+            order,
+        }
+    }
+
+    /// What `of` reads of every observation of a test in a history of it.
+    fn read_off<T>(
+        &self,
+        run: &Run,
+        forward: &mut Forward<'_>,
+        history: &Trajectory,
+        variations: &[Variation],
+        of: &dyn Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
+    ) -> Result<Vec<T>, ForwardError> {
+        let measured = &self.bench.tests[run.test];
+        let observed = |row: &usize| run.stretch * measured.observations[*row].cycles;
+        let mut values: Vec<(usize, T)> = Vec::with_capacity(run.order.len());
+        for rows in run.order.chunk_by(|a, b| observed(a) == observed(b)) {
+            let mut state = history.at(observed(&rows[0]));
+            if self.stretches && !variations.is_empty() {
+                self.stretched(history, &mut state);
+            }
+            let mut reading = Reading::new(forward, &state, self.bench.set(), variations);
+            for &row in rows {
+                values.push((row, of(&mut reading, &measured.observations[row])?));
+            }
+        }
+        values.sort_by_key(|(row, _)| *row);
+        Ok(values.into_iter().map(|(_, value)| value).collect())
+    }
+
+    /// Adds the derivative by the logarithm of a coefficient that only stretches time.
+    fn stretched(&self, history: &Trajectory, state: &mut Node) {
+        let growth = history.growth(state.cycles).into_iter();
+        let depth = growth.map(|growth| growth * state.cycles).collect();
+        state.tangents.depth.push(depth);
+        state.tangents.displaced.push([0.0; 2]);
+    }
+
     /// What `of` reads of every observation of a test.
     fn read<T>(
         &self,
@@ -122,36 +207,129 @@ impl<'a> GearModel<'a> {
         parameters: &[f64],
         of: impl Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
     ) -> Result<Vec<T>, ForwardError> {
-        let measured = &self.bench.tests[test];
-        let effects = (self.effects)(parameters);
-        let acting = (!effects.is_empty()).then(|| self.bench.acting(test, effects));
-        // one history in a coefficient of the test's own serves all others
-        let worn_with = if self.stretches {
-            measured.conditions.coefficient[0]
-        } else {
-            coefficient
-        };
-        let stretch = coefficient / worn_with;
-        let bits: Vec<u64> = parameters.iter().map(|p| p.to_bits()).collect();
-        let mut forward = self.forward(test, worn_with, &bits, acting.as_ref())?;
-        let observed = |row: &usize| stretch * measured.observations[*row].cycles;
-        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
-        order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
-        let Some(last) = order.last() else {
+        let run = self.run(test, coefficient, parameters);
+        let Some(last) = self.last(&run) else {
             return Ok(Vec::new());
         };
-        let key = (test, bits, worn_with.to_bits());
-        let history = self.history(&mut forward, key, observed(last))?;
-        let mut values: Vec<(usize, T)> = Vec::with_capacity(order.len());
-        for rows in order.chunk_by(|a, b| observed(a) == observed(b)) {
-            let state = history.at(observed(&rows[0]));
-            let mut reading = Reading::new(&mut forward, &state, self.bench.set());
-            for &row in rows {
-                values.push((row, of(&mut reading, &measured.observations[row])?));
+        let mut forward = self.forward(test, run.worn_with, &run.bits, run.acting.as_ref())?;
+        let history = self.history(&mut forward, run.key(), last, &[])?;
+        self.read_off(&run, &mut forward, &history, &[], &of)
+    }
+
+    /// Cycles of the history at the last observation; None without any.
+    fn last(&self, run: &Run) -> Option<f64> {
+        let observations = &self.bench.tests[run.test].observations;
+        run.order
+            .last()
+            .map(|&row| run.stretch * observations[row].cycles)
+    }
+
+    /// Every observation with its derivatives along `moves` and by ln k; None if these follow no trend.
+    fn linearised(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Result<Option<Linearised>, ForwardError> {
+        let run = self.run(test, coefficient, parameters);
+        let columns = moves.len() + 1;
+        let Some(last) = self.last(&run) else {
+            return Ok(Some(Linearised {
+                values: Vec::new(),
+                derivatives: DMatrix::zeros(0, columns),
+            }));
+        };
+        let acting = run.acting.as_ref();
+        let shifted = |a_move: &Move| self.bench.acting(test, (self.effects)(&a_move.parameters));
+        let moved: Vec<Acting> = moves.iter().map(shifted).collect();
+        let axes = self.axes(&run, moves, &moved);
+        // what moves the axes changes nothing else
+        let tangent: Vec<usize> = (0..moves.len()).filter(|&i| axes[i] == 0.0).collect();
+        let mut variations: Vec<Variation> = (moves.iter().zip(moved).enumerate())
+            .filter(|(i, _)| axes[*i] == 0.0)
+            .map(|(_, (a_move, acting))| Variation {
+                coefficient: [0.0; 2],
+                effects: Some(acting),
+                step: a_move.step,
+            })
+            .collect();
+        variations.push(Variation {
+            coefficient: [1.0; 2],
+            effects: None,
+            step: STEP_K,
+        });
+        let carried = variations.len() - usize::from(self.stretches);
+        let mut forward = self.forward(test, run.worn_with, &run.bits, acting)?;
+        let history = self.history(&mut forward, run.key(), last, &variations[..carried])?;
+        if unsteady(&history.at(last), &variations[..carried]) {
+            return Ok(None);
+        }
+        let rows = self.read_off(&run, &mut forward, &history, &variations, &|reading, o| {
+            Ok((reading.of(o)?, reading.tangents_of(o)?))
+        })?;
+        let mut derivatives = DMatrix::zeros(rows.len(), columns);
+        let places = tangent.into_iter().chain([moves.len()]);
+        for (j, column) in places.enumerate() {
+            for (row, (_, tangents)) in rows.iter().enumerate() {
+                derivatives[(row, column)] = tangents[j];
             }
         }
-        values.sort_by_key(|(row, _)| *row);
-        Ok(values.into_iter().map(|(_, value)| value).collect())
+        let values: Vec<f64> = rows.into_iter().map(|(value, _)| value).collect();
+        if axes.iter().any(|slope| *slope != 0.0) {
+            let by_distance = self.by_distance(&run, &history, &values)?;
+            for (column, slope) in axes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
+                for (row, by_distance) in by_distance.iter().enumerate() {
+                    derivatives[(row, column)] += slope * by_distance;
+                }
+            }
+        }
+        Ok(Some(Linearised {
+            values,
+            derivatives,
+        }))
+    }
+
+    /// How far each move takes the axes apart, mm per unit; 0 for those that do not.
+    fn axes(&self, run: &Run, moves: &[Move], moved: &[Acting]) -> Vec<f64> {
+        let acting = run.acting.as_ref().filter(|a| a.acts(Hook::Operation));
+        let own = self.bench.tests[run.test].conditions.misalignment;
+        let (Some(acting), Ok(pair)) = (acting, self.bench.set().mount(own)) else {
+            return vec![0.0; moves.len()];
+        };
+        let before = acting.added_centre_distance(&pair);
+        let slope = |(a_move, moved): (&Move, &Acting)| {
+            (moved.added_centre_distance(&pair) - before) / a_move.step
+        };
+        moves.iter().zip(moved).map(slope).collect()
+    }
+
+    /// Derivatives of every observation by the centre distance, per mm: central differences of two runs on the steps of `history`, or to
+    /// one side of its `values` where the gears cannot run on the other.
+    fn by_distance(
+        &self,
+        run: &Run,
+        history: &Trajectory,
+        values: &[f64],
+    ) -> Result<Vec<f64>, ForwardError> {
+        let template = &self.bench.templates[run.test];
+        let at = |farther: f64| -> Result<Vec<f64>, ForwardError> {
+            let coefficient = [run.worn_with; 2];
+            let mut forward = template.again_moved(coefficient, run.acting.as_ref(), farther)?;
+            let moved = history.along(&mut forward)?;
+            self.read_off(run, &mut forward, &moved, &[], &|reading, o| reading.of(o))
+        };
+        let (low, high) = rayon::join(|| at(-MOVED_AXES), || at(MOVED_AXES));
+        let slope = |low: &[f64], high: &[f64], apart: f64| -> Vec<f64> {
+            let both = low.iter().zip(high);
+            both.map(|(low, high)| (high - low) / apart).collect()
+        };
+        match (low, high) {
+            (Ok(low), Ok(high)) => Ok(slope(&low, &high, 2.0 * MOVED_AXES)),
+            (Ok(low), Err(_)) => Ok(slope(&low, values, MOVED_AXES)),
+            (Err(_), Ok(high)) => Ok(slope(values, &high, MOVED_AXES)),
+            (Err(error), Err(_)) => Err(error),
+        }
     }
 
     /// What every observation of a test feels where and when it was made; none for what stands nowhere on a flank.
@@ -191,4 +369,45 @@ impl Predictor for GearModel<'_> {
         })
         .map_err(|error| self.failed(test, &error))
     }
+    fn linearise(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let found = self.linearised(test, coefficient, parameters, moves);
+        found.map_err(|error| self.failed(test, &error)).transpose()
+    }
 }
+
+/// Whether the depths of a state hang on a parameter by more than any trend.
+fn unsteady(state: &Node, variations: &[Variation]) -> bool {
+    let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let deepest = largest(&state.u);
+    let mut each = state.tangents.depth.iter().zip(variations);
+    each.any(|(slopes, variation)| largest(slopes) * variation.step.abs() > UNSTEADY * deepest)
+}
+
+/// One test at some parameters.
+struct Run {
+    test: usize,
+    acting: Option<Acting>,
+    /// Wear coefficient of the history, mm²/N.
+    worn_with: f64,
+    /// Cycles of the history per cycle of the test.
+    stretch: f64,
+    /// The parameters.
+    bits: Vec<u64>,
+    /// The observations by ascending cycles.
+    order: Vec<usize>,
+}
+
+impl Run {
+    fn key(&self) -> Key {
+        (self.test, self.bits.clone(), self.worn_with.to_bits())
+    }
+}
+
+#[cfg(test)]
+mod tests;

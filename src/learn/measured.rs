@@ -8,7 +8,7 @@ use crate::learn::fitted::Fit;
 use crate::learn::gear_model::GearModel;
 use crate::learn::noise::NoiseModel;
 use crate::learn::parameters::Parameter;
-use crate::learn::predictor::{PredictError, Predictor};
+use crate::learn::predictor::{Linearised, Move, PredictError, Predictor};
 use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{ContactKind, ForwardError};
@@ -203,6 +203,12 @@ struct Counted<'w, P> {
     watch: &'w (dyn Fn(usize) + Sync),
 }
 
+impl<P> Counted<'_, P> {
+    fn tell(&self) {
+        (self.watch)(self.count.fetch_add(1, Ordering::Relaxed) + 1);
+    }
+}
+
 impl<P: Predictor> Predictor for Counted<'_, P> {
     fn predict(
         &self,
@@ -211,8 +217,20 @@ impl<P: Predictor> Predictor for Counted<'_, P> {
         parameters: &[f64],
     ) -> Result<Vec<f64>, PredictError> {
         let found = self.model.predict(test, coefficient, parameters);
-        (self.watch)(self.count.fetch_add(1, Ordering::Relaxed) + 1);
+        self.tell();
         found
+    }
+
+    fn linearise(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let found = self.model.linearise(test, coefficient, parameters, moves)?;
+        self.tell();
+        Some(found)
     }
 }
 

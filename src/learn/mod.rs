@@ -57,7 +57,7 @@ pub use ladder::{Improvement, LadderStep, Version, ladder};
 pub use measured::{Measured, ModelVersion};
 pub use noise::{Datum, ModelError, NoiseModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};
-pub use predictor::{PredictError, Predictor};
+pub use predictor::{Linearised, Move, PredictError, Predictor};
 pub use ratio::Ratio;
 pub use search::Effort;
 pub use synthesize::{Synthetic, synthesize};

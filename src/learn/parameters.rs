@@ -8,8 +8,8 @@ use crate::study::{COEFFICIENT_BOUNDS, COEFFICIENT_PRIOR};
 
 /// Name of the wear coefficient in `[fit] free` and in results.
 pub const COEFFICIENT: &str = "wear.coefficient";
-/// Step of the forward differences, in prior standard deviations of the natural scale: large enough to stand out of the rounding of
-/// predictions that are themselves computed with adaptive steps, small enough not to step over a narrow hill of a flat prior.
+/// Step of the forward differences where a predictor has no derivatives of its own, in prior standard deviations of the natural scale: large
+/// enough to stand out of the rounding of adaptive steps, small enough not to step over a narrow hill of a flat prior.
 const DIFFERENCE: f64 = 0.02;
 /// Distance to a bound, in the parameter's posterior standard deviations, that counts as lying on it.
 const AT_BOUND: f64 = 1e-3;

@@ -1,15 +1,14 @@
 //! The most probable state: Levenberg and Marquardt's damped Gauss-Newton steps within bounds.
 //!
-//! One round asks for the predictions of all tests at one state, or for all tests' derivatives by forward differences: these run
-//! side by side. ∂f_t/∂ln k and ∂f_t/∂ε_t are one and the same. Close to where derivatives were taken they are kept up to date by
-//! Broyden's formula instead of being taken anew. The scatter σ_k is chosen anew before each step (see [`super::scatter`]).
+//! Every state that is tried is predicted with its derivatives, exact for the gears ([`crate::wear::tangent`]); a predictor without any is
+//! differenced where a step was accepted. All tests run side by side. ∂f_t/∂ln k and ∂f_t/∂ε_t are one and the same. The scatter σ_k is
+//! chosen anew before each step (see [`super::scatter`]).
 //!
-//! Predictions that are simulations are rough: contacts enter and leave a grid, steps are cut anew. Over a short move that roughness
-//! outweighs the change itself; carried into derivatives it makes them too large, so that a fit seems to be at rest where it is not, and
-//! its parameters better known than they are. So derivatives are not carried over moves shorter than a difference, and a fit settles:
-//! where it comes to rest they are taken once more, central and over two posterior standard deviations to each side.
+//! Derivatives hold for the steps that a wear history takes. Another state's history takes others, so that predictions carry the rounding of
+//! their step control, which no derivative sees: where a fit finds no better state although one is promised, that rounding may be all that is left
+//! ([`Effort::floor`]).
 
-mod derivatives;
+mod differences;
 
 use std::sync::Arc;
 
@@ -18,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 use super::evaluate::{Evaluator, Point};
 use super::noise::Covariance;
 use super::parameters::Parameter;
-use super::predictor::PredictError;
+use super::predictor::{Move, PredictError};
 use super::quadratic::{Layout, Normal, Quadratic, State};
 use super::scatter::most_probable;
 use crate::study::Scatter;
@@ -33,10 +32,6 @@ pub struct Effort {
     /// Loss of ln posterior that a step which fails to better it may have promised and the fit still counts as converged:
     /// the predictions' own rounding then hides the rest. 0.05 is a third of a standard deviation.
     pub floor: f64,
-    /// How far, in prior standard deviations (for ln k: 1), derivatives are carried before they are taken anew.
-    pub carry: f64,
-    /// How often, at most, derivatives are taken anew where a fit comes to rest; 0: it ends with those it has.
-    pub settle: usize,
     /// Part of the misfit beyond noise by which the promise and the loss above may be larger: where a model is far from its measurements
     /// its last decimals say nothing, and the rounding of its predictions weighs more.
     pub share: f64,
@@ -48,8 +43,6 @@ impl Default for Effort {
             iterations: 40,
             tolerance: 1e-4,
             floor: 0.05,
-            carry: 0.1,
-            settle: 0,
             share: 0.0,
         }
     }
@@ -61,8 +54,6 @@ impl Effort {
         iterations: 0,
         tolerance: 0.0,
         floor: 0.0,
-        carry: 0.0,
-        settle: 0,
         share: 0.0,
     };
 
@@ -73,8 +64,6 @@ impl Effort {
             iterations: 15,
             tolerance: 1e-2,
             floor: 0.3,
-            carry: 0.3,
-            settle: 3,
             share: 3e-4,
         }
     }
@@ -113,14 +102,18 @@ pub(super) struct Found {
 /// By how much a first k is made smaller where the model has no answer, and how often at most.
 const SMALLER: f64 = 3.0;
 const SMALLER_STARTS: usize = 8;
-/// Step of the differences in ln k of a test.
-const DIFFERENCE_K: f64 = 0.02;
-
-/// Whitened sum of squares by which model values may have moved under derivatives that are kept.
-const MOVED: f64 = 1.0;
+/// Length of the moves along which predictors are asked for derivatives, in the prior's scale.
+const MOVE: f64 = 1e-7;
 
 /// Model values per test.
 type Values = Vec<Arc<[f64]>>;
+
+/// What the model says at a state.
+pub(super) struct Answer {
+    pub(super) values: Values,
+    /// Derivatives of the rows with respect to (θ, ln k_t), if the predictor has any.
+    jacobian: Option<DMatrix<f64>>,
+}
 
 impl Search<'_> {
     /// Searches from `state`; `theta` of the state is also what the predictor is given where no parameter is free.
@@ -130,100 +123,52 @@ impl Search<'_> {
         state: State,
         effort: &Effort,
     ) -> Result<Found, PredictError> {
-        let (state, values) = self.scaled_start(evaluator, state)?;
-        let jacobian = self.derivatives(evaluator, &state, &values)?;
-        self.descend(evaluator, state, values, jacobian, None, effort)
+        let (state, answer) = self.scaled_start(evaluator, state, true)?;
+        self.descend(evaluator, state, answer, effort)
     }
 
-    /// Goes on from `state`, where another search settled with these derivatives and model values: if the derivatives promise
-    /// nothing, it ends there, unless the values have moved so much that derivatives will have too.
+    /// Searches from where another search ended: as [`Search::run`], with k as it is.
     pub(super) fn go_on(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: State,
-        jacobian: DMatrix<f64>,
-        before: &[f64],
         effort: &Effort,
     ) -> Result<Found, PredictError> {
-        let values = self.predict(evaluator, &state)?;
-        let joined = self.joined(&values);
-        let moved: Vec<f64> = joined.iter().zip(before).map(|(now, b)| now - b).collect();
-        let same = squared(&self.covariance.whiten(&moved)) < MOVED;
-        let settled = same.then(|| state.clone());
-        self.descend(evaluator, state, values, jacobian, settled, effort)
+        let answer = self.ask(evaluator, &state, true)?;
+        self.descend(evaluator, state, answer, effort)
     }
 
     fn descend(
         &self,
         evaluator: &mut Evaluator<'_>,
         mut state: State,
-        mut values: Values,
-        mut jacobian: DMatrix<f64>,
-        mut settled_at: Option<State>,
+        answer: Answer,
         effort: &Effort,
     ) -> Result<Found, PredictError> {
-        let mut taken_at = state.clone();
+        let mut jacobian = self.jacobian(evaluator, &state, &answer)?;
+        let mut values = answer.values;
         let mut damping = 1e-3;
-        let (mut iterations, mut rounds) = (0, 0);
+        let mut iterations = 0;
         let (converged, scatter, normal) = loop {
             let normal = self.normal(&values, &jacobian);
             let scatter = most_probable(self.scatter, &self.layout, &normal, &state);
             let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
-            let fresh = taken_at == state;
             let promised = quadratic.step(0.0).decrease;
             let beyond = 0.5 * (normal.square - self.measured.len() as f64).max(0.0);
-            let tolerance = effort.tolerance + effort.share * beyond;
-            let floor = effort.floor + effort.share * beyond;
-            let settled = rounds == effort.settle
-                || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
-            if promised <= tolerance {
-                if !settled {
-                    jacobian = self.central(evaluator, &state, &values, &quadratic)?;
-                    (taken_at, settled_at) = (state.clone(), Some(state.clone()));
-                    rounds += 1;
-                    continue;
-                }
-                if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
-                    break (true, scatter, normal);
-                }
-                jacobian = self.derivatives(evaluator, &state, &values)?;
-                taken_at = state.clone();
-                continue;
+            if promised <= effort.tolerance + effort.share * beyond {
+                break (true, scatter, normal);
             }
             if iterations == effort.iterations {
                 break (false, scatter, normal);
             }
             iterations += 1;
             let tried = self.improve(evaluator, &quadratic, &state, scatter, &mut damping);
-            let Some((next, next_values)) = tried else {
-                if !settled {
-                    jacobian = self.central(evaluator, &state, &values, &quadratic)?;
-                    (taken_at, settled_at) = (state.clone(), Some(state.clone()));
-                    rounds += 1;
-                    damping = 1e-3;
-                    continue;
-                }
-                if promised <= floor {
-                    break (true, scatter, normal);
-                }
-                if fresh {
-                    break (false, scatter, normal);
-                }
-                jacobian = self.derivatives(evaluator, &state, &values)?;
-                taken_at = state.clone();
-                damping = 1e-3;
-                continue;
+            let Some((next, answer)) = tried else {
+                let floor = effort.floor + effort.share * beyond;
+                break (promised <= floor, scatter, normal);
             };
-            if effort.settle > 0 && self.near(&state, &next) {
-                (state, values) = (next, next_values);
-            } else if self.distance(&taken_at, &next) <= effort.carry {
-                self.broyden(&mut jacobian, [&state, &next], [&values, &next_values]);
-                (state, values) = (next, next_values);
-            } else {
-                (state, values) = (next, next_values);
-                jacobian = self.derivatives(evaluator, &state, &values)?;
-                taken_at = state.clone();
-            }
+            jacobian = self.jacobian(evaluator, &next, &answer)?;
+            (state, values) = (next, answer.values);
         };
         Ok(Found {
             objective: self.layout.objective(normal.square, &state, scatter),
@@ -243,8 +188,8 @@ impl Search<'_> {
         evaluator: &mut Evaluator<'_>,
         state: State,
     ) -> Result<f64, PredictError> {
-        let (_, values) = self.scaled_start(evaluator, state)?;
-        Ok(squared(&self.covariance.whiten(&self.residual(&values))))
+        let (_, answer) = self.scaled_start(evaluator, state, false)?;
+        Ok(self.square(&answer.values))
     }
 
     /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none.
@@ -255,18 +200,18 @@ impl Search<'_> {
         state: &State,
         scatter: f64,
         damping: &mut f64,
-    ) -> Option<(State, Values)> {
+    ) -> Option<(State, Answer)> {
         for _ in 0..8 {
             let step = quadratic.step(*damping);
             let next = self.layout.moved(state, &step.x, scatter);
-            if let Ok(values) = self.predict(evaluator, &next) {
-                let square = squared(&self.covariance.whiten(&self.residual(&values)));
+            if let Ok(answer) = self.ask(evaluator, &next, true) {
+                let square = self.square(&answer.values);
                 let gained = quadratic.value - self.layout.objective(square, &next, scatter);
                 if gained > 1e-3 * step.decrease {
                     let good = gained > 0.75 * step.decrease;
                     *damping = if good { *damping * 0.1 } else { *damping };
                     *damping = damping.max(1e-6);
-                    return Some((next, values));
+                    return Some((next, answer));
                 }
             }
             *damping = (*damping * 10.0).max(0.1);
@@ -274,15 +219,16 @@ impl Search<'_> {
         None
     }
 
-    /// The start with k (if free) scaled so that wear has the size of the measured one.
+    /// The start with k (if free) scaled so that wear has the size of the measured one, and what the model says there.
     pub(super) fn scaled_start(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: State,
-    ) -> Result<(State, Values), PredictError> {
-        let (mut state, values) = self.first(evaluator, state)?;
+        differentiated: bool,
+    ) -> Result<(State, Answer), PredictError> {
+        let (mut state, answer) = self.first(evaluator, state, differentiated)?;
         let Some(prior) = &self.layout.coefficient else {
-            return Ok((state, values));
+            return Ok((state, answer));
         };
         let only_worn = |v: Vec<f64>| -> Vec<f64> {
             v.iter()
@@ -290,33 +236,35 @@ impl Search<'_> {
                 .map(|(v, &worn)| if worn { *v } else { 0.0 })
                 .collect()
         };
-        let model = self.covariance.whiten(&only_worn(self.joined(&values)));
+        let model = self
+            .covariance
+            .whiten(&only_worn(self.joined(&answer.values)));
         let measured = self.covariance.whiten(&only_worn(self.measured.clone()));
         let product: f64 = model.iter().zip(&measured).map(|(f, y)| f * y).sum();
         let factor = (product / squared(&model)).clamp(0.01, 100.0);
         if !factor.is_finite() || product <= 0.0 || factor.ln().abs() < 0.1 {
-            return Ok((state, values));
+            return Ok((state, answer));
         }
         let before = state.log_k;
         state.log_k = (before + factor.ln()).clamp(prior.lower, prior.upper);
-        if let Ok(scaled) = self.predict(evaluator, &state) {
-            let square = |values| squared(&self.covariance.whiten(&self.residual(values)));
-            if square(&scaled) < square(&values) {
-                return Ok((state, scaled));
-            }
+        if let Ok(scaled) = self.ask(evaluator, &state, differentiated)
+            && self.square(&scaled.values) < self.square(&answer.values)
+        {
+            return Ok((state, scaled));
         }
         state.log_k = before;
-        Ok((state, values))
+        Ok((state, answer))
     }
 
-    /// The predictions at a start, with k (if free) so much smaller that there are any: a first guess of k, or an effect at its first
+    /// What the model says at a start, with k (if free) so much smaller that it says anything: a first guess of k, or an effect at its first
     /// values, may wear the flanks beyond what a model can follow.
     fn first(
         &self,
         evaluator: &mut Evaluator<'_>,
         mut state: State,
-    ) -> Result<(State, Values), PredictError> {
-        let mut found = self.predict(evaluator, &state);
+        differentiated: bool,
+    ) -> Result<(State, Answer), PredictError> {
+        let mut found = self.ask(evaluator, &state, differentiated);
         if let Some(prior) = &self.layout.coefficient {
             let mut smaller = state.clone();
             for _ in 0..SMALLER_STARTS {
@@ -324,12 +272,80 @@ impl Search<'_> {
                 if found.is_ok() || smaller.log_k < prior.lower {
                     break;
                 }
-                if let Ok(values) = self.predict(evaluator, &smaller) {
-                    (state, found) = (smaller.clone(), Ok(values));
+                if let Ok(answer) = self.ask(evaluator, &smaller, differentiated) {
+                    (state, found) = (smaller.clone(), Ok(answer));
                 }
             }
         }
         Ok((state, found?))
+    }
+
+    /// What the model says at a state; with derivatives if they are wanted and the predictor has any.
+    fn ask(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        differentiated: bool,
+    ) -> Result<Answer, PredictError> {
+        let tests = 0..self.tests.len();
+        let points: Vec<Point> = tests.map(|test| self.point(state, test)).collect();
+        let linearised = if differentiated {
+            evaluator.all_linearised(&points, &self.moves(state))
+        } else {
+            None
+        };
+        let Some(linearised) = linearised else {
+            let values: Result<Values, _> = evaluator.all(&points).into_iter().collect();
+            return Ok(Answer {
+                values: values?,
+                jacobian: None,
+            });
+        };
+        let params = self.layout.parameters.len();
+        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        let mut values = Vec::with_capacity(self.tests.len());
+        for (test, found) in linearised.into_iter().enumerate() {
+            let found = found?;
+            for (&row, slopes) in self.rows[test].iter().zip(found.derivatives.row_iter()) {
+                for p in 0..params {
+                    jacobian[(row, p)] = slopes[p];
+                }
+                jacobian[(row, params + test)] = slopes[params];
+            }
+            values.push(found.values.as_slice().into());
+        }
+        Ok(Answer {
+            values,
+            jacobian: Some(jacobian),
+        })
+    }
+
+    /// The derivatives that came with an answer, else differences.
+    fn jacobian(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        answer: &Answer,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        match &answer.jacobian {
+            Some(jacobian) => Ok(jacobian.clone()),
+            None => self.differences(evaluator, state, &answer.values),
+        }
+    }
+
+    /// A small move of each parameter that is searched, away from a near bound; its length is told on the natural scale.
+    fn moves(&self, state: &State) -> Vec<Move> {
+        let here = self.values(&state.theta);
+        let of = |p: usize| {
+            let prior = &self.layout.parameters[p];
+            let step = MOVE * prior.scale();
+            let inside = state.theta[p] + step <= prior.upper;
+            let step = if inside { step } else { -step };
+            let mut parameters = here.to_vec();
+            parameters[p] = self.parameters[p].value(state.theta[p] + step);
+            Move { parameters, step }
+        };
+        (0..self.layout.parameters.len()).map(of).collect()
     }
 
     fn point(&self, state: &State, test: usize) -> Point {
@@ -347,39 +363,6 @@ impl Search<'_> {
             .zip(theta)
             .map(|(p, &x)| p.value(x))
             .collect()
-    }
-
-    fn predict(
-        &self,
-        evaluator: &mut Evaluator<'_>,
-        state: &State,
-    ) -> Result<Values, PredictError> {
-        let points: Vec<Point> = (0..self.tests.len())
-            .map(|t| self.point(state, t))
-            .collect();
-        evaluator.all(&points).into_iter().collect()
-    }
-
-    /// Whether two states are no farther apart than a forward difference, in any unknown.
-    fn near(&self, a: &State, b: &State) -> bool {
-        let theta = self.parameters.iter().zip(a.theta.iter().zip(&b.theta));
-        let mut theta = theta.map(|(p, (a, b))| (a - b).abs() <= p.difference(*a).abs());
-        let tests = a.epsilon.iter().zip(&b.epsilon);
-        let mut tests = tests.map(|(e, f)| (a.log_k + e - b.log_k - f).abs() <= DIFFERENCE_K);
-        theta.all(|near| near) && tests.all(|near| near)
-    }
-
-    /// How far two states are apart in the priors' scales.
-    fn distance(&self, a: &State, b: &State) -> f64 {
-        let theta = self
-            .layout
-            .parameters
-            .iter()
-            .zip(a.theta.iter().zip(&b.theta));
-        let theta = theta.map(|(prior, (a, b))| (a - b).abs() / prior.scale());
-        let tests = a.epsilon.iter().zip(&b.epsilon);
-        let tests = tests.map(|(e, f)| (a.log_k + e - b.log_k - f).abs());
-        theta.chain(tests).fold(0.0, f64::max)
     }
 
     fn normal(&self, values: &Values, jacobian: &DMatrix<f64>) -> Normal {
@@ -404,6 +387,11 @@ impl Search<'_> {
             }
         }
         joined
+    }
+
+    /// Sum of the squared whitened residuals.
+    fn square(&self, values: &Values) -> f64 {
+        squared(&self.covariance.whiten(&self.residual(values)))
     }
 
     fn residual(&self, values: &Values) -> Vec<f64> {

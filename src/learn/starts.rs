@@ -17,7 +17,6 @@ const LOOK: Effort = Effort {
     iterations: 15,
     tolerance: 0.1,
     floor: 0.3,
-    carry: 0.3,
     ..Effort::STAY
 };
 /// From so many free parameters of an effect on, places spread over their priors are looked at: so many for each parameter, and so many

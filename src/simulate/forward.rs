@@ -1,5 +1,6 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
+mod derivatives;
 mod preparation;
 
 use std::sync::Arc;
@@ -15,13 +16,15 @@ use crate::gear::PairError;
 pub use crate::simulate::gear_set::GearSet;
 use crate::simulate::gear_set::MOST_UNKNOWNS;
 use crate::simulate::history::{
-    Progress, StepReport, WearLaw, WearState, contacts_at, line_load, state_of, wear_until,
+    HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at, line_load, state_of,
+    wear_with_tangents,
 };
 use crate::simulate::members::{MemberError, Members};
 use crate::simulate::numerics::Numerics;
 use crate::wear::acting::Acting;
 use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
+pub use derivatives::{DifferentiatedContacts, Variation};
 use preparation::{Altered, Prepared, Shelf};
 pub use preparation::{Mounting, Preparation};
 
@@ -114,6 +117,37 @@ pub struct Forward<'a> {
 }
 
 impl<'a> Forward<'a> {
+    /// A fresh run under the same conditions, on what this one has prepared, with another tolerance of its wear steps. The members are to be
+    /// unworn.
+    ///
+    /// # Errors
+    /// [`ForwardError::Effect`] if an effect gives no number.
+    pub fn stepping(&self, tolerance: f64) -> Result<Self, ForwardError> {
+        let mut out = Self {
+            set: self.set,
+            conditions: self.conditions,
+            numerics: Numerics {
+                step_tolerance: tolerance,
+                ..self.numerics
+            },
+            kind: self.kind,
+            members: self.members,
+            cycle: Arc::clone(&self.cycle),
+            compliance: self.compliance.clone(),
+            points: Vec::new(),
+            condensed_at: None,
+            worn: None,
+            extended: self.extended.clone(),
+            prepared: Arc::clone(&self.prepared),
+            shares: self.shares,
+            factorisations: 0,
+            acting: self.acting,
+            altered: None,
+        };
+        out.alter()?;
+        Ok(out)
+    }
+
     /// Prepares a run: by finite elements if `members` are given, else analytically.
     ///
     /// # Errors
@@ -138,21 +172,22 @@ impl<'a> Forward<'a> {
         numerics: Numerics,
         acting: Option<&'a Acting>,
     ) -> Result<Self, ForwardError> {
-        Self::mounted(set, members, conditions, numerics, acting, None)
+        Self::mounted(set, members, conditions, numerics, acting, (None, 0.0))
     }
 
-    /// As [`Forward::with_effects`], on as fine grids as those of `as_before` and looking for contact within its window and reach.
+    /// As [`Forward::with_effects`], on as fine grids as those of a cycle before and looking for contact within its window and reach, and
+    /// with the axes this much (mm) farther apart than effects move them.
     fn mounted(
         set: &'a GearSet,
         members: Option<&'a Members>,
         mut conditions: Conditions,
         numerics: Numerics,
         acting: Option<&'a Acting>,
-        as_before: Option<&Cycle>,
+        (as_before, farther): (Option<&Cycle>, f64),
     ) -> Result<Self, ForwardError> {
         let mut pair = set.mount(conditions.misalignment)?;
         if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
-            conditions.misalignment += acting.added_centre_distance(&pair);
+            conditions.misalignment += acting.added_centre_distance(&pair) + farther;
             pair = set.mount_moved(conditions.misalignment)?;
         }
         let torque = conditions.torque / set.face_width;
@@ -213,18 +248,30 @@ impl<'a> Forward<'a> {
     ) -> Result<Forward<'b>, ForwardError> {
         if acting.is_some_and(|acting| acting.acts(Hook::Operation)) || self.worn.is_some() {
             // another mounting is another mesh cycle
-            let conditions = Conditions {
-                coefficient,
-                ..self.conditions
-            };
-            let before = Some(self.cycle.as_ref());
-            let (members, numerics) = (self.members(), self.numerics);
-            let mut out =
-                Forward::mounted(self.set, members, conditions, numerics, acting, before)?;
-            out.shares = true;
-            return Ok(out);
+            return self.again_moved(coefficient, acting, 0.0);
         }
         self.again_at(&self.mounting(), coefficient, acting)
+    }
+
+    /// As [`Forward::again`] where effects move the axes, with these this much (mm) farther apart.
+    ///
+    /// # Errors
+    /// As [`Forward::with_effects`].
+    pub fn again_moved<'b>(
+        &'b self,
+        coefficient: [f64; 2],
+        acting: Option<&'b Acting>,
+        farther: f64,
+    ) -> Result<Forward<'b>, ForwardError> {
+        let conditions = Conditions {
+            coefficient,
+            ..self.conditions
+        };
+        let as_before = (Some(self.cycle.as_ref()), farther);
+        let (members, numerics) = (self.members(), self.numerics);
+        let mut out = Forward::mounted(self.set, members, conditions, numerics, acting, as_before)?;
+        out.shares = true;
+        Ok(out)
     }
 
     /// As [`Forward::again`], at a mounting where effects with the same parameters have been before.
@@ -383,6 +430,24 @@ impl<'a> Forward<'a> {
         stop: f64,
         observe: &mut dyn FnMut(&Preparation, &Progress) -> bool,
     ) -> Result<bool, ForwardError> {
+        let mut none = HistoryTangents::default();
+        self.wear_with_tangents(progress, stop, (&[], &mut none), &mut |p, progress, _| {
+            observe(p, progress)
+        })
+    }
+
+    /// As [`Forward::wear_to`], with the derivatives by each parameter of `variations` (empty: those of fresh flanks), which
+    /// `observe` sees too.
+    ///
+    /// # Errors
+    /// As [`Forward::wear_to`].
+    pub fn wear_with_tangents(
+        &mut self,
+        progress: &mut Option<Progress>,
+        stop: f64,
+        (variations, tangents): (&[Variation], &mut HistoryTangents),
+        observe: &mut dyn FnMut(&Preparation, &Progress, &HistoryTangents) -> bool,
+    ) -> Result<bool, ForwardError> {
         let law = WearLaw {
             coefficient: self.conditions.coefficient,
             acting: self.acting,
@@ -398,12 +463,21 @@ impl<'a> Forward<'a> {
             let condense_after = self.numerics.condense_after;
             let mut go_on = true;
             let mut stale = false;
+            let directions = self.directions(variations);
             let outcome = self.with_model(|model| {
-                wear_until(model, law, progress, stop, &mut |progress| {
-                    go_on = observe(&preparation, progress);
-                    stale = elastic && preparation.is_stale(&progress.stand.u, condense_after);
-                    go_on && !stale
-                })
+                let with = (directions.as_slice(), &mut *tangents);
+                wear_with_tangents(
+                    model,
+                    law,
+                    progress,
+                    stop,
+                    with,
+                    &mut |progress, tangents| {
+                        go_on = observe(&preparation, progress, tangents);
+                        stale = elastic && preparation.is_stale(&progress.stand.u, condense_after);
+                        go_on && !stale
+                    },
+                )
             });
             match outcome {
                 Ok(_) if !go_on => return Ok(false),

@@ -4,7 +4,8 @@ use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::wear::acting::Acting;
 use crate::wear::archard::{ArchardSystem, AreaRate, WearError};
-use crate::wear::integrator::{Stand, StepControl, StepError, WearSystem, advance};
+use crate::wear::integrator::{Stand, Step, StepControl, StepError, WearSystem, advance};
+use crate::wear::tangent::{Differentiated, Direction};
 
 /// The flanks after some cycles, and how they mesh then.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,6 +131,59 @@ impl WearLaw<'_> {
     }
 }
 
+/// Derivatives of a history where it stands, by parameter.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HistoryTangents {
+    /// Of the depths at the stations of pinion and gear, mm per unit.
+    pub depth: Vec<Vec<f64>>,
+    /// Of [`Progress::displaced`], mm² per unit.
+    pub displaced: Vec<[f64; 2]>,
+    /// Of its rate at the last step's end.
+    displaced_rate: Vec<[f64; 2]>,
+}
+
+impl HistoryTangents {
+    /// Of a state read between steps.
+    pub fn read(depth: Vec<Vec<f64>>, displaced: Vec<[f64; 2]>) -> Self {
+        Self {
+            depth,
+            displaced,
+            displaced_rate: Vec::new(),
+        }
+    }
+
+    /// Of fresh flanks with so many stations, by so many parameters.
+    fn fresh(parameters: usize, stations: usize) -> Self {
+        Self {
+            depth: vec![vec![0.0; stations]; parameters],
+            displaced: vec![[0.0; 2]; parameters],
+            displaced_rate: vec![[0.0; 2]; parameters],
+        }
+    }
+
+    /// Takes the derivatives over a step that ended with the depths `u` at `n` cycles; `displaces`: whether an effect displaces material.
+    fn follow<M: ContactModel + ?Sized>(
+        &mut self,
+        system: &mut Differentiated<'_, '_, M>,
+        step: &Step,
+        (n, u): (f64, &[f64]),
+        displaces: bool,
+    ) -> Result<(), WearError> {
+        step.follow(system, &mut self.depth)?;
+        if displaces {
+            let rates = system.displaced_tangents(n, u, &self.depth)?;
+            let before = std::mem::replace(&mut self.displaced_rate, rates);
+            let rates = before.iter().zip(&self.displaced_rate);
+            for (displaced, (before, after)) in self.displaced.iter_mut().zip(rates) {
+                for side in 0..2 {
+                    displaced[side] += 0.5 * step.length() * (before[side] + after[side]);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Integrates wear under `model` from `progress` (or fresh flanks) to `end` cycles; `observe` sees every step and may stop
 /// the run by returning false.
 ///
@@ -141,6 +195,24 @@ pub fn wear_until<M: ContactModel + ?Sized>(
     progress: &mut Option<Progress>,
     end: f64,
     observe: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<bool, StepError<WearError>> {
+    let mut none = HistoryTangents::default();
+    wear_with_tangents(model, law, progress, end, (&[], &mut none), &mut |p, _| {
+        observe(p)
+    })
+}
+
+/// As [`wear_until`], with the derivatives along each of the directions (empty: those of fresh flanks), which `observe` sees too.
+///
+/// # Errors
+/// As [`wear_until`].
+pub fn wear_with_tangents<M: ContactModel + ?Sized>(
+    model: &M,
+    law: WearLaw<'_>,
+    progress: &mut Option<Progress>,
+    end: f64,
+    (directions, tangents): (&[Direction<'_>], &mut HistoryTangents),
+    observe: &mut dyn FnMut(&Progress, &HistoryTangents) -> bool,
 ) -> Result<bool, StepError<WearError>> {
     let cycle = model.cycle();
     let mut system = ArchardSystem::new(model, law.coefficient).with(law.acting);
@@ -171,12 +243,15 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         }
     };
     let progress = progress.as_mut().expect("filled above");
+    if tangents.depth.is_empty() {
+        *tangents = HistoryTangents::fresh(directions.len(), progress.stand.u.len());
+    }
     let solves_before = progress.solves;
     system.start_from(&progress.warm);
     while progress.stand.n < end {
         // with the balance, a step counts only once the contact at its end is known too
         let mut stand = progress.stand.clone();
-        advance(&mut system, &mut stand, end, control)?;
+        let step = advance(&mut system, &mut stand, end, control)?;
         let rate = area_rate(&mut system, stand.n, &stand.u)
             .map_err(|source| StepError::System { n: stand.n, source })?;
         let (pinion, gear) = stand.u.split_at(cycle.stations.arc[0].len());
@@ -192,8 +267,18 @@ pub fn wear_until<M: ContactModel + ?Sized>(
         progress.solves = solves_before + system.solves;
         system.warm().clone_into(&mut progress.warm);
         progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
+        if !directions.is_empty() {
+            let mut differentiated = Differentiated {
+                system: &mut system,
+                directions,
+            };
+            let displaces = law.acting.is_some_and(|a| a.effects.displaces());
+            tangents
+                .follow(&mut differentiated, &step, (stand.n, &stand.u), displaces)
+                .map_err(|source| StepError::System { n: stand.n, source })?;
+        }
         progress.stand = stand;
-        if !observe(progress) {
+        if !observe(progress, tangents) {
             return Ok(false);
         }
     }

@@ -16,14 +16,12 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::contact::cycle::{PairContact, Position};
-use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::effects::{Effect, Hook};
-use crate::gear::Member;
 use crate::numeric::sparse::SparseRows;
-use crate::wear::acting::{Acting, Age, PairLoad, side};
-use crate::wear::factors::{Worn, factors};
+use crate::wear::acting::Acting;
 use crate::wear::integrator::WearSystem;
+use crate::wear::law::{AddedReads, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
 
 /// Length over which the largest pressure that effects are told is averaged, mm: about that of a micropit, and a third of a contact.
@@ -42,15 +40,14 @@ pub enum WearError {
 
 /// The two flanks' depths as one vector: pinion stations, then gear stations, mm.
 pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
-    model: &'a M,
+    pub(super) model: &'a M,
     /// Wear coefficient of pinion and gear, mm²/N.
-    coefficient: [f64; 2],
-    acting: Option<&'a Acting>,
+    pub(super) coefficient: [f64; 2],
+    pub(super) acting: Option<&'a Acting>,
     passage: Option<Passage>,
     warm: Vec<Vec<usize>>,
-    last: Option<(Vec<f64>, Vec<PositionContact>)>,
-    /// What the stations of pinion and gear see in the last solution; empty where no effect asks.
-    moments: [Vec<Moment>; 2],
+    /// The last two solutions, the last one first: both stages of a step.
+    last: [Option<Solved>; 2],
     /// Contact problems solved so far.
     pub solves: usize,
 }
@@ -73,8 +70,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             acting: None,
             passage: None,
             warm: vec![Vec::new(); model.cycle().positions.len()],
-            last: None,
-            moments: Default::default(),
+            last: [None, None],
             solves: 0,
         }
     }
@@ -105,26 +101,60 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     /// # Errors
     /// [`ContactError`] of the first position that fails.
     pub fn contacts(&mut self, u: &[f64]) -> Result<&[PositionContact], ContactError> {
-        if self.last.as_ref().is_none_or(|(at, _)| at != u) {
-            let depth = split(self.model, u);
-            // analytic contacts are too cheap to be handed out one by one
-            let solved: Vec<PositionContact> = self
-                .warm
-                .par_iter()
-                .with_min_len(4)
-                .enumerate()
-                .map(|(q, start)| self.model.solve(q, depth, start))
-                .collect::<Result<_, _>>()?;
-            self.solves += solved.len();
-            for (warm, contact) in self.warm.iter_mut().zip(&solved) {
-                warm.clone_from(&contact.active);
+        Ok(&self.solved(u)?.contacts)
+    }
+
+    /// The same, with what stations see of it where effects ask.
+    pub(super) fn solved(&mut self, u: &[f64]) -> Result<&Solved, ContactError> {
+        let is_known = |solved: &Option<Solved>| solved.as_ref().is_some_and(|s| s.u == u);
+        let place = match self.last.iter().position(is_known) {
+            Some(place) => place,
+            None => {
+                let solved = self.solve(u)?;
+                self.last.swap(0, 1);
+                self.last[0] = Some(solved);
+                0
             }
-            if let Some(passage) = &self.passage {
-                self.moments = [0, 1].map(|s| passage.moments(self.model.cycle(), &solved, s));
-            }
-            self.last = Some((u.to_vec(), solved));
+        };
+        Ok(self.last[place].as_ref().expect("found or just filled"))
+    }
+
+    /// Takes `contacts` for those of the depths `u`.
+    pub fn take(&mut self, u: &[f64], contacts: Vec<PositionContact>) {
+        let moments = self.moments(&contacts);
+        self.last[0] = Some(Solved {
+            u: u.to_vec(),
+            contacts,
+            moments,
+        });
+    }
+
+    fn moments(&self, contacts: &[PositionContact]) -> [Vec<Moment>; 2] {
+        (self.passage.as_ref()).map_or_else(Default::default, |passage| {
+            [0, 1].map(|side| passage.moments(self.model.cycle(), contacts, side))
+        })
+    }
+
+    fn solve(&mut self, u: &[f64]) -> Result<Solved, ContactError> {
+        let depth = self.law().split(u);
+        // analytic contacts are too cheap to be handed out one by one
+        let contacts: Vec<PositionContact> = self
+            .warm
+            .par_iter()
+            .with_min_len(4)
+            .enumerate()
+            .map(|(q, start)| self.model.solve(q, depth, start))
+            .collect::<Result<_, _>>()?;
+        self.solves += contacts.len();
+        for (warm, contact) in self.warm.iter_mut().zip(&contacts) {
+            warm.clone_from(&contact.active);
         }
-        Ok(&self.last.as_ref().expect("just filled").1)
+        let moments = self.moments(&contacts);
+        Ok(Solved {
+            u: u.to_vec(),
+            contacts,
+            moments,
+        })
     }
 
     /// Worn area per pinion cycle at `n` cycles for the depths `u`, from the line loads.
@@ -132,234 +162,32 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     /// # Errors
     /// [`WearError`]
     pub fn area_rate(&mut self, n: f64, u: &[f64]) -> Result<AreaRate, WearError> {
-        self.contacts(u)?;
-        let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
-        let view = self.view(n, u);
-        let cycle = self.model.cycle();
-        let step = cycle.pair.base_pitch / cycle.spec.positions as f64;
-        let mut work = [0.0; 2];
-        for (position, contact) in cycle.positions.iter().zip(contacts) {
-            let factors = self.wear_factors(&view, position, contact);
-            for pair in &position.pairs {
-                let slip = pair.slip.abs() * step;
-                for (side, work) in work.iter_mut().enumerate() {
-                    let load: f64 = (pair.length.iter().enumerate())
-                        .map(|(k, length)| {
-                            let at = pair.offset + k;
-                            let plain = length * contact.pressure[at];
-                            factors.as_ref().map_or(plain, |f| plain * f[side][at])
-                        })
-                        .sum();
-                    *work += load * slip;
-                }
-            }
-        }
-        let mut rate = AreaRate {
-            law: [
-                self.coefficient[0] * work[0],
-                self.coefficient[1] * work[1] / cycle.pair.speed_ratio,
-            ],
-            displaced: [0.0; 2],
-        };
-        for added in self.added(&view, contacts) {
-            let width = tributary(&cycle.stations.arc[added.side], added.station);
-            rate.law[added.side] += (added.removed + added.displaced) * width;
-            rate.displaced[added.side] += added.displaced * width;
-        }
-        Ok(rate)
+        self.solved(u)?;
+        Ok(self.law().area_rate(n, self.known(u)))
     }
 
-    fn factors(&self) -> [f64; 2] {
-        [
-            self.coefficient[0],
-            self.coefficient[1] / self.model.cycle().pair.speed_ratio,
-        ]
+    /// What a solution for `u` gave, once there has been one.
+    pub(super) fn known(&self, u: &[f64]) -> &Solved {
+        let known = self.last.iter().flatten().find(|solved| solved.u == u);
+        known.expect("the contacts for these depths were just solved")
     }
 
-    fn view<'b>(&self, n: f64, u: &'b [f64]) -> Worn<'b> {
-        let depth = split(self.model, u);
-        let worn_volume = self
-            .acting
-            .map_or(0.0, |acting| acting.worn_volume(self.model.cycle(), depth));
-        Worn {
-            depth,
-            age: Age {
-                cycles: n,
-                worn_volume,
-            },
+    pub(super) fn law(&self) -> Law<'_> {
+        Law {
+            cycle: self.model.cycle(),
+            coefficient: self.coefficient,
+            acting: self.acting,
+            passage: self.passage.as_ref(),
         }
     }
-
-    /// Factor on k at every unknown of position `q` on pinion and gear; `None`: 1 everywhere.
-    fn wear_factors(
-        &self,
-        view: &Worn,
-        position: &Position,
-        contact: &PositionContact,
-    ) -> Option<[Vec<f64>; 2]> {
-        self.each_factor(view, position, contact, |f, _, _| f)
-    }
-
-    /// The same of f + p df/dp: what a small change of pressure changes f p by.
-    fn pressure_slopes(
-        &self,
-        view: &Worn,
-        position: &Position,
-        contact: &PositionContact,
-    ) -> Option<[Vec<f64>; 2]> {
-        const STEP: f64 = 1e-4;
-        self.each_factor(view, position, contact, |f, acting, local| {
-            let mut more = *local;
-            more.pressure *= 1.0 + STEP;
-            more.peak_pressure *= 1.0 + STEP;
-            f + (acting.effects.wear_factor(&more) - f) / STEP
-        })
-    }
-
-    fn each_factor(
-        &self,
-        view: &Worn,
-        position: &Position,
-        contact: &PositionContact,
-        of: impl Fn(f64, &Acting, &crate::effects::Local) -> f64,
-    ) -> Option<[Vec<f64>; 2]> {
-        let acting = self.acting.filter(|a| a.acts(Hook::WearFactor))?;
-        let of = |f: f64, local: &crate::effects::Local| of(f, acting, local);
-        let cycle = self.model.cycle();
-        Some(factors(acting, cycle, view, position, contact, of))
-    }
-
-    /// What effects add at every station, mm per pinion cycle.
-    fn added(&self, view: &Worn, contacts: &[PositionContact]) -> Vec<Added> {
-        self.each_added(view, contacts, |depths, _, _| depths)
-    }
-
-    /// How that changes with the largest pressure there, mm per MPa.
-    fn added_slopes(&self, view: &Worn, contacts: &[PositionContact]) -> Vec<Added> {
-        const STEP: f64 = 1e-4;
-        self.each_added(view, contacts, |depths, acting, local| {
-            if local.pressure <= 0.0 {
-                return [0.0; 2];
-            }
-            let mut more = *local;
-            more.pressure *= 1.0 + STEP;
-            more.peak_pressure *= 1.0 + STEP;
-            let moved = acting.effects.added_depths(&more);
-            [0, 1].map(|i| (moved[i] - depths[i]) / (STEP * local.pressure))
-        })
-    }
-
-    fn each_added(
-        &self,
-        view: &Worn,
-        contacts: &[PositionContact],
-        of: impl Fn([f64; 2], &Acting, &crate::effects::Local) -> [f64; 2],
-    ) -> Vec<Added> {
-        let (Some(acting), Some(passage)) = (self.acting, &self.passage) else {
-            return Vec::new();
-        };
-        let cycle = self.model.cycle();
-        let locals: Vec<_> = (0..passage.order.len())
-            .map(|m| {
-                let pair = passage.pair(cycle, m);
-                let load = PairLoad::of(pair, &contacts[passage.order[m].0]);
-                acting.at_pair(cycle, pair, load, view.age)
-            })
-            .collect();
-        let mut out = Vec::new();
-        for member in Member::BOTH {
-            let side = side(member);
-            let per_cycle = 1e-3 / [1.0, cycle.pair.speed_ratio][side];
-            for (station, moment) in self.moments[side].iter().enumerate() {
-                let mut local = locals[moment.pair];
-                local.peak_pressure = moment.pressure;
-                let arc = cycle.stations.arc[side][station];
-                let depth = view.depth[side][station];
-                acting.at_point(&mut local, cycle, member, arc, depth, moment.pressure);
-                let depths = acting.effects.added_depths(&local);
-                let [removed, displaced] = of(depths, acting, &local);
-                out.push(Added {
-                    side,
-                    station,
-                    removed: per_cycle * removed,
-                    displaced: per_cycle * displaced,
-                });
-            }
-        }
-        out
-    }
-
-    /// What the slopes of added depths put into the Jacobian, by position: unknown, joint station, mm per cycle and MPa.
-    fn reads(&self, view: &Worn, contacts: &[PositionContact]) -> Vec<Vec<(usize, usize, f64)>> {
-        let cycle = self.model.cycle();
-        let mut reads = vec![Vec::new(); cycle.positions.len()];
-        let Some(passage) = &self.passage else {
-            return reads;
-        };
-        let shift = [0, cycle.stations.arc[0].len()];
-        let unknowns = [0, 1].map(|side| passage.reads(cycle, contacts, side, &self.moments[side]));
-        for added in self.added_slopes(view, contacts) {
-            let at = shift[added.side] + added.station;
-            let slope = added.removed + added.displaced;
-            for &(q, k, weight) in &unknowns[added.side][added.station] {
-                if weight != 0.0 {
-                    reads[q as usize].push((k as usize, at, weight * slope));
-                }
-            }
-        }
-        reads
-    }
-}
-
-/// What effects add at one station, or its change with the largest pressure there.
-struct Added {
-    side: usize,
-    station: usize,
-    /// mm per pinion cycle, material lost.
-    removed: f64,
-    /// mm per pinion cycle, material moved aside.
-    displaced: f64,
-}
-
-/// Pinion and gear part of the joint depth vector.
-fn split<'u, M: ContactModel + ?Sized>(model: &M, u: &'u [f64]) -> [&'u [f64]; 2] {
-    let (pinion, gear) = u.split_at(model.cycle().stations.arc[0].len());
-    [pinion, gear]
 }
 
 impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
     type Error = WearError;
 
     fn rate(&mut self, n: f64, u: &[f64]) -> Result<Vec<f64>, WearError> {
-        let scale = self.factors();
-        self.contacts(u)?;
-        let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
-        let view = self.view(n, u);
-        let cycle = self.model.cycle();
-        let factors: Vec<_> = (cycle.positions.iter().zip(contacts))
-            .map(|(position, contact)| self.wear_factors(&view, position, contact))
-            .collect();
-        let mut rate = vec![0.0; u.len()];
-        let (pinion, gear) = rate.split_at_mut(cycle.stations.arc[0].len());
-        for ((position, contact), factors) in cycle.positions.iter().zip(contacts).zip(factors) {
-            for pair in &position.pairs {
-                for (side, depth) in [&mut *pinion, &mut *gear].into_iter().enumerate() {
-                    for k in 0..pair.xi.len() {
-                        let at = pair.offset + k;
-                        let p = contact.pressure[at];
-                        if p > 0.0 {
-                            let kp = scale[side] * p;
-                            let kp = factors.as_ref().map_or(kp, |f| kp * f[side][at]);
-                            pair.wear[side].scatter(k, kp, depth);
-                        }
-                    }
-                }
-            }
-        }
-        for added in self.added(&view, contacts) {
-            [&mut *pinion, &mut *gear][added.side][added.station] +=
-                added.removed + added.displaced;
-        }
+        self.solved(u)?;
+        let rate = self.law().rate(n, self.known(u));
         match self.acting.and_then(|acting| acting.effects.fault()) {
             Some(fault) => Err(WearError::Effect(fault)),
             None => Ok(rate),
@@ -367,12 +195,9 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
     }
 
     fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Mat<f64>>, WearError> {
-        let scale = self.factors();
-        self.contacts(u)?;
-        let (_, contacts) = self.last.as_ref().expect("contacts were just solved");
-        let view = self.view(n, u);
-        let cycle = self.model.cycle();
-        let shift = [0, cycle.stations.arc[0].len()];
+        self.solved(u)?;
+        let (law, solved) = (self.law(), self.known(u));
+        let (cycle, contacts) = (law.cycle, &solved.contacts);
         let blocks: Vec<Option<DMatrix<f64>>> = contacts
             .par_iter()
             .enumerate()
@@ -381,16 +206,17 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
         let Some(blocks) = blocks.into_iter().collect::<Option<Vec<_>>>() else {
             return Ok(None);
         };
+        let view = law.view(n, u);
         let mut jacobian = Mat::zeros(u.len(), u.len());
-        let reads = self.reads(&view, contacts);
+        let reads = law.added_reads(&view, solved, &law.reads(solved));
         for (q, ((contact, block), reads)) in contacts.iter().zip(blocks).zip(reads).enumerate() {
             let position = &cycle.positions[q];
             let local = Local {
                 position,
                 active: &contact.active,
-                shift,
-                scale,
-                slopes: self.pressure_slopes(&view, position, contact),
+                shift: [0, cycle.stations.arc[0].len()],
+                scale: law.scale(),
+                slopes: law.pressure_slopes(&view, position, contact),
                 reads,
             };
             local.add(&block, &mut jacobian);
@@ -409,8 +235,8 @@ struct Local<'a> {
     scale: [f64; 2],
     /// Change of f p with p at the unknowns, pinion and gear; `None`: 1.
     slopes: Option<[Vec<f64>; 2]>,
-    /// What effects add: unknown, joint station, mm per cycle and MPa.
-    reads: Vec<(usize, usize, f64)>,
+    /// What effects add.
+    reads: AddedReads,
 }
 
 impl Local<'_> {

@@ -27,78 +27,93 @@ pub struct Worn<'b> {
     pub age: Age,
 }
 
-/// At every unknown of a position on pinion and gear, the mean of what `of` makes of the factor f and the place it is asked at.
-pub fn factors(
+/// At every unknown of a position on pinion and gear, the means of what `of` makes of the factor f and the place it is asked at.
+pub fn factors<const N: usize>(
     acting: &Acting,
     cycle: &Cycle,
     worn: &Worn<'_>,
     position: &Position,
     contact: &PositionContact,
-    of: impl Fn(f64, &Local) -> f64,
-) -> [Vec<f64>; 2] {
-    let mut factors = [(); 2].map(|()| vec![1.0; contact.pressure.len()]);
+    of: impl Fn(f64, &Local) -> [f64; N],
+) -> [[Vec<f64>; 2]; N] {
+    let mut factors = [(); N].map(|()| [(); 2].map(|()| vec![1.0; contact.pressure.len()]));
     for pair in &position.pairs {
-        let mut local = acting.at_pair(cycle, pair, PairLoad::of(pair, contact), worn.age);
         let own = pair.offset..pair.offset + pair.xi.len();
         let pressure = &contact.pressure[own.clone()];
+        if pressure.iter().all(|p| *p <= 0.0) {
+            continue;
+        }
+        let mut local = acting.at_pair(cycle, pair, PairLoad::of(pair, contact), worn.age);
         for member in Member::BOTH {
             let side = side(member);
             let depth = |k: usize| pair.opening[side].dot(k, worn.depth[side]) / pair.length[k];
-            let mut sums = Sums::new(pressure.len());
+            let mut sums = Sums::<N>::new(pressure.len());
+            let mut behind: Option<(usize, f64)> = None;
             for (k, ends) in pressure.windows(2).enumerate() {
                 if ends.iter().all(|p| *p <= 0.0) {
                     continue;
                 }
                 let width = pair.xi[k + 1] - pair.xi[k];
-                let (arc, depths) = (&pair.arc[side], [depth(k), depth(k + 1)]);
+                let known = behind.filter(|(at, _)| *at == k);
+                let depths = [
+                    known.map_or_else(|| depth(k), |(_, depth)| depth),
+                    depth(k + 1),
+                ];
+                behind = Some((k + 1, depths[1]));
+                let arc = &pair.arc[side];
                 for u in GAUSS {
                     let between = |a: f64, b: f64| (1.0 - u) * a + u * b;
                     let p = between(ends[0], ends[1]);
                     let (arc, depth) = (between(arc[k], arc[k + 1]), between(depths[0], depths[1]));
                     acting.at_point(&mut local, cycle, member, arc, depth, p);
-                    let value = of(acting.effects.wear_factor(&local), &local);
-                    sums.add(k, u, 0.5 * width * p, value);
+                    let values = of(acting.effects.wear_factor(&local), &local);
+                    sums.add(k, u, 0.5 * width * p, values);
                 }
             }
-            sums.write(pair, pressure, &mut factors[side][own.clone()]);
+            for (i, factors) in factors.iter_mut().enumerate() {
+                sums.write(i, pair, pressure, &mut factors[side][own.clone()]);
+            }
         }
     }
     factors
 }
 
-/// ∫ f p N_k and ∫ p N_k of a pair's unknowns.
-struct Sums {
-    with: Vec<f64>,
+/// ∫ f p N_k and ∫ p N_k of a pair's unknowns, for several f.
+struct Sums<const N: usize> {
+    with: [Vec<f64>; N],
     plain: Vec<f64>,
 }
 
-impl Sums {
+impl<const N: usize> Sums<N> {
     fn new(count: usize) -> Self {
         Self {
-            with: vec![0.0; count],
+            with: [(); N].map(|()| vec![0.0; count]),
             plain: vec![0.0; count],
         }
     }
 
     /// Adds the point at share `u` of the way from unknown `k` to the next.
-    fn add(&mut self, k: usize, u: f64, load: f64, factor: f64) {
+    fn add(&mut self, k: usize, u: f64, load: f64, factors: [f64; N]) {
         for (k, share) in [(k, 1.0 - u), (k + 1, u)] {
             let load = share * load;
             self.plain[k] += load;
-            self.with[k] += factor * load;
+            for (with, factor) in self.with.iter_mut().zip(factors) {
+                with[k] += factor * load;
+            }
         }
     }
 
-    fn write(&self, pair: &PairContact, pressure: &[f64], factors: &mut [f64]) {
+    fn write(&self, i: usize, pair: &PairContact, pressure: &[f64], factors: &mut [f64]) {
+        let own = &self.with[i];
         let (mut with, mut plain) = (0.0, 0.0);
         for (k, p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
-            factors[k] = self.with[k] / self.plain[k];
+            factors[k] = own[k] / self.plain[k];
             let load = p * pair.length[k];
             with += factors[k] * load;
             plain += load;
         }
         let sum = |values: &[f64]| values.iter().sum::<f64>();
-        let scale = (sum(&self.with) / sum(&self.plain)) / (with / plain);
+        let scale = (sum(own) / sum(&self.plain)) / (with / plain);
         if scale.is_finite() {
             for (factor, _) in factors.iter_mut().zip(pressure).filter(|(_, p)| **p > 0.0) {
                 *factor *= scale;

@@ -32,6 +32,33 @@ pub trait WearSystem {
     fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Mat<f64>>, Self::Error>;
 }
 
+/// A system whose rate is differentiated by some parameters.
+pub trait Differentiable {
+    /// Error of an evaluation.
+    type Error;
+
+    /// Derivatives at `n` where the depths `u` change by `du` per unit of each parameter: of the rate, (∂F/∂u) du + ∂F/∂θ, and of the
+    /// products of [`WearSystem::jacobian`] with the vectors `along`.
+    ///
+    /// # Errors
+    /// Whatever makes the rates unavailable.
+    fn tangents(
+        &mut self,
+        n: f64,
+        u: &[f64],
+        du: &[Vec<f64>],
+        along: &[&[f64]],
+    ) -> Result<Tangents, Self::Error>;
+}
+
+/// What [`Differentiable::tangents`] gives.
+pub struct Tangents {
+    /// Of the rate, by parameter.
+    pub rates: Vec<Vec<f64>>,
+    /// Of the Jacobian's products, by parameter and vector.
+    pub products: Vec<Vec<Vec<f64>>>,
+}
+
 /// Step control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepControl {
@@ -101,6 +128,19 @@ pub enum StepError<E> {
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 const SAFETY: f64 = 0.85;
 
+/// An accepted step: what its derivatives follow from.
+pub struct Step {
+    /// Where it began (unit of n).
+    n: f64,
+    /// Its length.
+    tau: f64,
+    /// Depths where it began, and at the second stage.
+    u: [Vec<f64>; 2],
+    k1: Vec<f64>,
+    k2: Vec<f64>,
+    shifted: Option<PartialPivLu<f64>>,
+}
+
 /// Takes one accepted step of at most the proposed size, not beyond `end`.
 ///
 /// # Errors
@@ -110,7 +150,7 @@ pub fn advance<S: WearSystem>(
     stand: &mut Stand,
     end: f64,
     control: StepControl,
-) -> Result<(), StepError<S::Error>> {
+) -> Result<Step, StepError<S::Error>> {
     let n = stand.n;
     let fail = |source| StepError::System { n, source };
     let rate = system.rate(n, &stand.u).map_err(fail)?;
@@ -152,6 +192,7 @@ pub fn advance<S: WearSystem>(
             4.0
         };
         if error <= 1.0 {
+            let before = stand.u.clone();
             for ((u, a), b) in stand.u.iter_mut().zip(&k1).zip(&k2) {
                 *u += tau * (1.5 * a + 0.5 * b);
             }
@@ -163,13 +204,63 @@ pub fn advance<S: WearSystem>(
                 tau * factor
             };
             stand.accepted += 1;
-            return Ok(());
+            return Ok(Step {
+                n,
+                tau,
+                u: [before, middle],
+                k1,
+                k2,
+                shifted,
+            });
         }
         stand.rejected += 1;
         step = tau * factor.min(0.7);
         if step <= control.least_step || !error.is_finite() {
             return Err(StepError::TooSmall { n, step, error });
         }
+    }
+}
+
+impl Step {
+    /// Its length (unit of n).
+    pub fn length(&self) -> f64 {
+        self.tau
+    }
+
+    /// Takes the derivatives `du` of the depths, one vector for each parameter, over the step.
+    ///
+    /// # Errors
+    /// Whatever makes the rates unavailable; `du` is untouched then.
+    pub fn follow<S: Differentiable>(
+        &self,
+        system: &mut S,
+        du: &mut [Vec<f64>],
+    ) -> Result<(), S::Error> {
+        let Self { n, tau, .. } = *self;
+        let stiff = self.shifted.is_some();
+        let along: &[&[f64]] = if stiff { &[&self.k1, &self.k2] } else { &[] };
+        let first = system.tangents(n, &self.u[0], du, along)?;
+        let solve = |rate: &[f64], product: Option<&Vec<f64>>, dk1: Option<&Vec<f64>>| {
+            let right = (0..rate.len()).map(|i| {
+                let product = product.map_or(0.0, |p| GAMMA * tau * p[i]);
+                rate[i] + product - dk1.map_or(0.0, |dk1| 2.0 * dk1[i])
+            });
+            implicit(self.shifted.as_ref(), right.collect())
+        };
+        let dk1: Vec<Vec<f64>> = (first.rates.iter().zip(&first.products))
+            .map(|(rate, products)| solve(rate, products.first(), None))
+            .collect();
+        let middle: Vec<Vec<f64>> = (du.iter().zip(&dk1))
+            .map(|(du, dk)| du.iter().zip(dk).map(|(u, k)| u + tau * k).collect())
+            .collect();
+        let second = system.tangents(n + tau, &self.u[1], &middle, &[])?;
+        for (j, (du, rate)) in du.iter_mut().zip(&second.rates).enumerate() {
+            let dk2 = solve(rate, first.products[j].get(1), Some(&dk1[j]));
+            for ((u, a), b) in du.iter_mut().zip(&dk1[j]).zip(&dk2) {
+                *u += tau * (1.5 * a + 0.5 * b);
+            }
+        }
+        Ok(())
     }
 }
 

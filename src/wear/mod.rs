@@ -4,4 +4,6 @@ pub mod acting;
 pub mod archard;
 pub mod factors;
 pub mod integrator;
+mod law;
 pub mod passage;
+pub mod tangent;

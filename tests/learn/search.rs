@@ -41,7 +41,6 @@ fn the_state_found_is_the_most_probable() {
     let fit = problem
         .fit(&Effort {
             tolerance: 1e-10,
-            carry: 0.0,
             ..Effort::default()
         })
         .unwrap();
@@ -380,10 +379,7 @@ fn what_the_data_do_not_touch_stays_as_uncertain_as_before() {
     };
     let mut problem = problem(&data, &predictor);
     problem.parameters[1] = Parameter::uniform("a.idle", "-", 0.5, 0.0, 1.0);
-    let exact = Effort {
-        carry: 0.0,
-        ..fine()
-    };
+    let exact = fine();
     let with = problem.fit(&exact).unwrap();
     assert!((with.parameters[1].interval[0] / (2.0 * 3f64.powf(-1.96)) - 1.0).abs() < 0.01);
     assert!(

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 
 use gearwear::contact::cycle::Cycle;
 use gearwear::contact::model::{ContactError, ContactModel, PositionContact};
+use gearwear::contact::tangent::LinearContact;
 use gearwear::simulate::forward::Forward;
 use gearwear::simulate::history::{WearLaw, wear_until};
 use gearwear::simulate::run::Plan;
@@ -247,5 +248,14 @@ impl ContactModel for Doctored<'_> {
         contact: &PositionContact,
     ) -> Result<Option<DMatrix<f64>>, ContactError> {
         self.model.sensitivity(q, contact)
+    }
+
+    fn linearised<'m>(
+        &'m self,
+        q: usize,
+        contact: &PositionContact,
+        depth: [&[f64]; 2],
+    ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
+        self.model.linearised(q, contact, depth)
     }
 }

@@ -12,7 +12,6 @@ pub(super) const DECIDE: Effort = Effort {
     iterations: 8,
     tolerance: 0.05,
     floor: 0.2,
-    carry: 0.4,
     ..Effort::STAY
 };
 /// The leader's last steps with derivatives of the exact model, if anchors did not bring it to rest.
@@ -20,7 +19,6 @@ const POLISH: Effort = Effort {
     iterations: 4,
     tolerance: 0.1,
     floor: 0.3,
-    carry: 1.0,
     ..Effort::STAY
 };
 /// Anchors of a deciding fit.

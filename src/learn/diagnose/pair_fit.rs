@@ -14,7 +14,6 @@ pub(super) const LOOK: Effort = Effort {
     iterations: 2,
     tolerance: 0.3,
     floor: 0.3,
-    carry: 0.7,
     ..Effort::STAY
 };
 /// The further fit of those that lead after it: this many, and all within this share of the leader's gain.

@@ -18,11 +18,6 @@ const REFINED_SHARE: f64 = 0.4;
 const MEANT: f64 = 1.0;
 /// Candidates in play after the look, as in the screening.
 const IN_PLAY: usize = 4;
-/// Once more, with wider differences, where no step betters a fit that promises much: the roughness of sharp laws.
-const UNSTUCK: Effort = Effort {
-    settle: 1,
-    ..SCREEN
-};
 /// Share of what the best form of an effect gains by which another must be behind to be fitted once more from where that one ended.
 const BEHIND_ITS_BEST: f64 = 0.002;
 /// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
@@ -79,18 +74,10 @@ impl Judge<'_> {
         if look.objective > bar || look.converged {
             return look;
         }
-        let on = |found: Found, effort| {
-            let further = self.fit_middle(base, candidate, found.state.clone(), effort);
-            further
-                .filter(|further| further.objective <= found.objective)
-                .unwrap_or(found)
-        };
-        let found = on(look, &SCREEN);
-        if found.converged || found.iterations == SCREEN.iterations {
-            found
-        } else {
-            on(found, &UNSTUCK)
-        }
+        let further = self.fit_middle(base, candidate, look.state.clone(), &SCREEN);
+        further
+            .filter(|further| further.objective <= look.objective)
+            .unwrap_or(look)
     }
 
     /// Each fitted once more from where the best form of its effect ended, if it is far behind that.

@@ -15,7 +15,6 @@ pub(super) const LOOK: Effort = Effort {
     iterations: 2,
     tolerance: 0.2,
     floor: 0.3,
-    carry: 1.0,
     ..Effort::STAY
 };
 /// The screening fit of those that the first look leaves in play.
@@ -23,7 +22,6 @@ pub(super) const SCREEN: Effort = Effort {
     iterations: 6,
     tolerance: 0.1,
     floor: 0.3,
-    carry: 0.4,
     ..Effort::STAY
 };
 /// Candidates in play after the first look: this many, and all that gained this share of the leader's gain.

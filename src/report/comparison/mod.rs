@@ -12,7 +12,7 @@ use crate::study::Study;
 pub(crate) use residuals::quoted;
 pub use residuals::residuals;
 pub use text::{conclusion, summary};
-pub(crate) use text::{what, with_unit};
+pub(crate) use text::{parameter_value, what, with_unit};
 
 /// All that `compare` shows.
 #[derive(Debug, Clone, Copy)]

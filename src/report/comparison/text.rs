@@ -2,7 +2,7 @@
 use std::path::Path;
 
 use super::super::format::{percent, significant, uncertain, whole};
-use crate::learn::{Comparison, TestRecord};
+use crate::learn::{Comparison, ParameterRecord, TestRecord};
 use crate::study::Study;
 
 /// χ² per point above which the model is told to lack something: three standard deviations √(2/n) above 1.
@@ -144,9 +144,14 @@ fn parameters(lines: &mut Vec<String>, c: &Comparison) {
     let longest = longest.unwrap_or(0).max(16);
     for parameter in &c.parameters {
         lines.push(format!(
-            "  {:<longest$}  {}{}",
+            "  {:<longest$}  {}{}{}",
             parameter.name,
-            with_unit(uncertain(parameter.value, parameter.sigma), &parameter.unit),
+            parameter_value(c, parameter),
+            if c.converged {
+                ""
+            } else {
+                "   where the fit stopped"
+            },
             if parameter.at_bound {
                 "   on its bound"
             } else {
@@ -154,6 +159,16 @@ fn parameters(lines: &mut Vec<String>, c: &Comparison) {
             }
         ));
     }
+}
+
+/// A fitted value with its uncertainty, without one where the fit has not converged: that belongs to a most probable state.
+pub(crate) fn parameter_value(c: &Comparison, parameter: &ParameterRecord) -> String {
+    let figure = if c.converged {
+        uncertain(parameter.value, parameter.sigma)
+    } else {
+        significant(parameter.value, 3)
+    };
+    with_unit(figure, &parameter.unit)
 }
 
 /// A figure with its unit, if it has one.

@@ -8,6 +8,7 @@ use crate::analytic::hertz_line;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::tangent::{Given, LinearContact};
 use crate::simulate::history::line_load;
 
 /// Hertz contact under prescribed line loads; wear does not change it.
@@ -129,5 +130,13 @@ impl ContactModel for Prescribed<'_> {
         _: &PositionContact,
     ) -> Result<Option<DMatrix<f64>>, ContactError> {
         Ok(None)
+    }
+    fn linearised<'m>(
+        &'m self,
+        _: usize,
+        contact: &PositionContact,
+        _: [&[f64]; 2],
+    ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
+        Ok(Box::new(Given(contact.pressure.len())))
     }
 }
