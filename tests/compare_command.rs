@@ -208,6 +208,26 @@ fn what_was_put_in_is_found_and_only_the_right_effect_helps() {
     for key in ["value", "sigma", "at_bound", "name"] {
         assert!(!steps[1]["parameters"][1][key].is_null(), "{key}");
     }
+    // a member's own k is part of a version
+    let text = fs::read_to_string(folder.join("base.toml")).unwrap();
+    fs::write(
+        folder.join("gear.toml"),
+        format!("{text}\n[wear.gear]\ncoefficient = 8e-10\n"),
+    )
+    .unwrap();
+    let steps = succeed(
+        &home,
+        "ladder try/base.toml try/gear.toml -o try/own --json",
+    );
+    let steps: Value = serde_json::from_str(&steps).unwrap();
+    let compared: Value =
+        serde_json::from_str(&succeed(&home, "compare try/gear.toml --json")).unwrap();
+    let own = number(&steps, "/1/fit_chi2_per_point");
+    assert_eq!(own, number(&compared, "/fit/chi2_per_point"));
+    assert!(
+        own > 1.2 * number(&steps, "/0/fit_chi2_per_point"),
+        "{steps}"
+    );
     // versions with other held-out tests are not judged against each other
     let text = fs::read_to_string(folder.join("base.toml")).unwrap();
     let fitted = text.replace("role = \"holdout\"", "role = \"fit\"");

@@ -154,9 +154,38 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         (
             "radius;100 000\n26;1\n",
             table,
-            "B1: several numbers in the header `100 000`",
+            "B1: several numbers (write one, without marks between thousands) in the header `100 000`",
         ),
         ("radius;100000\n;1\n", table, "A2: nothing stands here"),
+        // counts that may be marked between thousands, multiples, labels, times
+        (
+            "radius;250.000;500.000\n26,5;1,2;2,3\n27,5;1,1;2,2\n",
+            table,
+            "are the cycles `250.000` marked between thousands?",
+        ),
+        (
+            "radius;250k\n26;1\n",
+            table,
+            "a number with a letter, a multiple or a time",
+        ),
+        (
+            "radius;0,25 Mio\n26;1\n",
+            table,
+            "a number with a letter, a multiple or a time",
+        ),
+        ("radius;100 h\n26;1\n", table, "a multiple or a time"),
+        ("radius;N1\n26;1\n", table, "a number with a letter"),
+        (
+            "radius;1.000.000\n26;1\n",
+            table,
+            "marks between thousands are left out",
+        ),
+        ("26,5;1,2;2,3\n27,5;1,1;2,2\n", table, "no header row"),
+        (
+            "",
+            "import tables.xlsx --sheet rows --study study.toml --test A --turn-sign",
+            "--turn-sign is for tables with a column for each checkpoint",
+        ),
         (
             "radius;100000\n40;1\n",
             table,

@@ -112,6 +112,19 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
     let sheet = chosen(&sheets, args)?;
     let (rows, mut text, document) = match import::as_measurements(sheet) {
         Some(table) => {
+            let idle = [
+                (args.turn_sign, "--turn-sign"),
+                (args.unit.is_some(), "--unit"),
+                (args.sigma.is_some(), "--sigma"),
+                (args.position.is_some(), "--position"),
+                (args.columns.is_some(), "--columns"),
+            ];
+            if let Some((_, option)) = idle.iter().find(|(given, _)| *given) {
+                return Err(unusable(format!(
+                    "{option} is for tables with a column for each checkpoint or place; {} has the columns of a measurement file, which say it themselves",
+                    named(args, sheet)
+                )));
+            }
             let mut lines = table.lines();
             let header = lines.next().unwrap_or_default().to_owned();
             let rows: Vec<String> = lines.map(str::to_owned).collect();

@@ -20,6 +20,8 @@ pub(super) fn tells(path: std::path::PathBuf, how: String) {
             };
             // the progress bar's line is left behind
             let _ = writeln!(std::io::stderr(), "\n{said}");
+            // ends as the signal would have ended it; the exit is for systems that refuse
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
             std::process::exit(128 + signal);
         }
     });

@@ -298,15 +298,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
                 stand.step = stand.step.min(step);
             }
         }
-        progress.balance = balance;
-        for side in 0..2 {
-            progress.displaced[side] +=
-                0.5 * step * (progress.rate.displaced[side] + rate.displaced[side]);
-        }
-        progress.rate = rate;
-        progress.solves = solves_before + system.solves;
-        system.warm().clone_into(&mut progress.warm);
-        progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
+        let (solves, warm) = (system.solves, system.warm().to_vec());
         if !directions.is_empty() {
             let mut differentiated = Differentiated {
                 system: &mut system,
@@ -317,6 +309,16 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
                 .follow(&mut differentiated, &taken, (stand.n, &stand.u), displaces)
                 .map_err(|source| StepError::System { n: stand.n, source })?;
         }
+        // from here on nothing fails: a step counts whole or not at all
+        progress.balance = balance;
+        for side in 0..2 {
+            progress.displaced[side] +=
+                0.5 * step * (progress.rate.displaced[side] + rate.displaced[side]);
+        }
+        progress.rate = rate;
+        progress.solves = solves_before + solves;
+        progress.warm = warm;
+        progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
         progress.stand = stand;
         if !observe(progress, tangents) {
             return Ok(false);

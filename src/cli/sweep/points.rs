@@ -107,6 +107,11 @@ pub(super) fn prepare(study: &Study, axes: &[Axis]) -> std::result::Result<Vec<P
 }
 
 fn check_key(study: &Study, key: &str) -> std::result::Result<(), CliError> {
+    if key == "wear.coefficient" && study.wear.members != [1.0; 2] {
+        return Err(CliError::Unusable(format!(
+            "--vary {key}: members state their own; vary wear.pinion.coefficient or wear.gear.coefficient"
+        )));
+    }
     let mut of_tables = Vec::new();
     for (table, keys) in KEYS.iter().filter(|(table, _)| !IDLE.contains(table)) {
         // what is said of one member can be said of the other

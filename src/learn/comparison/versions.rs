@@ -55,6 +55,7 @@ fn share(a: Item<'_>, b: Item<'_>) -> bool {
         && a.0.thermal == b.0.thermal
         && a.0.numerics == b.0.numerics
         && a.0.contact == b.0.contact
+        && a.0.wear.members == b.0.wear.members
         && conditions(a.0) == conditions(b.0)
         && a.1.observations == b.1.observations
 }

@@ -2,6 +2,7 @@
 
 use super::{ImportError, Sheet, cell_name};
 use crate::gear::{Gear, Member};
+use crate::measure::dialect::in_thousands;
 use crate::measure::{Place, Quantity, Subject};
 
 /// What the columns of a wide table are.
@@ -167,6 +168,14 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
         Across::Checkpoints => (&row_numbers, &column_numbers),
         Across::Positions => (&column_numbers, &row_numbers),
     };
+    let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
+    match orientation {
+        Across::Checkpoints => (across.iter())
+            .try_for_each(|&(column, _)| plain_cycles(cell(head, column), head, column))?,
+        Across::Positions => {
+            (down.iter()).try_for_each(|&(row, _)| plain_cycles(cell(row, 0), row, 0))?
+        }
+    }
     let mut rows = Vec::new();
     let mut empty = 0;
     for &(column, head_number) in &across {
@@ -189,7 +198,11 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
         .iter()
         .map(|&(cycles, place, value)| {
             let trace = if wanted.traces {
-                format!("{}-{}-{cycles}", wanted.test, wanted.member.name())
+                let what = match wanted.quantity {
+                    Quantity::WearDepth => String::new(),
+                    other => format!("{}-", other.name()),
+                };
+                format!("{}-{}-{what}{cycles}", wanted.test, wanted.member.name())
             } else {
                 String::new()
             };
@@ -225,13 +238,13 @@ fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
         let cells = row.iter().skip(1).filter(|text| !text.is_empty());
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
-            (all + 1, good + usize::from(!numbers_in(text).is_empty()))
+            (all + 1, good + usize::from(!number_words(text).is_empty()))
         });
         all > 0 && all == good
     };
     let is_header = |row: &[String]| {
         let first = row.first().map_or("", String::as_str);
-        first.parse::<f64>().is_err() && numbers(row)
+        pointed(first).parse::<f64>().is_err() && numbers(row)
     };
     sheet.rows.iter().position(|row| is_header(row)).ok_or_else(|| {
         ImportError(
@@ -283,29 +296,63 @@ fn orientation(
 
 /// The one number of a header such as `250000 cycles` or `r = 26,5 mm`.
 fn header_number(text: &str, row: usize, column: usize) -> Result<f64> {
-    match numbers_in(text)[..] {
-        [one] => Ok(one),
-        [] => Err(ImportError(format!(
-            "{}: no number in the header `{text}`",
-            cell_name(row, column)
-        ))),
-        _ => Err(ImportError(format!(
-            "{}: several numbers in the header `{text}`; write one, without marks between thousands",
+    let refuse = |why: &str| {
+        let cell = cell_name(row, column);
+        Err(ImportError(format!("{cell}: {why} in the header `{text}`")))
+    };
+    let words = number_words(text);
+    let [one] = words[..] else {
+        return refuse(if words.is_empty() {
+            "no number"
+        } else {
+            "several numbers (write one, without marks between thousands)"
+        });
+    };
+    let at = text.find(one).unwrap_or_default();
+    let letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);
+    let (before, after) = (&text[..at], &text[at + one.len()..]);
+    if letter(before.chars().next_back()) || letter(after.chars().next()) || scaled(after) {
+        return refuse(
+            "a number with a letter, a multiple or a time (write plain pinion revolutions or places)",
+        );
+    }
+    match pointed(one).parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => refuse("no plain number (marks between thousands are left out)"),
+    }
+}
+
+/// Whether what follows a number makes another one of it: `Mio`, `thousand`, `h`.
+fn scaled(after: &str) -> bool {
+    const WORDS: [&str; 14] = [
+        "k", "m", "mio", "million", "millions", "thousand", "tsd", "h", "hour", "hours", "std",
+        "min", "s", "days",
+    ];
+    let mut words = after.split(|c: char| !c.is_alphabetic());
+    let first = words.find(|word| !word.is_empty()).unwrap_or_default();
+    WORDS.contains(&first.to_lowercase().as_str())
+}
+
+/// Refuses a count of cycles that may be marked between its thousands: `250.000` is 250 or a quarter of a million.
+fn plain_cycles(text: &str, row: usize, column: usize) -> Result<()> {
+    match number_words(text)
+        .into_iter()
+        .find(|word| in_thousands(word))
+    {
+        None => Ok(()),
+        Some(word) => Err(ImportError(format!(
+            "{}: are the cycles `{word}` marked between thousands? Write them without marks",
             cell_name(row, column)
         ))),
     }
 }
 
-/// The numbers in a text.
-fn numbers_in(text: &str) -> Vec<f64> {
+/// The words of a text that hold digits.
+fn number_words(text: &str) -> Vec<&str> {
     let part = |c: char| c.is_ascii_digit() || "+-.,eE".contains(c);
     text.split(|c: char| !part(c))
+        .map(|word| word.trim_matches(['e', 'E', '.', ',']))
         .filter(|word| word.contains(|c: char| c.is_ascii_digit()))
-        .filter_map(|word| {
-            pointed(word.trim_matches(['e', 'E', '.', ',']))
-                .parse()
-                .ok()
-        })
         .collect()
 }
 
