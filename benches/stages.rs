@@ -161,18 +161,20 @@ mod contact {
             .stand
             .u
             .split_at(forward.cycle().stations.arc[0].len());
-        forward.with_model(|model| {
-            let half = |flank: &[f64]| flank.iter().map(|h| 0.5 * h).collect::<Vec<f64>>();
-            let earlier = all(model, [&half(pinion), &half(gear)], |_| Vec::new());
-            let start = |q: usize| {
-                if warm {
-                    earlier[q].active.clone()
-                } else {
-                    Vec::new()
-                }
-            };
-            bencher.bench_local(|| all(model, [pinion, gear], start));
-        });
+        forward
+            .with_model(|model| {
+                let half = |flank: &[f64]| flank.iter().map(|h| 0.5 * h).collect::<Vec<f64>>();
+                let earlier = all(model, [&half(pinion), &half(gear)], |_| Vec::new());
+                let start = |q: usize| {
+                    if warm {
+                        earlier[q].active.clone()
+                    } else {
+                        Vec::new()
+                    }
+                };
+                bencher.bench_local(|| all(model, [pinion, gear], start));
+            })
+            .expect("the contact is prepared");
     }
 
     #[divan::bench(args = FINENESS, max_time = 4)]
@@ -192,29 +194,32 @@ mod contact {
             tolerance: numerics(fineness).step_tolerance,
             balance: true,
         };
-        forward.with_model(|model| {
-            let mut after = Some(before.clone());
-            wear_until(model, law, &mut after, 1e9, &mut |_| false).expect("a step is accepted");
-            let after = after.expect("a step was taken");
-            let flanks = |progress: &Progress| {
-                let (pinion, gear) = progress
-                    .stand
-                    .u
-                    .split_at(model.cycle().stations.arc[0].len());
-                [pinion.to_vec(), gear.to_vec()]
-            };
-            let ([pinion, gear], [next_pinion, next_gear]) = (flanks(&before), flanks(&after));
-            let earlier = all(model, [&pinion, &gear], |_| Vec::new());
-            let mut q = 0;
-            bencher
-                .with_inputs(|| {
-                    q = (q + 1) % earlier.len();
-                    q
-                })
-                .bench_local_values(|q| {
-                    model.solve(q, [&next_pinion, &next_gear], &earlier[q].active)
-                });
-        });
+        forward
+            .with_model(|model| {
+                let mut after = Some(before.clone());
+                wear_until(model, law, &mut after, 1e9, &mut |_| false)
+                    .expect("a step is accepted");
+                let after = after.expect("a step was taken");
+                let flanks = |progress: &Progress| {
+                    let (pinion, gear) = progress
+                        .stand
+                        .u
+                        .split_at(model.cycle().stations.arc[0].len());
+                    [pinion.to_vec(), gear.to_vec()]
+                };
+                let ([pinion, gear], [next_pinion, next_gear]) = (flanks(&before), flanks(&after));
+                let earlier = all(model, [&pinion, &gear], |_| Vec::new());
+                let mut q = 0;
+                bencher
+                    .with_inputs(|| {
+                        q = (q + 1) % earlier.len();
+                        q
+                    })
+                    .bench_local_values(|q| {
+                        model.solve(q, [&next_pinion, &next_gear], &earlier[q].active)
+                    });
+            })
+            .expect("the contact is prepared");
     }
 
     #[divan::bench(args = FINENESS, max_time = 4)]
@@ -234,14 +239,16 @@ fn wear(bencher: Bencher, fineness: usize) {
         tolerance: numerics(fineness).step_tolerance,
         balance: true,
     };
-    forward.with_model(|model| {
-        bencher
-            .with_inputs(|| Some(start.clone()))
-            .bench_local_values(|mut progress| {
-                let outcome = wear_until(model, law, &mut progress, 1e9, &mut |_| false);
-                (outcome.expect("a step is accepted"), progress)
-            });
-    });
+    forward
+        .with_model(|model| {
+            bencher
+                .with_inputs(|| Some(start.clone()))
+                .bench_local_values(|mut progress| {
+                    let outcome = wear_until(model, law, &mut progress, 1e9, &mut |_| false);
+                    (outcome.expect("a step is accepted"), progress)
+                });
+        })
+        .expect("the contact is prepared");
 }
 
 #[divan::bench(args = FINENESS, max_time = 4)]

@@ -69,6 +69,10 @@ impl Effect for Combined {
             .fold(1.0, |f, effect| f * effect.wear_factor(at))
     }
 
+    fn is_even(&self) -> bool {
+        self.of(Hook::WearFactor).all(Effect::is_even)
+    }
+
     fn added_depth(&self, at: &Local) -> f64 {
         let [removed, displaced] = self.added_depths(at);
         removed + displaced

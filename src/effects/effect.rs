@@ -75,6 +75,12 @@ pub trait Effect: Send + Sync {
         1.0
     }
 
+    /// Whether the wear factor is one number for a tooth pair's whole contact on one member: it then asks for no point's radius, depth or
+    /// pressure, and is asked once for all of them.
+    fn is_even(&self) -> bool {
+        false
+    }
+
     /// Depth lost besides sliding wear, µm per contact of that member; finite, not negative.
     ///
     /// Asked once per contact for every flank point, with the values at the instant when the contact's centre passes it;

@@ -199,6 +199,14 @@ impl<'a> Bench<'a> {
         if tolerance < FINEST_TOLERANCE {
             return Ok(None);
         }
-        self.shop.stepping(self.tests.clone(), tolerance).map(Some)
+        let templates = self.templates.iter();
+        Ok(Some(Self {
+            shop: self.shop,
+            step_tolerance: tolerance,
+            tests: self.tests.clone(),
+            templates: templates
+                .map(|template| template.stepping(tolerance))
+                .collect::<Result<_, ForwardError>>()?,
+        }))
     }
 }

@@ -16,6 +16,9 @@ use crate::learn::quadratic::State;
 /// A candidate's cheap model, anchored.
 pub(super) type Anchored<'a> = anchored::Anchored<GearModel<'a>>;
 
+/// The same on a model that serves several fits: it keeps its histories.
+pub(super) type AnchoredOn<'a> = anchored::Anchored<&'a GearModel<'a>>;
+
 /// A candidate's model on a bench.
 pub(super) fn model<'b>(bench: &'b Bench<'b>, candidate: &'b Candidate) -> GearModel<'b> {
     let names: Vec<&str> = candidate

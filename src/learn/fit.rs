@@ -1,19 +1,17 @@
 //! Fits what is free to the measurements of the fit tests, then judges the held-out ones.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-
 use nalgebra::DMatrix;
 
 use super::evaluate::Evaluator;
 use super::fitted::{Fit, Jacobian, RowFit, TestFit};
-use super::noise::{Covariance, Datum, NoiseModel};
+use super::noise::{Datum, NoiseModel};
 use super::parameters::{Estimate, Parameter};
 use super::predictor::{PredictError, Predictor};
 use super::quadratic::{Layout, Quadratic, State};
 use super::scatter::marginal;
 use super::search::{Effort, Found, Search};
-use crate::measure::{Dataset, Quantity};
+use super::selection::Selection;
+use crate::measure::Dataset;
 use crate::numeric::halton::halton;
 use crate::study::{Role, Scatter};
 
@@ -68,15 +66,16 @@ impl Problem<'_> {
     /// # Errors
     /// [`FitError`] if no start leads to a fit.
     pub fn fit_from(&self, starts: &[Vec<f64>], effort: &Effort) -> Result<Fit, FitError> {
-        let fit = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
-        if fit.tests.is_empty() {
+        let selection = self.selection(Role::Fit);
+        let fit = self.search(&selection, Some(&self.coefficient));
+        if selection.tests.is_empty() {
             return Err(FitError::NoObservations);
         }
-        let mut evaluator = self.evaluator();
+        let mut evaluator = selection.evaluator(self.predictor);
         let mut best: Option<Found> = None;
         let mut failure = None;
         for start in starts {
-            let state = self.state(start, fit.tests.len());
+            let state = self.state(start, selection.tests.len());
             match fit.run(&mut evaluator, state, effort) {
                 // A later start must be better by more than the tolerance, so that equals keep their order.
                 Ok(found) => {
@@ -111,10 +110,11 @@ impl Problem<'_> {
     ///
     /// A search goes downhill. Phases, wave numbers and resonances have several valleys.
     pub fn nearest(&self, places: Vec<Vec<f64>>, keep: usize) -> Vec<Vec<f64>> {
-        let search = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
-        let mut evaluator = self.evaluator();
+        let selection = self.selection(Role::Fit);
+        let search = self.search(&selection, Some(&self.coefficient));
+        let mut evaluator = selection.evaluator(self.predictor);
         let mut misfit = |start: &[f64]| {
-            let state = self.state(start, search.tests.len());
+            let state = self.state(start, selection.tests.len());
             search.misfit(&mut evaluator, state).ok()
         };
         let own: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
@@ -134,11 +134,13 @@ impl Problem<'_> {
     /// # Errors
     /// [`PredictError`] if the model has no answer there.
     pub(super) fn scaled(&self, start: &[f64]) -> Result<(f64, Vec<Vec<f64>>), PredictError> {
-        let search = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
-        let state = self.state(start, search.tests.len());
-        let (state, values) = search.scaled_start(&mut self.evaluator(), state)?;
+        let selection = self.selection(Role::Fit);
+        let search = self.search(&selection, Some(&self.coefficient));
+        let state = self.state(start, selection.tests.len());
+        let (state, values) =
+            search.scaled_start(&mut selection.evaluator(self.predictor), state)?;
         let mut all = vec![Vec::new(); self.data.tests.len()];
-        for (&test, values) in search.tests.iter().zip(&values) {
+        for (&test, values) in selection.tests.iter().zip(&values) {
             all[test] = values.to_vec();
         }
         Ok((state.log_k.exp(), all))
@@ -149,32 +151,33 @@ impl Problem<'_> {
     /// # Errors
     /// [`FitError`].
     pub fn go_on(&self, from: &Fit, effort: &Effort) -> Result<Fit, FitError> {
-        let fit = self.search(Role::Fit, Some(&self.coefficient), &self.parameters);
+        let selection = self.selection(Role::Fit);
+        let fit = self.search(&selection, Some(&self.coefficient));
         let mut theta: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
         for (value, parameter) in theta.iter_mut().zip(&self.parameters) {
             let known = from.parameters.iter().find(|p| p.name == parameter.name);
             *value = known.map_or(*value, |known| known.value);
         }
         let params = theta.len();
-        let mut state = self.state(&theta, fit.tests.len());
+        let mut state = self.state(&theta, selection.tests.len());
         state.log_k = from.coefficient.ln();
-        let mut jacobian = DMatrix::zeros(fit.measured.len(), params + fit.tests.len());
-        for (i, test) in fit.tests.iter().enumerate() {
+        let mut jacobian = DMatrix::zeros(selection.len(), params + selection.tests.len());
+        for (i, test) in selection.tests.iter().enumerate() {
             let Some(known) = from.tests.iter().find(|known| known.test == *test) else {
                 continue;
             };
             state.epsilon[i] = known.deviation;
             let derivatives = &known.uncertainty.derivatives;
-            for (&row, values) in fit.rows[i].iter().zip(derivatives.row_iter()) {
+            for (&row, values) in selection.rows[i].iter().zip(derivatives.row_iter()) {
                 for p in 0..params {
                     jacobian[(row, p)] = values[p];
                 }
                 jacobian[(row, params + i)] = values[params];
             }
         }
-        let numbers = self.numbers(&fit.tests);
-        let before: Vec<f64> = numbers.iter().map(|&row| from.rows[row].model).collect();
-        let mut evaluator = self.evaluator();
+        let numbers = selection.numbers.iter();
+        let before: Vec<f64> = numbers.map(|&row| from.rows[row].model).collect();
+        let mut evaluator = selection.evaluator(self.predictor);
         let found = fit.go_on(&mut evaluator, state, jacobian, &before, effort)?;
         self.finish(&fit, found, &mut evaluator, effort)
     }
@@ -187,14 +190,15 @@ impl Problem<'_> {
         evaluator: &mut Evaluator<'_>,
         effort: &Effort,
     ) -> Result<Fit, FitError> {
-        let mut held = self.search(Role::Holdout, None, &self.parameters);
+        let held_out = self.selection(Role::Holdout);
+        let mut held = self.search(&held_out, None);
         held.scatter = Scatter::Relative(found.scatter);
         let mut converged = found.converged;
         let mut parts = vec![(fit, &found)];
         let held_found;
-        if !held.tests.is_empty() {
+        if !held_out.tests.is_empty() {
             let state = State {
-                epsilon: vec![0.0; held.tests.len()],
+                epsilon: vec![0.0; held_out.tests.len()],
                 ..found.state.clone()
             };
             held_found = held.run(evaluator, state, effort)?;
@@ -202,8 +206,7 @@ impl Problem<'_> {
             parts.push((&held, &held_found));
         }
         let posterior = marginal(self.noise.scatter, &fit.layout, &found.normal, &found.state);
-        let count = fit.measured.len() as f64;
-        let constant = 0.5 * (count * (2.0 * PI).ln() + fit.covariance.log_determinant());
+        let constant = fit.selection.log_norm(&fit.selection.covariance);
         let nothing = RowFit {
             model: 0.0,
             datum: 0.0,
@@ -266,15 +269,10 @@ impl Problem<'_> {
         rows: &mut [RowFit],
         datums: &mut Vec<Datum>,
     ) {
-        let numbers = self.numbers(&search.tests);
-        let residual: Vec<f64> = search
-            .measured
-            .iter()
-            .zip(&found.model)
-            .map(|(y, f)| y - f)
-            .collect();
-        let found_datums = search.covariance.datums(&residual);
-        for (i, &row) in numbers.iter().enumerate() {
+        let selection = search.selection;
+        let residual = selection.residual(&found.model);
+        let found_datums = selection.covariance.datums(&residual);
+        for (i, &row) in selection.numbers.iter().enumerate() {
             let observation = &self.data.observations[row];
             let datum = observation
                 .trace
@@ -295,8 +293,8 @@ impl Problem<'_> {
         let quadratic = Quadratic::new(&search.layout, &found.normal, &found.state, found.scatter);
         let covariance = quadratic.mapped_covariance();
         let params = search.layout.parameters.len();
-        let numbers = self.numbers(&search.tests);
-        for (i, &test) in search.tests.iter().enumerate() {
+        let selection = search.selection;
+        for (i, &test) in selection.tests.iter().enumerate() {
             let columns: Vec<usize> = (0..params).chain([params + i]).collect();
             let deviation = found.state.epsilon[i];
             tests.push(TestFit {
@@ -306,10 +304,12 @@ impl Problem<'_> {
                 sigma: covariance[(params + i, params + i)].max(0.0).sqrt(),
                 deviation,
                 uncertainty: Jacobian {
-                    rows: search.rows[i].iter().map(|&row| numbers[row]).collect(),
+                    rows: (selection.rows[i].iter())
+                        .map(|&row| selection.numbers[row])
+                        .collect(),
                     derivatives: found
                         .jacobian
-                        .select_rows(&search.rows[i])
+                        .select_rows(&selection.rows[i])
                         .select_columns(&columns),
                     covariance: covariance.select_rows(&columns).select_columns(&columns),
                 },
@@ -317,40 +317,22 @@ impl Problem<'_> {
         }
     }
 
-    /// The problem of the tests with a role; without a coefficient everything common to the tests is held.
+    fn selection(&self, role: Role) -> Selection<'_> {
+        Selection::new(self.data, self.roles, role, &self.noise)
+    }
+
+    /// The problem of some tests; without a coefficient everything common to the tests is held.
     fn search<'s>(
         &'s self,
-        role: Role,
+        selection: &'s Selection<'s>,
         coefficient: Option<&'s Coefficient>,
-        parameters: &'s [Parameter],
     ) -> Search<'s> {
-        let with = |test: &usize| self.data.observations.iter().any(|o| o.test == *test);
-        let tests: Vec<usize> = (0..self.roles.len())
-            .filter(|t| self.roles[*t] == role && with(t))
-            .collect();
-        let numbers = self.numbers(&tests);
-        let observations: Vec<_> = numbers
-            .iter()
-            .map(|&row| &self.data.observations[row])
-            .collect();
-        let rows_of = |&test: &usize| {
-            (0..numbers.len())
-                .filter(|&i| observations[i].test == test)
-                .collect()
-        };
         let free = match coefficient {
             Some(Coefficient::Free(parameter)) => Some(parameter),
             _ => None,
         };
-        let priors = parameters.iter().map(Parameter::natural_prior);
+        let priors = self.parameters.iter().map(Parameter::natural_prior);
         Search {
-            rows: tests.iter().map(rows_of).collect(),
-            measured: observations.iter().map(|o| o.value).collect(),
-            worn: observations
-                .iter()
-                .map(|o| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss))
-                .collect(),
-            covariance: Arc::new(Covariance::new(self.data, &numbers, &self.noise)),
             layout: Layout {
                 coefficient: free.map(Parameter::natural_prior),
                 parameters: if coefficient.is_some() {
@@ -358,20 +340,13 @@ impl Problem<'_> {
                 } else {
                     Vec::new()
                 },
-                tests: tests.len(),
+                tests: selection.tests.len(),
             },
-            tests,
+            selection,
             coefficient: free,
-            parameters,
+            parameters: &self.parameters,
             scatter: self.noise.scatter,
         }
-    }
-
-    /// The observations of some tests.
-    fn numbers(&self, tests: &[usize]) -> Vec<usize> {
-        let rows = 0..self.data.observations.len();
-        rows.filter(|&row| tests.contains(&self.data.observations[row].test))
-            .collect()
     }
 
     fn state(&self, theta: &[f64], tests: usize) -> State {
@@ -388,20 +363,5 @@ impl Problem<'_> {
                 .collect(),
             epsilon: vec![0.0; tests],
         }
-    }
-
-    fn evaluator(&self) -> Evaluator<'_> {
-        let count = |test| {
-            self.data
-                .observations
-                .iter()
-                .filter(|o| o.test == test)
-                .count()
-        };
-        let ids = self.data.tests.iter().enumerate();
-        Evaluator::new(
-            self.predictor,
-            ids.map(|(test, id)| (id.as_str(), count(test))).collect(),
-        )
     }
 }

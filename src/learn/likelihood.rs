@@ -1,20 +1,19 @@
 //! What all candidates are judged on: the fit tests' observations with one covariance, and the search for a fit on them.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
+use std::ops::Deref;
 
 use nalgebra::DMatrix;
 
-use crate::learn::evaluate::Evaluator;
 use crate::learn::hypothesis::version::parameter;
 use crate::learn::measured::Measured;
 use crate::learn::noise::{Covariance, ModelError, NoiseModel};
 use crate::learn::parameters::Parameter;
 use crate::learn::predictor::{PredictError, Predictor};
-use crate::learn::quadratic::{Layout, Normal, State};
+use crate::learn::quadratic::{Layout, State};
 use crate::learn::scatter::marginal;
 use crate::learn::search::{Effort, Found, Search};
-use crate::measure::{Observation, Quantity};
+use crate::learn::selection::Selection;
+pub(super) use crate::learn::selection::whiten;
 use crate::study::{Role, Scatter, WEAR_COEFFICIENT};
 
 /// How far an effect's own contribution may differ from its formula, relative: nature does not use our formulas.
@@ -33,75 +32,35 @@ pub(super) const OWN_FORM: ModelError = ModelError {
 /// Standard deviations of χ² beyond its expectation from which rows count as missed.
 const MISSED: f64 = 3.0;
 
-/// Observations of the tests with one role and what they carry beyond a model.
+/// Observations of the tests with one role, what they carry beyond a model, and the wear coefficient that all candidates share.
 pub(super) struct Likelihood<'a> {
     pub(super) measured: &'a Measured<'a>,
     pub(super) noise: NoiseModel,
-    /// The tests, by their number in the data set.
-    pub(super) tests: Vec<usize>,
-    /// Rows of each among `numbers`.
-    pub(super) rows: Vec<Vec<usize>>,
-    /// The observations, by their place in the data set.
-    pub(super) numbers: Vec<usize>,
-    values: Vec<f64>,
-    worn: Vec<bool>,
-    pub(super) covariance: Arc<Covariance>,
+    selection: Selection<'a>,
     coefficient: Option<Parameter>,
     fixed_log_k: f64,
+}
+
+impl<'a> Deref for Likelihood<'a> {
+    type Target = Selection<'a>;
+
+    fn deref(&self) -> &Selection<'a> {
+        &self.selection
+    }
 }
 
 impl<'a> Likelihood<'a> {
     /// Of the tests with `role`; nothing common to all tests is fitted to held-out ones.
     pub(super) fn new(measured: &'a Measured<'a>, noise: NoiseModel, role: Role) -> Self {
-        let data = &measured.data;
-        let with = |test: &usize| data.observations.iter().any(|o| o.test == *test);
-        let tests: Vec<usize> = (0..measured.roles.len())
-            .filter(|t| measured.roles[*t] == role && with(t))
-            .collect();
-        let numbers: Vec<usize> = (0..data.observations.len())
-            .filter(|&row| tests.contains(&data.observations[row].test))
-            .collect();
-        let picked: Vec<&Observation> = numbers.iter().map(|&n| &data.observations[n]).collect();
-        let rows = tests
-            .iter()
-            .map(|&test| {
-                (0..picked.len())
-                    .filter(|&i| picked[i].test == test)
-                    .collect()
-            })
-            .collect();
         let study = measured.study();
         let free = study.free().iter().find(|f| f.name == WEAR_COEFFICIENT);
         Self {
-            values: picked.iter().map(|o| o.value).collect(),
-            worn: picked
-                .iter()
-                .map(|o| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss))
-                .collect(),
-            covariance: Arc::new(Covariance::new(data, &numbers, &noise)),
+            selection: Selection::new(&measured.data, &measured.roles, role, &noise),
             coefficient: free.filter(|_| role == Role::Fit).map(parameter),
             fixed_log_k: study.wear.coefficient.ln(),
-            rows,
-            tests,
-            numbers,
             measured,
             noise,
         }
-    }
-
-    /// Number of observations.
-    pub(super) fn len(&self) -> usize {
-        self.numbers.len()
-    }
-
-    /// An observation.
-    pub(super) fn observation(&self, row: usize) -> &Observation {
-        &self.measured.data.observations[self.numbers[row]]
-    }
-
-    /// Measured minus `model`.
-    pub(super) fn residual(&self, model: &[f64]) -> Vec<f64> {
-        self.values.iter().zip(model).map(|(y, f)| y - f).collect()
     }
 
     /// The state with the study's wear coefficient and these parameters.
@@ -160,22 +119,9 @@ impl<'a> Likelihood<'a> {
         search.run(&mut self.evaluator(predictor), state, effort)
     }
 
-    fn evaluator<'e>(&'e self, predictor: &'e dyn Predictor) -> Evaluator<'e> {
-        let data = &self.measured.data;
-        let counts = data.tests.iter().enumerate().map(|(test, id)| {
-            let rows = data.observations.iter().filter(|o| o.test == test).count();
-            (id.as_str(), rows)
-        });
-        Evaluator::new(predictor, counts.collect())
-    }
-
     fn search<'s>(&'s self, parameters: &'s [Parameter]) -> Search<'s> {
         Search {
-            tests: self.tests.clone(),
-            rows: self.rows.clone(),
-            measured: self.values.clone(),
-            worn: self.worn.clone(),
-            covariance: Arc::clone(&self.covariance),
+            selection: &self.selection,
             layout: self.layout(parameters),
             coefficient: self.coefficient.as_ref(),
             parameters,
@@ -193,32 +139,18 @@ impl<'a> Likelihood<'a> {
 
     /// Whether another k would do more than scale all rows: something is measured that is no wear, or wear meets a changed contact.
     pub(super) fn k_does_more_than_scale(&self, contact_changes: bool) -> bool {
-        self.coefficient.is_some() && (contact_changes || self.worn.iter().any(|worn| !worn))
+        self.coefficient.is_some() && (contact_changes || self.others() > 0)
     }
 
     /// Whether what is measured besides wear is missed by more than its noise.
     pub(super) fn misses_more_than_wear(&self, model: &[f64]) -> bool {
-        let rows = self.worn.iter().filter(|worn| !**worn).count() as f64;
-        let left = self.masked(&self.residual(model), false);
-        let square: f64 = left.iter().map(|x| x * x).sum();
-        square > rows + MISSED * (2.0 * rows).sqrt()
-    }
-
-    /// Whitened row values, 0 for all rows that are wear or, if `worn`, for all that are not.
-    fn masked(&self, values: &[f64], worn: bool) -> Vec<f64> {
-        let each = values.iter().zip(&self.worn);
-        let kept: Vec<f64> = each
-            .map(|(v, &own)| if own == worn { *v } else { 0.0 })
-            .collect();
-        self.covariance.whiten(&kept)
+        let rows = self.others() as f64;
+        self.square_of_others(model) > rows + MISSED * (2.0 * rows).sqrt()
     }
 
     /// The factor that brings all wear of the model to the size of what was measured.
     pub(super) fn wear_scale(&self, model: &[f64]) -> f64 {
-        let (f, y) = (self.masked(model, true), self.masked(&self.values, true));
-        let product: f64 = f.iter().zip(&y).map(|(f, y)| f * y).sum();
-        let square: f64 = f.iter().map(|f| f * f).sum();
-        let factor = product / square;
+        let factor = self.wear_ratio(model);
         if factor.is_finite() {
             factor.clamp(0.01, 100.0)
         } else {
@@ -228,33 +160,7 @@ impl<'a> Likelihood<'a> {
 
     /// Model values with all wear scaled to the size of what was measured, as another k would.
     pub(super) fn rescaled(&self, model: &[f64]) -> Vec<f64> {
-        let factor = self.wear_scale(model);
-        let each = model.iter().zip(&self.worn);
-        each.map(|(f, &worn)| if worn { factor * f } else { *f })
-            .collect()
-    }
-
-    /// A constant predictor's values joined to rows.
-    pub(super) fn joined(&self, of_tests: &[Vec<f64>]) -> Vec<f64> {
-        let mut joined = vec![0.0; self.len()];
-        for (rows, values) in self.rows.iter().zip(of_tests) {
-            for (&row, value) in rows.iter().zip(values) {
-                joined[row] = *value;
-            }
-        }
-        joined
-    }
-
-    /// Whitened least squares of a fit with `covariance`.
-    fn normal(&self, found: &Found, covariance: &Covariance) -> Normal {
-        let residual = covariance.whiten(&self.residual(&found.model));
-        let white = whiten(covariance, &found.jacobian);
-        let residual = nalgebra::DVector::from_vec(residual);
-        Normal {
-            gram: white.tr_mul(&white),
-            rhs: white.tr_mul(&residual),
-            square: residual.norm_squared(),
-        }
+        self.scaled(model, self.wear_scale(model))
     }
 
     /// Logarithm of the marginal likelihood about a fit, and the covariance of (ln k, θ); with `change`, the effect's own
@@ -278,23 +184,18 @@ impl<'a> Likelihood<'a> {
         let layout = self.layout(parameters);
         let own;
         let (covariance, normal) = match error {
-            None => (&*self.covariance, &found.normal),
+            None => (&self.covariance, &found.normal),
             Some(error) => {
                 let (data, numbers) = (&self.measured.data, &self.numbers);
                 let covariance = Covariance::with_errors(data, numbers, &self.noise, &[error]);
-                own = (self.normal(found, &covariance), covariance);
+                let normal = self.normal(&found.model, &found.jacobian, &covariance);
+                own = (normal, covariance);
                 (&own.1, &own.0)
             }
         };
         let posterior = marginal(self.noise.scatter, &layout, normal, &found.state);
-        let constant = 0.5 * (self.len() as f64 * (2.0 * PI).ln() + covariance.log_determinant());
-        (posterior.log_integral - constant, posterior.covariance)
-    }
-
-    /// χ² with the whole covariance.
-    pub(super) fn square(&self, model: &[f64]) -> f64 {
-        let white = self.covariance.whiten(&self.residual(model));
-        white.iter().map(|z| z * z).sum()
+        let log_evidence = posterior.log_integral - self.log_norm(covariance);
+        (log_evidence, posterior.covariance)
     }
 
     /// Mean squared standardised residual with each trace's most probable datum.
@@ -315,14 +216,4 @@ impl<'a> Likelihood<'a> {
             })
             .collect()
     }
-}
-
-/// W J.
-pub(super) fn whiten(covariance: &Covariance, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut white = DMatrix::zeros(jacobian.nrows(), jacobian.ncols());
-    for column in 0..jacobian.ncols() {
-        let whitened = covariance.whiten(jacobian.column(column).as_slice());
-        white.column_mut(column).copy_from_slice(&whitened);
-    }
-    white
 }

@@ -42,6 +42,7 @@ mod quadratic;
 mod region;
 mod scatter;
 mod search;
+mod selection;
 mod starts;
 mod strength_prior;
 mod synthesize;

@@ -13,14 +13,14 @@ mod derivatives;
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::evaluate::{Evaluator, Point};
-use super::noise::Covariance;
 use super::parameters::Parameter;
 use super::predictor::PredictError;
 use super::quadratic::{Layout, Normal, Quadratic, State};
 use super::scatter::most_probable;
+use super::selection::Selection;
 use crate::study::Scatter;
 
 /// How long and how finely a fit searches.
@@ -82,14 +82,7 @@ impl Effort {
 
 /// One problem of some tests.
 pub(super) struct Search<'s> {
-    /// The tests, by their number in the data set.
-    pub(super) tests: Vec<usize>,
-    /// Rows of each of them among those of `measured`.
-    pub(super) rows: Vec<Vec<usize>>,
-    pub(super) measured: Vec<f64>,
-    /// Rows whose prediction grows with the wear coefficient.
-    pub(super) worn: Vec<bool>,
-    pub(super) covariance: Arc<Covariance>,
+    pub(super) selection: &'s Selection<'s>,
     pub(super) layout: Layout,
     pub(super) coefficient: Option<&'s Parameter>,
     pub(super) parameters: &'s [Parameter],
@@ -146,9 +139,9 @@ impl Search<'_> {
         effort: &Effort,
     ) -> Result<Found, PredictError> {
         let values = self.predict(evaluator, &state)?;
-        let joined = self.joined(&values);
+        let joined = self.selection.joined(&values);
         let moved: Vec<f64> = joined.iter().zip(before).map(|(now, b)| now - b).collect();
-        let same = squared(&self.covariance.whiten(&moved)) < MOVED;
+        let same = squared(&self.selection.covariance.whiten(&moved)) < MOVED;
         let settled = same.then(|| state.clone());
         self.descend(evaluator, state, values, jacobian, settled, effort)
     }
@@ -166,12 +159,14 @@ impl Search<'_> {
         let mut damping = 1e-3;
         let (mut iterations, mut rounds) = (0, 0);
         let (converged, scatter, normal) = loop {
-            let normal = self.normal(&values, &jacobian);
+            let model = self.selection.joined(&values);
+            let covariance = &self.selection.covariance;
+            let normal = self.selection.normal(&model, &jacobian, covariance);
             let scatter = most_probable(self.scatter, &self.layout, &normal, &state);
             let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
             let fresh = taken_at == state;
             let promised = quadratic.step(0.0).decrease;
-            let beyond = 0.5 * (normal.square - self.measured.len() as f64).max(0.0);
+            let beyond = 0.5 * (normal.square - self.selection.len() as f64).max(0.0);
             let tolerance = effort.tolerance + effort.share * beyond;
             let floor = effort.floor + effort.share * beyond;
             let settled = rounds == effort.settle
@@ -227,7 +222,7 @@ impl Search<'_> {
         };
         Ok(Found {
             objective: self.layout.objective(normal.square, &state, scatter),
-            model: self.joined(&values),
+            model: self.selection.joined(&values),
             state,
             scatter,
             normal,
@@ -244,7 +239,7 @@ impl Search<'_> {
         state: State,
     ) -> Result<f64, PredictError> {
         let (_, values) = self.scaled_start(evaluator, state)?;
-        Ok(squared(&self.covariance.whiten(&self.residual(&values))))
+        Ok(self.square(&values))
     }
 
     /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none.
@@ -260,7 +255,7 @@ impl Search<'_> {
             let step = quadratic.step(*damping);
             let next = self.layout.moved(state, &step.x, scatter);
             if let Ok(values) = self.predict(evaluator, &next) {
-                let square = squared(&self.covariance.whiten(&self.residual(&values)));
+                let square = self.square(&values);
                 let gained = quadratic.value - self.layout.objective(square, &next, scatter);
                 if gained > 1e-3 * step.decrease {
                     let good = gained > 0.75 * step.decrease;
@@ -284,26 +279,17 @@ impl Search<'_> {
         let Some(prior) = &self.layout.coefficient else {
             return Ok((state, values));
         };
-        let only_worn = |v: Vec<f64>| -> Vec<f64> {
-            v.iter()
-                .zip(&self.worn)
-                .map(|(v, &worn)| if worn { *v } else { 0.0 })
-                .collect()
-        };
-        let model = self.covariance.whiten(&only_worn(self.joined(&values)));
-        let measured = self.covariance.whiten(&only_worn(self.measured.clone()));
-        let product: f64 = model.iter().zip(&measured).map(|(f, y)| f * y).sum();
-        let factor = (product / squared(&model)).clamp(0.01, 100.0);
-        if !factor.is_finite() || product <= 0.0 || factor.ln().abs() < 0.1 {
+        let ratio = self.selection.wear_ratio(&self.selection.joined(&values));
+        let factor = ratio.clamp(0.01, 100.0);
+        if !factor.is_finite() || ratio <= 0.0 || factor.ln().abs() < 0.1 {
             return Ok((state, values));
         }
         let before = state.log_k;
         state.log_k = (before + factor.ln()).clamp(prior.lower, prior.upper);
-        if let Ok(scaled) = self.predict(evaluator, &state) {
-            let square = |values| squared(&self.covariance.whiten(&self.residual(values)));
-            if square(&scaled) < square(&values) {
-                return Ok((state, scaled));
-            }
+        if let Ok(scaled) = self.predict(evaluator, &state)
+            && self.square(&scaled) < self.square(&values)
+        {
+            return Ok((state, scaled));
         }
         state.log_k = before;
         Ok((state, values))
@@ -335,7 +321,7 @@ impl Search<'_> {
     fn point(&self, state: &State, test: usize) -> Point {
         let log_k = state.log_k + state.epsilon[test];
         Point {
-            test: self.tests[test],
+            test: self.selection.tests[test],
             coefficient: log_k.exp(),
             parameters: self.values(&state.theta),
         }
@@ -354,7 +340,7 @@ impl Search<'_> {
         evaluator: &mut Evaluator<'_>,
         state: &State,
     ) -> Result<Values, PredictError> {
-        let points: Vec<Point> = (0..self.tests.len())
+        let points: Vec<Point> = (0..self.selection.tests.len())
             .map(|t| self.point(state, t))
             .collect();
         evaluator.all(&points).into_iter().collect()
@@ -382,36 +368,9 @@ impl Search<'_> {
         theta.chain(tests).fold(0.0, f64::max)
     }
 
-    fn normal(&self, values: &Values, jacobian: &DMatrix<f64>) -> Normal {
-        let residual = DVector::from_vec(self.covariance.whiten(&self.residual(values)));
-        let mut white = DMatrix::zeros(jacobian.nrows(), jacobian.ncols());
-        for column in 0..jacobian.ncols() {
-            let whitened = self.covariance.whiten(jacobian.column(column).as_slice());
-            white.column_mut(column).copy_from_slice(&whitened);
-        }
-        Normal {
-            gram: white.transpose() * &white,
-            rhs: white.transpose() * &residual,
-            square: squared(residual.as_slice()),
-        }
-    }
-
-    fn joined(&self, values: &Values) -> Vec<f64> {
-        let mut joined = vec![0.0; self.measured.len()];
-        for (rows, values) in self.rows.iter().zip(values) {
-            for (&row, value) in rows.iter().zip(values.iter()) {
-                joined[row] = *value;
-            }
-        }
-        joined
-    }
-
-    fn residual(&self, values: &Values) -> Vec<f64> {
-        self.measured
-            .iter()
-            .zip(self.joined(values))
-            .map(|(y, f)| y - f)
-            .collect()
+    /// χ² of the predictions.
+    fn square(&self, values: &Values) -> f64 {
+        self.selection.square(&self.selection.joined(values))
     }
 }
 

@@ -1,7 +1,11 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
+mod again;
 mod derivatives;
+mod error;
+mod fresh;
 mod preparation;
+mod running;
 
 use std::sync::Arc;
 
@@ -10,23 +14,18 @@ use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
-use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::model::{ContactModel, PositionContact};
 use crate::effects::Hook;
-use crate::gear::PairError;
 use crate::simulate::blanks::Blanks;
 pub use crate::simulate::gear_set::GearSet;
-use crate::simulate::gear_set::MOST_UNKNOWNS;
-use crate::simulate::history::{
-    HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at, line_load, state_of,
-    wear_with_tangents,
-};
-use crate::simulate::members::{MemberError, Members};
+use crate::simulate::history::line_load;
+use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
 use crate::wear::acting::Acting;
-use crate::wear::archard::WearError;
-use crate::wear::integrator::StepError;
 pub use derivatives::{DifferentiatedContacts, Variation};
-use preparation::{Altered, Prepared, Shelf};
+pub use error::ForwardError;
+pub use fresh::Fresh;
+use preparation::{Altered, Shelf};
 pub use preparation::{Mounting, Preparation};
 
 /// Conditions of a run or test.
@@ -51,78 +50,6 @@ pub enum ContactKind {
     Fem,
     /// Elastic load sharing and Hertz line contact.
     Hertz,
-}
-
-/// Why a forward run ended early.
-#[derive(Debug, thiserror::Error)]
-pub enum ForwardError {
-    /// The gears do not run at this centre distance.
-    #[error(transparent)]
-    Pair(#[from] PairError),
-    /// A member could not be built.
-    #[error(transparent)]
-    Member(#[from] MemberError),
-    /// Contact could not be solved.
-    #[error(transparent)]
-    Contact(#[from] ContactError),
-    /// The flanks would need more elements than fit into memory.
-    #[error(
-        "{unknowns} unknowns on the flanks of one member, at most {MOST_UNKNOWNS} are possible: under the smallest torque the \
-         elements' edges would be {edge_um:.2} µm long; a larger torque or a smaller numerics.elements_per_half_width needs fewer"
-    )]
-    TooFine {
-        /// Unknowns on the fine flanks of the larger member.
-        unknowns: usize,
-        /// Length of an edge, µm.
-        edge_um: f64,
-    },
-    /// A wear step failed.
-    #[error("{0}")]
-    Step(#[from] StepError<WearError>),
-    /// A physical effect gave no usable number before wear began.
-    #[error("{0}")]
-    Effect(String),
-}
-
-impl From<WearError> for ForwardError {
-    fn from(error: WearError) -> Self {
-        match error {
-            WearError::Contact(error) => Self::Contact(error),
-            WearError::Effect(reason) => Self::Effect(reason),
-        }
-    }
-}
-
-/// The new members of a run.
-#[derive(Clone)]
-pub enum Fresh<'a> {
-    /// None: the analytic model.
-    None,
-    /// Lent by someone who has other uses for them.
-    Lent(&'a Members),
-    /// The run's own; let go of once they are worn.
-    Own(Arc<Members>),
-    /// Let go of: only their meshes are left.
-    Blanks(Arc<Blanks>),
-}
-
-impl Fresh<'_> {
-    /// The members, factored and condensed.
-    pub fn condensed(&self) -> Option<&Members> {
-        match self {
-            Fresh::Lent(members) => Some(members),
-            Fresh::Own(members) => Some(members),
-            Fresh::None | Fresh::Blanks(_) => None,
-        }
-    }
-
-    /// Their meshes.
-    pub fn blanks(&self) -> Option<&Arc<Blanks>> {
-        match self {
-            Fresh::Blanks(blanks) => Some(blanks),
-            other => other.condensed().map(|members| &members.blanks),
-        }
-    }
 }
 
 /// A gear pair under one test's conditions, ready to run.
@@ -150,37 +77,6 @@ pub struct Forward<'a> {
 }
 
 impl<'a> Forward<'a> {
-    /// A fresh run under the same conditions, on what this one has prepared, with another tolerance of its wear steps. The members are to be
-    /// unworn.
-    ///
-    /// # Errors
-    /// [`ForwardError::Effect`] if an effect gives no number.
-    pub fn stepping(&self, tolerance: f64) -> Result<Self, ForwardError> {
-        let mut out = Self {
-            set: self.set,
-            conditions: self.conditions,
-            numerics: Numerics {
-                step_tolerance: tolerance,
-                ..self.numerics
-            },
-            kind: self.kind,
-            fresh: self.fresh.clone(),
-            cycle: Arc::clone(&self.cycle),
-            compliance: self.compliance.clone(),
-            points: Vec::new(),
-            condensed_at: None,
-            worn: None,
-            extended: self.extended.clone(),
-            prepared: Arc::clone(&self.prepared),
-            shares: self.shares,
-            factorisations: 0,
-            acting: self.acting,
-            altered: None,
-        };
-        out.alter()?;
-        Ok(out)
-    }
-
     /// Prepares a run: by finite elements if `members` are given, else analytically.
     ///
     /// # Errors
@@ -283,94 +179,6 @@ impl<'a> Forward<'a> {
         Ok(out)
     }
 
-    /// A fresh run of the same gears at the same torque and mounting with another wear coefficient and other effects, on the
-    /// projected compliance that this one has made.
-    ///
-    /// # Errors
-    /// As [`Forward::with_effects`].
-    pub fn again<'b>(
-        &'b self,
-        coefficient: [f64; 2],
-        acting: Option<&'b Acting>,
-    ) -> Result<Forward<'b>, ForwardError> {
-        if acting.is_some_and(|acting| acting.acts(Hook::Operation)) || self.worn.is_some() {
-            // another mounting is another mesh cycle
-            return self.again_moved(coefficient, acting, 0.0);
-        }
-        self.again_at(&self.mounting(), coefficient, acting)
-    }
-
-    /// As [`Forward::again`] where effects move the axes, with these this much (mm) farther apart.
-    ///
-    /// # Errors
-    /// As [`Forward::with_effects`].
-    pub fn again_moved<'b>(
-        &'b self,
-        coefficient: [f64; 2],
-        acting: Option<&'b Acting>,
-        farther: f64,
-    ) -> Result<Forward<'b>, ForwardError> {
-        let conditions = Conditions {
-            coefficient,
-            ..self.conditions
-        };
-        let as_before = (Some(self.cycle.as_ref()), farther);
-        let (members, numerics) = (self.lent(), self.numerics);
-        let mut out = Forward::mounted(self.set, members, conditions, numerics, acting, as_before)?;
-        out.shares = true;
-        Ok(out)
-    }
-
-    /// As [`Forward::again`], at a mounting where effects with the same parameters have been before.
-    ///
-    /// # Errors
-    /// As [`Forward::with_effects`].
-    pub fn again_at<'b>(
-        &'b self,
-        mounting: &Mounting,
-        coefficient: [f64; 2],
-        acting: Option<&'b Acting>,
-    ) -> Result<Forward<'b>, ForwardError> {
-        let mounting = mounting.clone();
-        let mut out = Forward {
-            set: self.set,
-            conditions: Conditions {
-                coefficient,
-                misalignment: mounting.misalignment,
-                ..self.conditions
-            },
-            numerics: self.numerics,
-            kind: self.kind,
-            fresh: self.lent(),
-            cycle: mounting.start.cycle,
-            compliance: mounting.start.compliance,
-            points: Vec::new(),
-            condensed_at: None,
-            worn: None,
-            extended: mounting.start.extended,
-            prepared: mounting.further,
-            shares: true,
-            factorisations: 0,
-            acting,
-            altered: None,
-        };
-        out.alter()?;
-        Ok(out)
-    }
-
-    /// What this run has prepared so far, for further ones at the same mounting; the members are to be unworn.
-    pub fn mounting(&self) -> Mounting {
-        Mounting {
-            misalignment: self.conditions.misalignment,
-            start: Prepared {
-                cycle: Arc::clone(&self.cycle),
-                compliance: self.compliance.clone(),
-                extended: self.extended.clone(),
-            },
-            further: Arc::clone(&self.prepared),
-        }
-    }
-
     /// The mesh cycle.
     pub fn cycle(&self) -> &Cycle {
         &self.cycle
@@ -390,14 +198,6 @@ impl<'a> Forward<'a> {
     /// The conditions, with what effects do to the misalignment.
     pub fn conditions(&self) -> Conditions {
         self.conditions
-    }
-
-    /// The new members, for another run.
-    fn lent(&self) -> Fresh<'_> {
-        match (&self.fresh, self.members()) {
-            (Fresh::Blanks(blanks), None) => Fresh::Blanks(Arc::clone(blanks)),
-            (_, members) => members.map_or(Fresh::None, Fresh::Lent),
-        }
     }
 
     /// The new members, by finite elements and unless they have been let go of.
@@ -424,11 +224,15 @@ impl<'a> Forward<'a> {
     }
 
     /// Calls `work` with the contact model.
-    pub fn with_model<R>(&self, work: impl FnOnce(&dyn ContactModel) -> R) -> R {
-        match (self.compliance(), self.kind) {
-            (None, ContactKind::Fem) => {
-                unreachable!("a run whose preparation failed is given up")
-            }
+    ///
+    /// # Errors
+    /// [`ForwardError::Unprepared`] after a preparation that failed.
+    pub fn with_model<R>(
+        &self,
+        work: impl FnOnce(&dyn ContactModel) -> R,
+    ) -> Result<R, ForwardError> {
+        Ok(match (self.compliance(), self.kind) {
+            (None, ContactKind::Fem) => return Err(ForwardError::Unprepared),
             (Some(compliance), ContactKind::Fem) => {
                 let model = FemContact::new(&self.cycle, compliance, self.torque());
                 match &self.altered {
@@ -454,135 +258,7 @@ impl<'a> Forward<'a> {
                     None => work(&model),
                 }
             }
-        }
-    }
-
-    /// Wears the flanks from `progress` (or fresh) to each of the ascending `stops` (cycles) and hands every state reached
-    /// to `store`. Returns false if `observe` stopped the run.
-    ///
-    /// # Errors
-    /// [`ForwardError`] with where it happened; `progress` then holds the last accepted step.
-    pub fn wear(
-        &mut self,
-        progress: &mut Option<Progress>,
-        stops: &[f64],
-        observe: &mut dyn FnMut(StepReport) -> bool,
-        store: &mut dyn FnMut(WearState),
-    ) -> Result<bool, ForwardError> {
-        for &stop in stops {
-            if !self.wear_to(progress, stop, &mut |_, progress| {
-                observe(progress.report())
-            })? {
-                return Ok(false);
-            }
-            if let Some(progress) = progress {
-                store(self.state(progress)?);
-            }
-        }
-        Ok(true)
-    }
-
-    /// Wears the flanks from `progress` (or fresh) to `stop` cycles; `observe` sees what a resumed run needs after every
-    /// step and may stop the run. Returns false if it did.
-    ///
-    /// # Errors
-    /// [`ForwardError`] with where it happened; `progress` then holds the last accepted step.
-    pub fn wear_to(
-        &mut self,
-        progress: &mut Option<Progress>,
-        stop: f64,
-        observe: &mut dyn FnMut(&Preparation, &Progress) -> bool,
-    ) -> Result<bool, ForwardError> {
-        let mut none = HistoryTangents::default();
-        self.wear_with_tangents(progress, stop, (&[], &mut none), &mut |p, progress, _| {
-            observe(p, progress)
         })
-    }
-
-    /// As [`Forward::wear_to`], with the derivatives by each parameter of `variations` (empty: those of fresh flanks), which
-    /// `observe` sees too.
-    ///
-    /// # Errors
-    /// As [`Forward::wear_to`].
-    pub fn wear_with_tangents(
-        &mut self,
-        progress: &mut Option<Progress>,
-        stop: f64,
-        (variations, tangents): (&[Variation], &mut HistoryTangents),
-        observe: &mut dyn FnMut(&Preparation, &Progress, &HistoryTangents) -> bool,
-    ) -> Result<bool, ForwardError> {
-        let law = WearLaw {
-            coefficient: self.conditions.coefficient,
-            acting: self.acting,
-            tolerance: self.numerics.step_tolerance,
-            // of several runs only the depths are asked for, and the mass that is not lost with them
-            balance: !self.shares || self.acting.is_some_and(|a| a.effects.displaces()),
-        };
-        loop {
-            // here and not after the step that calls for it: a run resumed from that step does the same
-            self.condense_if_stale(progress.as_ref())?;
-            let preparation = self.preparation();
-            let elastic = self.kind == ContactKind::Fem;
-            let condense_after = self.condense_after();
-            let mut go_on = true;
-            let mut stale = false;
-            let directions = self.directions(variations);
-            let outcome = self.with_model(|model| {
-                let with = (directions.as_slice(), &mut *tangents);
-                wear_with_tangents(
-                    model,
-                    law,
-                    progress,
-                    stop,
-                    with,
-                    &mut |progress, tangents| {
-                        go_on = observe(&preparation, progress, tangents);
-                        stale = elastic && preparation.is_stale(&progress.stand.u, condense_after);
-                        go_on && !stale
-                    },
-                )
-            });
-            match outcome {
-                Ok(_) if !go_on => return Ok(false),
-                Ok(_) if stale => {}
-                Ok(_) => return Ok(true),
-                Err(StepError::System {
-                    source: WearError::Contact(error),
-                    n,
-                }) => {
-                    let failed = |source| StepError::System { n, source };
-                    self.widen(error).map_err(|error| match error {
-                        ForwardError::Contact(error) => failed(WearError::Contact(error)).into(),
-                        other => other,
-                    })?;
-                    if let Some(progress) = progress {
-                        progress.forget_sets();
-                    }
-                }
-                Err(error) => return Err(error.into()),
-            }
-        }
-    }
-
-    /// Depths and contact of every position where `progress` stands.
-    ///
-    /// # Errors
-    /// [`ForwardError`] if a contact cannot be solved.
-    pub fn state(&self, progress: &Progress) -> Result<WearState, ForwardError> {
-        Ok(self.with_model(|model| state_of(model, progress))?)
-    }
-
-    /// The contact of every position at the depths `u` (mm at the stations of pinion and gear), looked for as widely as it takes.
-    ///
-    /// # Errors
-    /// [`ForwardError`] if a contact cannot be solved.
-    pub fn contacts_at(&mut self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
-        loop {
-            match self.with_model(|model| contacts_at(model, u)) {
-                Ok(contacts) => return Ok(contacts),
-                Err(error) => self.widen(error)?,
-            }
-        }
     }
 
     /// Stiffness factorisations so far.

@@ -82,11 +82,10 @@ pub fn effect(forward: &mut Forward, progress: &Progress) -> Result<Vec<Measured
 fn wear_rates(forward: &Forward, progress: &Progress) -> Result<Vec<f64>, CaseError> {
     use crate::wear::archard::ArchardSystem;
     use crate::wear::integrator::WearSystem;
-    forward.with_model(|m| {
-        ArchardSystem::new(m, [1.0; 2])
-            .rate(0.0, &progress.stand.u)
-            .map_err(CaseError::gears)
-    })
+    let rates = forward
+        .with_model(|m| ArchardSystem::new(m, [1.0; 2]).rate(0.0, &progress.stand.u))
+        .map_err(CaseError::gears)?;
+    rates.map_err(CaseError::gears)
 }
 
 /// Wear between condensations of the finer run, mm.

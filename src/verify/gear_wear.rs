@@ -167,7 +167,9 @@ pub fn one_pass(
 ) -> Result<Vec<Measured>, CaseError> {
     let forward = Forward::new(&case.set, members, conditions(case, 1.0), numerics)
         .map_err(CaseError::gears)?;
-    let fresh = forward.with_model(FreshRate::new)?;
+    let fresh = forward
+        .with_model(FreshRate::new)
+        .map_err(CaseError::gears)??;
     let cycle = forward.cycle();
     let pair = &cycle.pair;
     let [a, b, _, d, e] = pair.path_points();
@@ -301,11 +303,10 @@ pub fn history(
     };
     let fresh = vec![0.0; forward.cycle().stations.count()];
     let rate = |forward: &Forward, u: &[f64]| {
-        forward.with_model(|m| {
-            ArchardSystem::new(m, [k; 2])
-                .rate(0.0, u)
-                .map_err(CaseError::gears)
-        })
+        let rates = forward
+            .with_model(|m| ArchardSystem::new(m, [k; 2]).rate(0.0, u))
+            .map_err(CaseError::gears)?;
+        rates.map_err(CaseError::gears)
     };
     let first = rate(&forward, &fresh)?;
     let mut balance = 0.0_f64;

@@ -21,7 +21,7 @@ use crate::effects::{Effect, Hook};
 use crate::numeric::sparse::SparseRows;
 use crate::wear::acting::Acting;
 use crate::wear::integrator::WearSystem;
-use crate::wear::law::{AddedReads, Law, Solved};
+use crate::wear::law::{AddedReads, Factors, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
 
 /// Length over which the largest pressure that effects are told is averaged, mm: about that of a micropit, and a third of a contact.
@@ -48,8 +48,17 @@ pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
     warm: Vec<Vec<usize>>,
     /// The last two solutions, the last one first: both stages of a step.
     last: [Option<Solved>; 2],
+    /// The factors of every position that the Jacobian was last made with.
+    factors: Option<KnownFactors>,
     /// Contact problems solved so far.
     pub solves: usize,
+}
+
+/// Factors on the wear coefficient at some cycles and depths, by position.
+struct KnownFactors {
+    n: f64,
+    u: Vec<f64>,
+    factors: Vec<Factors>,
 }
 
 /// Worn area per pinion cycle and flank, pinion and gear, mm².
@@ -71,6 +80,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             passage: None,
             warm: vec![Vec::new(); model.cycle().positions.len()],
             last: [None, None],
+            factors: None,
             solves: 0,
         }
     }
@@ -187,7 +197,9 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
 
     fn rate(&mut self, n: f64, u: &[f64]) -> Result<Vec<f64>, WearError> {
         self.solved(u)?;
-        let rate = self.law().rate(n, self.known(u));
+        let known = (self.factors.as_ref()).filter(|known| known.n == n && known.u == u);
+        let known = known.map(|known| known.factors.as_slice());
+        let rate = self.law().rate(n, self.known(u), known);
         match self.acting.and_then(|acting| acting.effects.fault()) {
             Some(fault) => Err(WearError::Effect(fault)),
             None => Ok(rate),
@@ -208,19 +220,27 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
         };
         let view = law.view(n, u);
         let mut jacobian = Mat::zeros(u.len(), u.len());
+        let mut all_factors = Vec::with_capacity(contacts.len());
         let reads = law.added_reads(&view, solved, &law.reads(solved));
         for (q, ((contact, block), reads)) in contacts.iter().zip(blocks).zip(reads).enumerate() {
             let position = &cycle.positions[q];
+            let [factors, slopes] = law.factors_and_slopes(&view, position, contact);
+            all_factors.push(factors);
             let local = Local {
                 position,
                 active: &contact.active,
                 shift: [0, cycle.stations.arc[0].len()],
                 scale: law.scale(),
-                slopes: law.pressure_slopes(&view, position, contact),
+                slopes,
                 reads,
             };
             local.add(&block, &mut jacobian);
         }
+        self.factors = Some(KnownFactors {
+            n,
+            u: u.to_vec(),
+            factors: all_factors,
+        });
         Ok(Some(jacobian))
     }
 }
@@ -233,8 +253,8 @@ struct Local<'a> {
     shift: [usize; 2],
     /// Depth rate per pressure of pinion and gear: k per pinion cycle.
     scale: [f64; 2],
-    /// Change of f p with p at the unknowns, pinion and gear; `None`: 1.
-    slopes: Option<[Vec<f64>; 2]>,
+    /// Change of f p with p at the unknowns.
+    slopes: Factors,
     /// What effects add.
     reads: AddedReads,
 }

@@ -8,7 +8,7 @@
 //! ```text
 //! F_k = c ∫ f p N_k dξ / ∫ p N_k dξ,     c: Σ F_k p_k L_k / Σ p_k L_k = ∫ f p dξ / ∫ p dξ
 //! ```
-//! A factor of 1 stays 1 to the last bit.
+//! A factor of 1 stays 1 to the last bit. Effects whose factor is the same for all of a contact are asked once for it.
 
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::model::PositionContact;
@@ -36,6 +36,7 @@ pub fn factors<const N: usize>(
     contact: &PositionContact,
     of: impl Fn(f64, &Local) -> [f64; N],
 ) -> [[Vec<f64>; 2]; N] {
+    let even = acting.effects.is_even();
     let mut factors = [(); N].map(|()| [(); 2].map(|()| vec![1.0; contact.pressure.len()]));
     for pair in &position.pairs {
         let own = pair.offset..pair.offset + pair.xi.len();
@@ -46,6 +47,17 @@ pub fn factors<const N: usize>(
         let mut local = acting.at_pair(cycle, pair, PairLoad::of(pair, contact), worn.age);
         for member in Member::BOTH {
             let side = side(member);
+            if even {
+                acting.at_point(&mut local, cycle, member, pair.arc[side][0], 0.0, 0.0);
+                let values = of(acting.effects.wear_factor(&local), &local);
+                for (factors, value) in factors.iter_mut().zip(values) {
+                    let touching = factors[side][own.clone()].iter_mut().zip(pressure);
+                    for (factor, _) in touching.filter(|(_, p)| **p > 0.0) {
+                        *factor = value;
+                    }
+                }
+                continue;
+            }
             let depth = |k: usize| pair.opening[side].dot(k, worn.depth[side]) / pair.length[k];
             let mut sums = Sums::<N>::new(pressure.len());
             let mut behind: Option<(usize, f64)> = None;

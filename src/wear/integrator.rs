@@ -153,8 +153,9 @@ pub fn advance<S: WearSystem>(
 ) -> Result<Step, StepError<S::Error>> {
     let n = stand.n;
     let fail = |source| StepError::System { n, source };
-    let rate = system.rate(n, &stand.u).map_err(fail)?;
+    // first, for the rate comes with it
     let jacobian = system.jacobian(n, &stand.u).map_err(fail)?;
+    let rate = system.rate(n, &stand.u).map_err(fail)?;
     let mut step = stand.step;
     loop {
         // stretch a little rather than leave a sliver before the end

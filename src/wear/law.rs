@@ -34,6 +34,9 @@ pub(super) struct Solved {
 /// Where the largest pressure of a station is read, by flank and station: (position, unknown, weight).
 pub(super) type Reads = [Vec<Vec<(u32, u32, f64)>>; 2];
 
+/// Factor on k at every unknown of a position on pinion and gear; `None`: 1 everywhere.
+pub(super) type Factors = Option<[Vec<f64>; 2]>;
+
 /// What the slopes of added depths put into the Jacobian at one position: unknown, joint station, mm per cycle and MPa.
 pub(super) type AddedReads = Vec<(usize, usize, f64)>;
 
@@ -66,13 +69,20 @@ impl Law<'_> {
         }
     }
 
-    /// du/dn, mm per pinion cycle.
-    pub(super) fn rate(&self, n: f64, solved: &Solved) -> Vec<f64> {
+    /// du/dn, mm per pinion cycle; with the factors of every position if they are known.
+    pub(super) fn rate(&self, n: f64, solved: &Solved, known: Option<&[Factors]>) -> Vec<f64> {
         let view = self.view(n, &solved.u);
         let mut rate = vec![0.0; solved.u.len()];
-        for (position, contact) in self.cycle.positions.iter().zip(&solved.contacts) {
-            let factors = self.wear_factors(&view, position, contact);
-            self.add_rate(&mut rate, position, contact, factors.as_ref());
+        for (q, (position, contact)) in
+            (self.cycle.positions.iter().zip(&solved.contacts)).enumerate()
+        {
+            match known {
+                Some(known) => self.add_rate(&mut rate, position, contact, known[q].as_ref()),
+                None => {
+                    let factors = self.wear_factors(&view, position, contact);
+                    self.add_rate(&mut rate, position, contact, factors.as_ref());
+                }
+            }
         }
         self.add_added(&mut rate, &view, solved);
         rate
@@ -152,28 +162,22 @@ impl Law<'_> {
         displaced
     }
 
-    /// Factor on k at every unknown of a position on pinion and gear; `None`: 1 everywhere.
-    fn wear_factors(
-        &self,
-        view: &Worn,
-        position: &Position,
-        contact: &PositionContact,
-    ) -> Option<[Vec<f64>; 2]> {
+    fn wear_factors(&self, view: &Worn, position: &Position, contact: &PositionContact) -> Factors {
         let [factors] = self.each_factor(view, position, contact, |f, _, _| [f])?;
         Some(factors)
     }
 
-    /// The same of f + p df/dp: what a small change of pressure changes f p by.
-    pub(super) fn pressure_slopes(
+    /// The factors f, and the same of f + p df/dp: what a small change of pressure changes f p by.
+    pub(super) fn factors_and_slopes(
         &self,
         view: &Worn,
         position: &Position,
         contact: &PositionContact,
-    ) -> Option<[Vec<f64>; 2]> {
-        let [slopes] = self.each_factor(view, position, contact, |f, acting, local| {
-            [slope(f, acting, local)]
-        })?;
-        Some(slopes)
+    ) -> [Factors; 2] {
+        let both = self.each_factor(view, position, contact, |f, acting, local| {
+            [f, slope(f, acting, local)]
+        });
+        both.map_or([None, None], |both| both.map(Some))
     }
 
     fn each_factor<const N: usize>(
@@ -290,7 +294,7 @@ impl Law<'_> {
         responses: &[Vec<Vec<f64>>],
     ) -> (Vec<f64>, Vec<Vec<f64>>) {
         if responses.is_empty() {
-            return (self.rate(n, solved), Vec::new());
+            return (self.rate(n, solved, None), Vec::new());
         }
         let view = self.view(n, &solved.u);
         let scale = self.scale();
@@ -301,20 +305,14 @@ impl Law<'_> {
         for (q, (position, contact)) in
             (self.cycle.positions.iter().zip(&solved.contacts)).enumerate()
         {
-            let both = self.each_factor(&view, position, contact, |f, acting, local| {
-                [f, slope(f, acting, local)]
-            });
-            let (factors, slopes) = match &both {
-                Some([factors, slopes]) => (Some(factors), Some(slopes)),
-                None => (None, None),
-            };
-            self.add_rate(&mut rate, position, contact, factors);
+            let [factors, slopes] = self.factors_and_slopes(&view, position, contact);
+            self.add_rate(&mut rate, position, contact, factors.as_ref());
             for (product, response) in products.iter_mut().zip(responses) {
                 let (pinion, gear) = product.split_at_mut(stations);
                 for (&k, y) in contact.active.iter().zip(&response[q]) {
                     let pair = &position.pairs[position.owner(k)];
                     for (side, out) in [&mut *pinion, &mut *gear].into_iter().enumerate() {
-                        let slope = slopes.map_or(1.0, |s| s[side][k]);
+                        let slope = slopes.as_ref().map_or(1.0, |s| s[side][k]);
                         pair.wear[side].scatter(k - pair.offset, -scale[side] * slope * y, out);
                     }
                 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearwear::effects::Local;
+use gearwear::effects::{CATALOGUE, Hook, Local};
 use gearwear::gear::Member;
 
 use super::places::{operation, ordinary, profile};
@@ -653,4 +653,37 @@ fn flanks_as_made() {
         [-1, 0, 1].map(|tooth| pitch.tooth_offset(tooth)),
         [0.0, -7.0, 0.0]
     );
+}
+
+/// Laws that call themselves even over a contact ask for no point's place, depth or pressure, and all others do: with defaults and in every form.
+#[test]
+fn even_laws_are_the_same_all_over_a_contact() {
+    let at = ordinary();
+    let moved = [
+        Local {
+            radius: 1.01 * at.radius,
+            ..at
+        },
+        Local {
+            depth: 1.7 * at.depth + 0.3,
+            ..at
+        },
+        Local {
+            pressure: 0.6 * at.pressure,
+            ..at
+        },
+    ];
+    let mut even = 0;
+    let cards = CATALOGUE.iter();
+    for card in cards.filter(|card| card.hook == Hook::WearFactor) {
+        let plain: &[(&str, f64)] = &[];
+        for settings in std::iter::once(plain).chain(card.forms.iter().map(|form| form.settings)) {
+            let law = effect(card.name, settings);
+            let here = law.wear_factor(&at);
+            let same = moved.iter().all(|there| law.wear_factor(there) == here);
+            assert_eq!(law.is_even(), same, "{} with {settings:?}", card.name);
+            even += usize::from(same);
+        }
+    }
+    assert!(even > 10);
 }

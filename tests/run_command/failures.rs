@@ -45,19 +45,21 @@ fn a_tolerance_that_cannot_be_held_is_an_error() {
         study().resolution(),
     );
     let forward = Forward::new(&set, None, conditions, numerics).unwrap();
-    let error = forward.with_model(|model| {
-        let jumpy = Doctored {
-            model,
-            calls: Mutex::new(0),
-            fault: |calls, contact| {
-                let factor = if calls % 2 == 0 { 1.0 } else { 4.0 };
-                contact.pressure.iter_mut().for_each(|p| *p *= factor);
-                Ok(())
-            },
-        };
-        let mut progress = None;
-        wear_until(&jumpy, strict, &mut progress, 1e5, &mut |_| true).unwrap_err()
-    });
+    let error = forward
+        .with_model(|model| {
+            let jumpy = Doctored {
+                model,
+                calls: Mutex::new(0),
+                fault: |calls, contact| {
+                    let factor = if calls % 2 == 0 { 1.0 } else { 4.0 };
+                    contact.pressure.iter_mut().for_each(|p| *p *= factor);
+                    Ok(())
+                },
+            };
+            let mut progress = None;
+            wear_until(&jumpy, strict, &mut progress, 1e5, &mut |_| true).unwrap_err()
+        })
+        .unwrap();
     let StepError::TooSmall { n, step, error } = error else {
         panic!("{error}")
     };
@@ -114,7 +116,7 @@ fn contact_that_fails_at_one_position_stops_the_wear_there() {
         if let Some(last) = steps.last() {
             assert_eq!(&kept, last, "the last accepted step, whole");
         }
-    });
+    }).unwrap();
 }
 
 /// Not a number from a contact model must not pass as a wear rate.
@@ -126,28 +128,30 @@ fn pressures_that_are_no_numbers_are_an_error() {
         study().resolution(),
     );
     let forward = Forward::new(&set, None, conditions, numerics).unwrap();
-    forward.with_model(|model| {
-        let doctored = Doctored {
-            model,
-            calls: Mutex::new(0),
-            fault: |calls, contact| {
-                if calls > 2 * 30
-                    && let Some(&k) = contact.active.first()
-                {
-                    contact.pressure[k] = f64::INFINITY;
-                }
-                Ok(())
-            },
-        };
-        let mut progress = None;
-        let outcome = wear_until(&doctored, LAW, &mut progress, 1e5, &mut |_| true);
-        assert!(
-            matches!(outcome, Err(StepError::TooSmall { .. })),
-            "{outcome:?}"
-        );
-        let kept = progress.expect("the start is kept");
-        assert!(kept.stand.u.iter().all(|h| h.is_finite()));
-    });
+    forward
+        .with_model(|model| {
+            let doctored = Doctored {
+                model,
+                calls: Mutex::new(0),
+                fault: |calls, contact| {
+                    if calls > 2 * 30
+                        && let Some(&k) = contact.active.first()
+                    {
+                        contact.pressure[k] = f64::INFINITY;
+                    }
+                    Ok(())
+                },
+            };
+            let mut progress = None;
+            let outcome = wear_until(&doctored, LAW, &mut progress, 1e5, &mut |_| true);
+            assert!(
+                matches!(outcome, Err(StepError::TooSmall { .. })),
+                "{outcome:?}"
+            );
+            let kept = progress.expect("the start is kept");
+            assert!(kept.stand.u.iter().all(|h| h.is_finite()));
+        })
+        .unwrap();
 }
 
 /// An observer that cannot keep a checkpoint ends the run, with its own words.

@@ -56,6 +56,10 @@ struct ApproachRecess {
 }
 
 impl Effect for ApproachRecess {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let ahead = if at.approach {
             at.path.abs()

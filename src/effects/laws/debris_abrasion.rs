@@ -79,6 +79,10 @@ struct DebrisAbrasion {
 }
 
 impl Effect for DebrisAbrasion {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         1.0 + self.amplitude * at.worn_volume
             / self.reference_volume

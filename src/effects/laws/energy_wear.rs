@@ -56,6 +56,10 @@ struct EnergyWear {
 }
 
 impl Effect for EnergyWear {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         (at.friction.max(LEAST_FRICTION) / self.reference_friction).powf(self.exponent)
     }

@@ -80,6 +80,10 @@ struct FilmThickness {
 }
 
 impl Effect for FilmThickness {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let thin = 1.0 / (1.0 + (at.film_ratio / self.lambda0).powf(self.exponent));
         self.floor + (1.0 - self.floor) * thin

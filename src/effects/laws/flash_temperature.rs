@@ -139,6 +139,10 @@ struct FlashTemperature {
 }
 
 impl Effect for FlashTemperature {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let contact = at.bulk_temperature + at.flash_temperature;
         let x = self.sensitivity * (contact - self.reference_temperature);

@@ -56,6 +56,10 @@ struct LubricantAgeing {
 }
 
 impl Effect for LubricantAgeing {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         1.0 + (self.ratio - 1.0) * (1.0 - (-at.hours / self.life).exp())
     }

@@ -38,6 +38,10 @@ struct MemberHardness {
 }
 
 impl Effect for MemberHardness {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         self.factors[usize::from(at.member == Member::Gear)]
     }

@@ -119,6 +119,10 @@ struct Oxidative {
 }
 
 impl Effect for Oxidative {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let kelvin = (at.bulk_temperature + at.flash_temperature + ZERO_CELSIUS).max(100.0);
         let inverse = 1.0 / (self.reference_temperature + ZERO_CELSIUS) - 1.0 / kelvin;

@@ -118,6 +118,11 @@ struct PressureExponent {
 }
 
 impl Effect for PressureExponent {
+    /// If it follows Hertz's pressure alone.
+    fn is_even(&self) -> bool {
+        self.hertz == 1.0 && self.gain == 0.0
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let pressure = (1.0 - self.hertz) * at.pressure + self.hertz * at.hertz_pressure;
         let power =

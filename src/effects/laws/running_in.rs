@@ -121,6 +121,11 @@ struct RunningIn {
 }
 
 impl Effect for RunningIn {
+    /// Unless it remembers the depth.
+    fn is_even(&self) -> bool {
+        self.decay_depth.is_infinite()
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let counted = at.cycles.powf(1.0 - self.own_contacts) * at.contacts.powf(self.own_contacts);
         let x = counted / self.decay_cycles;

@@ -102,6 +102,10 @@ struct SevereTransition {
 }
 
 impl Effect for SevereTransition {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         let pressure = (1.0 - self.hertz) * at.peak_pressure + self.hertz * at.hertz_pressure;
         let x = pressure * at.floored_sliding().powf(self.speed_exponent);

@@ -53,6 +53,10 @@ struct SlidingSpeedExponent {
 }
 
 impl Effect for SlidingSpeedExponent {
+    fn is_even(&self) -> bool {
+        true
+    }
+
     fn wear_factor(&self, at: &Local) -> f64 {
         (at.floored_sliding() / self.reference_speed).powf(self.exponent)
     }

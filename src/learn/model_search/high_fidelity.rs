@@ -1,7 +1,7 @@
 //! The fits that decide: coarse finite elements say how predictions change, exact ones where they stand.
 
 use super::context::Context;
-use crate::learn::candidate_model::{Anchored, model, offset, predictions};
+use crate::learn::candidate_model::{AnchoredOn, model, offset, predictions};
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::predictor::PredictError;
@@ -62,7 +62,7 @@ impl Context<'_> {
             let at = predictions(&self.likelihood, &exact, candidate, &state)?;
             let near = predictions(&self.likelihood, &cheap, candidate, &state)?;
             let offset = offset(&self.likelihood, &at, &near);
-            let predictor = Anchored::new(model(self.middle, candidate), offset.clone());
+            let predictor = AnchoredOn::new(&cheap, offset.clone());
             let here = self
                 .likelihood
                 .fit(&predictor, parameters, state.clone(), &Effort::STAY)?;

@@ -4,10 +4,11 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::screening::{LOOK, SCREEN, in_play};
-use crate::learn::candidate_model::{Anchored, model};
+use crate::learn::candidate_model::{Anchored, AnchoredOn, model};
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::gear_model::GearModel;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
@@ -55,73 +56,52 @@ impl Context<'_> {
             && self
                 .likelihood
                 .misses_more_than_wear(&base.fitted.found.model);
-        let looks: Vec<Option<Found>> = (screened.par_iter())
-            .map(|judged| {
-                let candidate = &judged.candidate;
-                let bar = if candidate.sharp() {
-                    bar_of_sharp.min(bar)
-                } else {
-                    bar
-                };
-                let wanted = judged.log_evidence - before >= bar
-                    || contact_missed && candidate.changes_contact();
-                let start = judged.found.state.clone();
-                wanted.then(|| self.fit_middle(base, candidate, start, &LOOK))?
-            })
+        let wanted = |judged: &FittedCandidate| {
+            let candidate = &judged.candidate;
+            let bar = if candidate.sharp() {
+                bar_of_sharp.min(bar)
+            } else {
+                bar
+            };
+            judged.log_evidence - before >= bar || contact_missed && candidate.changes_contact()
+        };
+        // one model for all fits of a candidate: it keeps its histories
+        let models: Vec<Option<GearModel<'_>>> = (screened.iter())
+            .map(|judged| wanted(judged).then(|| model(self.middle, &judged.candidate)))
+            .collect();
+        let fit = |place: usize, start: State, effort: &Effort| -> Option<Found> {
+            let predictor = AnchoredOn::new(models[place].as_ref()?, base.fitted.offset.clone());
+            let parameters = &screened[place].candidate.parameters;
+            self.likelihood
+                .fit(&predictor, parameters, start, effort)
+                .ok()
+        };
+        let places = || (0..screened.len()).into_par_iter();
+        let looks: Vec<Option<Found>> = places()
+            .map(|place| fit(place, screened[place].found.state.clone(), &LOOK))
             .collect();
         let least = (looks.iter().flatten()).map(|found| found.objective);
         let bar = in_play(base.fitted.found.objective, least, IN_PLAY);
-        let refined: Vec<FittedCandidate> = (screened.into_par_iter().zip(looks))
-            .map(|(judged, look)| match look {
-                None => judged,
-                Some(look) => {
-                    let found = self.fitted_on(base, &judged.candidate, look, bar);
-                    self.refined(base, judged.candidate, found)
-                }
+        let refined: Vec<Option<Found>> = (places().zip(looks))
+            .map(|(place, look)| {
+                Some(fitted_on(look?, bar, |start, effort| {
+                    fit(place, start, effort)
+                }))
             })
             .collect();
-        self.started_again(base, refined, bar)
-    }
-
-    /// A look at a candidate fitted on if it is in play.
-    fn fitted_on(&self, base: &BaseFit, candidate: &Candidate, look: Found, bar: f64) -> Found {
-        if look.objective > bar || look.converged {
-            return look;
-        }
-        let on = |found: Found, effort| {
-            let further = self.fit_middle(base, candidate, found.state.clone(), effort);
-            further
-                .filter(|further| further.objective <= found.objective)
-                .unwrap_or(found)
-        };
-        let found = on(look, &SCREEN);
-        if found.converged || found.iterations == SCREEN.iterations {
-            found
-        } else {
-            on(found, &UNSTUCK)
-        }
-    }
-
-    /// Each fitted once more from where the best form of its effect ended, if it is far behind that.
-    fn started_again(
-        &self,
-        base: &BaseFit,
-        refined: Vec<FittedCandidate>,
-        bar: f64,
-    ) -> Vec<FittedCandidate> {
-        let before = base.fitted.found.objective;
-        let starts: Vec<Option<State>> = (refined.iter())
-            .map(|own| from_sibling(own, &refined, before, bar))
+        // each fitted once more from where the best form of its effect ended, if it is far behind that
+        let again: Vec<Option<Found>> = places()
+            .map(|place| {
+                let start = from_sibling(place, &screened, &refined, base, bar)?;
+                fit(place, start, &SCREEN)
+            })
             .collect();
-        (refined.into_par_iter().zip(starts))
-            .map(|(judged, start)| {
-                let fit = |start| self.fit_middle(base, &judged.candidate, start, &SCREEN);
-                match start.and_then(fit) {
-                    Some(found) if found.objective < judged.found.objective => {
-                        self.refined(base, judged.candidate, found)
-                    }
-                    _ => judged,
-                }
+        drop(models);
+        (screened.into_par_iter().zip(refined).zip(again))
+            .map(|((judged, found), again)| {
+                let Some(found) = found else { return judged };
+                let better = again.filter(|again| again.objective < found.objective);
+                self.refined(base, judged.candidate, better.unwrap_or(found))
             })
             .collect()
     }
@@ -155,20 +135,6 @@ impl Context<'_> {
         all.collect()
     }
 
-    fn fit_middle(
-        &self,
-        base: &BaseFit,
-        candidate: &Candidate,
-        start: State,
-        effort: &Effort,
-    ) -> Option<Found> {
-        let predictor = Anchored::new(model(self.middle, candidate), base.fitted.offset.clone());
-        let parameters = &candidate.parameters;
-        self.likelihood
-            .fit(&predictor, parameters, start, effort)
-            .ok()
-    }
-
     fn refined(&self, base: &BaseFit, candidate: Candidate, found: Found) -> FittedCandidate {
         let offset = base.fitted.offset.clone();
         FittedCandidate::new(
@@ -182,24 +148,41 @@ impl Context<'_> {
     }
 }
 
-/// Where the best form of the same effect with the same parameters ended, if that one is in play and `own` far behind it.
+/// A look at a candidate fitted on if it is in play.
+fn fitted_on(look: Found, bar: f64, fit: impl Fn(State, &Effort) -> Option<Found>) -> Found {
+    if look.objective > bar || look.converged {
+        return look;
+    }
+    let on = |found: Found, effort| {
+        fit(found.state.clone(), effort)
+            .filter(|further| further.objective <= found.objective)
+            .unwrap_or(found)
+    };
+    let found = on(look, &SCREEN);
+    if found.converged || found.iterations == SCREEN.iterations {
+        found
+    } else {
+        on(found, &UNSTUCK)
+    }
+}
+
+/// Where the best form of the same effect with the same parameters ended, if that one is in play and the candidate far behind it.
 fn from_sibling(
-    own: &FittedCandidate,
-    all: &[FittedCandidate],
-    before: f64,
+    place: usize,
+    candidates: &[FittedCandidate],
+    refined: &[Option<Found>],
+    base: &BaseFit,
     bar: f64,
 ) -> Option<State> {
-    if own.fidelity != Fidelity::Middle {
-        return None;
-    }
-    let siblings = all.iter().filter(|other| {
-        other.fidelity == Fidelity::Middle
-            && other.found.objective <= bar
-            && other.candidate.effects == own.candidate.effects
-            && other.candidate.has_parameters_of(&own.candidate)
+    let (candidate, own) = (&candidates[place].candidate, refined[place].as_ref()?);
+    let siblings = candidates.iter().zip(refined).filter_map(|(other, found)| {
+        let found = found.as_ref().filter(|found| found.objective <= bar)?;
+        let related = other.candidate.effects == candidate.effects
+            && other.candidate.has_parameters_of(candidate);
+        related.then_some(found)
     });
-    let best = siblings.min_by(|a, b| a.found.objective.total_cmp(&b.found.objective))?;
-    let behind = own.found.objective - best.found.objective;
-    let far = MEANT.max(BEHIND_ITS_BEST * (before - best.found.objective));
-    (behind > far).then(|| best.found.state.clone())
+    let best = siblings.min_by(|a, b| a.objective.total_cmp(&b.objective))?;
+    let behind = own.objective - best.objective;
+    let gain = base.fitted.found.objective - best.objective;
+    (behind > MEANT.max(BEHIND_ITS_BEST * gain)).then(|| best.state.clone())
 }

@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::context::Context;
-use crate::learn::candidate_model::{Anchored, model};
+use crate::learn::candidate_model::{AnchoredOn, model};
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::gear_model::GearModel;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::quadratic::State;
 use crate::learn::search::{Effort, Found};
@@ -65,35 +66,39 @@ pub(in crate::learn) fn fit(
     base: &BaseFit,
     starts: Vec<PairStart>,
 ) -> Vec<FittedCandidate> {
-    let searched = |pair: &PairStart, state: State, effort: &Effort| -> Option<Found> {
-        let predictor = Anchored::new(model(context.middle, &pair.candidate), pair.offset.clone());
+    // one model for both fits of a pair: it keeps its histories
+    let models: Vec<GearModel<'_>> = starts
+        .iter()
+        .map(|pair| model(context.middle, &pair.candidate))
+        .collect();
+    let searched = |place: usize, state: State, effort: &Effort| -> Option<Found> {
+        let pair = &starts[place];
+        let predictor = AnchoredOn::new(&models[place], pair.offset.clone());
         let parameters = &pair.candidate.parameters;
         context
             .likelihood
             .fit(&predictor, parameters, state, effort)
             .ok()
     };
-    let mut looks: Vec<(PairStart, Found)> = (starts.into_par_iter())
-        .filter_map(|pair| {
-            let found = searched(&pair, pair.state.clone(), &LOOK)?;
-            Some((pair, found))
-        })
+    let mut looks: Vec<(usize, Found)> = (0..starts.len())
+        .into_par_iter()
+        .filter_map(|place| Some((place, searched(place, starts[place].state.clone(), &LOOK)?)))
         .collect();
     looks.sort_by(|a, b| a.1.objective.total_cmp(&b.1.objective));
     let best = looks.first().map_or(0.0, |look| look.1.objective);
     let gain = (base.fitted.found.objective - best).max(0.0);
     (looks.into_par_iter().enumerate())
-        .map(|(place, (pair, mut found))| {
-            let leads = place < FOLLOWED || found.objective < best + NEAR * gain;
+        .map(|(rank, (place, mut found))| {
+            let leads = rank < FOLLOWED || found.objective < best + NEAR * gain;
             if leads && !found.converged {
-                let further = searched(&pair, found.state.clone(), &FURTHER);
+                let further = searched(place, found.state.clone(), &FURTHER);
                 found = further.unwrap_or(found);
             }
             FittedCandidate::new(
                 &context.likelihood,
-                pair.candidate,
+                starts[place].candidate.clone(),
                 found,
-                pair.offset,
+                starts[place].offset.clone(),
                 Some(base),
                 Fidelity::Middle,
             )

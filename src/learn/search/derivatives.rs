@@ -25,7 +25,7 @@ impl Search<'_> {
         let params = self.layout.parameters.len();
         let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
         let mut asked = Vec::new();
-        for test in 0..self.tests.len() {
+        for test in 0..self.selection.tests.len() {
             for p in 0..params {
                 let step = self.parameters[p].difference(state.theta[p]);
                 asked.push((test, p, step));
@@ -52,13 +52,14 @@ impl Search<'_> {
                 found[i] = second;
             }
         }
-        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        let mut jacobian =
+            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
         for ((test, column, step), found) in asked.into_iter().zip(found) {
             let divisor = match self.parameters.get(column).filter(|_| column < params) {
                 Some(parameter) => parameter.divisor(step),
                 None => step.exp_m1(),
             };
-            for ((&row, after), before) in self.rows[test]
+            for ((&row, after), before) in self.selection.rows[test]
                 .iter()
                 .zip(found?.iter())
                 .zip(values[test].iter())
@@ -83,7 +84,7 @@ impl Search<'_> {
         let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
         let covariance = quadratic.mapped_covariance();
         let mut asked = Vec::new();
-        for test in 0..self.tests.len() {
+        for test in 0..self.selection.tests.len() {
             for p in 0..params {
                 let (prior, at) = (&self.layout.parameters[p], state.theta[p]);
                 let usual = self.parameters[p].difference(at).abs();
@@ -118,7 +119,8 @@ impl Search<'_> {
                 found.splice(sides, evaluator.all(&again));
             }
         }
-        let mut jacobian = DMatrix::zeros(self.measured.len(), params + self.tests.len());
+        let mut jacobian =
+            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
         for (&(test, column, low, high), pair) in asked.iter().zip(found.chunks_exact(2)) {
             // a side without an answer is replaced by the middle
             let ends = match (&pair[0], &pair[1]) {
@@ -137,8 +139,10 @@ impl Search<'_> {
             };
             let [(before, low), (after, high)] = ends;
             let divisor = divided(high) - divided(low);
-            for ((&row, after), before) in
-                self.rows[test].iter().zip(after.iter()).zip(before.iter())
+            for ((&row, after), before) in self.selection.rows[test]
+                .iter()
+                .zip(after.iter())
+                .zip(before.iter())
             {
                 jacobian[(row, column)] = (after - before) / divisor;
             }
@@ -155,7 +159,7 @@ impl Search<'_> {
     ) {
         let params = self.layout.parameters.len();
         let moves = |p: usize| states[1].theta[p] - states[0].theta[p];
-        for (test, rows) in self.rows.iter().enumerate() {
+        for (test, rows) in self.selection.rows.iter().enumerate() {
             let scales = self.layout.parameters.iter().map(|prior| prior.scale());
             let mut moved: Vec<(usize, f64, f64)> = scales
                 .enumerate()

@@ -125,7 +125,7 @@ impl Forward<'_> {
                 directions: &directions,
             };
             differentiated.contact_tangents(u, du)
-        })?;
+        })??;
         Ok((contacts, tangents))
     }
 

@@ -47,7 +47,7 @@ pub(super) fn run(
     forward.wear_to(&mut None, 0.0, &mut |_, _| true)?;
     let modulus = set.modulus();
     let (pressures, contacts) =
-        forward.with_model(|fem| steady(fem, &forward, conditions, None))?;
+        forward.with_model(|fem| steady(fem, &forward, conditions, None))??;
     let following = Prescribed::following(forward.cycle(), modulus, &contacts);
     let (corners, _) = steady(
         &following.with_corners(&contacts),
@@ -65,7 +65,7 @@ pub(super) fn run(
         Ok(steady(model, &jumping, conditions, Some(modulus))?.0)
     };
     let equal = steadily(&Prescribed::equal(cycle, modulus, load))?;
-    let springs = jumping.with_model(steadily)?;
+    let springs = jumping.with_model(steadily)??;
     let spans = spans(&cycle.pair);
     let shares = steadily(&Prescribed::new(cycle, modulus, |pair| {
         load * held.load_share(&spans, pair.path)
@@ -152,7 +152,7 @@ fn on_line(forward: &Forward, conditions: Conditions) -> Result<State, ForwardEr
             let model = FemContact::new(&held, compliance, forward.torque());
             steady(&model, forward, conditions, None)?
         }
-        None => forward.with_model(|model| steady(model, forward, conditions, None))?,
+        None => forward.with_model(|model| steady(model, forward, conditions, None))??,
     };
     Ok(state.0)
 }

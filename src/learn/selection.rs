@@ -1,0 +1,176 @@
+//! The measurements of the tests with one role: which rows, their covariance, and what is worked out on them alone.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::learn::evaluate::Evaluator;
+use crate::learn::noise::{Covariance, NoiseModel};
+use crate::learn::predictor::Predictor;
+use crate::learn::quadratic::Normal;
+use crate::measure::{Dataset, Observation, Quantity};
+use crate::study::Role;
+
+/// The observations of the tests with one role.
+pub(super) struct Selection<'a> {
+    data: &'a Dataset,
+    /// The tests, by their number in the data set.
+    pub(super) tests: Vec<usize>,
+    /// Rows of each of them, counted within the selection.
+    pub(super) rows: Vec<Vec<usize>>,
+    /// The rows, by their place in the data set.
+    pub(super) numbers: Vec<usize>,
+    /// Measured values.
+    pub(super) values: Vec<f64>,
+    /// Rows whose prediction grows with the wear coefficient.
+    worn: Vec<bool>,
+    /// What was measured of those, whitened.
+    measured_wear: Vec<f64>,
+    pub(super) covariance: Covariance,
+}
+
+impl<'a> Selection<'a> {
+    /// The tests with `role` that have measurements.
+    pub(super) fn new(data: &'a Dataset, roles: &[Role], role: Role, noise: &NoiseModel) -> Self {
+        let with = |test: &usize| data.observations.iter().any(|o| o.test == *test);
+        let tests: Vec<usize> = (0..roles.len())
+            .filter(|t| roles[*t] == role && with(t))
+            .collect();
+        let numbers: Vec<usize> = (0..data.observations.len())
+            .filter(|&row| tests.contains(&data.observations[row].test))
+            .collect();
+        let picked: Vec<&Observation> = numbers.iter().map(|&n| &data.observations[n]).collect();
+        let rows_of = |&test: &usize| {
+            let rows = 0..picked.len();
+            rows.filter(|&i| picked[i].test == test).collect()
+        };
+        let is_wear =
+            |o: &&Observation| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss);
+        let mut selection = Self {
+            rows: tests.iter().map(rows_of).collect(),
+            values: picked.iter().map(|o| o.value).collect(),
+            worn: picked.iter().map(is_wear).collect(),
+            measured_wear: Vec::new(),
+            covariance: Covariance::new(data, &numbers, noise),
+            data,
+            tests,
+            numbers,
+        };
+        selection.measured_wear = selection.wear_of(&selection.values);
+        selection
+    }
+
+    /// Number of observations.
+    pub(super) fn len(&self) -> usize {
+        self.numbers.len()
+    }
+
+    /// An observation.
+    pub(super) fn observation(&self, row: usize) -> &Observation {
+        &self.data.observations[self.numbers[row]]
+    }
+
+    /// Measured minus `model`.
+    pub(super) fn residual(&self, model: &[f64]) -> Vec<f64> {
+        self.values.iter().zip(model).map(|(y, f)| y - f).collect()
+    }
+
+    /// Values per test joined to rows.
+    pub(super) fn joined<V: AsRef<[f64]>>(&self, of_tests: &[V]) -> Vec<f64> {
+        let mut joined = vec![0.0; self.len()];
+        for (rows, values) in self.rows.iter().zip(of_tests) {
+            for (&row, value) in rows.iter().zip(values.as_ref()) {
+                joined[row] = *value;
+            }
+        }
+        joined
+    }
+
+    /// χ² with the whole covariance.
+    pub(super) fn square(&self, model: &[f64]) -> f64 {
+        let white = self.covariance.whiten(&self.residual(model));
+        white.iter().map(|z| z * z).sum()
+    }
+
+    /// Whitened least squares about `model` with its derivatives, under `covariance`.
+    pub(super) fn normal(
+        &self,
+        model: &[f64],
+        jacobian: &DMatrix<f64>,
+        covariance: &Covariance,
+    ) -> Normal {
+        let residual = DVector::from_vec(covariance.whiten(&self.residual(model)));
+        let white = whiten(covariance, jacobian);
+        Normal {
+            gram: white.tr_mul(&white),
+            rhs: white.tr_mul(&residual),
+            square: residual.norm_squared(),
+        }
+    }
+
+    /// ½ ln of (2π)ⁿ times the determinant of `covariance`: what a likelihood is divided by.
+    pub(super) fn log_norm(&self, covariance: &Covariance) -> f64 {
+        0.5 * (self.len() as f64 * (2.0 * PI).ln() + covariance.log_determinant())
+    }
+
+    /// Rows that are not wear.
+    pub(super) fn others(&self) -> usize {
+        self.worn.iter().filter(|worn| !**worn).count()
+    }
+
+    /// χ² of the rows that are not wear.
+    pub(super) fn square_of_others(&self, model: &[f64]) -> f64 {
+        let white = self.masked(&self.residual(model), false);
+        white.iter().map(|z| z * z).sum()
+    }
+
+    /// Whitened row values, 0 for all rows that are wear or, if `worn`, for all that are not.
+    fn masked(&self, values: &[f64], worn: bool) -> Vec<f64> {
+        let each = values.iter().zip(&self.worn);
+        let kept: Vec<f64> = each
+            .map(|(v, &own)| if own == worn { *v } else { 0.0 })
+            .collect();
+        self.covariance.whiten(&kept)
+    }
+
+    fn wear_of(&self, values: &[f64]) -> Vec<f64> {
+        self.masked(values, true)
+    }
+
+    /// The factor that brings all wear of the model nearest to what was measured; not finite where nothing is worn.
+    pub(super) fn wear_ratio(&self, model: &[f64]) -> f64 {
+        let model = self.wear_of(model);
+        let product: f64 = (model.iter().zip(&self.measured_wear))
+            .map(|(f, y)| f * y)
+            .sum();
+        let square: f64 = model.iter().map(|f| f * f).sum();
+        product / square
+    }
+
+    /// Model values with all wear multiplied by `factor`.
+    pub(super) fn scaled(&self, model: &[f64], factor: f64) -> Vec<f64> {
+        let each = model.iter().zip(&self.worn);
+        each.map(|(f, &worn)| if worn { factor * f } else { *f })
+            .collect()
+    }
+
+    /// `predictor` asked about any test of the data set.
+    pub(super) fn evaluator<'e>(&'e self, predictor: &'e dyn Predictor) -> Evaluator<'e> {
+        let data = self.data;
+        let counts = data.tests.iter().enumerate().map(|(test, id)| {
+            let rows = data.observations.iter().filter(|o| o.test == test).count();
+            (id.as_str(), rows)
+        });
+        Evaluator::new(predictor, counts.collect())
+    }
+}
+
+/// W J.
+pub(super) fn whiten(covariance: &Covariance, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut white = DMatrix::zeros(jacobian.nrows(), jacobian.ncols());
+    for column in 0..jacobian.ncols() {
+        let whitened = covariance.whiten(jacobian.column(column).as_slice());
+        white.column_mut(column).copy_from_slice(&whitened);
+    }
+    white
+}

@@ -1,0 +1,51 @@
+//! Why a forward run ends early.
+
+use crate::contact::model::ContactError;
+use crate::gear::PairError;
+use crate::simulate::gear_set::MOST_UNKNOWNS;
+use crate::simulate::members::MemberError;
+use crate::wear::archard::WearError;
+use crate::wear::integrator::StepError;
+
+/// Why a forward run ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum ForwardError {
+    /// The gears do not run at this centre distance.
+    #[error(transparent)]
+    Pair(#[from] PairError),
+    /// A member could not be built.
+    #[error(transparent)]
+    Member(#[from] MemberError),
+    /// Contact could not be solved.
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    /// The flanks would need more elements than fit into memory.
+    #[error(
+        "{unknowns} unknowns on the flanks of one member, at most {MOST_UNKNOWNS} are possible: under the smallest torque the \
+         elements' edges would be {edge_um:.2} µm long; a larger torque or a smaller numerics.elements_per_half_width needs fewer"
+    )]
+    TooFine {
+        /// Unknowns on the fine flanks of the larger member.
+        unknowns: usize,
+        /// Length of an edge, µm.
+        edge_um: f64,
+    },
+    /// A wear step failed.
+    #[error("{0}")]
+    Step(#[from] StepError<WearError>),
+    /// Members or their compliance are missing since a preparation failed.
+    #[error("the contact of these gears could not be prepared before")]
+    Unprepared,
+    /// A physical effect gave no usable number before wear began.
+    #[error("{0}")]
+    Effect(String),
+}
+
+impl From<WearError> for ForwardError {
+    fn from(error: WearError) -> Self {
+        match error {
+            WearError::Contact(error) => Self::Contact(error),
+            WearError::Effect(reason) => Self::Effect(reason),
+        }
+    }
+}
