@@ -46,6 +46,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "region",
             "scatter",
             "search",
+            "selection",
             "starts",
             "strength_prior",
             "trajectory",

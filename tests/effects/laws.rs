@@ -659,20 +659,12 @@ fn flanks_as_made() {
 #[test]
 fn even_laws_are_the_same_all_over_a_contact() {
     let at = ordinary();
-    let moved = [
-        Local {
-            radius: 1.01 * at.radius,
-            ..at
-        },
-        Local {
-            depth: 1.7 * at.depth + 0.3,
-            ..at
-        },
-        Local {
-            pressure: 0.6 * at.pressure,
-            ..at
-        },
-    ];
+    // thresholds anywhere within what wears and presses
+    let radii = [25.4, 26.0, 27.0, 28.0, 29.0].map(|radius| Local { radius, ..at });
+    let depths = [0.0, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0].map(|depth| Local { depth, ..at });
+    let pressures =
+        [1.0, 50.0, 200.0, 500.0, 1000.0, 2000.0].map(|pressure| Local { pressure, ..at });
+    let moved = || radii.iter().chain(&depths).chain(&pressures);
     let mut even = 0;
     let cards = CATALOGUE.iter();
     for card in cards.filter(|card| card.hook == Hook::WearFactor) {
@@ -680,7 +672,7 @@ fn even_laws_are_the_same_all_over_a_contact() {
         for settings in std::iter::once(plain).chain(card.forms.iter().map(|form| form.settings)) {
             let law = effect(card.name, settings);
             let here = law.wear_factor(&at);
-            let same = moved.iter().all(|there| law.wear_factor(there) == here);
+            let same = moved().all(|there| law.wear_factor(there) == here);
             assert_eq!(law.is_even(), same, "{} with {settings:?}", card.name);
             even += usize::from(same);
         }
