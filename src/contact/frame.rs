@@ -18,8 +18,8 @@ pub enum Touch {
     GearTip,
 }
 
-/// Newton's method on an involute ends with a step below this, mm: what is left is its square over twice the curvature radius.
-const NEWTON_STEP: f64 = 1e-5;
+/// Newton's method on an involute ends with a step below this, modules: what is left is its square over twice the curvature radius.
+const NEWTON_STEP: f64 = 5e-6;
 
 /// Newton's method starts no nearer to the base circle than this share of the squared curvature radius at the frame's own point.
 const NEAREST_BASE: f64 = 1e-2;
@@ -40,6 +40,7 @@ pub struct Frame {
     /// Curvature radius of the involutes at ξ = 0, mm.
     pub rho: [f64; 2],
     flanks: [PlacedInvolute; 2],
+    module: f64,
     /// Curvature radius at the first and last usable point of each flank, mm.
     range: [[f64; 2]; 2],
 }
@@ -60,6 +61,7 @@ impl Frame {
             separation,
             rho,
             flanks,
+            module: pair.pinion.rack.module,
             range,
         };
         if rho1 < pair.rho_a {
@@ -127,7 +129,7 @@ impl Frame {
                 let miss = offset.dot(&self.tangent) - xi;
                 let step = miss / slope.dot(&self.tangent);
                 rho[side] -= step;
-                if step.abs() < NEWTON_STEP {
+                if step.abs() < NEWTON_STEP * self.module {
                     offset -= slope * step;
                     break;
                 }

@@ -114,7 +114,10 @@ fn scaled_jacobian(mesh: &Mesh, element: usize) -> (f64, f64) {
             let straight = [(0, 1), (1, 2), (2, 0)]
                 .iter()
                 .enumerate()
-                .all(|(i, (a, b))| (x[3 + i] - 0.5 * (x[*a] + x[*b])).norm_squared() < 1e-24);
+                .all(|(i, (a, b))| {
+                    let bow = x[3 + i] - 0.5 * (x[*a] + x[*b]);
+                    bow.norm_squared() <= 1e-20 * (x[*b] - x[*a]).norm_squared()
+                });
             if straight {
                 let j = cross(x[1] - x[0], x[2] - x[0]);
                 return (j.signum(), j);

@@ -67,8 +67,8 @@ pub fn geometry(pair: &Pair) -> Geometry {
         contact_ratio: pair.contact_ratio,
         path_of_contact: pair.path_length,
         base_pitch: pair.base_pitch,
-        // a pair at its zero-backlash distance leaves rounding of the order of 1e-14 mm
-        backlash_um: if pair.backlash.abs() < 1e-12 {
+        // a pair at its zero-backlash distance leaves rounding of the order of 1e-14 modules
+        backlash_um: if pair.backlash.abs() < 1e-12 * pair.pinion.rack.module {
             0.0
         } else {
             1e3 * pair.backlash

@@ -125,28 +125,28 @@ pub struct WearLaw<'a> {
     pub balance: bool,
 }
 
-/// Depth below which the step tolerance is absolute, mm.
-const DEPTH_FLOOR: f64 = 1e-4;
+/// Depth below which the step tolerance is absolute, modules.
+const DEPTH_FLOOR: f64 = 5e-5;
 
-/// Worn area below that of this mean depth is not balanced step by step, mm.
-const BALANCE_FLOOR: f64 = 1e-5;
+/// Worn area below that of this mean depth is not balanced step by step, modules.
+const BALANCE_FLOOR: f64 = 5e-6;
 
-/// Steps never fall below this, cycles.
-const LEAST_STEP: f64 = 1e-3;
+/// The deepest place grows by more than this in every step, modules.
+const LEAST_GROWTH: f64 = 1e-11;
 
 /// How far the area that a step takes off the flanks may be from that by the wear law, relative to the step's own and to a twentieth
 /// of all area worn so far; a step that is farther off is taken again, shorter. The result may be off by 0.5 %.
 const STEP_BALANCE: f64 = 1e-3;
 
 impl WearLaw<'_> {
-    fn control(&self, rate: &[f64]) -> StepControl {
+    fn control(&self, module: f64, rate: &[f64]) -> StepControl {
         // the first step wears a tenth of the floor where the flank wears fastest
         let fastest = rate.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(*r));
         StepControl {
             tolerance: self.tolerance,
-            floor: DEPTH_FLOOR,
-            first_step: 0.1 * DEPTH_FLOOR / fastest,
-            least_step: LEAST_STEP,
+            floor: DEPTH_FLOOR * module,
+            first_step: 0.1 * DEPTH_FLOOR * module / fastest,
+            least_growth: LEAST_GROWTH * module,
         }
     }
 }
@@ -235,6 +235,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
     observe: &mut dyn FnMut(&Progress, &HistoryTangents) -> bool,
 ) -> Result<bool, StepError<WearError>> {
     let cycle = model.cycle();
+    let module = cycle.pair.pinion.rack.module;
     let mut system = ArchardSystem::new(model, law.coefficient).with(law.acting);
     let area_rate = |system: &mut ArchardSystem<'_, M>, n, u: &[f64]| {
         if law.balance {
@@ -245,10 +246,10 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
     };
     let fail = |source| StepError::System { n: 0.0, source };
     let control = match progress {
-        Some(_) => law.control(&[]),
+        Some(_) => law.control(module, &[]),
         None => {
             let fresh = vec![0.0; cycle.stations.count()];
-            let control = law.control(&system.rate(0.0, &fresh).map_err(fail)?);
+            let control = law.control(module, &system.rate(0.0, &fresh).map_err(fail)?);
             let rate = area_rate(&mut system, 0.0, &fresh).map_err(fail)?;
             *progress = Some(Progress {
                 stand: Stand::new(fresh, control),
@@ -285,10 +286,12 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
             .stations
             .arc
             .each_ref()
-            .map(|arc| BALANCE_FLOOR * (arc[arc.len() - 1] - arc[0]));
+            .map(|arc| BALANCE_FLOOR * module * (arc[arc.len() - 1] - arc[0]));
         if law.balance {
             let off = balance.off(&progress.balance, floor);
-            if off > 1.0 && step > LEAST_STEP {
+            let grown = (stand.u.iter().zip(&progress.stand.u))
+                .any(|(now, then)| now - then > LEAST_GROWTH * module);
+            if off > 1.0 && grown {
                 progress.stand.step = step * (0.85 / off.sqrt()).clamp(0.2, 0.7);
                 progress.stand.rejected += 1;
                 continue;

@@ -190,7 +190,7 @@ pub fn history(
         tolerance,
         floor,
         first_step,
-        least_step: 1e-9 * first_step,
+        least_growth: 1e-10 * floor,
     };
     let mut stand = Stand::new(fresh, control);
     let mut out = Vec::new();

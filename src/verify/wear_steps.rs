@@ -75,7 +75,7 @@ fn fixed_steps(steps: usize) -> Result<Vec<f64>, CaseError> {
         tolerance: f64::MAX,
         floor: 1.0,
         first_step: step,
-        least_step: 0.0,
+        least_growth: 0.0,
     };
     let mut stand = Stand::new(vec![0.0; system.x.len()], loose);
     for i in 1..=steps {
@@ -211,7 +211,7 @@ pub fn explicit_limit(elements: usize, tolerance: f64) -> Result<Vec<Measured>, 
         tolerance,
         floor,
         first_step: 100.0 * limit,
-        least_step: 0.0,
+        least_growth: 0.0,
     };
     let mut stand = Stand::new(disturbed.clone(), control);
     let start = saw_tooth(&system.contact(&disturbed)?.pressure, mean);

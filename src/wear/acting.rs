@@ -37,8 +37,8 @@ pub struct Age {
     pub worn_volume: f64,
 }
 
-/// Least relative radius that a Hertz pressure is taken for, mm: a sharp corner has none.
-const LEAST_RADIUS: f64 = 1e-3;
+/// Least relative radius that a Hertz pressure is taken for, modules: a sharp corner has none.
+const LEAST_RADIUS: f64 = 5e-4;
 
 /// Load of one tooth pair as effects see it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -185,7 +185,9 @@ impl Acting {
         };
         local.hertz_pressure = hertz_line::peak_pressure(
             load.line_load,
-            local.relative_radius().max(LEAST_RADIUS),
+            local
+                .relative_radius()
+                .max(LEAST_RADIUS * gears.pinion.rack.module),
             self.surroundings.contact_modulus,
         );
         if self.effects.feels_surroundings() {

@@ -68,8 +68,8 @@ pub struct StepControl {
     pub floor: f64,
     /// First step (unit of n); later ones follow the error.
     pub first_step: f64,
-    /// Smallest step before the integration gives up (unit of n).
-    pub least_step: f64,
+    /// Growth of the fastest unknown in a step below which the integration gives up (unit of u).
+    pub least_growth: f64,
 }
 
 /// Where an integration stands: all it needs to go on, and so all a checkpoint must hold.
@@ -215,8 +215,11 @@ pub fn advance<S: WearSystem>(
             });
         }
         stand.rejected += 1;
-        step = tau * factor.min(0.7);
-        if step <= control.least_step || !error.is_finite() {
+        let shorter = factor.min(0.7);
+        step = tau * shorter;
+        let growth =
+            (k1.iter().zip(&k2)).fold(0.0, |m: f64, (a, b)| m.max(tau * (a.abs() + b.abs())));
+        if shorter * growth <= control.least_growth || !error.is_finite() {
             return Err(StepError::TooSmall { n, step, error });
         }
     }
@@ -301,7 +304,7 @@ mod tests {
             tolerance: 1e9,
             floor: 1.0,
             first_step: 1.0 / steps as f64,
-            least_step: 0.0,
+            least_growth: 0.0,
         };
         let mut stand = Stand::new(vec![0.0, 0.0], loose);
         for _ in 0..steps {
@@ -332,7 +335,7 @@ mod tests {
                 tolerance,
                 floor: 1.0,
                 first_step: 1e-3,
-                least_step: 1e-9,
+                least_growth: 1e-9,
             };
             let mut stand = Stand::new(vec![0.0, 0.0], control);
             while stand.n < 1.0 {
