@@ -70,10 +70,10 @@ def exchanged(study):
     return {"swap": True}
 
 
-# relation: what makes the other study, and the difference that passes. Lengths go through the program's few absolute lengths (all below 30 um);
+# relation: what makes the other study, and the difference that passes;
 # exchanged members are another mesh, and at sharp tip corners, where pressure is singular, depths follow the mesh: their worn area is compared.
 RELATIONS = {
-    "lengths and forces": (lengths, 1e-3),
+    "lengths and forces": (lengths, 1e-9),
     "modulus and torque": (moduli, 1e-9),
     "face and torque": (face, 1e-9),
     "coefficient and cycles": (time, 1e-9),
