@@ -4,8 +4,8 @@ use clap::Args;
 use serde_json::json;
 
 use super::args::StudyAndOutput;
-use super::folder;
 use super::{CliError, Context, Outcome};
+use super::{folder, inputs};
 use crate::learn::Measured;
 use crate::learn::diagnose::{Fidelity, diagnose};
 use crate::report;
@@ -60,7 +60,8 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
     let progress = context.progress("diagnose");
     let diagnosis = diagnose(&measured, fidelity, &|done, what| progress.show(done, what))?;
     drop(progress);
-    let document = json!(diagnosis);
+    let mut document = json!(diagnosis);
+    document[inputs::KEY] = json!(inputs::identity(&study)?);
     let study_name = args.paths.study.display().to_string();
     let page = report::diagnosis::page(&study.title, &diagnosis, &study_name);
     let map = report::discrepancy::csv(&diagnosis.discrepancy)?;

@@ -21,6 +21,7 @@ mod fitting;
 mod folder;
 mod import;
 mod init;
+mod inputs;
 mod interrupt;
 mod ladder;
 mod mesh;

@@ -4,8 +4,8 @@ use clap::Args;
 use serde_json::json;
 
 use super::args::StudyAndOutput;
-use super::folder;
 use super::{CliError, Context, Outcome};
+use super::{folder, inputs};
 use crate::learn::Measured;
 use crate::learn::diagnose::{plan_after, plan_first};
 use crate::report;
@@ -14,7 +14,7 @@ use crate::study::Study;
 /// Arguments of `plan`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "With measurements: all feasible tests, by how well each separates what the measurements leave.\nWithout: the tests that show and tell apart most effects of the catalogue.\nBoth by the analytic contact model.\n\nExamples:\n  gearwear plan study.toml\n  gearwear plan study.toml --tests 3 --noise 0.05\n  gearwear plan study.toml -o results/plan --json --quiet | jq '.tests[0]'"
+    after_help = "With measurements: all feasible tests, by how well each separates the leaders of the diagnosis in STUDYSTEM.out/diagnose if that is\nof the same study and measurements, without it the leaders by the analytic model.\nWithout: the tests that show and tell apart most effects of the catalogue.\nTests are judged by the analytic contact model.\n\nExamples:\n  gearwear plan study.toml\n  gearwear plan study.toml --tests 3 --noise 0.05\n  gearwear plan study.toml -o results/plan --json --quiet | jq '.tests[0]'"
 )]
 pub struct PlanArgs {
     #[command(flatten)]
@@ -44,17 +44,22 @@ pub(super) fn execute(args: &PlanArgs, context: &Context) -> Result<Outcome, Cli
     let progress = context.progress("plan");
     let watch = |done, what| progress.show(done, what);
     let plan = match data {
-        Some(data) => plan_after(&Measured::new(&study, data), args.noise, &watch)?,
+        Some(data) => {
+            let decided = inputs::decided(&args.paths.study, &study)?;
+            let measured = Measured::new(&study, data);
+            plan_after(&measured, decided.as_ref(), args.noise, &watch)?
+        }
         None => plan_first(&study, args.noise, usize::from(args.tests), &watch)?,
     };
     drop(progress);
     let document = json!(plan);
-    let page = report::plan::page(&study.title, &plan);
+    let study_name = args.paths.study.display().to_string();
+    let page = report::plan::page(&study.title, &plan, &study_name);
     let further = [("plan.csv", report::plan::csv(&plan).into_bytes())];
     let written = report::write_page_with(&page, "plan.json", &document, &further, &target)?;
     Ok(Outcome {
         json: document,
-        text: report::plan::summary(&study.title, &plan, &written.folder),
+        text: report::plan::summary(&study.title, &plan, &study_name, &written.folder),
         success: true,
     })
 }

@@ -20,8 +20,8 @@ pub use super::discrepancy::{
     ResidualDriver, ResidualDrivers,
 };
 pub use super::experiment::{
-    AloneTest, Campaign, ChosenTest, Leader, NextExperiment, NextTest, NextTests, Plan, RankedTest,
-    Separated, Shown, plan_after, plan_first,
+    AloneTest, Campaign, ChosenTest, Decided, Leader, NextExperiment, NextTest, NextTests, Plan,
+    RankedTest, Separated, Shown, plan_after, plan_first,
 };
 pub use super::explanation::{Diagnosis, Named, ParameterValue, Ranked, Screened};
 pub use super::fidelity::Fidelity;

@@ -14,6 +14,7 @@ const EXCUSED: f64 = 1.2;
 const EXCUSED_AT_LEAST: f64 = 5.0;
 
 /// A fitted candidate.
+#[derive(Clone)]
 pub(super) struct FittedCandidate {
     pub(super) candidate: Candidate,
     pub(super) found: Found,

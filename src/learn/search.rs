@@ -90,6 +90,7 @@ pub(super) struct Search<'s> {
 }
 
 /// Where a search ended.
+#[derive(Clone)]
 pub(super) struct Found {
     pub(super) state: State,
     pub(super) scatter: f64,

@@ -3,18 +3,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::format::{count, plain, significant, uncertain};
+use super::drivers;
+use super::format::{count, plain, probability, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
-use super::{discrepancy, drivers};
 use crate::learn::diagnose::{Diagnosis, NextExperiment, NextTest, Ranked, Screened};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
 /// Fits listed on the page.
 const FITTED: usize = 20;
-
-/// What the pictures of the discrepancy show.
-const MAP: &str = "The pictures show it for wear depths: the smooth part of measured minus model, in standard deviations of a measured value. All of it stands in `discrepancy.csv`.";
 
 /// Verdict, reasons, ranking, what to do next.
 pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -> String {
@@ -39,7 +36,7 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
             text,
             "  {:<34}{:>12}{:>12.2}{:>10}",
             name(entry),
-            share(entry.probability),
+            probability(entry.probability),
             entry.fit_chi2_per_point,
             held
         );
@@ -49,7 +46,12 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
         .get("unknown")
         .copied()
         .unwrap_or(0.0);
-    let _ = writeln!(text, "  {:<34}{:>12}", "unknown", share(unknown));
+    let _ = writeln!(
+        text,
+        "  {:<34}{:>12}",
+        unknown_name(diagnosis),
+        probability(unknown)
+    );
     for warning in &diagnosis.warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
@@ -95,7 +97,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
             .map_or("-".to_owned(), |a| format!("{a:.0}°"));
         table = table.row([
             Cell::text(name(entry)),
-            Cell::Bar(entry.probability, share(entry.probability)),
+            Cell::Bar(entry.probability, probability(entry.probability)),
             Cell::number(format!("{:.1}", entry.evidence_gain)),
             Cell::number(format!("{:.3}", entry.fit_chi2_per_point)),
             Cell::number(held),
@@ -115,8 +117,8 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
             Cell::text(""),
         ];
         let first = [
-            Cell::text("unknown: none of the catalogue"),
-            Cell::Bar(unknown, share(unknown)),
+            Cell::text(unknown_name(diagnosis)),
+            Cell::Bar(unknown, probability(unknown)),
         ];
         table = table.row(first.into_iter().chain(none));
     }
@@ -127,27 +129,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     );
     let mut sections = vec![why, ranking];
     sections.extend(fitted(diagnosis));
-    if !diagnosis.drivers.is_empty() {
-        let mut table = Table::new("Shares of the discrepancy's variance", ["driver", "share"]);
-        for driver in &diagnosis.drivers {
-            table = table.row([
-                Cell::text(driver.name.clone()),
-                Cell::Bar(
-                    driver.variance_share,
-                    format!("{:.0} %", 100.0 * driver.variance_share),
-                ),
-            ]);
-        }
-        let text = "How much of a smooth discrepancy between the base model and the measurements follows each driver alone.";
-        sections.push(
-            Section::new("What the discrepancy depends on")
-                .paragraph(text)
-                .paragraph(MAP)
-                .table(table)
-                .plots(discrepancy::plots(&diagnosis.discrepancy)),
-        );
-    }
-    sections.extend(drivers::section(&diagnosis.residual_drivers));
+    sections.extend(drivers::sections(diagnosis));
     let mut next =
         Section::new("What to do next").paragraph(diagnosis.next_step.replace("STUDY", study));
     if let Some(experiment) = &diagnosis.next_experiment {
@@ -262,21 +244,20 @@ fn conditions(experiment: &NextExperiment) -> Table {
     )
 }
 
+/// What holds the probability that no effect of the catalogue does.
+fn unknown_name(diagnosis: &Diagnosis) -> &'static str {
+    if diagnosis.undecided {
+        "unknown, or the model's own error"
+    } else {
+        "unknown: none of the catalogue"
+    }
+}
+
 fn name(entry: &Ranked) -> String {
     if entry.form.is_empty() {
         entry.effect.to_string()
     } else {
         format!("{} ({})", entry.effect, entry.form)
-    }
-}
-
-fn share(p: f64) -> String {
-    if p > 0.999 {
-        ">99.9 %".to_owned()
-    } else if p < 0.001 {
-        "<0.1 %".to_owned()
-    } else {
-        format!("{:.1} %", 100.0 * p)
     }
 }
 

@@ -2,13 +2,14 @@
 
 use super::comparison::quoted;
 use super::csv::Table as Csv;
+use super::discrepancy;
 use super::error::OutputError;
 use super::format::{percent, significant, whole};
 use super::html::{Cell, Section, Table};
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::{
-    BinMean, DRIVER_KINDS, DriverBin, DriverKind, Explained, Hypothesis, ResidualDriver,
-    ResidualDrivers,
+    BinMean, DRIVER_KINDS, Diagnosis, Driver, DriverBin, DriverKind, Explained, Hypothesis,
+    ResidualDriver, ResidualDrivers,
 };
 
 const BINS: &str = "residual_drivers.csv";
@@ -84,24 +85,89 @@ fn optional(table: &mut Csv, name: &'static str, value: Option<f64>) -> Result<(
     Ok(())
 }
 
-/// The section of the page; none if nothing varies.
-pub fn section(left: &ResidualDrivers) -> Option<Section> {
-    if left.drivers.is_empty() {
-        return None;
+/// What the pictures of the discrepancy show.
+const MAP: &str = "The pictures show the smooth part of measured minus model for wear depths, in standard deviations of a measured value. All of it stands in `discrepancy.csv`.";
+
+/// The sections of the page: one table of shares by driver, the smooth discrepancy, and the residual against each driver. None where
+/// nothing varies.
+pub fn sections(diagnosis: &Diagnosis) -> Vec<Section> {
+    let left = &diagnosis.residual_drivers;
+    let mut sections = Vec::new();
+    if !(diagnosis.drivers.is_empty() && left.drivers.is_empty()) {
+        let section = Section::new("What the discrepancy depends on")
+            .paragraph(if diagnosis.drivers.is_empty() { NO_PATTERN } else { PATTERN })
+            .paragraph(MEANS)
+            .table(shares(&diagnosis.drivers, left))
+            .note(
+                "Before: the fitted base model; after: fitted anew with the leading effect. On noise alone a mean's share is 0 give or take \
+                 what stands under by chance; beside it the same part in units of the noise's variance, because a share of little is little. \
+                 Drivers that go together, such as position and sliding speed, share what they explain.",
+            );
+        let maps = discrepancy::plots(&diagnosis.discrepancy);
+        sections.push(if diagnosis.drivers.is_empty() {
+            section
+        } else {
+            section.paragraph(MAP).plots(maps)
+        });
     }
-    let after = left.after.as_ref().map(Hypothesis::in_words);
+    sections.extend(residuals(left));
+    sections
+}
+
+const NO_PATTERN: &str =
+    "Nothing smooth stands out of the noise, so there is no pattern to be shared among drivers.";
+const PATTERN: &str = "Pattern: how much of a smooth discrepancy between the base model and the measurements follows a driver alone, as a shift or as a \
+    factor on the computed wear, which may be large at one place and small or of the other sign at another.";
+const MEANS: &str = "Mean: how much of the variance of (measured − model − datum)/σ the means of the driver's bins explain. A driver can have much of the \
+    pattern and nothing of the mean: k and datum of each test are fitted, so what follows torque or speed turns the curves and shifts none.";
+
+/// One row for each driver: its share of the pattern, and of the mean residual before and after.
+fn shares(patterns: &[Driver], left: &ResidualDrivers) -> Table {
     let mut head = vec![
         "driver",
-        "share explained, before",
+        "pattern",
+        "mean, before",
         "of the noise's variance",
     ];
-    if after.is_some() {
-        head.extend(["share explained, after", "of the noise's variance"]);
+    let after = left.after.is_some();
+    if after {
+        head.extend(["mean, after", "of the noise's variance"]);
     }
     head.extend(["by chance", "rows"]);
-    let mut table = Table::new("", head);
-    for driver in &left.drivers {
-        let mut row = vec![Cell::text(kind(driver).label)];
+    let columns = head.len();
+    let mut table = Table::new("Shares by driver", head);
+    let same = |pattern: &Driver, residual: &ResidualDriver| {
+        pattern.name == residual.name || pattern.name == "depth" && residual.name == "depth_worn"
+    };
+    let pattern = |share: f64| Cell::Bar(share, format!("{:.0} %", 100.0 * share));
+    let alone = patterns
+        .iter()
+        .filter(|p| !left.drivers.iter().any(|d| same(p, d)));
+    for driver in alone {
+        let mut row = vec![
+            Cell::text(driver.name.clone()),
+            pattern(driver.variance_share),
+        ];
+        row.resize_with(columns, || Cell::number("–"));
+        table = table.row(row);
+    }
+    let share_of = |d: &ResidualDriver| {
+        patterns
+            .iter()
+            .find(|p| same(p, d))
+            .map(|p| p.variance_share)
+    };
+    let mut ordered: Vec<&ResidualDriver> = left.drivers.iter().collect();
+    ordered.sort_by(|a, b| {
+        share_of(b)
+            .unwrap_or(0.0)
+            .total_cmp(&share_of(a).unwrap_or(0.0))
+    });
+    for driver in ordered {
+        let mut row = vec![
+            Cell::text(kind(driver).label),
+            share_of(driver).map_or(Cell::number("–"), pattern),
+        ];
         for part in [Some(driver.before), driver.after].into_iter().flatten() {
             row.push(Cell::Bar(part.share, share(part)));
             row.push(Cell::number(significant(part.variance, 2)));
@@ -113,7 +179,15 @@ pub fn section(left: &ResidualDrivers) -> Option<Section> {
         row.push(Cell::number(whole(driver.points)));
         table = table.row(row);
     }
-    let models = match &after {
+    table
+}
+
+/// The pictures of the residual; none if nothing varies.
+fn residuals(left: &ResidualDrivers) -> Option<Section> {
+    if left.drivers.is_empty() {
+        return None;
+    }
+    let models = match left.after.as_ref().map(Hypothesis::in_words) {
         Some(after) => format!(
             "Before: the fitted base model. After: fitted anew with {after}. An effect that is the right one leaves nothing that \
              follows its drivers."
@@ -122,17 +196,11 @@ pub fn section(left: &ResidualDrivers) -> Option<Section> {
     };
     let mut section = Section::new("The residual against each physical driver")
         .paragraph(models)
-        .paragraph(
-            "Share: how much of the variance of (measured − model − datum)/σ the means of the driver's bins explain, corrected for \
-             their number; on noise alone it is 0 give or take what stands under by chance. Beside it the same part in units of the \
-             noise's variance, because a share of little is little.",
-        )
-        .table(table)
         .plots(plots(left))
         .note(
             "Points: means of bins of about equal size; bars: their standard errors. Drivers on the flank are those of the fitted base \
-             model at the measured point, when a contact presses it most. Drivers that go together, such as position and sliding \
-             speed, share what they explain. All of it stands in `residual_drivers.csv`, every row with its drivers in `residual_rows.csv`.",
+             model at the measured point, when a contact presses it most. All of it stands in `residual_drivers.csv`, every row with its \
+             drivers in `residual_rows.csv`.",
         );
     if !left.constant.is_empty() {
         let names: Vec<String> = left.constant.iter().map(|n| n.replace('_', " ")).collect();
@@ -297,18 +365,27 @@ mod tests {
         assert_eq!(super::plots(&left(false))[0].curves.len(), 1);
     }
 
+    /// One table holds both kinds of share, each driver once.
+    #[test]
+    fn every_driver_has_one_row_with_both_kinds_of_share() {
+        let patterns = [("speed", 0.54), ("cycles", 0.3)].map(|(name, variance_share)| Driver {
+            name: name.to_owned(),
+            variance_share,
+        });
+        for after in [true, false] {
+            let table = shares(&patterns, &left(after));
+            // speed, cycles, member
+            assert_eq!(table.rows.len(), 3);
+            assert!(table.rows.iter().all(|row| row.len() == table.head.len()));
+        }
+    }
+
     #[test]
     fn the_section_says_what_is_constant_and_what_after_is() {
-        let section = section(&left(true)).unwrap();
+        let section = residuals(&left(true)).unwrap();
         assert!(section.text[0].contains("running_in and coating"));
         assert!(section.notes.iter().any(|note| note.contains("film ratio")));
-        assert_eq!(section.tables[0].rows.len(), 2);
-        assert_eq!(
-            section.tables[0].head.len(),
-            section.tables[0].rows[0].len()
-        );
-        let alone = super::section(&left(false)).unwrap();
-        assert_eq!(alone.tables[0].head.len(), alone.tables[0].rows[0].len());
+        let alone = residuals(&left(false)).unwrap();
         assert!(alone.text[0].starts_with("Nothing is missing"));
     }
 }

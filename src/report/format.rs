@@ -77,6 +77,17 @@ pub fn percent(ratio: f64, digits: usize) -> String {
     format!("{} %", significant(100.0 * ratio, digits))
 }
 
+/// A probability, never a certainty.
+pub fn probability(p: f64) -> String {
+    if p > 0.999 {
+        ">99.9 %".to_owned()
+    } else if p < 0.001 {
+        "<0.1 %".to_owned()
+    } else {
+        format!("{:.1} %", 100.0 * p)
+    }
+}
+
 /// Seconds as seconds, or minutes and hours when long.
 pub fn duration(seconds: f64) -> String {
     if seconds < 120.0 {

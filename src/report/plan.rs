@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::format::{plain, significant};
+use super::format::{plain, probability, significant};
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, NextTest, NextTests, Plan, RankedTest};
 
@@ -11,7 +11,7 @@ use crate::learn::diagnose::{Campaign, NextTest, NextTests, Plan, RankedTest};
 const SHOWN: usize = 12;
 
 /// The table of tests, and for a campaign every effect.
-pub fn summary(title: &str, plan: &Plan, folder: &Path) -> String {
+pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
     let mut text = String::new();
     if !title.is_empty() {
         let _ = writeln!(text, "{title}\n");
@@ -19,8 +19,7 @@ pub fn summary(title: &str, plan: &Plan, folder: &Path) -> String {
     let _ = writeln!(text, "{}\n", sentence(plan));
     match plan {
         Plan::NextTests(next) => {
-            let names: Vec<&str> = next.leaders.iter().map(|l| l.effect.as_str()).collect();
-            let _ = writeln!(text, "to separate: {}\n", names.join(", "));
+            let _ = writeln!(text, "to separate: {}\n", separated(next, study));
             heading(&mut text, "measure", ["χ² mean", "χ² least"]);
             for row in next.tests.iter().take(SHOWN) {
                 let figures = [row.expected_chi2, least(row)].map(|c| significant(c, 4));
@@ -71,10 +70,28 @@ pub fn summary(title: &str, plan: &Plan, folder: &Path) -> String {
     text
 }
 
+/// What is to be separated, and where that comes from; `study` is how commands name the study file.
+fn separated(next: &NextTests, study: &str) -> String {
+    let leaders = next.leaders.iter().map(|leader| {
+        let form = match leader.form.as_str() {
+            "" => String::new(),
+            form => format!(", {form}"),
+        };
+        match leader.probability {
+            Some(p) => format!("{} ({}{form})", leader.effect, probability(p)),
+            None if form.is_empty() => leader.effect.clone(),
+            None => format!("{} ({})", leader.effect, leader.form),
+        }
+    });
+    let leaders: Vec<String> = leaders.collect();
+    let basis = next.basis.replace("STUDY", study);
+    format!("{}: {basis}", leaders.join(", "))
+}
+
 /// The same as a page, the whole table with reasons.
-pub fn page(title: &str, plan: &Plan) -> Page {
+pub fn page(title: &str, plan: &Plan, study: &str) -> Page {
     let sections = match plan {
-        Plan::NextTests(next) => next_tests(next),
+        Plan::NextTests(next) => next_tests(next, study),
         Plan::Campaign(campaign) => of_campaign(campaign),
     };
     Page {
@@ -196,7 +213,7 @@ fn conditions(test: &NextTest) -> Vec<Cell> {
     ]
 }
 
-fn next_tests(next: &NextTests) -> Vec<Section> {
+fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
     let head = [
         "N·m",
         "rpm",
@@ -219,9 +236,8 @@ fn next_tests(next: &NextTests) -> Vec<Section> {
         ]);
         table = table.row(cells);
     }
-    let names: Vec<&str> = next.leaders.iter().map(|l| l.effect.as_str()).collect();
     vec![
-        Section::new("What is to be separated").paragraph(names.join(", ")),
+        Section::new("What is to be separated").paragraph(separated(next, study)),
         Section::new("Feasible tests")
             .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Among near-equals the plainest test stands first.")
             .table(table),
@@ -295,6 +311,8 @@ mod tests {
         };
         let plan = Plan::NextTests(NextTests {
             sentence: "Next.".to_owned(),
+            basis: "the leaders of STUDY".to_owned(),
+            diagnosed: false,
             leaders: Vec::new(),
             noise: 0.02,
             repetition_chi2: 1.0,
@@ -305,7 +323,12 @@ mod tests {
         assert!(table.ends_with(
             "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\"\n"
         ));
-        assert!(summary("", &plan, Path::new("out")).contains("wear_depth"));
-        assert!(page("", &plan).html().unwrap().contains("plainly"));
+        assert!(summary("", &plan, "s.toml", Path::new("out")).contains("wear_depth"));
+        assert!(
+            page("", &plan, "s.toml")
+                .html()
+                .unwrap()
+                .contains("plainly")
+        );
     }
 }

@@ -42,6 +42,46 @@ fn after_measurements_all_feasible_tests_are_ranked() {
     assert!(!tests[0]["separates"].as_array().unwrap().is_empty());
 }
 
+/// A plan separates what the diagnosis of the same inputs left, whatever leads by the analytic model's own ranking; without one it says
+/// whose leaders they are.
+#[test]
+fn a_plan_starts_from_the_diagnosis_of_the_same_inputs() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = small(folder.path());
+    let diagnosed = gearwear().arg("diagnose").arg(&study).output().unwrap();
+    assert!(diagnosed.status.success());
+    let file = folder.path().join("study.out/diagnose/diagnosis.json");
+    let mut document: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    // what the analytic model alone would hardly put first
+    let ranking = document["ranking"].as_array_mut().unwrap();
+    let last = ranking.len() - 1;
+    ranking.swap(0, last);
+    ranking[0]["probability"] = 0.9.into();
+    ranking[1]["probability"] = 0.05.into();
+    let names: Vec<String> = [&ranking[0], &ranking[1]]
+        .map(|entry| entry["effect"].as_str().unwrap().to_owned())
+        .into();
+    std::fs::write(&file, document.to_string()).unwrap();
+    let plan = planned(&study, &folder.path().join("plan"));
+    assert_eq!(plan["diagnosed"], true);
+    let leaders = plan["leaders"].as_array().unwrap();
+    for (leader, name) in leaders.iter().zip(&names) {
+        assert_eq!(leader["effect"], name.as_str());
+    }
+    assert_eq!(leaders[0]["probability"], 0.9);
+    // another study than the diagnosed one
+    let text = std::fs::read_to_string(&study).unwrap();
+    std::fs::write(&study, format!("{text}\n# changed\n")).unwrap();
+    let plan = planned(&study, &folder.path().join("plan"));
+    assert_eq!(plan["diagnosed"], false);
+    assert!(
+        plan["basis"]
+            .as_str()
+            .unwrap()
+            .contains("analytic model alone")
+    );
+}
+
 #[test]
 fn before_measurements_a_campaign_is_chosen() {
     let folder = tempfile::tempdir().unwrap();

@@ -2,6 +2,7 @@
 
 mod campaign;
 mod candidate_tests;
+mod decided;
 mod discrimination;
 mod measurement_design;
 pub(in crate::learn) mod next;
@@ -10,6 +11,7 @@ mod table;
 
 pub use campaign::plan_first;
 pub use candidate_tests::NextTest;
+pub use decided::Decided;
 pub use next::NextExperiment;
 pub use plan::{
     AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,

@@ -20,6 +20,10 @@ pub enum Plan {
 pub struct NextTests {
     /// The first line of the table in words.
     pub sentence: String,
+    /// Where the leaders come from, in words.
+    pub basis: String,
+    /// Whether a finished diagnosis of the same inputs named them, not the analytic model.
+    pub diagnosed: bool,
     /// The leading candidates, by falling probability.
     pub leaders: Vec<Leader>,
     /// Relative noise assumed of quantities that were not measured yet.
@@ -37,8 +41,10 @@ pub struct Leader {
     pub effect: String,
     /// Its accepted form; empty for the card's own.
     pub form: String,
-    /// Log posterior (up to a constant) behind the first one, by the analytic model.
+    /// Log posterior (up to a constant) behind the first one.
     pub behind: f64,
+    /// Probability by the diagnosis; None by the analytic model.
+    pub probability: Option<f64>,
 }
 
 /// One feasible test with one quantity measured.

@@ -1,15 +1,16 @@
-//! The table of feasible tests after measurements: how well each separates what a fast diagnosis leaves.
+//! The table of feasible tests after measurements: how well each separates what a diagnosis leaves.
 
 use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::candidate_tests::{ENOUGH, changes, grid, purpose, ranked, shown, strength};
+use super::decided::Decided;
 use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
 use super::measurement_design::MeasurementDesign;
 use super::next::{Place, existing, plain};
 use super::plan::{Leader, NextTests, Plan, RankedTest, Separated};
 use crate::learn::bench::Workshop;
-use crate::learn::decision::DecisionRule;
+use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
@@ -23,9 +24,9 @@ use crate::simulate::forward::ContactKind;
 use crate::study::{Operation, Role};
 
 /// Log posterior behind the first from which a candidate leads no longer.
-const LEADING: f64 = 8.0;
+pub(super) const LEADING: f64 = 8.0;
 /// Least and most leading candidates.
-const LEADERS: [usize; 2] = [2, 4];
+pub(super) const LEADERS: [usize; 2] = [2, 4];
 /// Quantities of the table.
 const QUANTITIES: [Quantity; 3] = [
     Quantity::WearDepth,
@@ -33,12 +34,14 @@ const QUANTITIES: [Quantity; 3] = [
     Quantity::MassLoss,
 ];
 
-/// The table of feasible tests for a study's measurements.
+/// The table of feasible tests for a study's measurements: for the leading candidates of a finished diagnosis of them, without one for
+/// those that lead by the analytic model.
 ///
 /// # Errors
 /// [`DiagnoseError`]
 pub fn plan_after(
     measured: &Measured<'_>,
+    decided: Option<&Decided>,
     noise: f64,
     watch: Watch<'_>,
 ) -> Result<Plan, DiagnoseError> {
@@ -65,10 +68,17 @@ pub fn plan_after(
     };
     watch(0.0, "fitting the base model".to_owned());
     let base = context.base(Candidate::base(study))?;
-    let (singles, _) = Candidate::singles(study);
-    watch(0.2, format!("screening {} effects", singles.len()));
-    let screened = context.screen(&base, &singles);
-    let leaders = leaders(&base.fitted, &screened);
+    let diagnosed = decided.map(|decided| {
+        watch(0.2, "fitting what the diagnosis left".to_owned());
+        decided.fitted(&context, &base)
+    });
+    let diagnosed = diagnosed.filter(|leaders| leaders.len() >= LEADERS[0]);
+    let from_diagnosis = diagnosed.is_some();
+    let leaders = diagnosed.unwrap_or_else(|| {
+        let (singles, _) = Candidate::singles(study);
+        watch(0.2, format!("screening {} effects", singles.len()));
+        leaders(&base.fitted, &context.screen(&base, &singles))
+    });
     watch(0.6, "trying feasible tests".to_owned());
     let plainest = plain(&context);
     let tests = grid(&plainest);
@@ -107,49 +117,64 @@ pub fn plan_after(
                 )
             },
         ),
-        leaders: leaders
-            .iter()
-            .map(|(judged, log)| Leader {
-                effect: judged.candidate.hypothesis().to_string(),
-                form: (judged
-                    .candidate
-                    .forms
-                    .iter()
-                    .flatten()
-                    .map(|form| form.name))
-                .collect::<Vec<_>>()
-                .join(", "),
-                behind: leaders[0].1 - log,
-            })
-            .collect(),
+        basis: basis(decided, from_diagnosis),
+        diagnosed: from_diagnosis,
+        leaders: leaders.into_iter().map(|(_, leader)| leader).collect(),
         noise,
         repetition_chi2: repetition,
         tests,
     }))
 }
 
-/// The leading candidates with their log posterior, one form of each effect.
-fn leaders<'j>(
-    base: &'j FittedCandidate,
-    screened: &'j [FittedCandidate],
-) -> Vec<(&'j FittedCandidate, f64)> {
+/// Where the leaders come from, in words.
+fn basis(decided: Option<&Decided>, from_diagnosis: bool) -> String {
+    match decided {
+        Some(decided) if from_diagnosis => {
+            let unknown = if decided.verdict == Verdict::Unknown {
+                "; it holds a cause outside the catalogue for likeliest, of which these tests cannot tell"
+            } else {
+                ""
+            };
+            format!("the leaders of the finished diagnosis{unknown}")
+        }
+        Some(_) => "the leaders by the analytic model alone: it can fit fewer than two of those of the finished diagnosis".to_owned(),
+        None => "the leaders by the analytic model alone, which may be others than those of a diagnosis: gearwear diagnose STUDY decides, and plan then starts from its answer".to_owned(),
+    }
+}
+
+/// The leading candidates by the analytic model, one form of each effect.
+fn leaders(base: &FittedCandidate, screened: &[FittedCandidate]) -> Vec<(FittedCandidate, Leader)> {
     let mut names: Vec<_> = screened.iter().map(|j| &j.candidate.effects).collect();
     names.sort();
     names.dedup();
     let rule = DecisionRule::of_analytic_model();
     let share = rule.prior_singles / names.len().max(1) as f64;
     let log = |j: &FittedCandidate| j.log_evidence + (share / j.candidate.siblings as f64).ln();
-    let mut all: Vec<(&FittedCandidate, f64)> = screened.iter().map(|j| (j, log(j))).collect();
-    all.push((base, base.log_evidence + rule.prior_nothing.ln()));
+    let mut all: Vec<(FittedCandidate, f64)> = (screened.iter().cloned())
+        .map(|fitted| {
+            let log = log(&fitted);
+            (fitted, log)
+        })
+        .collect();
+    all.push((base.clone(), base.log_evidence + rule.prior_nothing.ln()));
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let mut leaders: Vec<(&FittedCandidate, f64)> = Vec::new();
+    let first = all.first().map_or(0.0, |best| best.1);
+    let mut leaders: Vec<(FittedCandidate, Leader)> = Vec::new();
     for (judged, log) in all {
-        let near = leaders.first().is_none_or(|first| first.1 - log < LEADING);
+        let near = first - log < LEADING;
         let new = leaders
             .iter()
             .all(|l| l.0.candidate.effects != judged.candidate.effects);
         if new && (leaders.len() < LEADERS[0] || (leaders.len() < LEADERS[1] && near)) {
-            leaders.push((judged, log));
+            let forms = judged.candidate.forms.iter().flatten();
+            let forms: Vec<&str> = forms.map(|form| form.name).collect();
+            let leader = Leader {
+                effect: judged.candidate.hypothesis().to_string(),
+                form: forms.join(", "),
+                behind: first - log,
+                probability: None,
+            };
+            leaders.push((judged, leader));
         }
     }
     leaders
@@ -175,7 +200,7 @@ fn told(
     context: &Context<'_>,
     shop: &Workshop,
     operation: &Operation,
-    leaders: &[(&FittedCandidate, f64)],
+    leaders: &[(FittedCandidate, Leader)],
     noise: f64,
 ) -> Option<Vec<QuantityDiscrimination>> {
     let study = context.likelihood.measured.study();
@@ -231,7 +256,7 @@ fn row(
     changes: usize,
     operation: &Operation,
     told: &QuantityDiscrimination,
-    leaders: &[(&FittedCandidate, f64)],
+    leaders: &[(FittedCandidate, Leader)],
 ) -> RankedTest {
     let test = shown(operation);
     let names: Vec<String> = leaders

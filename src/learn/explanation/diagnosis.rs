@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
 use super::ranked::{Ranked, form, parameters, ranked};
-use super::sentences::Explanation;
+use super::sentences::{Explanation, undecided};
 use super::warnings::warnings;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::posterior::Posterior;
@@ -34,6 +34,8 @@ pub enum Named {
 pub struct Diagnosis {
     /// What is missing.
     pub verdict: Verdict,
+    /// Whether the analytic model decided in place of finite elements and cannot: probabilities of the unknown are then of its own error too.
+    pub undecided: bool,
     /// The named effect or effects; None unless the verdict names some.
     pub effect: Option<Named>,
     /// The verdict in a sentence, and why.
@@ -131,6 +133,7 @@ impl Diagnosis {
         };
         Self {
             verdict: decision.verdict,
+            undecided: undecided(context, posterior),
             effect: named(posterior),
             sentence: explanation.sentence,
             reasons: explanation.reasons,

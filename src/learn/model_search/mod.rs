@@ -11,6 +11,6 @@ pub(in crate::learn) mod matching_pursuit;
 mod medium_fidelity;
 pub(in crate::learn) mod nested_forms;
 mod pair_exchange;
-mod pair_fit;
+pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
 mod screening;
