@@ -15,6 +15,8 @@ mod pages;
 mod synthetic;
 #[path = "outputs/tables.rs"]
 mod tables;
+#[path = "common/vtu.rs"]
+mod vtu;
 
 use std::fs;
 

@@ -9,6 +9,8 @@
 //! The runs are coarse (two linear elements per Hertz half width, 30 positions): they last about a second, and what is claimed
 //! here holds at any resolution. How figures converge is shown by `gearwear validate`.
 mod common;
+#[path = "common/vtu.rs"]
+mod vtu;
 
 #[path = "run_command/failures.rs"]
 mod failures;

@@ -12,10 +12,10 @@ const NAME: &str = "discrepancy.csv";
 
 /// `discrepancy.csv`: the smooth part of measured minus base model at every fitted row.
 ///
-/// Columns `test,member,quantity,cycles,position,value`: pinion revolutions; mm of radius or base pitches of rotation, empty for a
-/// whole member; standard deviations of the row.
+/// Columns `test,member,quantity,cycles,position,value,measured_minus_model,unit`: pinion revolutions; mm of radius or base pitches of
+/// rotation, empty for a whole member; the discrepancy in standard deviations of the row, and the same in `unit`.
 pub fn csv(map: &[MapPoint]) -> Result<Vec<u8>, OutputError> {
-    let mut table = Table::new(NAME, "test,member,quantity,cycles,position,value");
+    let mut table = Table::new(NAME, "test,member,quantity,cycles,position,value,measured_minus_model,unit");
     for point in map {
         table.text(&quoted(&point.test));
         table.text(point.member);
@@ -26,6 +26,8 @@ pub fn csv(map: &[MapPoint]) -> Result<Vec<u8>, OutputError> {
             None => table.text(""),
         }
         table.number("value", point.value)?;
+        table.number("measured_minus_model", point.value * point.sigma)?;
+        table.text(point.unit);
         table.end_row();
     }
     Ok(table.into_bytes())
@@ -89,6 +91,8 @@ mod tests {
             cycles,
             position: Some(27.5),
             value,
+            sigma: 0.5,
+            unit: "um",
         }
     }
 
@@ -106,9 +110,9 @@ mod tests {
         });
         let table = String::from_utf8(csv(&map).unwrap()).unwrap();
         let lines: Vec<&str> = table.lines().collect();
-        assert_eq!(lines[0], "test,member,quantity,cycles,position,value");
-        assert_eq!(lines[1], "\"A, first\",pinion,wear_depth,100000,27.5,0.5");
-        assert_eq!(lines[4], "B,gear,mass_loss,100000,,1");
+        assert_eq!(lines[0], "test,member,quantity,cycles,position,value,measured_minus_model,unit");
+        assert_eq!(lines[1], "\"A, first\",pinion,wear_depth,100000,27.5,0.5,0.25,um");
+        assert_eq!(lines[4], "B,gear,mass_loss,100000,,1,0.5,um");
         let plots = plots(&map);
         assert_eq!(plots.len(), 2);
         assert_eq!(plots[0].curves.len(), 2);

@@ -186,9 +186,20 @@ fn write_fields(run: &Run, staging: &mut Staging) -> Result<(), OutputError> {
         return Ok(());
     }
     let files = vtk::names(&run.fields);
-    for (file, frame) in files.iter().zip(&run.fields) {
-        let name = format!("fields/{}", file.name);
-        staging.write(&name, &vtk::vtu(&name, frame)?)?;
+    let all: Vec<_> = files.iter().zip(&run.fields).collect();
+    // a few at a time: compressing takes a core, and not all need to be in memory at once
+    for some in all.chunks(rayon::current_num_threads().max(1)) {
+        let written: Result<Vec<(String, Vec<u8>)>, OutputError> = some
+            .par_iter()
+            .map(|(file, frame)| {
+                let name = format!("fields/{}", file.name);
+                let bytes = vtk::vtu(&name, frame)?;
+                Ok((name, bytes))
+            })
+            .collect();
+        for (name, bytes) in written? {
+            staging.write(&name, &bytes)?;
+        }
     }
     staging.write(
         "fields/wear.pvd",
@@ -196,6 +207,9 @@ fn write_fields(run: &Run, staging: &mut Staging) -> Result<(), OutputError> {
     )?;
     for (name, series) in vtk::mesh_cycle_series(&run.fields, &files) {
         staging.write(&format!("fields/{name}"), &vtk::pvd(&series))?;
+    }
+    if let Some(script) = vtk::paraview(run) {
+        staging.write("fields/paraview.py", script.as_bytes())?;
     }
     let loads = vtk::loads(files.iter().zip(&run.fields));
     staging.write(

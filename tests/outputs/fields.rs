@@ -8,62 +8,29 @@ use std::process::Command;
 
 use gearwear::report::vtk;
 use serde_json::Value;
-use vtkio::model::{
-    Attribute, CellType, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk,
-};
 
+use super::vtu::Grid;
 use super::{read, synthetic, written};
 
-fn piece(bytes: &[u8]) -> UnstructuredGridPiece {
-    let vtk = Vtk::parse_xml(bytes).unwrap();
-    assert_eq!(vtk.byte_order, vtkio::model::ByteOrder::LittleEndian);
-    let DataSet::UnstructuredGrid { pieces, .. } = vtk.data else {
-        panic!("not an unstructured grid")
-    };
-    let Some(Piece::Inline(piece)) = pieces.into_iter().next() else {
-        panic!("no inline piece")
-    };
-    *piece
-}
-
-fn array(piece: &UnstructuredGridPiece, name: &str) -> Vec<f64> {
-    let found = piece
-        .data
-        .point
-        .iter()
-        .find_map(|attribute| match attribute {
-            Attribute::DataArray(array) if array.name == name => {
-                array.data.clone().cast_into::<f64>()
-            }
-            _ => None,
-        });
-    found.unwrap_or_else(|| panic!("no point array {name}"))
-}
+/// VTK's numbers of the kinds of cells.
+const TRIANGLE: f64 = 5.0;
+const QUADRATIC_TRIANGLE: f64 = 22.0;
 
 #[test]
 fn field_files_hold_both_members_in_the_fixed_frame() {
     let frame = synthetic::frame(15_000.0, 0.0);
-    let grid = piece(&vtk::vtu("frame.vtu", &frame).unwrap());
+    let grid = Grid::read(&vtk::vtu("frame.vtu", &frame).unwrap());
     let nodes = frame.pinion.worn.len() + frame.gear.worn.len();
     let cells = 4 * synthetic::COLUMNS * synthetic::ROWS;
-    let points = grid.points.clone().cast_into::<f64>().unwrap();
-    assert_eq!((points.len(), grid.cells.types.len()), (3 * nodes, cells));
-    assert!(
-        grid.cells
-            .types
-            .iter()
-            .all(|kind| *kind == CellType::QuadraticTriangle)
-    );
-    let VertexNumbers::XML {
-        connectivity,
-        offsets,
-    } = &grid.cells.cell_verts
-    else {
-        panic!("legacy cells")
-    };
+    let points = grid.array("Points/points");
+    let types = grid.array("Cells/types");
+    assert_eq!((points.len(), types.len()), (3 * nodes, cells));
+    assert!(types.iter().all(|kind| *kind == QUADRATIC_TRIANGLE));
+    let connectivity = grid.array("Cells/connectivity");
+    let offsets = grid.array("Cells/offsets");
     assert_eq!(
         (offsets[0], *offsets.last().unwrap()),
-        (6, 6 * cells as u64)
+        (6.0, 6.0 * cells as f64)
     );
     assert!(
         connectivity[connectivity.len() / 2..]
@@ -71,7 +38,7 @@ fn field_files_hold_both_members_in_the_fixed_frame() {
             .all(|&node| node as usize >= nodes / 2)
     );
     assert_eq!(
-        array(&grid, "member").iter().sum::<f64>(),
+        grid.array("PointData/member").iter().sum::<f64>(),
         nodes as f64 / 2.0
     );
 
@@ -84,7 +51,7 @@ fn field_files_hold_both_members_in_the_fixed_frame() {
         }
     }
     // Forces cancel and turn the pinion with the stated moment.
-    let force = array(&grid, "contact_force");
+    let force = grid.array("PointData/contact_force");
     let sum =
         |axis: usize, from: usize, to: usize| (from..to).map(|n| force[3 * n + axis]).sum::<f64>();
     let half = nodes / 2;
@@ -97,14 +64,14 @@ fn field_files_hold_both_members_in_the_fixed_frame() {
     assert!((moment.abs() / frame.torque_per_width - 1.0).abs() < 1e-12);
 
     // A uniaxial stress along the member's x axis, seen in the fixed frame: σ c², σ s², σ c s (Mohr); zz stays.
-    let stress = array(&grid, "stress");
+    let stress = grid.array("PointData/stress");
     let (s, c) = frame.pinion.rotation.sin_cos();
     let expected = [100.0 * c * c, 100.0 * s * s, 30.0, 100.0 * c * s, 0.0, 0.0];
     for (found, wanted) in stress[..6].iter().zip(expected) {
         assert!((found - wanted).abs() < 1e-5, "{found} {wanted}");
     }
     // Worn material: 1.5 µm off the contact side, against the outward normal (70° for the pinion).
-    let (vector, depth) = (array(&grid, "wear_vector"), array(&grid, "wear_depth"));
+    let (vector, depth) = (grid.array("PointData/wear_vector"), grid.array("PointData/wear_depth"));
     assert_eq!(depth[0], 1.5);
     let outward = 70f64.to_radians();
     assert!(
@@ -122,13 +89,9 @@ fn linear_triangles_are_written_as_such() {
             field.cells = Cells::T3(cells.iter().map(|c| [c[0], c[1], c[2]]).collect());
         }
     }
-    let grid = piece(&vtk::vtu("frame.vtu", &frame).unwrap());
-    assert!(
-        grid.cells
-            .types
-            .iter()
-            .all(|kind| *kind == CellType::Triangle)
-    );
+    let grid = Grid::read(&vtk::vtu("frame.vtu", &frame).unwrap());
+    let types = grid.array("Cells/types");
+    assert!(types.iter().all(|kind| *kind == TRIANGLE));
 }
 
 #[test]

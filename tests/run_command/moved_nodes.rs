@@ -7,9 +7,8 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use vtkio::model::{Attribute, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk};
-
 use super::home::{Home, number};
+use super::vtu::Grid;
 
 /// Quadratic triangles, so that mid-side nodes are there to be moved too; finer than the other runs for the tip land's sake.
 static FINER: LazyLock<Home> = LazyLock::new(|| {
@@ -34,29 +33,8 @@ static DEEP: LazyLock<Home> = LazyLock::new(|| {
     home
 });
 
-fn grid(home: &Home, name: &str) -> UnstructuredGridPiece {
-    let bytes = std::fs::read(home.result("run").0.join("fields").join(name)).unwrap();
-    let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&bytes[..]).unwrap().data else {
-        panic!("not an unstructured grid")
-    };
-    match pieces.into_iter().next() {
-        Some(Piece::Inline(piece)) => *piece,
-        _ => panic!("no inline piece"),
-    }
-}
-
-fn array(grid: &UnstructuredGridPiece, name: &str) -> Vec<f64> {
-    let found = grid
-        .data
-        .point
-        .iter()
-        .find_map(|attribute| match attribute {
-            Attribute::DataArray(array) if array.name == name => {
-                array.data.clone().cast_into::<f64>()
-            }
-            _ => None,
-        });
-    found.unwrap_or_else(|| panic!("no point array {name}"))
+fn grid(home: &Home, name: &str) -> Grid {
+    Grid::read(&std::fs::read(home.result("run").0.join("fields").join(name)).unwrap())
 }
 
 struct Member {
@@ -79,19 +57,17 @@ struct Drawn {
 fn drawn(home: &Home, name: &str) -> Drawn {
     let grid = grid(home, name);
     let plane = |flat: Vec<f64>| flat.chunks(3).map(|c| [c[0], c[1]]).collect::<Vec<_>>();
-    let VertexNumbers::XML { connectivity, .. } = &grid.cells.cell_verts else {
-        panic!("legacy cells")
-    };
-    let member = array(&grid, "member");
+    let connectivity = grid.array("Cells/connectivity");
+    let member = grid.array("PointData/member");
     let of = |number: f64, centre: f64, teeth: f64| Member {
         centre: [centre, 0.0],
         base_radius: teeth * 20f64.to_radians().cos(),
         nodes: (0..member.len()).filter(|&i| member[i] == number).collect(),
     };
     Drawn {
-        points: plane(grid.points.clone().cast_into::<f64>().unwrap()),
-        moved: plane(array(&grid, "wear_vector")),
-        depth: array(&grid, "wear_depth"),
+        points: plane(grid.array("Points/points")),
+        moved: plane(grid.array("PointData/wear_vector")),
+        depth: grid.array("PointData/wear_depth"),
         triangles: connectivity
             .chunks(6)
             .map(|c| std::array::from_fn(|i| c[i] as usize))
@@ -195,7 +171,7 @@ fn the_pressure_over_the_outline_is_the_load_at_corners_too() {
     assert_eq!(files.len(), 5);
     for file in files {
         let name = file["file"].as_str().unwrap();
-        let pressure = array(&grid(&home, name), "contact_pressure");
+        let pressure = grid(&home, name).array("PointData/contact_pressure");
         let drawn = drawn(&home, name);
         let mut outline = BTreeMap::new();
         for t in &drawn.triangles {

@@ -1,3 +1,7 @@
+use std::fs;
+
+use serde_json::{Value, json};
+
 use super::*;
 
 const STUDY: &str = include_str!("../examples/paper.toml");

@@ -86,8 +86,8 @@ pub struct ParameterRecord {
     pub sigma: f64,
     /// Whether it lies on a bound.
     pub at_bound: bool,
-    /// 95 % interval.
-    pub interval_95: [f64; 2],
+    /// 95 % interval; None where the fit supports none: it did not converge, or its value lies outside.
+    pub interval_95: Option<[f64; 2]>,
     /// Unit.
     pub unit: String,
 }
@@ -159,7 +159,9 @@ impl Comparison {
             noise_rms_um: noise_rms(&rows),
             fit: Share::of(with(Role::Fit)),
             holdout: Share::of(with(Role::Holdout)),
-            parameters: fit.parameters.iter().map(ParameterRecord::new).collect(),
+            parameters: (fit.parameters.iter())
+                .map(|estimate| ParameterRecord::new(estimate, fit.converged))
+                .collect(),
             places,
             worst,
             correlation: correlation(fit),
@@ -185,14 +187,16 @@ impl Comparison {
 }
 
 impl ParameterRecord {
-    /// From a fit's estimate.
-    pub fn new(estimate: &Estimate) -> Self {
+    /// From the estimate of a fit that converged or did not.
+    pub fn new(estimate: &Estimate, converged: bool) -> Self {
+        let [low, high] = estimate.interval;
+        let supported = converged && low <= estimate.value && estimate.value <= high;
         Self {
             name: estimate.name.clone(),
             value: estimate.value,
             sigma: estimate.sigma,
             at_bound: estimate.at_bound,
-            interval_95: estimate.interval,
+            interval_95: supported.then_some(estimate.interval),
             unit: estimate.unit.clone(),
         }
     }
@@ -246,4 +250,30 @@ fn outliers(data: &Dataset, rows: &[Fitted<'_>]) -> Vec<Outlier> {
         .collect();
     outliers.sort_by(|a, b| b.standardised.abs().total_cmp(&a.standardised.abs()));
     outliers
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_interval_stands_that_the_fit_does_not_support() {
+        let estimate = Estimate {
+            name: "film_thickness.lambda0".to_owned(),
+            unit: "-".to_owned(),
+            value: 0.446,
+            sigma: 0.01,
+            interval: [0.020, 0.077],
+            at_bound: false,
+            logarithmic: true,
+        };
+        assert_eq!(ParameterRecord::new(&estimate, true).interval_95, None);
+        let within = Estimate {
+            value: 0.05,
+            ..estimate
+        };
+        let record = |converged| ParameterRecord::new(&within, converged).interval_95;
+        assert_eq!(record(true), Some([0.020, 0.077]));
+        assert_eq!(record(false), None);
+    }
 }

@@ -51,6 +51,10 @@ pub struct MapPoint {
     pub position: Option<f64>,
     /// Smooth part of measured minus base model, in sigmas of the row.
     pub value: f64,
+    /// The row's sigma, in the unit of what is measured.
+    pub sigma: f64,
+    /// That unit.
+    pub unit: &'static str,
 }
 
 /// Whether a fall of χ² with this standard deviation on noise alone is far more than noise.
@@ -142,6 +146,8 @@ impl SmoothDiscrepancy {
                 cycles: o.cycles,
                 position: o.position,
                 value: value / o.sigma,
+                sigma: o.sigma,
+                unit: o.quantity.unit(),
             }
         };
         self.values.iter().enumerate().map(of).collect()

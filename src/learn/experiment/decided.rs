@@ -3,8 +3,7 @@
 
 use serde::Deserialize;
 
-use super::plan::Leader;
-use super::table::{LEADERS, LEADING};
+use super::plan::{LEADERS, LEADING, Leader};
 use crate::learn::decision::Verdict;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;

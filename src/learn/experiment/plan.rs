@@ -5,6 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::candidate_tests::NextTest;
 use crate::learn::hypothesis::candidate::NotJudged;
 
+/// Log posterior behind the first from which a candidate leads no longer.
+pub(super) const LEADING: f64 = 8.0;
+/// Least and most leading candidates.
+pub(super) const LEADERS: [usize; 2] = [2, 4];
+
 /// A plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]

@@ -8,7 +8,7 @@ use super::decided::Decided;
 use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
 use super::measurement_design::MeasurementDesign;
 use super::next::{Place, existing, plain};
-use super::plan::{Leader, NextTests, Plan, RankedTest, Separated};
+use super::plan::{LEADERS, LEADING, Leader, NextTests, Plan, RankedTest, Separated};
 use crate::learn::bench::Workshop;
 use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fidelity::Fidelity;
@@ -23,10 +23,6 @@ use crate::measure::Quantity;
 use crate::simulate::forward::ContactKind;
 use crate::study::{Operation, Role};
 
-/// Log posterior behind the first from which a candidate leads no longer.
-pub(super) const LEADING: f64 = 8.0;
-/// Least and most leading candidates.
-pub(super) const LEADERS: [usize; 2] = [2, 4];
 /// Quantities of the table.
 const QUANTITIES: [Quantity; 3] = [
     Quantity::WearDepth,

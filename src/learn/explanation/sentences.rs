@@ -24,7 +24,7 @@ const NEGLIGIBLE: f64 = 0.01;
 /// running-in of the example accounts for 87 % by that model and for all of it by finite elements.
 const WITHIN_MODEL_ERROR: f64 = 0.5;
 /// Least fall of χ², over the leader's, of the effects that are told beside it as leaders.
-const BESIDE_LEADER: f64 = 0.8;
+const BESIDE_LEADER: f64 = 0.9;
 /// Most leaders of an undecided diagnosis.
 const TOLD: usize = 3;
 /// Log evidence to the runner-up below which what separates the two is told.

@@ -12,7 +12,7 @@ use crate::study::Study;
 pub(crate) use residuals::quoted;
 pub use residuals::residuals;
 pub use text::{conclusion, summary};
-pub(crate) use text::{scatter, what, with_unit};
+pub(crate) use text::{NO_INTERVAL, estimate, interval, scatter, what, with_unit};
 
 /// All that `compare` shows.
 #[derive(Debug, Clone, Copy)]

@@ -2,7 +2,7 @@
 use std::path::Path;
 
 use super::super::format::{percent, significant, uncertain, whole};
-use crate::learn::{Comparison, TestRecord};
+use crate::learn::{Comparison, ParameterRecord, TestRecord};
 use crate::study::Study;
 
 /// χ² per point above which the model is told to lack something: three standard deviations √(2/n) above 1.
@@ -162,13 +162,32 @@ fn parameters(lines: &mut Vec<String>, c: &Comparison) {
         lines.push(format!(
             "  {:<longest$}  {}{}",
             parameter.name,
-            with_unit(uncertain(parameter.value, parameter.sigma), &parameter.unit),
+            with_unit(estimate(parameter), &parameter.unit),
             if parameter.at_bound {
                 "   on its bound"
             } else {
                 ""
             }
         ));
+    }
+}
+
+/// Where an interval would stand that the fit does not support.
+pub(crate) const NO_INTERVAL: &str = "no interval: the fit does not support one";
+
+/// A fitted value with its standard deviation, or alone where the fit supports none.
+pub(crate) fn estimate(parameter: &ParameterRecord) -> String {
+    match parameter.interval_95 {
+        Some(_) => uncertain(parameter.value, parameter.sigma),
+        None => format!("{} (uncertainty not known)", significant(parameter.value, 4)),
+    }
+}
+
+/// The ends of the 95 % interval, dashes where the fit supports none.
+pub(crate) fn interval(parameter: &ParameterRecord) -> [String; 2] {
+    match parameter.interval_95 {
+        Some(ends) => ends.map(|end| significant(end, 3)),
+        None => ["–", "–"].map(str::to_owned),
     }
 }
 

@@ -2,7 +2,7 @@
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::learn::{Cell as Place, Comparison, Group, TestRecord};
-use crate::report::comparison::{self, Result, with_unit};
+use crate::report::comparison::{self, Result, estimate, interval, with_unit};
 use crate::report::format::{count, percent, significant, uncertain, whole};
 use crate::report::models::signed;
 use crate::report::plots;
@@ -53,12 +53,12 @@ fn figures(result: &Result<'_>) -> Section {
         ["parameter", "value", "95 % from", "to", ""],
     );
     for p in &c.parameters {
-        let [low, high] = p.interval_95;
+        let [low, high] = interval(p);
         fitted = fitted.row([
             Cell::Code(p.name.clone()),
-            Cell::number(with_unit(uncertain(p.value, p.sigma), &p.unit)),
-            Cell::number(significant(low, 3)),
-            Cell::number(significant(high, 3)),
+            Cell::number(with_unit(estimate(p), &p.unit)),
+            Cell::number(low),
+            Cell::number(high),
             if p.at_bound {
                 Cell::Badge("theory", "on its bound".to_owned())
             } else {

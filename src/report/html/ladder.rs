@@ -2,8 +2,8 @@
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::learn::Improvement;
-use crate::report::comparison::with_unit;
-use crate::report::format::{significant, uncertain};
+use crate::report::comparison::{estimate, interval, with_unit};
+use crate::report::format::significant;
 use crate::report::ladder::{Result, conclusion, effects, factor};
 use crate::report::plots;
 
@@ -79,16 +79,13 @@ fn parameters(result: &Result<'_>) -> Section {
     let mut table = Table::new("", ["", "parameter", "value", "95 % from", "to", ""]);
     for (i, step) in result.steps.iter().enumerate() {
         for parameter in &step.parameters {
-            let [low, high] = parameter.interval_95;
+            let [low, high] = interval(parameter);
             table = table.row([
                 Cell::number((i + 1).to_string()),
                 Cell::Code(parameter.name.clone()),
-                Cell::number(with_unit(
-                    uncertain(parameter.value, parameter.sigma),
-                    &parameter.unit,
-                )),
-                Cell::number(significant(low, 3)),
-                Cell::number(significant(high, 3)),
+                Cell::number(with_unit(estimate(parameter), &parameter.unit)),
+                Cell::number(low),
+                Cell::number(high),
                 Cell::text(if parameter.at_bound {
                     "on its bound"
                 } else {

@@ -373,7 +373,8 @@ pub fn files_of_run(run: &Run, names: &[String]) -> Section {
         return section;
     }
     section.note(
-        "To look at the fields, open `fields/wear.pvd` in ParaView, press Apply and choose an array to colour by \
+        "To look at the fields, load `fields/paraview.py` in ParaView (File, Load State), which sets range, camera and colours; or open \
+         `fields/wear.pvd`, press Apply and choose an array to colour by \
          (`von_mises`, `contact_pressure`, `wear_depth`). The time slider runs over pinion revolutions; \
          `fields/mesh_cycle_NNN.pvd` runs over one base pitch instead. The filter Warp By Vector makes deflection \
          visible (`displacement`, scale factor 10 to 50) or wear (`wear_vector`, 50 to 200). Quadratic triangles are drawn \

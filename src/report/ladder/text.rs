@@ -1,7 +1,8 @@
 //! The ladder in words: the sentence at the top of its page, and the table for the terminal.
 use std::path::Path;
 
-use super::super::format::{significant, uncertain};
+use super::super::comparison::{estimate, with_unit};
+use super::super::format::significant;
 use super::{Result, effects, factor};
 use crate::learn::LadderStep;
 
@@ -118,7 +119,7 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
         let values: Vec<String> = step
             .parameters
             .iter()
-            .map(|p| format!("{} = {}", p.name, uncertain(p.value, p.sigma)))
+            .map(|p| format!("{} = {}", p.name, with_unit(estimate(p), &p.unit)))
             .collect();
         lines.push(format!("  {}: {}", step.study, values.join(", ")));
     }

@@ -1,9 +1,7 @@
 //! One `.vtu` file.
-use vtkio::model::{
-    Attribute, Attributes, ByteOrder, CellType, Cells as VtkCells, DataArray, DataSet, Piece,
-    UnstructuredGridPiece, Version, VertexNumbers, Vtk,
-};
+use vtkio::model::Vtk;
 
+use super::xml::Grid;
 use crate::mesh::Cells;
 use crate::report::csv::{finite, same_length};
 use crate::report::error::OutputError;
@@ -17,17 +15,7 @@ pub fn vtu(name: &str, frame: &FieldFrame) -> Result<Vec<u8>, OutputError> {
         check(name, member, field)?;
         arrays.append(member, field);
     }
-    let vtk = Vtk {
-        version: Version::Auto,
-        title: String::new(),
-        byte_order: ByteOrder::LittleEndian,
-        data: DataSet::UnstructuredGrid {
-            meta: None,
-            pieces: vec![Piece::Inline(Box::new(arrays.into_piece()))],
-        },
-        file_path: None,
-    };
-    xml(name, vtk)
+    Ok(arrays.into_file())
 }
 
 /// Any VTK data as the bytes of an XML file called `name`.
@@ -41,12 +29,16 @@ pub fn xml(name: &str, vtk: Vtk) -> Result<Vec<u8>, OutputError> {
     Ok(bytes)
 }
 
+/// VTK's numbers of the kinds of cells.
+const TRIANGLE: u8 = 5;
+const QUADRATIC_TRIANGLE: u8 = 22;
+
 #[derive(Default)]
 struct Arrays {
     points: Vec<f64>,
-    connectivity: Vec<u64>,
-    offsets: Vec<u64>,
-    types: Vec<CellType>,
+    connectivity: Vec<i32>,
+    offsets: Vec<i32>,
+    types: Vec<u8>,
     cell_member: Vec<u8>,
     member: Vec<u8>,
     displacement: Vec<f32>,
@@ -61,7 +53,7 @@ struct Arrays {
 
 impl Arrays {
     fn append(&mut self, member: Member, field: &MemberField) {
-        let first = (self.points.len() / 3) as u64;
+        let first = (self.points.len() / 3) as i32;
         let number = u8::from(member == Member::Gear);
         let turn = Turn::by(field.rotation);
         for node in 0..field.worn.len() {
@@ -86,9 +78,9 @@ impl Arrays {
             self.member_position.extend(single(reference));
         }
         match &field.cells {
-            Cells::T3(cells) => self.append_cells(cells, CellType::Triangle, first, number),
+            Cells::T3(cells) => self.append_cells(cells, TRIANGLE, first, number),
             Cells::T6(cells) => {
-                self.append_cells(cells, CellType::QuadraticTriangle, first, number)
+                self.append_cells(cells, QUADRATIC_TRIANGLE, first, number)
             }
         }
     }
@@ -97,48 +89,42 @@ impl Arrays {
     fn append_cells<const N: usize>(
         &mut self,
         cells: &[[u32; N]],
-        kind: CellType,
-        first: u64,
+        kind: u8,
+        first: i32,
         member: u8,
     ) {
         for cell in cells {
             self.connectivity
-                .extend(cell.iter().map(|&node| first + u64::from(node)));
-            self.offsets.push(self.connectivity.len() as u64);
+                .extend(cell.iter().map(|&node| first + node as i32));
+            self.offsets.push(self.connectivity.len() as i32);
             self.types.push(kind);
             self.cell_member.push(member);
         }
     }
 
-    fn into_piece(self) -> UnstructuredGridPiece {
-        let scalar = |name: &str| DataArray::scalars(name, 1);
-        let point = vec![
-            Attribute::DataArray(DataArray::vectors("displacement").with_data(self.displacement)),
-            Attribute::DataArray(DataArray::new("stress", 6).with_data(self.stress)),
-            Attribute::DataArray(scalar("von_mises").with_data(self.von_mises)),
-            Attribute::DataArray(scalar("contact_pressure").with_data(self.contact_pressure)),
-            Attribute::DataArray(DataArray::new("contact_force", 3).with_data(self.contact_force)),
-            Attribute::DataArray(scalar("wear_depth").with_data(self.wear_depth)),
-            Attribute::DataArray(DataArray::new("wear_vector", 3).with_data(self.wear_vector)),
-            Attribute::DataArray(
-                DataArray::new("member_position", 3).with_data(self.member_position),
-            ),
-            Attribute::DataArray(scalar("member").with_data(self.member)),
-        ];
-        let cell = vec![Attribute::DataArray(
-            scalar("member").with_data(self.cell_member),
-        )];
-        UnstructuredGridPiece {
-            points: self.points.into(),
-            cells: VtkCells {
-                cell_verts: VertexNumbers::XML {
-                    connectivity: self.connectivity,
-                    offsets: self.offsets,
-                },
-                types: self.types,
-            },
-            data: Attributes { point, cell },
-        }
+    fn into_file(self) -> Vec<u8> {
+        let mut grid = Grid::new(self.points.len() / 3, self.types.len());
+        grid.section("PointData", |grid| {
+            grid.array("displacement", 3, &self.displacement);
+            grid.array("stress", 6, &self.stress);
+            grid.array("von_mises", 1, &self.von_mises);
+            grid.array("contact_pressure", 1, &self.contact_pressure);
+            grid.array("contact_force", 3, &self.contact_force);
+            grid.array("wear_depth", 1, &self.wear_depth);
+            grid.array("wear_vector", 3, &self.wear_vector);
+            grid.array("member_position", 3, &self.member_position);
+            grid.array("member", 1, &self.member);
+        });
+        grid.section("CellData", |grid| {
+            grid.array("member", 1, &self.cell_member)
+        });
+        grid.section("Points", |grid| grid.array("points", 3, &self.points));
+        grid.section("Cells", |grid| {
+            grid.array("connectivity", 1, &self.connectivity);
+            grid.array("offsets", 1, &self.offsets);
+            grid.array("types", 1, &self.types);
+        });
+        grid.finish()
     }
 }
 

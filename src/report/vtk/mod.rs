@@ -10,12 +10,14 @@
 //! YZ XZ. Units mm, N, MPa; `wear_depth` µm. Warp by `displacement` or `wear_vector` times a factor to see either.
 //!
 //! Points, pressure, contact force are doubles, so that load and area can be recomputed from the file; the other arrays are
-//! single precision (7 digits), which halves the file. Written inline in base64, little-endian, uncompressed: vtkio 0.7.0-rc2
-//! writes one empty block too many when an array fills its last compression block, which VTK reads as a full one.
+//! single precision (7 digits), which halves the file. Arrays are compressed and appended in binary: a third of the size of base 64.
 mod grid;
 mod loads;
 mod series;
+mod state;
+mod xml;
 
 pub use grid::{vtu, xml};
 pub use loads::loads;
 pub use series::{FieldFile, mesh_cycle_series, names, pvd, wear_series};
+pub use state::paraview;

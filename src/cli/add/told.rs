@@ -1,0 +1,137 @@
+//! What `add` tells of a fit, in words and in its document.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::Outcome;
+use super::drafts::Draft;
+use crate::learn::{Addition, Share};
+use crate::report::comparison::{NO_INTERVAL, with_unit};
+use crate::report::format::significant;
+
+/// What a fit found: a value for each parameter that it was asked for, and what else it has to say.
+#[derive(Debug)]
+pub(super) struct Fitted {
+    /// Which of the drafts.
+    pub(super) draft: usize,
+    /// Names and values.
+    pub(super) values: Vec<(String, f64)>,
+    /// Joins the command's document under `fit`.
+    pub(super) json: Value,
+    /// Joins the command's text; lines, the last one ended.
+    pub(super) text: String,
+}
+
+/// A fit in words and in the command's document.
+pub(super) fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
+    let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
+    let chosen = drafts[addition.form].form();
+    let mut text = String::new();
+    for p in &comparison.parameters {
+        let at_bound = if p.at_bound { ", at a bound" } else { "" };
+        let known = match p.interval_95 {
+            Some(ends) => {
+                let [low, high] = ends.map(|end| with_unit(significant(end, 4), &p.unit));
+                format!("95 % between {low} and {high}")
+            }
+            None => NO_INTERVAL.to_owned(),
+        };
+        let _ = writeln!(text, "    {}: {known}{at_bound}", p.name);
+    }
+    if !comparison.converged {
+        let _ = writeln!(
+            text,
+            "  the fit came to no end: these are the values where it stopped, not what the measurements ask for; another effect, or a \
+             parameter that is set (--set), may be the answer"
+        );
+    }
+    let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
+    if let Some(chi2) = chi2(&comparison.fit) {
+        let _ = writeln!(text, "  chi2 per point of the fit tests: {chi2}");
+    }
+    if let Some(chi2) = chi2(&comparison.holdout) {
+        let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
+    }
+    let tried: Vec<Value> = (drafts.iter().zip(&addition.tried))
+        .filter_map(|(draft, tried)| {
+            let tried = (*tried)?;
+            Some(json!({
+                "form": draft.form(),
+                "log_evidence": tried.log_evidence,
+                "chi2_per_point": tried.chi2_per_point,
+            }))
+        })
+        .collect();
+    if tried.len() > 1 {
+        let each = drafts
+            .iter()
+            .zip(&addition.tried)
+            .filter_map(|(draft, tried)| {
+                let chi2 = (*tried)?.chi2_per_point?;
+                Some(format!("{} {chi2:.3}", draft.form()))
+            });
+        let each: Vec<String> = each.collect();
+        let _ = writeln!(
+            text,
+            "  form of the law: {chosen} (chi2 per point by form: {})",
+            each.join(", ")
+        );
+    }
+    for suspect in &comparison.sanity {
+        let _ = writeln!(text, "  check first: {suspect}");
+    }
+    for warning in &comparison.warnings {
+        let _ = writeln!(text, "  warning: {warning}");
+    }
+    Fitted {
+        draft: addition.form,
+        values: (fit.parameters.iter())
+            .map(|p| (p.name.clone(), p.value))
+            .collect(),
+        json: json!({
+            "form": chosen,
+            "forms": tried,
+            "parameters": comparison.parameters,
+            "fit": comparison.fit,
+            "holdout": comparison.holdout,
+            "converged": comparison.converged,
+            "warnings": comparison.warnings,
+        }),
+        text,
+    }
+}
+
+/// What the command tells.
+pub(super) struct Report {
+    pub(super) values: Vec<(String, f64)>,
+    pub(super) fit: Option<Value>,
+    pub(super) text: String,
+}
+
+impl Report {
+    pub(super) fn outcome(self, target: &Path) -> Outcome {
+        let shown = target.display().to_string();
+        let mut text = format!("wrote {shown}\n");
+        for (name, value) in &self.values {
+            let _ = writeln!(text, "  {name} = {value:?}");
+        }
+        text.push_str(&self.text);
+        let _ = writeln!(text, "next: gearwear compare {shown}");
+        let values: Vec<Value> = self
+            .values
+            .iter()
+            .map(|(name, value)| json!({"name": name, "value": value}))
+            .collect();
+        let mut document = json!({"written": [shown], "parameters": values});
+        if let Some(fit) = self.fit {
+            document["fit"] = fit;
+        }
+        Outcome {
+            json: document,
+            text,
+            success: true,
+        }
+    }
+}
