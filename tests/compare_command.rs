@@ -285,7 +285,7 @@ fn the_files_of_a_comparison_agree() {
     }
 
     let mut table = csv::Reader::from_path(folder.join("residuals.csv")).unwrap();
-    let head = "test,member,cycles,quantity,position,measured,datum,model,residual,standardised";
+    let head = "test,member,cycles,quantity,position,measured,datum,model,residual,standardised,measured_minus_model,unit";
     assert_eq!(
         table
             .headers()

@@ -15,7 +15,10 @@ const NAME: &str = "discrepancy.csv";
 /// Columns `test,member,quantity,cycles,position,value,measured_minus_model,unit`: pinion revolutions; mm of radius or base pitches of
 /// rotation, empty for a whole member; the discrepancy in standard deviations of the row, and the same in `unit`.
 pub fn csv(map: &[MapPoint]) -> Result<Vec<u8>, OutputError> {
-    let mut table = Table::new(NAME, "test,member,quantity,cycles,position,value,measured_minus_model,unit");
+    let mut table = Table::new(
+        NAME,
+        "test,member,quantity,cycles,position,value,measured_minus_model,unit",
+    );
     for point in map {
         table.text(&quoted(&point.test));
         table.text(point.member);
@@ -110,8 +113,14 @@ mod tests {
         });
         let table = String::from_utf8(csv(&map).unwrap()).unwrap();
         let lines: Vec<&str> = table.lines().collect();
-        assert_eq!(lines[0], "test,member,quantity,cycles,position,value,measured_minus_model,unit");
-        assert_eq!(lines[1], "\"A, first\",pinion,wear_depth,100000,27.5,0.5,0.25,um");
+        assert_eq!(
+            lines[0],
+            "test,member,quantity,cycles,position,value,measured_minus_model,unit"
+        );
+        assert_eq!(
+            lines[1],
+            "\"A, first\",pinion,wear_depth,100000,27.5,0.5,0.25,um"
+        );
         assert_eq!(lines[4], "B,gear,mass_loss,100000,,1,0.5,um");
         let plots = plots(&map);
         assert_eq!(plots.len(), 2);

@@ -44,16 +44,21 @@ impl Grid {
 }
 
 fn inflated(data: &[u8]) -> Vec<u8> {
-    let number =
-        |i: usize| u64::from_le_bytes(data[8 * i..8 * i + 8].try_into().unwrap()) as usize;
+    let number = |i: usize| u64::from_le_bytes(data[8 * i..8 * i + 8].try_into().unwrap()) as usize;
     let [blocks, block, last] = [0, 1, 2].map(number);
     let mut from = 8 * (3 + blocks);
     let mut all = Vec::new();
     for i in 0..blocks {
         let before = all.len();
         let stream = &data[from..from + number(3 + i)];
-        flate2::read::ZlibDecoder::new(stream).read_to_end(&mut all).unwrap();
-        let expected = if i + 1 == blocks && last > 0 { last } else { block };
+        flate2::read::ZlibDecoder::new(stream)
+            .read_to_end(&mut all)
+            .unwrap();
+        let expected = if i + 1 == blocks && last > 0 {
+            last
+        } else {
+            block
+        };
         assert_eq!(all.len() - before, expected);
         from += number(3 + i);
     }
@@ -62,9 +67,18 @@ fn inflated(data: &[u8]) -> Vec<u8> {
 
 fn numbers(kind: &str, bytes: &[u8]) -> Vec<f64> {
     match kind {
-        "Float64" => bytes.chunks(8).map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect(),
-        "Float32" => bytes.chunks(4).map(|b| f32::from_le_bytes(b.try_into().unwrap()).into()).collect(),
-        "Int32" => bytes.chunks(4).map(|b| i32::from_le_bytes(b.try_into().unwrap()).into()).collect(),
+        "Float64" => bytes
+            .chunks(8)
+            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
+            .collect(),
+        "Float32" => bytes
+            .chunks(4)
+            .map(|b| f32::from_le_bytes(b.try_into().unwrap()).into())
+            .collect(),
+        "Int32" => bytes
+            .chunks(4)
+            .map(|b| i32::from_le_bytes(b.try_into().unwrap()).into())
+            .collect(),
         "UInt8" => bytes.iter().map(|&b| b.into()).collect(),
         other => panic!("unexpected type {other}"),
     }

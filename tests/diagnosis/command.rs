@@ -63,7 +63,9 @@ fn it_writes_what_it_prints_and_threads_change_nothing() {
     assert_eq!(document, written);
     assert!(target.join("report.html").is_file());
     let map = std::fs::read_to_string(target.join("discrepancy.csv")).unwrap();
-    assert!(map.starts_with("test,member,quantity,cycles,position,value,measured_minus_model,unit\n"));
+    assert!(
+        map.starts_with("test,member,quantity,cycles,position,value,measured_minus_model,unit\n")
+    );
     let bins = std::fs::read_to_string(target.join("residual_drivers.csv")).unwrap();
     assert!(bins.starts_with("driver,unit,from,to,centre,points,before,before_error,after"));
     let rows = std::fs::read_to_string(target.join("residual_rows.csv")).unwrap();

@@ -71,7 +71,10 @@ fn field_files_hold_both_members_in_the_fixed_frame() {
         assert!((found - wanted).abs() < 1e-5, "{found} {wanted}");
     }
     // Worn material: 1.5 µm off the contact side, against the outward normal (70° for the pinion).
-    let (vector, depth) = (grid.array("PointData/wear_vector"), grid.array("PointData/wear_depth"));
+    let (vector, depth) = (
+        grid.array("PointData/wear_vector"),
+        grid.array("PointData/wear_depth"),
+    );
     assert_eq!(depth[0], 1.5);
     let outward = 70f64.to_radians();
     assert!(

@@ -1,6 +1,6 @@
 use std::fs;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::*;
 

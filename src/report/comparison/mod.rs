@@ -11,8 +11,8 @@ use crate::study::Study;
 
 pub(crate) use residuals::quoted;
 pub use residuals::residuals;
-pub use text::{conclusion, summary};
 pub(crate) use text::{NO_INTERVAL, estimate, interval, scatter, what, with_unit};
+pub use text::{conclusion, summary};
 
 /// All that `compare` shows.
 #[derive(Debug, Clone, Copy)]

@@ -179,7 +179,10 @@ pub(crate) const NO_INTERVAL: &str = "no interval: the fit does not support one"
 pub(crate) fn estimate(parameter: &ParameterRecord) -> String {
     match parameter.interval_95 {
         Some(_) => uncertain(parameter.value, parameter.sigma),
-        None => format!("{} (uncertainty not known)", significant(parameter.value, 4)),
+        None => format!(
+            "{} (uncertainty not known)",
+            significant(parameter.value, 4)
+        ),
     }
 }
 

@@ -79,9 +79,7 @@ impl Arrays {
         }
         match &field.cells {
             Cells::T3(cells) => self.append_cells(cells, TRIANGLE, first, number),
-            Cells::T6(cells) => {
-                self.append_cells(cells, QUADRATIC_TRIANGLE, first, number)
-            }
+            Cells::T6(cells) => self.append_cells(cells, QUADRATIC_TRIANGLE, first, number),
         }
     }
 

@@ -64,11 +64,14 @@ if len(sys.argv) > 1 and sys.argv[1].endswith(".png"):
 pub fn paraview(run: &Run) -> Option<String> {
     let last = run.fields.iter().rfind(|frame| contact(frame).is_some())?;
     let first_of_last = run.fields.iter().find(|frame| frame.cycles == last.cycles);
-    let frame = first_of_last.filter(|f| contact(f).is_some()).unwrap_or(last);
+    let frame = first_of_last
+        .filter(|f| contact(f).is_some())
+        .unwrap_or(last);
     let [x, y] = contact(frame)?;
     let half = HALF_HEIGHT * run.geometry.module;
     let number = |value: f64| format!("{value:.4}");
-    let top = significant(largest_shown(frame, [x, y], half).max(1e-3), 2).replace(['\u{202f}', ' '], "");
+    let top =
+        significant(largest_shown(frame, [x, y], half).max(1e-3), 2).replace(['\u{202f}', ' '], "");
     let script = SCRIPT
         .replace("[X, Y,", &format!("[{}, {},", number(x), number(y)))
         .replace("HALF_HEIGHT", &number(half))
