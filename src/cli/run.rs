@@ -14,7 +14,6 @@ use crate::report::{self, atomic};
 use crate::simulate::checkpoint::{Checkpoint, CheckpointError, Fingerprint, fingerprint};
 use crate::simulate::forward::ForwardError;
 use crate::simulate::members::Members;
-use crate::simulate::numerics::Numerics;
 use crate::simulate::paper_run;
 use crate::simulate::result::Run;
 use crate::simulate::run::{Event, FIELDS_STAGE, Observer, Plan, RunError, run};
@@ -106,10 +105,7 @@ fn simulate(
         test,
         set: &set,
         conditions: conditions.simulated(&study.wear),
-        numerics: Numerics {
-            gives_way: !study.numerics.edges_stated,
-            ..study.resolution()
-        },
+        numerics: study.resolution(),
         kind: match study.contact {
             ContactKind::Fem => crate::simulate::forward::ContactKind::Fem,
             ContactKind::Hertz | ContactKind::Paper => crate::simulate::forward::ContactKind::Hertz,

@@ -28,7 +28,7 @@ pub struct CycleSpec {
 
 /// How far outside the path of contact corners are looked at, in base pitches: even those of gears of 86 and 116 teeth are more than a
 /// quarter of a module apart there, the most that flanks may close by. (Up to 2.75 base pitches the distance grows steadily.)
-const CORNER_MARGIN: f64 = 1.5;
+pub(super) const CORNER_MARGIN: f64 = 1.5;
 
 /// How far beyond that the distance of corners is still known, in base pitches: one more tooth on either side.
 const BEYOND: f64 = 1.0;
@@ -184,7 +184,7 @@ impl Cycle {
 /// Rotations of all positions, evenly spaced over one base pitch around the pitch point.
 ///
 /// Which base pitch decides how many teeth must be meshed finely: it is placed so that they are fewest.
-fn rotations(pair: &Pair, spec: CycleSpec) -> Vec<f64> {
+pub(super) fn rotations(pair: &Pair, spec: CycleSpec) -> Vec<f64> {
     let n = spec.positions;
     let rotation = |q: usize| (q as f64 + 0.5) / n as f64;
     // the teeth between a position's neighbours, so that any rotation finds its teeth

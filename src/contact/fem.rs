@@ -11,6 +11,7 @@ use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::contact::mortar::{Trace, couple};
+use crate::contact::strips::Strips;
 use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
 use crate::fem::Compliance;
@@ -22,10 +23,12 @@ use crate::numeric::{Vec2, cross, rotate};
 pub struct ToothFlank {
     /// Tooth number in the member frame.
     pub tooth: i32,
-    /// Index of its first node among the interface nodes.
+    /// Index of its first held node among the interface nodes.
     pub first: usize,
     /// Arc coordinates of its nodes, mm.
     pub arc: Vec<f64>,
+    /// Nodes that the compliance holds: the part that can touch.
+    pub held: Range<usize>,
     /// 2 for quadratic edges, 1 for linear.
     pub order: usize,
 }
@@ -50,6 +53,17 @@ pub struct ElasticFlanks {
 impl ElasticFlanks {
     fn flank(&self, tooth: i32) -> Option<&ToothFlank> {
         self.flanks.iter().find(|f| f.tooth == tooth)
+    }
+
+    /// Whether the compliance holds all that can touch of the member `side` (0 pinion, 1 gear).
+    pub fn cover(&self, strips: &Strips, side: usize) -> bool {
+        strips.parts(side).all(|(tooth, [low, high])| {
+            self.flank(tooth).is_some_and(|flank| {
+                let Range { start, end } = flank.held;
+                (start == 0 || flank.arc[start] <= low)
+                    && (end == flank.arc.len() || flank.arc[end - 1] >= high)
+            })
+        })
     }
 }
 
@@ -197,7 +211,7 @@ impl PositionCompliance {
                         friction,
                     )
                 })
-                .collect();
+                .collect::<Result<_, _>>()?;
             add_weighted(&mut weighted, &flanks, members[side]);
         }
         if friction == 0.0 {
@@ -260,16 +274,17 @@ impl<'a> SideView<'a> {
         side: usize,
         turn: f64,
         friction: f64,
-    ) -> Self {
+    ) -> Result<Self, ContactError> {
         let columns = (0..rows.len()).flat_map(|k| rows.row(k).0.iter().copied());
         let (low, high) = columns.fold((u32::MAX, 0), |(low, high), c| (low.min(c), high.max(c)));
-        let first = member
-            .flank(member_tooth(pair, side))
-            .map_or(0, |f| f.first);
-        Self {
+        let tooth = member_tooth(pair, side);
+        let flank = (member.flank(tooth))
+            .filter(|f| f.held.start <= low as usize && (high as usize) < f.held.end)
+            .ok_or(ContactError::NoFlank { side, tooth })?;
+        Ok(Self {
             offset: pair.offset,
             rows,
-            first_node: first + low as usize,
+            first_node: flank.first + low as usize - flank.held.start,
             first_column: low as usize,
             count: (high - low) as usize + 1,
             normal: rotate(pair.frame.normal, -turn),
@@ -277,7 +292,7 @@ impl<'a> SideView<'a> {
                 pair.frame.normal + friction_direction(pair, friction),
                 -turn,
             ),
-        }
+        })
     }
 }
 

@@ -9,5 +9,6 @@ pub mod frame;
 pub mod hertz;
 pub mod model;
 pub mod mortar;
+pub mod strips;
 pub mod tangent;
 pub mod unilateral;

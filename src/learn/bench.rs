@@ -30,7 +30,8 @@ pub struct MeasuredTest {
 pub struct Workshop {
     set: GearSet,
     numerics: Numerics,
-    members: Option<Members>,
+    /// By elements: finest first, each for tests of similar contact width.
+    members: Vec<Members>,
 }
 
 /// Step tolerance with which fits begin, looser than a run's own: it costs 0.05 % of the largest depth, and more than measurements with 2 %
@@ -45,6 +46,10 @@ const FINEST_TOLERANCE: f64 = 2.5e-4;
 
 /// Members are condensed anew only after this depth in fits, modules; with module 2 what that leaves out is 4e-5 of the depth at 15 µm.
 const CONDENSE_AFTER: f64 = 0.05;
+
+/// Tests whose contacts differ in width by no more than this share their members, fine enough for the narrowest: contacts on finer meshes
+/// than they need cost as the cube of their edges, and members of their own cost half a second.
+const CLASS: f64 = 2.0;
 
 /// Contact is looked for in a strip so much wider than a single run starts with, so that no parameter that
 /// a fit tries calls for another.
@@ -85,16 +90,11 @@ impl Workshop {
             room: ROOM,
             ..numerics
         };
-        let torques: Vec<f64> = tests.iter().map(|t| t.conditions.torque).collect();
-        let mut misalignments: Vec<f64> = Vec::new();
-        for test in tests {
-            let own = test.conditions.misalignment;
-            let around = [own - MISALIGNMENT_MARGIN, own, own + MISALIGNMENT_MARGIN];
-            misalignments.extend(around.iter().filter(|m| set.mount_moved(**m).is_ok()));
-        }
         let members = match kind {
-            ContactKind::Fem => Some(set.members(&numerics, &torques, &misalignments)?),
-            ContactKind::Hertz => None,
+            ContactKind::Fem => (classes(tests).iter())
+                .map(|class| members_for(&set, &numerics, class))
+                .collect::<Result<_, _>>()?,
+            ContactKind::Hertz => Vec::new(),
         };
         Ok(Self {
             set,
@@ -124,6 +124,21 @@ impl Workshop {
         self.stepping(tests, FINEST_TOLERANCE)
     }
 
+    /// The coarsest members that are fine enough for a test, or else the finest; none for the analytic model.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if the pair cannot run.
+    fn members_of(&self, conditions: &Conditions) -> Result<Option<&Members>, ForwardError> {
+        let Some(finest) = self.members.first() else {
+            return Ok(None);
+        };
+        let torque = conditions.torque / self.set.face_width;
+        let pair = self.set.mount_moved(conditions.misalignment)?;
+        let wanted = (self.numerics).flank_spacing(&pair, self.set.modulus(), torque);
+        let fine = |m: &&Members| m.spacing() <= wanted * (1.0 + 1e-9);
+        Ok(Some(self.members.iter().rfind(fine).unwrap_or(finest)))
+    }
+
     fn stepping(
         &self,
         tests: Vec<MeasuredTest>,
@@ -136,7 +151,7 @@ impl Workshop {
         let templates = tests
             .par_iter()
             .map(|test| {
-                let members = self.members.as_ref();
+                let members = self.members_of(&test.conditions)?;
                 Forward::new(&self.set, members, test.conditions, numerics)
             })
             .collect::<Result<_, ForwardError>>()?;
@@ -209,4 +224,37 @@ impl<'a> Bench<'a> {
                 .collect::<Result<_, ForwardError>>()?,
         }))
     }
+}
+
+/// The tests in classes of similar contact width, narrowest first: widths go with the root of the torque.
+fn classes(tests: &[MeasuredTest]) -> Vec<Vec<&MeasuredTest>> {
+    let mut ascending: Vec<&MeasuredTest> = tests.iter().collect();
+    ascending.sort_by(|a, b| a.conditions.torque.total_cmp(&b.conditions.torque));
+    let wider = |a: &MeasuredTest, b: &MeasuredTest| {
+        b.conditions.torque > CLASS * CLASS * a.conditions.torque
+    };
+    let mut classes: Vec<Vec<&MeasuredTest>> = Vec::new();
+    for test in ascending {
+        match classes.last_mut() {
+            Some(class) if !wider(class[0], test) => class.push(test),
+            _ => classes.push(vec![test]),
+        }
+    }
+    classes
+}
+
+/// Members for all tests of a class.
+fn members_for(
+    set: &GearSet,
+    numerics: &Numerics,
+    class: &[&MeasuredTest],
+) -> Result<Members, ForwardError> {
+    let torques: Vec<f64> = class.iter().map(|t| t.conditions.torque).collect();
+    let mut misalignments: Vec<f64> = Vec::new();
+    for test in class {
+        let own = test.conditions.misalignment;
+        let around = [own - MISALIGNMENT_MARGIN, own, own + MISALIGNMENT_MARGIN];
+        misalignments.extend(around.iter().filter(|m| set.mount_moved(**m).is_ok()));
+    }
+    set.members(numerics, &torques, &misalignments)
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::join;
 
 use crate::contact::cycle::Stations;
+use crate::contact::strips::Strips;
 use crate::gear::{Gear, Pair, WornFlank};
 use crate::material::Elastic;
 use crate::mesh::{
@@ -20,6 +21,8 @@ pub struct Blanks {
     pub meshes: [Mesh; 2],
     /// Elastic constants of both.
     pub materials: [Elastic; 2],
+    /// What they are to touch with when new.
+    pub strips: Strips,
     spacing: f64,
     of_user: bool,
 }
@@ -49,7 +52,8 @@ const LEAST_ANGLE: f64 = 12.0;
 
 impl Blanks {
     /// Meshes both gears, fine on the loaded flanks of the pinion's `teeth` and of the gear's teeth of opposite number, with
-    /// flank edges `spacing` (mm) and `order` 2 for quadratic triangles or 1 for linear; `own` meshes stand in for ours.
+    /// flank edges `spacing` (mm) and `order` 2 for quadratic triangles or 1 for linear; `own` meshes stand in for ours. The `strips`
+    /// are those that the members condensed on them are to touch with.
     ///
     /// # Errors
     /// [`MeshError`] if no acceptable mesh is found.
@@ -60,6 +64,7 @@ impl Blanks {
         spacing: f64,
         order: usize,
         own: [Option<Mesh>; 2],
+        strips: Strips,
     ) -> Result<Self, MeshError> {
         let of_user = own.iter().any(Option::is_some);
         let one = |side: usize, own: Option<Mesh>| -> Result<Mesh, MeshError> {
@@ -75,6 +80,7 @@ impl Blanks {
         Ok(Self {
             meshes: [pinion?, gear?],
             materials,
+            strips,
             spacing,
             of_user,
         })
@@ -95,16 +101,16 @@ impl Blanks {
         self.spacing
     }
 
-    /// The new members, factored and condensed.
+    /// The new members, factored and condensed where `strips` can touch (their own or wider ones).
     ///
     /// # Errors
     /// [`MemberError`].
-    pub fn condensed(self: &Arc<Self>) -> Result<Members, MemberError> {
+    pub fn condensed(self: &Arc<Self>, strips: &Strips) -> Result<Members, MemberError> {
         let meshes = self
             .meshes
             .clone()
             .map(|mesh| WornMesh { mesh, anew: None });
-        self.condensed_on(meshes)
+        self.condensed_on(meshes, strips)
     }
 
     /// The meshes with the material of `depth` (mm at the `stations`, pinion then gear) removed. Where the depth is so steep
@@ -147,17 +153,25 @@ impl Blanks {
         Ok([pinion?, gear?])
     }
 
-    /// The members factored and condensed on the given meshes.
+    /// The members factored on the given meshes and condensed where `strips` can touch; a user's own meshes on all of their flanks.
     ///
     /// # Errors
     /// [`MemberError`].
-    pub fn condensed_on(self: &Arc<Self>, meshes: [WornMesh; 2]) -> Result<Members, MemberError> {
+    pub fn condensed_on(
+        self: &Arc<Self>,
+        meshes: [WornMesh; 2],
+        strips: &Strips,
+    ) -> Result<Members, MemberError> {
+        let one = |side: usize, mesh: Mesh| {
+            if self.of_user {
+                Member::from_mesh(mesh, self.materials[side])
+            } else {
+                Member::on_parts(mesh, self.materials[side], |tooth| strips.of(side, tooth))
+            }
+        };
         let [pinion, gear] = meshes;
         let anew = [pinion.anew, gear.anew];
-        let (pinion, gear) = join(
-            || Member::from_mesh(pinion.mesh, self.materials[0]),
-            || Member::from_mesh(gear.mesh, self.materials[1]),
-        );
+        let (pinion, gear) = join(|| one(0, pinion.mesh), || one(1, gear.mesh));
         Ok(Members {
             members: [pinion?, gear?],
             blanks: Arc::clone(self),

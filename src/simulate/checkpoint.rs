@@ -40,7 +40,7 @@ pub enum CheckpointError {
 pub type Fingerprint = [u8; 32];
 
 /// Changes with the layout of [`Checkpoint`].
-const FORMAT: &[u8; 8] = b"gwcheck2";
+const FORMAT: &[u8; 8] = b"gwcheck3";
 
 /// Fingerprint of the given contents and of this program's version.
 pub fn fingerprint(parts: &[&[u8]]) -> Fingerprint {
@@ -93,6 +93,7 @@ mod tests {
                 reach: 0.02,
                 window: 0.25,
                 condensed_at: Some(vec![1.0]),
+                condensed_for: Some([0.25, 0.02]),
             },
             progress: None,
             stored: Vec::new(),

@@ -64,8 +64,9 @@ pub struct Forward<'a> {
     /// Where tooth pairs touch, analytically only.
     points: Vec<Vec<ContactPoint>>,
     condensed_at: Option<Vec<f64>>,
+    condensed_for: Option<[f64; 2]>,
     worn: Option<Box<Members>>,
-    /// Members with more fine teeth than those given, once wear has brought these into reach.
+    /// Members with more fine teeth or condensed on more of their flanks than those given, once wear has brought these into reach.
     extended: Option<Arc<Members>>,
     /// What runs of the same gears at the same mounting have prepared so far; a run that comes to need the same takes it.
     prepared: Shelf,
@@ -165,6 +166,7 @@ impl<'a> Forward<'a> {
             compliance: None,
             points: Vec::new(),
             condensed_at: None,
+            condensed_for: None,
             worn: None,
             extended: None,
             prepared: Shelf::default(),
@@ -172,9 +174,7 @@ impl<'a> Forward<'a> {
             acting,
             altered: None,
         };
-        if acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
-            out.extend_members()?;
-        }
+        out.cover()?;
         out.project()?;
         Ok(out)
     }

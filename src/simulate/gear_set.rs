@@ -1,6 +1,7 @@
 //! The gears before they are mounted, and the members that a set of conditions calls for.
 
 use crate::contact::cycle::Cycle;
+use crate::contact::strips::Strips;
 use crate::gear::{Gear, Pair, PairError};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
@@ -24,8 +25,8 @@ pub struct GearSet {
     pub face_width: f64,
 }
 
-/// Most unknowns on the flanks of one member: their compliance is a full matrix, of 2 GB then.
-pub(super) const MOST_UNKNOWNS: usize = 16_000;
+/// Most unknowns on the flanks of one member: their compliance is a full matrix, of 0.5 GB then, and making it takes three more.
+pub(super) const MOST_UNKNOWNS: usize = 8_000;
 
 impl GearSet {
     /// The pair mounted with a radial misalignment (mm).
@@ -96,6 +97,7 @@ impl GearSet {
             fineness.spacing,
             numerics.order,
             own,
+            fineness.strips,
         )?)
     }
 
@@ -118,6 +120,7 @@ impl GearSet {
             fineness.spacing,
             numerics.order,
             own,
+            fineness.strips,
         );
         Ok(blanks.map_err(MemberError::from)?.meshes)
     }
@@ -155,36 +158,37 @@ impl GearSet {
         pairs: &[Pair],
         spacing: f64,
     ) -> Fineness {
-        let mut teeth = Vec::new();
+        let (mut teeth, mut strips) = (Vec::new(), Strips::default());
         for (pair, torque) in pairs
             .iter()
             .flat_map(|pair| torques.iter().map(move |t| (pair, t / self.face_width)))
         {
-            teeth.extend(Cycle::teeth(
-                pair,
-                numerics.cycle(pair, self.modulus(), torque, spacing),
-            ));
+            let spec = numerics.cycle(pair, self.modulus(), torque, spacing);
+            teeth.extend(Cycle::teeth(pair, spec));
+            strips = strips.and(&Strips::with_room(pair, spec));
         }
         teeth.sort_unstable();
         teeth.dedup();
-        let longest = self
-            .gears
-            .iter()
-            .map(|g| g.arc(g.rho_tip) - g.arc(g.rho_form))
-            .fold(0.0, f64::max);
-        let edges = (longest / spacing).ceil() as usize;
-        let unknowns = 2 * teeth.len() * (numerics.order * edges + 1);
+        let of_strip = |[low, high]: [f64; 2]| {
+            let edges = ((high - low) / spacing).ceil() as usize;
+            2 * (numerics.order * edges + 1)
+        };
+        let of_member =
+            |side: usize| -> usize { strips.parts(side).map(|(_, arc)| of_strip(arc)).sum() };
+        let unknowns = of_member(0).max(of_member(1));
         Fineness {
             teeth,
+            strips,
             spacing,
             unknowns,
         }
     }
 }
 
-/// Which of the pinion's teeth are meshed finely, how finely (mm), and the unknowns that one member's flanks then have.
+/// Which of the pinion's teeth are meshed finely and where they touch, how finely (mm), and the unknowns that one member's flanks then have.
 struct Fineness {
     teeth: Vec<i32>,
+    strips: Strips,
     spacing: f64,
     unknowns: usize,
 }

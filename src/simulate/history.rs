@@ -45,13 +45,14 @@ impl Balance {
 }
 
 impl Balance {
-    /// How far what the step from `before` took off is from what the law says, over [`STEP_BALANCE`], the worse of both flanks; areas
-    /// below `floor` (mm²) do not count.
-    fn off(&self, before: &Self, floor: [f64; 2]) -> f64 {
+    /// How far what the step from `before` took off is from what the law says, over [`STEP_BALANCE`], the worse of both flanks;
+    /// `unit` is each flank's area of a mean depth of one module, mm².
+    fn off(&self, before: &Self, unit: [f64; 2]) -> f64 {
         let off = |i: usize| {
             let law = self.law[i] - before.law[i];
             let geometry = self.geometry[i] - before.geometry[i];
-            (geometry - law).abs() / (law + (0.05 * self.law[i]).max(floor[i]))
+            let before = (0.05 * self.law[i]).min(unit[i] * BALANCE_CEILING);
+            (geometry - law).abs() / (law + before.max(unit[i] * BALANCE_FLOOR))
         };
         off(0).max(off(1)) / STEP_BALANCE
     }
@@ -128,8 +129,16 @@ pub struct WearLaw<'a> {
 /// Depth below which the step tolerance is absolute, modules.
 const DEPTH_FLOOR: f64 = 5e-5;
 
+/// Depth above which the step tolerance is absolute, modules: what the teeth give and how contacts pass over worn flanks does not grow with
+/// the depth, and in proportion to it steps of a flank worn by a fifth of its tooth left areas by law and geometry 1.5 % apart.
+const DEPTH_CEILING: f64 = 0.05;
+
 /// Worn area below that of this mean depth is not balanced step by step, modules.
 const BALANCE_FLOOR: f64 = 5e-6;
+
+/// Of all area worn before a step no more than that of this mean depth counts for it, modules: deep flanks take many steps, whose
+/// differences add up.
+const BALANCE_CEILING: f64 = 1e-3;
 
 /// The deepest place grows by more than this in every step, modules.
 const LEAST_GROWTH: f64 = 1e-11;
@@ -145,6 +154,7 @@ impl WearLaw<'_> {
         StepControl {
             tolerance: self.tolerance,
             floor: DEPTH_FLOOR * module,
+            ceiling: DEPTH_CEILING * module,
             first_step: 0.1 * DEPTH_FLOOR * module / fastest,
             least_growth: LEAST_GROWTH * module,
         }
@@ -282,13 +292,10 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
             balance.law[side] += 0.5 * step * (progress.rate.law[side] + rate.law[side]);
             balance.geometry[side] = worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
         }
-        let floor = cycle
-            .stations
-            .arc
-            .each_ref()
-            .map(|arc| BALANCE_FLOOR * module * (arc[arc.len() - 1] - arc[0]));
+        // worn areas of a mean depth of one module
+        let unit = (cycle.stations.arc.each_ref()).map(|arc| module * (arc[arc.len() - 1] - arc[0]));
         if law.balance {
-            let off = balance.off(&progress.balance, floor);
+            let off = balance.off(&progress.balance, unit);
             let grown = (stand.u.iter().zip(&progress.stand.u))
                 .any(|(now, then)| now - then > LEAST_GROWTH * module);
             if off > 1.0 && grown {

@@ -1,9 +1,11 @@
 //! Both gears as elastic bodies: meshed, factored and condensed onto the flanks that can touch. Done once per geometry;
 //! every load, misalignment, wear state and trial parameter reuses it.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::contact::fem::{ElasticFlanks, ToothFlank};
+use crate::contact::strips::Strips;
 use crate::fem::{Body, FemError};
 use crate::gear::Gear;
 use crate::material::Elastic;
@@ -44,7 +46,7 @@ pub struct Members {
 }
 
 impl Members {
-    /// Meshes and condenses both gears, in parallel; arguments as for [`Blanks::new`].
+    /// Meshes and condenses both gears where `strips` can touch, in parallel; other arguments as for [`Blanks::new`].
     ///
     /// # Errors
     /// [`MemberError`].
@@ -55,14 +57,21 @@ impl Members {
         spacing: f64,
         order: usize,
         own: [Option<Mesh>; 2],
+        strips: Strips,
     ) -> Result<Self, MemberError> {
-        let blanks = Blanks::new(gears, materials, teeth, spacing, order, own)?;
-        Arc::new(blanks).condensed()
+        let blanks = Blanks::new(gears, materials, teeth, spacing, order, own, strips)?;
+        let blanks = Arc::new(blanks);
+        blanks.condensed(&blanks.strips)
     }
 
     /// Length of a flank edge, mm.
     pub fn spacing(&self) -> f64 {
         self.blanks.spacing()
+    }
+
+    /// Whether the compliance of both holds all that can touch.
+    pub fn cover(&self, strips: &Strips) -> bool {
+        (0..2).all(|side| self.members[side].flanks.cover(strips, side))
     }
 
     /// The condensed flanks of both.
@@ -77,30 +86,46 @@ impl Member {
         order_of(&self.mesh)
     }
 
-    /// Factors and condenses a given mesh.
+    /// Factors and condenses a given mesh on its whole fine flanks.
     ///
     /// # Errors
     /// [`FemError`] if the stiffness cannot be factored.
     pub fn from_mesh(mesh: Mesh, material: Elastic) -> Result<Self, MemberError> {
-        let interface: Vec<u32> = mesh
-            .flanks
-            .iter()
-            .flat_map(|f| f.nodes.iter().copied())
+        Self::on_parts(mesh, material, |_| Some([f64::NEG_INFINITY, f64::INFINITY]))
+    }
+
+    /// Factors a given mesh and condenses it on a `part` of each fine tooth's flank: first and last arc coordinate, mm.
+    ///
+    /// # Errors
+    /// [`FemError`] if the stiffness cannot be factored.
+    pub fn on_parts(
+        mesh: Mesh,
+        material: Elastic,
+        part: impl Fn(i32) -> Option<[f64; 2]>,
+    ) -> Result<Self, MemberError> {
+        let order = order_of(&mesh);
+        let held: Vec<Range<usize>> = (mesh.flanks.iter())
+            .map(|chain| part(chain.tooth).map_or(0..0, |ends| edges_over(&chain.arc, order, ends)))
+            .collect();
+        let interface: Vec<u32> = (mesh.flanks.iter().zip(&held))
+            .flat_map(|(f, held)| f.nodes[held.clone()].iter().copied())
             .collect();
         let body = Body::new(&mesh, material, &mesh.bore, &interface)?;
-        let order = order_of(&mesh);
         let mut first = 0;
         let flanks = mesh
             .flanks
             .iter()
-            .map(|chain| {
+            .zip(held)
+            .map(|(chain, held)| {
+                let count = held.len();
                 let flank = ToothFlank {
                     tooth: chain.tooth,
                     first,
                     arc: chain.arc.clone(),
+                    held,
                     order,
                 };
-                first += chain.nodes.len();
+                first += count;
                 flank
             })
             .collect();
@@ -115,4 +140,16 @@ impl Member {
             flanks,
         })
     }
+}
+
+/// Nodes of the edges between two arc coordinates (mm), with one more edge on either side; none where they do not reach the flank.
+fn edges_over(arc: &[f64], order: usize, [low, high]: [f64; 2]) -> Range<usize> {
+    let edges = (arc.len() - 1) / order;
+    if high < arc[0] || low > arc[arc.len() - 1] {
+        return 0..0;
+    }
+    let corner = |edge: usize| arc[edge * order];
+    let before = (0..edges).rev().find(|e| corner(*e) <= low).unwrap_or(0);
+    let after = (1..=edges).find(|e| corner(*e) >= high).unwrap_or(edges);
+    before.saturating_sub(1) * order..(after + 1).min(edges) * order + 1
 }

@@ -33,9 +33,9 @@ pub struct Numerics {
 /// flank (the validation's case `recondensation`).
 pub const CONDENSE_AFTER: f64 = 0.01;
 
-/// Unknowns on the flanks of one member up to which a half width gets the edges it should: members condensed on so many take
-/// about 1 GB and 10 s.
-pub const USUAL_UNKNOWNS: usize = 6_000;
+/// Unknowns on the flanks of one member up to which a half width gets the edges it should: beyond, the wear steps' full matrices
+/// would take most of a run's time.
+pub const USUAL_UNKNOWNS: usize = 3_000;
 
 /// Edges per half width that a contact gets all the same. With one, peak pressures of new flanks say little; depths do not
 /// suffer, because wear soon makes contacts wider.

@@ -35,6 +35,7 @@ impl Study {
                 Order::Quadratic => 2,
             },
             elements_per_half_width: stated.elements_per_half_width as f64,
+            gives_way: !stated.edges_stated,
             positions: stated.positions,
             step_tolerance: stated.step_tolerance,
             friction: if stated.friction { coefficient } else { 0.0 },

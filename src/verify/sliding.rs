@@ -187,6 +187,7 @@ pub fn history(
         .fold(f64::MIN_POSITIVE, f64::max);
     let first_step = 0.1 * floor / fastest;
     let control = StepControl {
+        ceiling: f64::INFINITY,
         tolerance,
         floor,
         first_step,

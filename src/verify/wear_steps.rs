@@ -72,6 +72,7 @@ fn fixed_steps(steps: usize) -> Result<Vec<f64>, CaseError> {
     let end = 2.0 / DECAY;
     let step = end / steps as f64;
     let loose = StepControl {
+        ceiling: f64::INFINITY,
         tolerance: f64::MAX,
         floor: 1.0,
         first_step: step,
@@ -208,6 +209,7 @@ pub fn explicit_limit(elements: usize, tolerance: f64) -> Result<Vec<Measured>, 
     }
     // the product, asked to step far beyond that limit from the same disturbed state
     let control = StepControl {
+        ceiling: f64::INFINITY,
         tolerance,
         floor,
         first_step: 100.0 * limit,

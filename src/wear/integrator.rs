@@ -66,6 +66,8 @@ pub struct StepControl {
     pub tolerance: f64,
     /// Smallest depth the tolerance refers to (unit of u).
     pub floor: f64,
+    /// Largest depth the tolerance refers to (unit of u): deeper flanks are not worn more coarsely.
+    pub ceiling: f64,
     /// First step (unit of n); later ones follow the error.
     pub first_step: f64,
     /// Growth of the fastest unknown in a step below which the integration gives up (unit of u).
@@ -180,7 +182,8 @@ pub fn advance<S: WearSystem>(
             .u
             .iter()
             .chain(&middle)
-            .fold(control.floor, |m, u| m.max(u.abs()));
+            .fold(control.floor, |m, u| m.max(u.abs()))
+            .min(control.ceiling);
         // root mean square: a sharp corner's few stations must not rule the whole flank
         let squares: f64 = (k1.iter().zip(&k2))
             .map(|(a, b)| (0.5 * tau * (a + b)).powi(2))
@@ -303,6 +306,7 @@ mod tests {
         let loose = StepControl {
             tolerance: 1e9,
             floor: 1.0,
+            ceiling: f64::INFINITY,
             first_step: 1.0 / steps as f64,
             least_growth: 0.0,
         };
@@ -328,12 +332,34 @@ mod tests {
         assert!(fixed_step_error(1e6, 10) < 1e-2);
     }
 
+    /// Depths that all grow by 1 and then differ as they do in [`Stiff`]: with the ceiling the error is that of shallow flanks.
+    #[test]
+    fn deep_flanks_are_worn_no_more_coarsely_than_the_ceiling_allows() {
+        let error = |ceiling| {
+            let control = StepControl {
+                tolerance: 1e-3,
+                floor: 1e-3,
+                ceiling,
+                first_step: 1e-3,
+                least_step: 1e-9,
+            };
+            let mut stand = Stand::new(vec![100.0, 100f64.sin()], control);
+            while stand.n < 10.0 {
+                advance(&mut Stiff(100.0), &mut stand, 10.0, control).unwrap();
+            }
+            (stand.u[1] - 110f64.sin()).abs()
+        };
+        assert!(error(1.0) < 2e-3, "{}", error(1.0));
+        assert!(error(f64::INFINITY) > 5.0 * error(1.0));
+    }
+
     #[test]
     fn follows_its_tolerance() {
         let error = |tolerance| {
             let control = StepControl {
                 tolerance,
                 floor: 1.0,
+                ceiling: f64::INFINITY,
                 first_step: 1e-3,
                 least_growth: 1e-9,
             };

@@ -127,8 +127,8 @@ EFFECTS = [
 ]  # fmt: skip
 
 
-def draw(seed, number, numerics="coarse"):
-    """Study `number` of `seed` as nested tables, and what is known of it."""
+def draw(seed, number, numerics="coarse", wear=None):
+    """Study `number` of `seed` as nested tables, and what is known of it; worn by `wear` modules instead of the depth drawn."""
     rng = random.Random(f"gearwear {seed} {number}")
     pair, angle, misalignment = draw_pair(rng)
     first = draw_material(rng)
@@ -142,6 +142,7 @@ def draw(seed, number, numerics="coarse"):
     width = rng.uniform(5, 15) * pair.module
     coefficient = log_uniform(rng, 1e-11, 1e-7)
     wear_share = log_uniform(rng, 1e-3, 1e-1 if rng.random() < 0.2 else 4e-2)
+    wear_share = wear or wear_share
     depth = wear_share * pair.module
     # at the ends of the path flanks slide by a third to twice what they pass over
     cycles = clip(2 * depth / (coefficient * line_load), 10.0, 1e12)
@@ -228,13 +229,15 @@ def as_toml(study, effects):
     return "\n".join(lines) + "\n"
 
 
-def execute(program, study, folder, arguments=()):
-    """One run of the program on one thread: exit code, messages, processor seconds, largest memory."""
+def execute(program, study, folder, arguments=(), memory=None):
+    """One run of the program on one thread, in at most `memory` GB: exit code, messages, processor seconds, largest memory."""
     output = Path(folder) / "run"
     command = [str(program), "run", str(study), "-o", str(output), "--threads", "1", "--quiet", *arguments]
 
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (int(TIMEOUT), int(TIMEOUT) + 5))
+        if memory:
+            resource.setrlimit(resource.RLIMIT_AS, (int(memory * 1e9), int(memory * 1e9)))
         os.nice(15)
 
     with open(Path(folder) / "stderr.txt", "w+") as errors:
@@ -260,13 +263,13 @@ def execute(program, study, folder, arguments=()):
     return record
 
 
-def run_one(program, seed, number, numerics, keep):
-    study, effects, facts = draw(seed, number, numerics)
+def run_one(program, seed, number, numerics, keep, memory, wear=None):
+    study, effects, facts = draw(seed, number, numerics, wear)
     folder = Path(tempfile.mkdtemp(prefix="random-study-"))
     try:
         path = folder / "study.toml"
         path.write_text(as_toml(study, effects))
-        record = execute(program, path, folder)
+        record = execute(program, path, folder, memory=memory)
         if keep:
             shutil.copytree(folder, Path(keep) / f"{seed}_{number}", dirs_exist_ok=True)
     finally:
@@ -286,6 +289,8 @@ def run(arguments):
     records = Path(arguments.records)
     done = {(r["seed"], r["number"], r["numerics"]) for r in read(records)} if records.exists() else set()
     numbers = arguments.only or range(arguments.count)
+    if arguments.most_load:
+        numbers = [n for n in numbers if draw(arguments.seed, n)[2]["load_factor"] <= arguments.most_load]
     if arguments.least_load:
         numbers = [n for n in numbers if draw(arguments.seed, n)[2]["load_factor"] >= arguments.least_load]
     wanted = [n for n in numbers if (arguments.seed, n, arguments.numerics) not in done]
@@ -294,7 +299,7 @@ def run(arguments):
 
         def job(number):
             begun = time.time()
-            record = run_one(arguments.program, arguments.seed, number, arguments.numerics, arguments.keep)
+            record = run_one(arguments.program, arguments.seed, number, arguments.numerics, arguments.keep, arguments.memory, arguments.wear)
             with lock, records.open("a") as out:
                 out.write(json.dumps(record) + "\n")
                 print(f"{number}: {verdict(record)} ({time.time() - begun:.1f} s) {record['message'][:150]}", flush=True)
@@ -387,9 +392,12 @@ def main():
     runs.add_argument("--count", type=int, default=60)
     runs.add_argument("--only", type=int, nargs="*")
     runs.add_argument("--least-load", type=float, help="only studies of at least this load factor")
+    runs.add_argument("--most-load", type=float, help="only studies of at most this load factor")
+    runs.add_argument("--wear", type=float, help="wear depth in modules instead of the one drawn")
     runs.add_argument("--processes", type=int, default=1)
     runs.add_argument("--numerics", choices=list(NUMERICS), default="coarse")
     runs.add_argument("--keep")
+    runs.add_argument("--memory", type=float, help="address space of a run in GB; beyond it a run ends as killed")
     runs.set_defaults(action=run)
     tables = commands.add_parser("summary")
     tables.add_argument("records", nargs="+")

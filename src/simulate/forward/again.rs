@@ -28,6 +28,7 @@ impl<'a> Forward<'a> {
             compliance: self.compliance.clone(),
             points: Vec::new(),
             condensed_at: None,
+            condensed_for: self.condensed_for,
             worn: None,
             extended: self.extended.clone(),
             prepared: Arc::clone(&self.prepared),
@@ -103,6 +104,7 @@ impl<'a> Forward<'a> {
             compliance: mounting.start.compliance,
             points: Vec::new(),
             condensed_at: None,
+            condensed_for: mounting.start.condensed_for,
             worn: None,
             extended: mounting.start.extended,
             prepared: mounting.further,
@@ -123,6 +125,7 @@ impl<'a> Forward<'a> {
                 cycle: Arc::clone(&self.cycle),
                 compliance: self.compliance.clone(),
                 extended: self.extended.clone(),
+                condensed_for: self.condensed_for,
             },
             further: Arc::clone(&self.prepared),
         }

@@ -9,6 +9,7 @@ use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, CycleSpec};
 use crate::contact::fem::CycleCompliance;
 use crate::contact::model::ContactError;
+use crate::contact::strips::Strips;
 use crate::effects::Effect;
 use crate::simulate::blanks::Blanks;
 use crate::simulate::history::Progress;
@@ -23,6 +24,8 @@ pub struct Preparation {
     pub reach: f64,
     /// Worn depths at which the members were last condensed, mm at all stations; none: unworn.
     pub condensed_at: Option<Vec<f64>>,
+    /// Window and reach for which they were condensed then; none: those that the new members were made for.
+    pub condensed_for: Option<[f64; 2]>,
 }
 
 impl Preparation {
@@ -48,6 +51,7 @@ pub(super) struct Prepared {
     pub(super) cycle: Arc<Cycle>,
     pub(super) compliance: Option<Arc<CycleCompliance>>,
     pub(super) extended: Option<Arc<Members>>,
+    pub(super) condensed_for: Option<[f64; 2]>,
 }
 
 /// Corners farther apart than this are never looked at, in modules: more than half of what a tooth is thick.
@@ -80,6 +84,7 @@ impl Forward<'_> {
             window: self.cycle.spec.window,
             reach: self.cycle.spec.reach,
             condensed_at: self.condensed_at.clone(),
+            condensed_for: self.condensed_for,
         }
     }
 
@@ -103,7 +108,7 @@ impl Forward<'_> {
         let known = shelved.then(|| shelf().get(&key).cloned()).flatten();
         if let Some(known) = known {
             (self.cycle, self.compliance) = (known.cycle, known.compliance);
-            self.extended = known.extended;
+            (self.extended, self.condensed_for) = (known.extended, known.condensed_for);
             return self.alter();
         }
         self.prepare_anew(preparation, spec)?;
@@ -112,6 +117,7 @@ impl Forward<'_> {
                 cycle: Arc::clone(&self.cycle),
                 compliance: self.compliance.clone(),
                 extended: self.extended.clone(),
+                condensed_for: self.condensed_for,
             };
             shelf().insert(key, prepared);
         }
@@ -128,17 +134,22 @@ impl Forward<'_> {
         }
         // what the new preparation replaces is let go first: it is as large as what takes its place
         (self.compliance, self.altered) = (None, None);
-        if preparation.condensed_at.is_some() {
+        let narrow = preparation.condensed_for != self.condensed_for;
+        if preparation.condensed_at.is_some() || narrow {
             self.let_go();
         }
-        let more_teeth = self.extend_members()?;
-        if more_teeth || preparation.condensed_at != self.condensed_at {
-            (self.worn, self.condensed_at) = (None, None);
+        let more = self.with_more_teeth()?;
+        if more.is_some() || narrow || preparation.condensed_at != self.condensed_at {
+            (self.worn, self.condensed_at, self.condensed_for) = (None, None, None);
+            if let Some(blanks) = more {
+                self.take(blanks)?;
+            }
             match preparation.condensed_at.as_deref() {
-                Some(u) => match self.condensed_worn(u) {
+                Some(u) => match self.condensed_worn(u, preparation.condensed_for) {
                     Ok(worn) => {
                         self.factorisations += 2;
                         self.condensed_at = Some(u.to_vec());
+                        self.condensed_for = preparation.condensed_for;
                         self.worn = Some(worn);
                     }
                     Err(error) => {
@@ -148,7 +159,11 @@ impl Forward<'_> {
                         return Err(error);
                     }
                 },
-                None => self.take_back()?,
+                None => {
+                    self.take_back()?;
+                    self.cover()?;
+                    self.condensed_for = preparation.condensed_for;
+                }
             }
         }
         self.project()
@@ -172,20 +187,80 @@ impl Forward<'_> {
         if let Fresh::Blanks(blanks) = &self.fresh
             && self.extended.is_none()
         {
-            self.fresh = Fresh::Own(Arc::new(blanks.condensed()?));
+            let built = blanks.condensed(&self.strips_when_new(blanks))?;
+            self.fresh = Fresh::Own(Arc::new(built));
             self.factorisations += 2;
         }
         Ok(())
     }
 
-    /// Members condensed worn by `u` (mm at the stations of pinion and gear).
-    fn condensed_worn(&self, u: &[f64]) -> Result<Box<Members>, ForwardError> {
+    /// Where the new members on `blanks` are condensed: for what they were made for, and with room for the present cycle.
+    fn strips_when_new(&self, blanks: &Blanks) -> Strips {
+        Strips::with_room(&self.cycle.pair, self.cycle.spec).and(&blanks.strips)
+    }
+
+    /// Sees to it that the new members are condensed on all that the cycle can touch, if there are any.
+    pub(super) fn cover(&mut self) -> Result<(), ForwardError> {
+        let Some(members) = self.members() else {
+            return Ok(());
+        };
+        if members.blanks.of_user() {
+            // a tooth that a user's own mesh lacks is refused by the coupling
+            return Ok(());
+        }
+        let more = self.with_more_teeth()?;
+        if more.is_none() && self.covers(members, self.cycle.spec) {
+            return Ok(());
+        }
+        let blanks = more.unwrap_or_else(|| Arc::clone(&members.blanks));
+        self.extend(blanks)
+    }
+
+    fn covers(&self, members: &Members, spec: CycleSpec) -> bool {
+        members.blanks.of_user() || members.cover(&Strips::new(&self.cycle.pair, spec))
+    }
+
+    /// Members on `blanks` instead of those given.
+    fn extend(&mut self, blanks: Arc<Blanks>) -> Result<(), ForwardError> {
+        let built = blanks.condensed(&self.strips_when_new(&blanks))?;
+        self.factorisations += 2;
+        self.extended = Some(Arc::new(built));
+        Ok(())
+    }
+
+    /// Takes over blanks with more teeth.
+    fn take(&mut self, blanks: Arc<Blanks>) -> Result<(), ForwardError> {
+        if matches!(self.fresh, Fresh::Blanks(_)) {
+            (self.extended, self.fresh) = (None, Fresh::Blanks(blanks));
+            return Ok(());
+        }
+        self.extended = None;
+        self.extend(blanks)
+    }
+
+    /// Members condensed worn by `u` (mm at the stations of pinion and gear) for a window and reach.
+    fn condensed_worn(
+        &self,
+        u: &[f64],
+        condensed_for: Option<[f64; 2]>,
+    ) -> Result<Box<Members>, ForwardError> {
         let blanks = self.blanks().expect("only elastic members are condensed");
         let (pinion, gear) = u.split_at(self.cycle.stations.arc[0].len());
         let meshes = blanks
             .worn_meshes(&self.cycle.pair, &self.cycle.stations, [pinion, gear])
             .map_err(MemberError::from)?;
-        Ok(Box::new(blanks.condensed_on(meshes)?))
+        let strips = match condensed_for {
+            Some([window, reach]) => Strips::with_room(
+                &self.cycle.pair,
+                CycleSpec {
+                    window,
+                    reach,
+                    ..self.cycle.spec
+                },
+            ),
+            None => self.strips_when_new(blanks),
+        };
+        Ok(Box::new(blanks.condensed_on(meshes, &strips)?))
     }
 
     /// Prepares for contacts that were not looked for when `error` arose.
@@ -197,13 +272,13 @@ impl Forward<'_> {
         let most = MOST_REACH * self.cycle.pair.pinion.rack.module;
         match error {
             // wear flattens contacts: look for them in a wider strip
-            ContactError::WindowTooNarrow { .. } => self.prepare(&Preparation {
+            ContactError::WindowTooNarrow { .. } => self.look_farther(Preparation {
                 window: 1.4 * preparation.window,
                 ..preparation
             }),
             // wear lets teeth turn far enough for corners that were not looked at
             ContactError::OutOfReach { .. } if preparation.reach < most => {
-                self.prepare(&Preparation {
+                self.look_farther(Preparation {
                     reach: 1.5 * preparation.reach,
                     ..preparation
                 })
@@ -212,22 +287,33 @@ impl Forward<'_> {
         }
     }
 
-    /// Meshes more teeth finely if the cycle reaches teeth that are not; true if it did.
-    pub(super) fn extend_members(&mut self) -> Result<bool, ForwardError> {
+    /// Prepares for more, on members condensed anew if these do not hold it.
+    fn look_farther(&mut self, mut preparation: Preparation) -> Result<(), ForwardError> {
+        let spec = CycleSpec {
+            window: preparation.window,
+            reach: preparation.reach,
+            ..self.cycle.spec
+        };
+        if (self.condensed()).is_some_and(|members| !self.covers(members, spec)) {
+            preparation.condensed_for = Some([spec.window, spec.reach]);
+        }
+        self.prepare(&preparation)
+    }
+
+    /// Blanks with more teeth meshed finely, if the cycle reaches teeth that are not.
+    fn with_more_teeth(&self) -> Result<Option<Arc<Blanks>>, ForwardError> {
         let Some(blanks) = self.blanks() else {
-            return Ok(false);
+            return Ok(None);
         };
         let mut teeth = Cycle::teeth(&self.cycle.pair, self.cycle.spec);
         let fine = blanks.teeth();
         if blanks.of_user() || teeth.iter().all(|t| fine.contains(t)) {
-            // a tooth that a user's own mesh lacks is refused by the coupling
-            return Ok(false);
+            return Ok(None);
         }
         teeth.extend(fine);
         teeth.sort_unstable();
         teeth.dedup();
         let (spacing, order) = (blanks.spacing(), self.numerics.order);
-        (self.worn, self.condensed_at, self.extended) = (None, None, None);
         let more = Blanks::new(
             &self.set.gears,
             self.set.materials,
@@ -235,16 +321,9 @@ impl Forward<'_> {
             spacing,
             order,
             [None, None],
+            self.strips_when_new(blanks),
         );
-        let more = Arc::new(more.map_err(MemberError::from)?);
-        if matches!(self.fresh, Fresh::Blanks(_)) {
-            self.fresh = Fresh::Blanks(more);
-            return Ok(true);
-        }
-        let built = more.condensed()?;
-        self.factorisations += 2;
-        self.extended = Some(Arc::new(built));
-        Ok(true)
+        Ok(Some(Arc::new(more.map_err(MemberError::from)?)))
     }
 
     /// Wear since the last condensation after which the members are condensed again, mm.
@@ -265,6 +344,7 @@ impl Forward<'_> {
             {
                 self.prepare(&Preparation {
                     condensed_at: Some(progress.stand.u.clone()),
+                    condensed_for: Some([preparation.window, preparation.reach]),
                     ..preparation
                 })
             }
