@@ -12,7 +12,8 @@
 //! with γ = 1 − 1/√2. The error is that of the embedded first-order solution u + τ k₁, so the step is on the safe side.
 
 use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
+
+use crate::wear::shifted::Shifted;
 
 /// A system du/dn = F(n, u) of worn depths u.
 pub trait WearSystem {
@@ -140,7 +141,7 @@ pub struct Step {
     u: [Vec<f64>; 2],
     k1: Vec<f64>,
     k2: Vec<f64>,
-    shifted: Option<PartialPivLu<f64>>,
+    shifted: Option<Shifted>,
 }
 
 /// Takes one accepted step of at most the proposed size, not beyond `end`.
@@ -168,9 +169,7 @@ pub fn advance<S: WearSystem>(
         } else {
             step
         };
-        let shifted = jacobian
-            .as_ref()
-            .map(|j| shifted(j, GAMMA * tau).partial_piv_lu());
+        let shifted = jacobian.as_ref().map(|j| Shifted::new(j, GAMMA * tau));
         let k1 = implicit(shifted.as_ref(), rate.clone());
         let middle: Vec<f64> = stand.u.iter().zip(&k1).map(|(u, k)| u + tau * k).collect();
         let second = system.rate(n + tau, &middle).map_err(fail)?;
@@ -271,17 +270,12 @@ impl Step {
     }
 }
 
-fn shifted(jacobian: &Mat<f64>, factor: f64) -> Mat<f64> {
-    Mat::from_fn(jacobian.nrows(), jacobian.ncols(), |i, j| {
-        f64::from(u8::from(i == j)) - factor * jacobian[(i, j)]
-    })
-}
-
-/// Solves with I − γτJ (J's eigenvalues lie in the left half plane, so it is never near singular).
-fn implicit(shifted: Option<&PartialPivLu<f64>>, rhs: Vec<f64>) -> Vec<f64> {
-    let Some(lu) = shifted else { return rhs };
-    let solved = lu.solve(faer::ColRef::from_slice(&rhs));
-    solved.iter().copied().collect()
+/// Solves with I − γτJ.
+fn implicit(shifted: Option<&Shifted>, mut rhs: Vec<f64>) -> Vec<f64> {
+    if let Some(shifted) = shifted {
+        shifted.solve(&mut rhs);
+    }
+    rhs
 }
 
 #[cfg(test)]

@@ -6,4 +6,5 @@ pub mod factors;
 pub mod integrator;
 mod law;
 pub mod passage;
+mod shifted;
 pub mod tangent;
