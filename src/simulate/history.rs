@@ -51,8 +51,13 @@ impl Balance {
         let off = |i: usize| {
             let law = self.law[i] - before.law[i];
             let geometry = self.geometry[i] - before.geometry[i];
-            let before = (0.05 * self.law[i]).min(unit[i] * BALANCE_CEILING);
-            (geometry - law).abs() / (law + before.max(unit[i] * BALANCE_FLOOR))
+            let mut worn = (0.05 * self.law[i]).min(unit[i] * BALANCE_CEILING);
+            let apart = before.geometry[i] - before.law[i];
+            if apart * (geometry - law) > 0.0 {
+                // once the areas have come apart, steps do not add to it
+                worn *= (1.0 - apart.abs() / (BALANCE_DRIFT * before.law[i])).max(0.0);
+            }
+            (geometry - law).abs() / (law + worn.max(unit[i] * BALANCE_FLOOR))
         };
         off(0).max(off(1)) / STEP_BALANCE
     }
@@ -139,6 +144,10 @@ const BALANCE_FLOOR: f64 = 5e-6;
 /// Of all area worn before a step no more than that of this mean depth counts for it, modules: deep flanks take many steps, whose
 /// differences add up.
 const BALANCE_CEILING: f64 = 1e-3;
+
+/// From this difference of the worn areas on, relative to the law, area worn before a step counts for nothing where the step would make
+/// it larger: however many steps a history takes, it ends well within what passes.
+const BALANCE_DRIFT: f64 = 2e-3;
 
 /// The deepest place grows by more than this in every step, modules.
 const LEAST_GROWTH: f64 = 1e-11;
