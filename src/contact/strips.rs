@@ -125,4 +125,48 @@ mod tests {
             assert!(together < 1.6 * flank, "{together} mm of {flank} mm");
         }
     }
+
+    /// A narrow strip of a rigid pair against the involute: tooth j runs along the path of contact from (θ₀ + j) p_b to (θ₀ + 1 + j) p_b,
+    /// and a flank's arc from the base circle to where its curvature radius is ρ = r_b tan α ± path is ρ²/(2 r_b).
+    #[test]
+    fn follow_the_involute() {
+        let pair = reference();
+        let window = 1e-3;
+        let spec = CycleSpec {
+            positions: 1000,
+            spacing: window,
+            even: window,
+            window,
+            reach: 1e-12,
+        };
+        let strips = Strips::new(&pair, spec);
+        let angle = 20f64.to_radians();
+        let base = [27.0, 53.0].map(|z: f64| z * angle.cos()); // module 2
+        let pitch = std::f64::consts::TAU * base[0] / 27.0;
+        // from where the mate's tip touches to where the own tip does
+        let tip: [f64; 2] = [29.0, 55.0];
+        let reach = |i: usize| (tip[i].powi(2) - base[i].powi(2)).sqrt() - base[i] * angle.tan();
+        let (start, end) = (-reach(1), reach(0));
+        let first = rotations(&pair, spec)[0] - 0.5 / spec.positions as f64;
+        let mut seen = 0;
+        for (side, sign) in [(0, 1.0), (1, -1.0)] {
+            for (tooth, found) in strips.parts(side) {
+                let from = (first + sign * f64::from(tooth)) * pitch;
+                let path = [from.max(start), (from + pitch).min(end)];
+                let mut arc = path.map(|y| (base[side] * angle.tan() + sign * y).powi(2));
+                arc.sort_by(f64::total_cmp);
+                for (found, squared) in found.into_iter().zip(arc) {
+                    let expected = squared / (2.0 * base[side]);
+                    // the window, and half a position at the ends of the path; an arc grows by ρ/r_b < 1 per path
+                    let room = window + 0.5 * pitch / spec.positions as f64;
+                    assert!(
+                        (found - expected).abs() < room,
+                        "tooth {tooth} of {side}: {found} mm, {expected} mm"
+                    );
+                    seen += 1;
+                }
+            }
+        }
+        assert_eq!(seen, 8);
+    }
 }

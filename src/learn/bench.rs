@@ -30,8 +30,8 @@ pub struct MeasuredTest {
 pub struct Workshop {
     set: GearSet,
     numerics: Numerics,
-    /// By elements: finest first, each for tests of similar contact width.
-    members: Vec<Members>,
+    /// By elements: the least torque (N·mm) of tests of similar contact width, and members for these; ascending.
+    members: Vec<(f64, Members)>,
 }
 
 /// Step tolerance with which fits begin, looser than a run's own: it costs 0.05 % of the largest depth, and more than measurements with 2 %
@@ -91,9 +91,12 @@ impl Workshop {
             ..numerics
         };
         let members = match kind {
-            ContactKind::Fem => (classes(tests).iter())
-                .map(|class| members_for(&set, &numerics, class))
-                .collect::<Result<_, _>>()?,
+            ContactKind::Fem => (classes(tests, |t| t.conditions.torque).iter())
+                .map(|class| {
+                    let members = members_for(&set, &numerics, class)?;
+                    Ok((class[0].conditions.torque, members))
+                })
+                .collect::<Result<_, ForwardError>>()?,
             ContactKind::Hertz => Vec::new(),
         };
         Ok(Self {
@@ -124,19 +127,11 @@ impl Workshop {
         self.stepping(tests, FINEST_TOLERANCE)
     }
 
-    /// The coarsest members that are fine enough for a test, or else the finest; none for the analytic model.
-    ///
-    /// # Errors
-    /// [`ForwardError`] if the pair cannot run.
-    fn members_of(&self, conditions: &Conditions) -> Result<Option<&Members>, ForwardError> {
-        let Some(finest) = self.members.first() else {
-            return Ok(None);
-        };
-        let torque = conditions.torque / self.set.face_width;
-        let pair = self.set.mount_moved(conditions.misalignment)?;
-        let wanted = (self.numerics).flank_spacing(&pair, self.set.modulus(), torque);
-        let fine = |m: &&Members| m.spacing() <= wanted * (1.0 + 1e-9);
-        Ok(Some(self.members.iter().rfind(fine).unwrap_or(finest)))
+    /// The members for a test: of the classes that begin with a smaller load the nearest, or else the finest; none for the analytic model.
+    fn members_of(&self, conditions: &Conditions) -> Option<&Members> {
+        let begins = |(least, _): &&(f64, Members)| *least <= conditions.torque * (1.0 + 1e-9);
+        let class = self.members.iter().rfind(begins);
+        class.or(self.members.first()).map(|(_, members)| members)
     }
 
     fn stepping(
@@ -151,7 +146,7 @@ impl Workshop {
         let templates = tests
             .par_iter()
             .map(|test| {
-                let members = self.members_of(&test.conditions)?;
+                let members = self.members_of(&test.conditions);
                 Forward::new(&self.set, members, test.conditions, numerics)
             })
             .collect::<Result<_, ForwardError>>()?;
@@ -226,17 +221,14 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The tests in classes of similar contact width, narrowest first: widths go with the root of the torque.
-fn classes(tests: &[MeasuredTest]) -> Vec<Vec<&MeasuredTest>> {
-    let mut ascending: Vec<&MeasuredTest> = tests.iter().collect();
-    ascending.sort_by(|a, b| a.conditions.torque.total_cmp(&b.conditions.torque));
-    let wider = |a: &MeasuredTest, b: &MeasuredTest| {
-        b.conditions.torque > CLASS * CLASS * a.conditions.torque
-    };
-    let mut classes: Vec<Vec<&MeasuredTest>> = Vec::new();
+/// Tests in classes of similar contact width, narrowest first: widths go with the root of the torque.
+fn classes<T>(tests: &[T], torque: impl Fn(&T) -> f64) -> Vec<Vec<&T>> {
+    let mut ascending: Vec<&T> = tests.iter().collect();
+    ascending.sort_by(|a, b| torque(a).total_cmp(&torque(b)));
+    let mut classes: Vec<Vec<&T>> = Vec::new();
     for test in ascending {
         match classes.last_mut() {
-            Some(class) if !wider(class[0], test) => class.push(test),
+            Some(class) if torque(test) <= CLASS * CLASS * torque(class[0]) => class.push(test),
             _ => classes.push(vec![test]),
         }
     }
@@ -257,4 +249,19 @@ fn members_for(
         misalignments.extend(around.iter().filter(|m| set.mount_moved(**m).is_ok()));
     }
     set.members(numerics, &torques, &misalignments)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four times the torque make a contact twice as wide, which is as far as a class goes.
+    #[test]
+    fn classes_span_twice_the_width() {
+        let classes = classes(&[160.0, 50.0, 200.0, 900.0, 201.0], |t| *t);
+        assert_eq!(
+            classes,
+            [vec![&50.0, &160.0, &200.0], vec![&201.0], vec![&900.0]]
+        );
+    }
 }

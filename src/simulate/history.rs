@@ -2,6 +2,7 @@
 
 use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::simulate::balance::Balance;
 use crate::wear::acting::Acting;
 use crate::wear::archard::{ArchardSystem, AreaRate, WearError};
 use crate::wear::integrator::{Stand, Step, StepControl, StepError, WearSystem, advance};
@@ -18,49 +19,6 @@ pub struct WearState {
     pub contacts: Vec<PositionContact>,
     /// Part of the worn area that effects only displaced, without loss of mass, per tooth of pinion and gear, mm².
     pub displaced: [f64; 2],
-}
-
-/// Worn area per tooth flank: by the wear law and by geometry, pinion and gear, mm².
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
-pub struct Balance {
-    /// ∫ k ∮ f F'|v_s| dt and what effects add, integrated over cycles by the trapezoidal rule from the line loads alone.
-    pub law: [f64; 2],
-    /// ∫ h ds of the worn flanks.
-    pub geometry: [f64; 2],
-}
-
-impl Balance {
-    /// Largest difference of the two, relative to the law (0 before any wear).
-    pub fn error(&self) -> f64 {
-        (0..2)
-            .map(|i| {
-                if self.law[i] > 0.0 {
-                    (self.geometry[i] / self.law[i] - 1.0).abs()
-                } else {
-                    0.0
-                }
-            })
-            .fold(0.0, f64::max)
-    }
-}
-
-impl Balance {
-    /// How far what the step from `before` took off is from what the law says, over [`STEP_BALANCE`], the worse of both flanks;
-    /// `unit` is each flank's area of a mean depth of one module, mm².
-    fn off(&self, before: &Self, unit: [f64; 2]) -> f64 {
-        let off = |i: usize| {
-            let law = self.law[i] - before.law[i];
-            let geometry = self.geometry[i] - before.geometry[i];
-            let mut worn = (0.05 * self.law[i]).min(unit[i] * BALANCE_CEILING);
-            let apart = before.geometry[i] - before.law[i];
-            if apart * (geometry - law) > 0.0 {
-                // once the areas have come apart, steps do not add to it
-                worn *= (1.0 - apart.abs() / (BALANCE_DRIFT * before.law[i])).max(0.0);
-            }
-            (geometry - law).abs() / (law + worn.max(unit[i] * BALANCE_FLOOR))
-        };
-        off(0).max(off(1)) / STEP_BALANCE
-    }
 }
 
 /// What an observer is told after each accepted wear step.
@@ -138,23 +96,8 @@ const DEPTH_FLOOR: f64 = 5e-5;
 /// the depth, and in proportion to it steps of a flank worn by a fifth of its tooth left areas by law and geometry 1.5 % apart.
 const DEPTH_CEILING: f64 = 0.05;
 
-/// Worn area below that of this mean depth is not balanced step by step, modules.
-const BALANCE_FLOOR: f64 = 5e-6;
-
-/// Of all area worn before a step no more than that of this mean depth counts for it, modules: deep flanks take many steps, whose
-/// differences add up.
-const BALANCE_CEILING: f64 = 1e-3;
-
-/// From this difference of the worn areas on, relative to the law, area worn before a step counts for nothing where the step would make
-/// it larger: however many steps a history takes, it ends well within what passes.
-const BALANCE_DRIFT: f64 = 2e-3;
-
 /// The deepest place grows by more than this in every step, modules.
 const LEAST_GROWTH: f64 = 1e-11;
-
-/// How far the area that a step takes off the flanks may be from that by the wear law, relative to the step's own and to a twentieth
-/// of all area worn so far; a step that is farther off is taken again, shorter. The result may be off by 0.5 %.
-const STEP_BALANCE: f64 = 1e-3;
 
 impl WearLaw<'_> {
     fn control(&self, module: f64, rate: &[f64]) -> StepControl {
@@ -302,7 +245,8 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
             balance.geometry[side] = worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
         }
         // worn areas of a mean depth of one module
-        let unit = (cycle.stations.arc.each_ref()).map(|arc| module * (arc[arc.len() - 1] - arc[0]));
+        let unit =
+            (cycle.stations.arc.each_ref()).map(|arc| module * (arc[arc.len() - 1] - arc[0]));
         if law.balance {
             let off = balance.off(&progress.balance, unit);
             let grown = (stand.u.iter().zip(&progress.stand.u))

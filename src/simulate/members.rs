@@ -153,3 +153,76 @@ fn edges_over(arc: &[f64], order: usize, [low, high]: [f64; 2]) -> Range<usize> 
     let after = (1..=edges).find(|e| corner(*e) >= high).unwrap_or(edges);
     before.saturating_sub(1) * order..(after + 1).min(edges) * order + 1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::{BasicRack, ToothSpec};
+    use crate::mesh::{MeshSpec, mesh_gear};
+
+    const STEEL: Elastic = Elastic {
+        youngs_modulus: 2.1e5,
+        poisson_ratio: 0.3,
+    };
+
+    fn mesh() -> Mesh {
+        let rack = BasicRack {
+            module: 2.0,
+            pressure_angle: 20f64.to_radians(),
+            addendum: 1.0,
+            dedendum: 1.25,
+            fillet_radius: 0.38,
+        };
+        let gear = Gear::new(rack, ToothSpec::plain(20, 20.0)).unwrap();
+        mesh_gear(&gear, &MeshSpec::new(&gear, vec![0, 1], 0.2, gear.rho_form)).unwrap()
+    }
+
+    /// What a node gives way by under loads on others does not depend on which further nodes the compliance holds.
+    #[test]
+    fn a_part_gives_way_as_it_does_within_the_whole_flank() {
+        let whole = Member::from_mesh(mesh(), STEEL).unwrap();
+        let arcs = |tooth: i32| {
+            let arc = &whole.mesh.flanks[usize::try_from(tooth).unwrap()].arc;
+            let at = |share: f64| arc[0] + share * (arc[arc.len() - 1] - arc[0]);
+            // one part within the flank, one that ends at the tip
+            Some(if tooth == 0 {
+                [at(0.31), at(0.62)]
+            } else {
+                [at(0.77), at(1.5)]
+            })
+        };
+        let part = Member::on_parts(mesh(), STEEL, arcs).unwrap();
+        let [some, all] = [&part, &whole].map(|m| &m.flanks.compliance);
+        assert!(some.size() < all.size() / 2);
+        let place: Vec<usize> = (some.nodes().iter())
+            .map(|node| all.nodes().iter().position(|n| n == node).unwrap())
+            .collect();
+        let unknown = |i: usize| 2 * place[i / 2] + i % 2;
+        let largest = (0..all.size()).fold(0.0, |m: f64, i| m.max(all.get(i, i)));
+        for i in 0..some.size() {
+            for j in 0..some.size() {
+                let [a, b] = [some.get(i, j), all.get(unknown(i), unknown(j))];
+                assert!((a - b).abs() < 1e-11 * largest, "{a} and {b}");
+            }
+        }
+        // and each holds its part, with no more than an edge and what is left of one on either side
+        for flank in &part.flanks.flanks {
+            let [low, high] = arcs(flank.tooth).unwrap();
+            let (start, end) = (flank.arc[flank.held.start], flank.arc[flank.held.end - 1]);
+            let tip = flank.arc[flank.arc.len() - 1];
+            assert!(start <= low && start > low - 0.41, "{start}");
+            assert!(end >= high.min(tip) && end < high.min(tip) + 0.41, "{end}");
+        }
+    }
+
+    #[test]
+    fn nodes_of_the_edges_over_a_part() {
+        let arc = [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0]; // four quadratic edges
+        assert_eq!(edges_over(&arc, 2, [1.2, 1.8]), 0..7);
+        assert_eq!(edges_over(&arc, 2, [2.2, 2.8]), 2..9);
+        assert_eq!(edges_over(&arc, 2, [-1.0, 0.5]), 0..5);
+        assert_eq!(edges_over(&arc, 2, [-1.0, 9.0]), 0..9);
+        assert_eq!(edges_over(&arc, 2, [4.1, 9.0]), 0..0);
+        assert_eq!(edges_over(&arc, 1, [2.1, 2.2]), 3..7);
+    }
+}

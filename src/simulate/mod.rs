@@ -1,5 +1,6 @@
 //! Floor 6: the forward model, from a gear pair and its conditions to a wear history.
 
+pub mod balance;
 pub mod blanks;
 pub mod checkpoint;
 pub mod deck;

@@ -198,7 +198,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
 
     doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
-    doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if it is not stated, `run` takes as few as 1 where 5 would ask for more than 6000 unknowns on the flanks of a member"),
+    doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if it is not stated, as few as 1 are taken where 5 would ask for more than 3000 unknowns on the parts of a member's flanks that touch"),
     doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions on one base pitch"),
     number("numerics", "step_tolerance", &q::STEP_TOLERANCE, Default("2e-3"), "relative error of one wear step"),
     doc("numerics", "fields", Value::Count(0, 500), Default("4"), "mesh positions whose stress fields are written"),

@@ -335,7 +335,7 @@ mod tests {
                 floor: 1e-3,
                 ceiling,
                 first_step: 1e-3,
-                least_step: 1e-9,
+                least_growth: 1e-9,
             };
             let mut stand = Stand::new(vec![100.0, 100f64.sin()], control);
             while stand.n < 10.0 {

@@ -99,4 +99,39 @@ mod tests {
             }
         }
     }
+
+    /// J the second difference, whose eigenvectors are sines: I − f J stretches sin(k π (i + 1)/(n + 1)) by 1 + 4 f sin²(k π/(2 (n + 1))).
+    #[test]
+    fn second_differences_are_solved_as_their_sines_say() {
+        for (n, sparse) in [(LEAST_UNKNOWNS - 1, false), (LEAST_UNKNOWNS, true)] {
+            let jacobian = Mat::from_fn(n, n, |i, j| match i.abs_diff(j) {
+                0 => -2.0,
+                1 => 1.0,
+                _ => 0.0,
+            });
+            let factor = 40.0;
+            let shifted = Shifted::new(&jacobian, factor);
+            assert_eq!(matches!(shifted, Shifted::Sparse(_)), sparse);
+            for k in [1, 7, n / 2, n] {
+                let angle = k as f64 * std::f64::consts::PI / (n as f64 + 1.0);
+                let stretch = 1.0 + 4.0 * factor * (0.5 * angle).sin().powi(2);
+                let sine: Vec<f64> = (1..=n).map(|i| (angle * i as f64).sin()).collect();
+                let mut x = sine.clone();
+                shifted.solve(&mut x);
+                for (x, sine) in x.iter().zip(&sine) {
+                    let expected = sine / stretch;
+                    assert!((x - expected).abs() < 1e-13, "{x}, {expected}");
+                }
+            }
+        }
+    }
+
+    /// A matrix as full as that of contacts as wide as the tooth is not taken for a sparse one.
+    #[test]
+    fn wide_contacts_are_factored_full() {
+        let jacobian = Mat::from_fn(LEAST_UNKNOWNS, LEAST_UNKNOWNS, |i, j| {
+            -1.0 / (1.0 + i.abs_diff(j) as f64)
+        });
+        assert!(matches!(Shifted::new(&jacobian, 1.0), Shifted::Full(_)));
+    }
 }
