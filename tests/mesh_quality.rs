@@ -614,7 +614,7 @@ proptest! {
         let flank = WornFlank::new(&gear, arc.clone(), depth);
         let mesh_spec = MeshSpec::new(&gear, vec![0, 1], spacing * module, gear.rho_form);
         let worn = match mesh_worn_gear(&gear, &mesh_spec, &flank) {
-            Err(MeshError::WornThrough(at)) => {
+            Err(MeshError::WornThrough { at, .. }) => {
                 prop_assert!(at.left < 0.05 * module);
                 return Ok(());
             }

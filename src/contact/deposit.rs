@@ -40,7 +40,9 @@ impl Travel {
 
 /// The operator D of one flank: rows are the hats on `xi`, columns the stations `stations` (ascending arc, mm).
 ///
-/// `arc` holds the flank's arc coordinate at each node of `xi`. What would fall beyond the last station is kept there.
+/// `arc` holds the flank's arc coordinate at each node of `xi`. What would fall beyond an end of the flank is laid down as far before it: between this
+/// position and the next the contact comes to a stop at the corner. Kept at the end's own station it would dig a hole there, the deeper the
+/// farther positions lie apart.
 pub fn deposit(xi: &[f64], arc: &[f64], stations: &[f64], travel: Travel) -> SparseRows {
     let times = instants(travel, stations);
     let last = xi.len() - 1;
@@ -134,12 +136,11 @@ impl<'s> Accumulator<'s> {
     fn add(&mut self, s: f64, area: f64) {
         let stations = self.stations;
         let last = stations.len() - 1;
-        let next = self.after(s);
-        if next == 0 || next > last {
-            let i = if next == 0 { 0 } else { last };
-            self.put(i, area);
-            return;
-        }
+        let ends = [stations[0], stations[last]];
+        // past an end of the flank, back from it; farther past than a flank is long nothing is carried
+        let beyond = s - s.clamp(ends[0], ends[1]);
+        let s = (s - 2.0 * beyond).clamp(ends[0], ends[1]);
+        let next = self.after(s).clamp(1, last);
         let t = (s - stations[next - 1]) / (stations[next] - stations[next - 1]);
         self.put(next - 1, (1.0 - t) * area);
         self.put(next, t * area);
@@ -261,6 +262,41 @@ mod tests {
         for (s, h) in stations.iter().zip(&depth) {
             if (0.7..2.2).contains(s) {
                 assert!((h / floor - 1.0).abs() < 2e-3, "{h} against {floor} at {s}");
+            }
+        }
+    }
+
+    /// A contact that passes out over the flank's end with constant load leaves a flat floor up to the end, however coarse the positions.
+    #[test]
+    fn a_pass_over_the_end_digs_no_hole_there() {
+        let stations: Vec<f64> = (0..=300).map(|i| 0.01 * f64::from(i)).collect();
+        let xi: Vec<f64> = (-6..=6).map(|i| 0.015 * f64::from(i)).collect();
+        let pressure = xi.iter().map(|x| (1.0 - (x / 0.09f64).powi(2)).max(0.0));
+        let pressure: Vec<f64> = pressure.collect();
+        for (speed, step) in [(0.7_f64, 0.4), (0.7, 0.11), (-0.7, 0.11)] {
+            let mut depth = vec![0.0; stations.len()];
+            for q in 0..8 {
+                let before = speed.abs() * step * (f64::from(q) + 0.5);
+                let centre = if speed > 0.0 { 3.0 - before } else { before };
+                let arc: Vec<f64> = xi.iter().map(|x| centre + x).collect();
+                let travel = Travel {
+                    step,
+                    speed,
+                    slip: 0.4,
+                    slip_slope: 1e-30,
+                };
+                let d = deposit(&xi, &arc, &stations, travel);
+                for (k, p) in pressure.iter().enumerate() {
+                    d.scatter(k, *p, &mut depth);
+                }
+            }
+            let load: f64 = (xi.windows(2).zip(pressure.windows(2)))
+                .map(|(x, p)| 0.5 * (x[1] - x[0]) * (p[0] + p[1]))
+                .sum();
+            let floor = load * 0.4 / speed.abs();
+            let passed = |s: &f64| if speed > 0.0 { *s > 2.6 } else { *s < 0.4 };
+            for (s, h) in stations.iter().zip(&depth).filter(|(s, _)| passed(s)) {
+                assert!((h / floor - 1.0).abs() < 0.01, "{h} against {floor} at {s}");
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::gear::Thinnest;
+use crate::gear::{Member, Thinnest};
 
 /// Why there is no mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -63,10 +63,15 @@ pub enum MeshError {
     },
     /// Wear has taken most of a tooth.
     #[error(
-        "a tooth is worn to a point: {:.4} mm deep at radius {:.4} mm, where {:.4} mm of its thickness are left; fewer cycles or a smaller wear coefficient leave more",
-        .0.depth, .0.radius, .0.left
+        "a tooth{} is worn to a point: {:.4} mm deep at radius {:.4} mm, where {:.4} mm of its thickness are left; fewer cycles or a smaller wear coefficient leave more",
+        .of.map_or(String::new(), |member| format!(" of the {member}")), .at.depth, .at.radius, .at.left
     )]
-    WornThrough(Thinnest),
+    WornThrough {
+        /// Where.
+        at: Thinnest,
+        /// Whose tooth, if known.
+        of: Option<Member>,
+    },
     /// A displacement list does not fit the flank it is for.
     #[error("flank {flank}: {given} displacements for {nodes} nodes")]
     WrongLength {
@@ -85,4 +90,18 @@ pub enum MeshError {
         /// What is wrong and what is allowed.
         problem: String,
     },
+}
+
+impl MeshError {
+    /// The same, said of a member where that helps.
+    #[must_use]
+    pub fn of(self, member: Member) -> Self {
+        match self {
+            Self::WornThrough { at, .. } => Self::WornThrough {
+                at,
+                of: Some(member),
+            },
+            other => other,
+        }
+    }
 }

@@ -125,7 +125,10 @@ pub fn mesh_worn_gear(gear: &Gear, spec: &MeshSpec, worn: &WornFlank) -> Result<
     let worn = worn.clone().without_spikes(SPIKE_SLOPE);
     let thinnest = worn.thinnest();
     if !worn.is_unworn() && thinnest.left < LEAST_THICKNESS * gear.rack.module {
-        return Err(MeshError::WornThrough(thinnest));
+        return Err(MeshError::WornThrough {
+            at: thinnest,
+            of: None,
+        });
     }
     let (outline, fine_flanks) = gear_outline(gear, spec, &worn);
     let field = SizeField::of_outline(&outline, spec.growth, f64::INFINITY);

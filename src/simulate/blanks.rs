@@ -6,7 +6,7 @@ use rayon::join;
 
 use crate::contact::cycle::Stations;
 use crate::contact::strips::Strips;
-use crate::gear::{Gear, Pair, WornFlank};
+use crate::gear::{self, Gear, Pair, WornFlank};
 use crate::material::Elastic;
 use crate::mesh::{
     Cells, Mesh, MeshError, MeshSpec, Order, Quality, mesh_gear, mesh_worn_gear, relocate,
@@ -144,8 +144,9 @@ impl Blanks {
             let teeth = blank.flanks.iter().map(|f| f.tooth).collect();
             let spec = spec(gear, teeth, self.spacing, order_of(blank));
             let worn = WornFlank::new(gear, arc.clone(), depth.to_vec());
+            let mesh = mesh_worn_gear(gear, &spec, &worn);
             Ok(WornMesh {
-                mesh: mesh_worn_gear(gear, &spec, &worn)?,
+                mesh: mesh.map_err(|error| error.of(gear::Member::BOTH[side]))?,
                 anew: Some(depth.to_vec()),
             })
         };
@@ -244,5 +245,44 @@ fn spec(gear: &Gear, fine: Vec<i32>, spacing: f64, order: usize) -> MeshSpec {
     MeshSpec {
         order: if order == 1 { Order::T3 } else { Order::T6 },
         ..MeshSpec::new(gear, fine, spacing, gear.rho_form)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::{BasicRack, ToothSpec};
+
+    #[test]
+    fn whose_tooth_is_worn_through_is_said() {
+        let rack = BasicRack {
+            module: 2.0,
+            pressure_angle: 20f64.to_radians(),
+            addendum: 1.0,
+            dedendum: 1.25,
+            fillet_radius: 0.38,
+        };
+        let gear = |teeth| Gear::new(rack, ToothSpec::plain(teeth, 20.0)).unwrap();
+        let gears = [gear(20), gear(25)];
+        let steel = Elastic {
+            youngs_modulus: 2.1e5,
+            poisson_ratio: 0.3,
+        };
+        let [pinion, large] = gears.clone();
+        let pair = Pair::new(pinion, large, 45.0, 0.0).unwrap();
+        let none = [None, None];
+        let blanks = Blanks::new(&gears, [steel; 2], &[0], 0.3, 1, none, Strips::default());
+        let blanks = blanks.unwrap();
+        let stations = Stations::new(&pair, 0.3);
+        for (side, name) in ["pinion", "gear"].into_iter().enumerate() {
+            let depth = [0, 1].map(|i| {
+                let worn = if i == side { 4.0 } else { 0.0 };
+                vec![worn; stations.arc[i].len()]
+            });
+            let depth = [&depth[0][..], &depth[1][..]];
+            let error = blanks.worn_meshes(&pair, &stations, depth).err().unwrap();
+            let said = format!("a tooth of the {name} is worn to a point: 4.0000 mm deep");
+            assert!(error.to_string().starts_with(&said), "{error}");
+        }
     }
 }

@@ -157,7 +157,8 @@ fn edges_over(arc: &[f64], order: usize, [low, high]: [f64; 2]) -> Range<usize> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::{BasicRack, ToothSpec};
+    use crate::contact::cycle::CycleSpec;
+    use crate::gear::{BasicRack, Pair, ToothSpec};
     use crate::mesh::{MeshSpec, mesh_gear};
 
     const STEEL: Elastic = Elastic {
@@ -165,7 +166,7 @@ mod tests {
         poisson_ratio: 0.3,
     };
 
-    fn mesh() -> Mesh {
+    fn gear() -> Gear {
         let rack = BasicRack {
             module: 2.0,
             pressure_angle: 20f64.to_radians(),
@@ -173,7 +174,11 @@ mod tests {
             dedendum: 1.25,
             fillet_radius: 0.38,
         };
-        let gear = Gear::new(rack, ToothSpec::plain(20, 20.0)).unwrap();
+        Gear::new(rack, ToothSpec::plain(20, 20.0)).unwrap()
+    }
+
+    fn mesh() -> Mesh {
+        let gear = gear();
         mesh_gear(&gear, &MeshSpec::new(&gear, vec![0, 1], 0.2, gear.rho_form)).unwrap()
     }
 
@@ -224,5 +229,40 @@ mod tests {
         assert_eq!(edges_over(&arc, 2, [-1.0, 9.0]), 0..9);
         assert_eq!(edges_over(&arc, 2, [4.1, 9.0]), 0..0);
         assert_eq!(edges_over(&arc, 1, [2.1, 2.2]), 3..7);
+    }
+
+    /// Parts made for a cycle cover it; without one of its teeth they do not, though the tooth is in the mesh.
+    #[test]
+    fn a_tooth_without_a_part_is_not_covered() {
+        let gear = gear();
+        let distance = 2.0 * gear.reference_radius;
+        let pair = Pair::new(gear.clone(), gear.clone(), distance, 0.0).unwrap();
+        let spec = CycleSpec {
+            positions: 10,
+            spacing: 0.2,
+            even: 0.4,
+            window: 0.4,
+            reach: 0.02,
+        };
+        let strips = Strips::new(&pair, spec);
+        let teeth: Vec<i32> = strips.parts(0).map(|(tooth, _)| tooth).collect();
+        let mesh = || {
+            mesh_gear(
+                &gear,
+                &MeshSpec::new(&gear, teeth.clone(), 0.3, gear.rho_form),
+            )
+        };
+        let with = |part: &dyn Fn(i32) -> Option<[f64; 2]>| {
+            let member = Member::on_parts(mesh().unwrap(), STEEL, part).unwrap();
+            member.flanks.cover(&strips, 0)
+        };
+        assert!(with(&|tooth| strips.of(0, tooth)));
+        for left_out in &teeth {
+            assert!(!with(&|tooth| strips
+                .of(0, tooth)
+                .filter(|_| tooth != *left_out)));
+        }
+        let shorter = |[low, high]: [f64; 2]| [low + 0.8, high - 0.8];
+        assert!(!with(&|tooth| strips.of(0, tooth).map(shorter)));
     }
 }

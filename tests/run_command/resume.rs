@@ -8,6 +8,8 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
+use gearwear::simulate::checkpoint::{Checkpoint, Fingerprint};
+
 use super::home::{Folder, Home, study_with};
 
 /// Many short wear steps.
@@ -253,4 +255,30 @@ fn checkpoints_of_other_studies_are_refused_and_damaged_ones_passed_over() {
         assert!(!checkpoint.exists());
         fs::remove_dir_all(home.path("run")).unwrap();
     }
+}
+
+/// The program's own check at the end: with a worn area in the checkpoint that the flanks do not have, no result is written.
+#[test]
+fn a_result_that_fails_its_own_check_is_not_written() {
+    let home = Home::with(SHORT_STEPS);
+    interrupted(&home);
+    let path = home.path(".run.checkpoint");
+    let bytes = fs::read(&path).unwrap();
+    // eight bytes of format, then whose it is
+    let run: Fingerprint = bytes[8..40].try_into().unwrap();
+    let mut checkpoint = Checkpoint::from_bytes(&bytes, &run).unwrap();
+    // the flanks end with 1 to 3 thousandths of a square millimetre worn off
+    checkpoint.progress.as_mut().unwrap().balance.law[1] += 1e-4;
+    fs::write(&path, checkpoint.to_bytes(&run)).unwrap();
+    let answer = home.gearwear("run study.toml -o run --resume");
+    assert_eq!((answer.code, answer.out.as_str()), (Some(1), ""));
+    for part in [
+        "the result fails its own check and is not written",
+        "worn area, law against geometry is off by",
+        "numerics.step_tolerance",
+    ] {
+        assert!(answer.err.contains(part), "{part}: {}", answer.err);
+    }
+    assert!(!home.path("run").exists());
+    home.succeed("run study.toml -o run");
 }
