@@ -286,6 +286,8 @@ mod whole {
             kind,
             stored_states: 5,
             drawn_positions: 4,
+            surroundings: Default::default(),
+            root_stress: true,
         };
         bencher.bench(|| {
             run(&plan, None, None, &mut Silent)

@@ -146,6 +146,53 @@ fn roll_angles_and_lengths_are_radii() {
 }
 
 #[test]
+fn headers_with_units_other_marks_and_repeated_measurements_are_read() {
+    let home = home();
+    let import = |text: &str, options: &str| {
+        fs::write(home.path().join("table.csv"), text).unwrap();
+        let command = format!("import table.csv --study study.toml --test A --sigma 0.2 {options}");
+        line(&home, &command)
+    };
+    let rows = |options: &str, text: &str| {
+        let (code, told, error) = import(text, options);
+        assert_eq!(code, Some(0), "{error}");
+        (told, read(&home, "out.csv"))
+    };
+    let (told, written) = rows(
+        "-o out.csv",
+        "Radius [mm];Verschlei\u{df} [mm] nach 250000\n26,5;0,001\n27,5;0,0025\n",
+    );
+    assert!(told.contains("in mm (the header says so)"), "{told}");
+    assert!(
+        written.contains("250000,wear_depth,26.5,1,0.2"),
+        "{written}"
+    );
+    assert!(
+        written.contains("250000,wear_depth,27.5,2.5,0.2"),
+        "{written}"
+    );
+    let unclear = "radius;100000\n26.500;1.234\n27.000;2.512\n";
+    let (_, written) = rows("-o out.csv --force --decimal point", unclear);
+    assert!(written.contains("wear_depth,26.5,1.234,"), "{written}");
+    // one number that can be no thousand tells
+    let (_, written) = rows(
+        "-o out.csv --force",
+        "radius;100000\n26.500;1.234\n27.000;0.512\n",
+    );
+    assert!(written.contains("wear_depth,27,0.512,"), "{written}");
+    // the same table once more is a mistake, a repeated measurement is none
+    let (code, _, error) = import(unclear, "-o out.csv --append --decimal point");
+    assert_eq!(
+        (code, error.contains("--repeat 2")),
+        (Some(2), true),
+        "{error}"
+    );
+    let (_, written) = rows("-o out.csv --append --decimal point --repeat 2", unclear);
+    assert!(written.ends_with(",A-pinion-100000-r2\n"), "{written}");
+    assert_eq!(written.lines().count(), 5, "{written}");
+}
+
+#[test]
 fn what_cannot_be_told_is_refused_with_its_cell() {
     let home = home();
     let table = "import table.csv --study study.toml --test A --sigma 0.2";
@@ -157,6 +204,27 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             "B1: several numbers (write one, without marks between thousands) in the header `100 000`",
         ),
         ("radius;100000\n;1\n", table, "A2: nothing stands here"),
+        // numbers of which none tells what its mark is
+        (
+            "radius;100000\n26.500;1.234\n27.000;2.512\n",
+            table,
+            "A2: is `26.500` 26.500 or 26500? No number of the table tells: say --decimal point or --decimal comma",
+        ),
+        (
+            "radius;100000 [um];200000 [mm]\n26,5;1;2\n",
+            table,
+            "the headers state several units: um, mm",
+        ),
+        (
+            "radius;100000 [mm]\n26,5;1\n",
+            "import table.csv --study study.toml --test A --sigma 0.2 --unit um",
+            "the headers say mm, --unit says um",
+        ),
+        (
+            "radius [furlong];100000\n26,5;1\n",
+            table,
+            "positions in furlong are not read",
+        ),
         // counts that may be marked between thousands, multiples, labels, times
         (
             "radius;250.000;500.000\n26,5;1,2;2,3\n27,5;1,1;2,2\n",

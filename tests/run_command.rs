@@ -24,6 +24,8 @@ mod home;
 mod models;
 #[path = "run_command/moved_nodes.rs"]
 mod moved_nodes;
+#[path = "run_command/oil_and_heat.rs"]
+mod oil_and_heat;
 #[path = "run_command/own_mesh.rs"]
 mod own_mesh;
 #[path = "run_command/random.rs"]

@@ -9,7 +9,8 @@ finite; counts are those of loads.json; for each member
   area          Green's theorem over the outer edges (curved ones quadratic)     = area of loads.json
   load          integral of contact_pressure over the outer edges (5 Gauss pts)  = line_load
   force         sum of contact_force of pinion and gear                          = 0
-  moment        of the pinion's contact_force about its centre                   = torque_per_width
+  moment        of the pinion's contact_force, at the points before wear         = torque_per_width
+                (contact is solved on the line of action; wear turns a point back on its circle by depth / base radius)
 relative tolerance: the one in loads.json (1e-6). For every .pvd: files exist beside it, time ascends.
 Exit code 1 and a line per fault if anything is wrong.
 """
@@ -99,7 +100,7 @@ def check_file(path, expected, tolerance):
     size = float(np.linalg.norm(force["pinion"]))
     errors["forces cancel"] = compare("force on both members", float(np.linalg.norm(force["pinion"] + force["gear"])), 0.0, size)
     pinion = arrays["member"] == 0
-    arm = points[pinion][:, :2] - np.array(expected["pinion"]["centre"])
+    arm = (points - arrays["wear_vector"])[pinion][:, :2] - np.array(expected["pinion"]["centre"])
     forces = arrays["contact_force"][pinion]
     moment = abs(math.fsum(arm[:, 0] * forces[:, 1] - arm[:, 1] * forces[:, 0]))
     errors["moment"] = compare("moment on the pinion", moment, abs(expected["torque_per_width"]))

@@ -45,6 +45,9 @@ pub struct ImportArgs {
     /// Unit of the values [default: the quantity's own]
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
+    /// Mark of the decimals of a text [default: what the numbers say]
+    #[arg(long, value_enum, value_name = "MARK")]
+    decimal: Option<Mark>,
     /// Lost material is negative in the table
     #[arg(long)]
     turn_sign: bool,
@@ -54,6 +57,9 @@ pub struct ImportArgs {
     /// The instrument's zero is the same for all checkpoints: no trace of its own for each
     #[arg(long)]
     no_traces: bool,
+    /// Number of a repeated measurement at the same checkpoints: its traces have zeros of their own
+    #[arg(long, value_name = "N", conflicts_with = "no_traces")]
+    repeat: Option<u32>,
     /// Measurement file to write
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -92,6 +98,14 @@ enum Across {
     Positions,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Mark {
+    /// 1.5
+    Point,
+    /// 1,5
+    Comma,
+}
+
 /// Columns of the file that is written.
 const HEADER: &str = "test,member,cycles,quantity,position,value,sigma,trace";
 
@@ -118,6 +132,8 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
                 (args.sigma.is_some(), "--sigma"),
                 (args.position.is_some(), "--position"),
                 (args.columns.is_some(), "--columns"),
+                (args.decimal.is_some(), "--decimal"),
+                (args.repeat.is_some(), "--repeat"),
             ];
             if let Some((_, option)) = idle.iter().find(|(given, _)| *given) {
                 return Err(unusable(format!(
@@ -257,7 +273,9 @@ fn wide(
             quantity.unit()
         ))
     })?;
-    let factor = factor(args.unit.as_deref(), quantity)? * if args.turn_sign { -1.0 } else { 1.0 };
+    if let Some(unit) = &args.unit {
+        import::factor(unit, quantity).map_err(|error| unusable(format!("--unit: {error}")))?;
+    }
     let wanted = Wanted {
         test,
         member,
@@ -273,12 +291,25 @@ fn wide(
             Across::Checkpoints => import::Across::Checkpoints,
             Across::Positions => import::Across::Positions,
         }),
-        factor,
+        unit: args.unit.as_deref(),
+        turn_sign: args.turn_sign,
+        decimal: args.decimal.map(|decimal| match decimal {
+            Mark::Point => import::Decimal::Point,
+            Mark::Comma => import::Decimal::Comma,
+        }),
         sigma,
         traces: !args.no_traces,
     };
-    let mapping = import::map(sheet, &wanted)
+    let mut mapping = import::map(sheet, &wanted)
         .map_err(|error| unusable(format!("{}: {error}", named(args, sheet))))?;
+    if let (Some(repeat), true) = (args.repeat, wanted.traces) {
+        // the trace is the last field
+        for row in &mut mapping.rows {
+            let quoted = row.ends_with('"').then(|| row.pop());
+            *row += &format!("-r{repeat}");
+            row.extend(quoted.flatten());
+        }
+    }
     let text = told(args, sheet, &wanted, &mapping);
     let document = json!({
         "columns": match mapping.across {
@@ -294,29 +325,6 @@ fn wide(
     Ok((mapping, text, document))
 }
 
-/// Factor from a stated unit to the quantity's own.
-fn factor(unit: Option<&str>, quantity: Quantity) -> Result<f64, CliError> {
-    let units: &[(&str, f64)] = match quantity {
-        Quantity::WearDepth => &[("um", 1.0), ("mm", 1e3), ("nm", 1e-3), ("in", 25.4e3)],
-        Quantity::TransmissionError => &[("urad", 1.0), ("mrad", 1e3), ("arcsec", 4.848_136_811)],
-        Quantity::ContactPressure => &[("MPa", 1.0), ("GPa", 1e3), ("N/mm2", 1.0)],
-        Quantity::LoadShare => &[("1", 1.0), ("%", 0.01)],
-        Quantity::MeshStiffness => &[("N/(mm um)", 1.0), ("N/mm/um", 1.0)],
-        Quantity::MassLoss => &[],
-    };
-    let Some(unit) = unit else { return Ok(1.0) };
-    let plain = unit.replace(['µ', 'μ'], "u");
-    let found = units.iter().find(|(name, _)| *name == plain);
-    found.map(|(_, factor)| *factor).ok_or_else(|| {
-        let names: Vec<&str> = units.iter().map(|(name, _)| *name).collect();
-        CliError::Unusable(format!(
-            "--unit {unit}: units of {} are {}",
-            quantity.name(),
-            names.join(", ")
-        ))
-    })
-}
-
 /// The mapping in words.
 fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping) -> String {
     let [from, to] = mapping.from_to;
@@ -328,7 +336,10 @@ fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping
         import::Across::Checkpoints => (places, times),
         import::Across::Positions => (times, places),
     };
-    let unit = args.unit.as_deref().unwrap_or(wanted.quantity.unit());
+    let unit = match &mapping.unit {
+        (unit, true) => format!("{unit} (the header says so)"),
+        (unit, false) => unit.clone(),
+    };
     let sign = if args.turn_sign {
         ", their sign turned"
     } else {
@@ -401,6 +412,14 @@ fn whole(args: &ImportArgs, header: &str, rows: &[String]) -> Result<String, Cli
             if own != Some(header) {
                 return Err(CliError::Unusable(format!(
                     "{} has other columns than {header}; write into a file of its own",
+                    path.display()
+                )));
+            }
+            let known: std::collections::BTreeSet<&str> = before.lines().collect();
+            if let Some(row) = rows.iter().find(|row| known.contains(row.as_str())) {
+                return Err(CliError::Unusable(format!(
+                    "{} has the row {row} already: was this table appended before? --repeat 2 is for a second measurement at the same \
+                     checkpoints",
                     path.display()
                 )));
             }

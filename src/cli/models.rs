@@ -13,11 +13,15 @@ use crate::study::Study;
 /// Arguments of `models`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear models study.toml\n  gearwear models study.toml -o results/models --json"
+    after_help = "Examples:\n  gearwear models study.toml\n  gearwear models study.toml --misalignment 0,0.5,1\n  gearwear models study.toml -o results/models --json"
 )]
 pub struct ModelsArgs {
     #[command(flatten)]
     paths: StudyAndOutput,
+    /// Radial misalignments, mm, at which to compare beside the study's own [default: none; of the published pair those that its
+    /// paper states]
+    #[arg(long, value_name = "MM", value_delimiter = ',')]
+    misalignment: Vec<f64>,
 }
 
 /// Checks the input and the folder, runs all three models, writes.
@@ -29,7 +33,16 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "models"));
     folder::check(&target, &args.paths.study, &study)?;
-    let comparison = compare_models(&study, &context.progress("models"))?;
+    if let Some(bad) = args
+        .misalignment
+        .iter()
+        .find(|m| !(m.is_finite() && **m >= 0.0))
+    {
+        return Err(CliError::Unusable(format!(
+            "--misalignment {bad}: it is added to the centre distance, 0 mm or more"
+        )));
+    }
+    let comparison = compare_models(&study, &args.misalignment, &context.progress("models"))?;
     let written = report::write_models(&study.title, &comparison, &target)?;
     Ok(Outcome {
         json: report::models::document(&study.title, &comparison),
@@ -41,9 +54,20 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
 /// Radial misalignments at which the paper states results, mm.
 const PUBLISHED: [f64; 3] = [0.0, 0.5, 1.0];
 
-/// The models at the paper's misalignments and the study's own.
-fn compare_models(study: &Study, progress: &Progress) -> Result<Comparison, CliError> {
-    let mut misalignments = PUBLISHED.to_vec();
+/// Teeth of the pair for which it does.
+const PUBLISHED_TEETH: [u32; 2] = [27, 53];
+
+/// The models at the study's own misalignment, at those asked for, and at the paper's where the pair is the paper's.
+fn compare_models(
+    study: &Study,
+    asked: &[f64],
+    progress: &Progress,
+) -> Result<Comparison, CliError> {
+    let mut misalignments = asked.to_vec();
+    let teeth = [&study.gears.pinion, &study.gears.gear].map(|gear| gear.spec.teeth);
+    if asked.is_empty() && teeth == PUBLISHED_TEETH {
+        misalignments.extend(PUBLISHED);
+    }
     misalignments.push(study.operation.misalignment_mm);
     misalignments.sort_by(f64::total_cmp);
     misalignments.dedup();

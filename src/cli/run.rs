@@ -100,6 +100,7 @@ fn simulate(
     let effects: Vec<String> = study.effects().iter().map(ToString::to_string).collect();
     let plan = Plan {
         acting: acting.as_ref(),
+        surroundings: study.surroundings(conditions),
         effects: &effects,
         title: &study.title,
         test,
@@ -112,13 +113,20 @@ fn simulate(
         },
         stored_states: study.numerics.stored_states,
         drawn_positions: study.numerics.fields,
+        root_stress: true,
     };
     if study.contact == ContactKind::Paper {
         return Ok(paper_run::run(&plan)?);
     }
     let own = own_members(study, &plan)?;
     let mut watcher = Watcher { keeper, progress };
-    let refused = |error| refused(study, &torque_key(study, test), error);
+    let refused = |error| {
+        if matches!(error, RunError::WornAway(_)) {
+            // the same again, whatever was kept
+            keeper.discard();
+        }
+        refused(study, &torque_key(study, test), error)
+    };
     run(&plan, own.as_ref(), start, &mut watcher).map_err(refused)
 }
 

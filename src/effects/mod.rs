@@ -30,7 +30,7 @@ pub use error::EffectError;
 pub use laws::CATALOGUE;
 pub use local::{Local, ProfileAt, SLIDING_FLOOR};
 pub use prior::Prior;
-pub use surroundings::{REFERENCE_TEMPERATURE, Surroundings};
+pub use surroundings::{LineContact, OilAndHeat, REFERENCE_TEMPERATURE, Surroundings};
 
 /// The card of an effect.
 ///

@@ -33,57 +33,92 @@ const RA_PER_COMPOSITE_RQ: f64 = 0.564_189_583_547_756_3;
 /// Least speed (mm/s), load (N/mm) and radius (mm) at which oil formulas are asked; they have poles at zero.
 const FLOOR: f64 = 1e-3;
 
+/// A line contact as film, friction and heat see it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineContact {
+    /// Load per face width, N/mm.
+    pub line_load: f64,
+    /// Relative radius of curvature, mm.
+    pub relative_radius: f64,
+    /// Rolling speeds of pinion and gear flank, m/s.
+    pub rolling: [f64; 2],
+    /// Half width, mm.
+    pub half_width: f64,
+}
+
+/// Film, friction and heat of a contact; none where the study does not state what it follows from.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OilAndHeat {
+    /// Film ratio λ.
+    pub film_ratio: Option<f64>,
+    /// Coefficient of friction.
+    pub friction: Option<f64>,
+    /// Rise of the contact temperature over the bulk, K.
+    pub flash_temperature: Option<f64>,
+}
+
 impl Surroundings {
-    /// Sets `film_ratio`, `friction`, `flash_temperature` and `bulk_temperature` from the contact that `local` describes.
+    /// Sets `film_ratio`, `friction`, `flash_temperature` and `bulk_temperature` from the contact that `local` describes; 0 where
+    /// [`Surroundings::at`] has none.
+    pub fn complete(&self, local: &mut Local) {
+        let found = self.at(&LineContact {
+            line_load: local.line_load,
+            relative_radius: local.relative_radius(),
+            rolling: local.rolling,
+            half_width: local.half_width,
+        });
+        local.film_ratio = found.film_ratio.unwrap_or(0.0);
+        local.friction = found.friction.unwrap_or(0.0);
+        local.flash_temperature = found.flash_temperature.unwrap_or(0.0);
+        local.bulk_temperature = self.bulk_temperature_c.unwrap_or(REFERENCE_TEMPERATURE);
+    }
+
+    /// Film, friction and heat of `contact`.
     ///
     /// Film: Dowson and Higginson's minimum over Rq. Friction: the local coefficient of [`crate::tribology::friction`] if viscosity and roughness are
     /// stated, else the stated one. Flash temperature: [`crate::tribology::flash_temperature`] with the stated friction.
-    pub fn complete(&self, local: &mut Local) {
-        let load = local.line_load.max(FLOOR);
-        let radius = local.relative_radius().max(FLOOR);
-        let rolling = local.rolling.map(|u| 1e3 * u);
+    pub fn at(&self, contact: &LineContact) -> OilAndHeat {
+        let load = contact.line_load.max(FLOOR);
+        let radius = contact.relative_radius.max(FLOOR);
+        let rolling = contact.rolling.map(|u| 1e3 * u);
         let sum = (rolling[0] + rolling[1]).abs().max(FLOOR);
-        local.film_ratio = match (
-            self.viscosity_pa_s,
-            self.pressure_viscosity_per_gpa,
-            self.roughness_um,
-        ) {
-            (Some(viscosity_pa_s), Some(pressure_viscosity_per_gpa), Some(roughness)) => {
-                let film = Film {
+        let oil = self.viscosity_pa_s.zip(self.roughness_um);
+        let film = oil.zip(self.pressure_viscosity_per_gpa);
+        let heat = self.friction_coefficient.zip(self.contact_coefficient);
+        OilAndHeat {
+            film_ratio: film.map(
+                |((viscosity_pa_s, roughness), pressure_viscosity_per_gpa)| {
+                    let film = Film {
+                        load,
+                        radius,
+                        contact_modulus: self.contact_modulus,
+                        entraining_speed: 0.5 * sum,
+                        viscosity_pa_s,
+                        pressure_viscosity_per_gpa,
+                    };
+                    film_ratio(film.minimum(), roughness)
+                },
+            ),
+            friction: match oil {
+                Some((viscosity_pa_s, roughness)) => Some(local_coefficient(&Flank {
                     load,
+                    rolling_sum: sum,
                     radius,
-                    contact_modulus: self.contact_modulus,
-                    entraining_speed: 0.5 * sum,
                     viscosity_pa_s,
-                    pressure_viscosity_per_gpa,
-                };
-                film_ratio(film.minimum(), roughness)
-            }
-            _ => 0.0,
-        };
-        local.friction = match (self.viscosity_pa_s, self.roughness_um) {
-            (Some(viscosity_pa_s), Some(roughness)) => local_coefficient(&Flank {
-                load,
-                rolling_sum: sum,
-                radius,
-                viscosity_pa_s,
-                roughness_ra_um: RA_PER_COMPOSITE_RQ * roughness,
-                lubricant: 1.0,
-            }),
-            _ => self.friction_coefficient.unwrap_or(0.0),
-        };
-        local.flash_temperature = match (self.friction_coefficient, self.contact_coefficient) {
-            (Some(friction), Some(coefficient)) => flash_rise(
-                &HeatSource {
-                    load: local.line_load,
+                    roughness_ra_um: RA_PER_COMPOSITE_RQ * roughness,
+                    lubricant: 1.0,
+                })),
+                None => self.friction_coefficient,
+            },
+            flash_temperature: heat.map(|(friction, coefficient)| {
+                let source = HeatSource {
+                    load: contact.line_load,
                     friction,
                     rolling,
-                    half_width: local.half_width,
-                },
-                coefficient,
-            ),
-            _ => 0.0,
-        };
-        local.bulk_temperature = self.bulk_temperature_c.unwrap_or(REFERENCE_TEMPERATURE);
+                    half_width: contact.half_width,
+                };
+                flash_rise(&source, coefficient)
+            }),
+        }
     }
 }

@@ -33,11 +33,13 @@ pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
 ///
 /// Columns `cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner`: position is
 /// the pinion rotation from the pitch point in base pitches; mm; -; N/mm; MPa; mm; 1 where the pair touches outside the nominal
-/// line of action; 1 where the end of a flank (a tip corner) is loaded, so that the mesh decides the peak pressure.
+/// line of action; 1 where the end of a flank (a tip corner) is loaded, so that the mesh decides the peak pressure. Then
+/// `sliding_speed_m_s,film_ratio,friction_coefficient,flash_temperature_k,friction_power_w`, empty where they do not follow from the study.
 pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
     let mut table = Table::new(
         "contact.csv",
-        "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner",
+        "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner,\
+         sliding_speed_m_s,film_ratio,friction_coefficient,flash_temperature_k,friction_power_w",
     );
     for state in &run.states {
         for position in &state.cycle {
@@ -52,6 +54,19 @@ pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
                 table.number("half_width", pair.half_width)?;
                 for flag in [pair.off_line_of_action, pair.at_corner] {
                     table.text(if flag { "1" } else { "0" });
+                }
+                let sliding = &pair.sliding;
+                table.number("sliding_speed_m_s", sliding.speed)?;
+                for (name, value) in [
+                    ("film_ratio", sliding.film_ratio),
+                    ("friction_coefficient", sliding.friction),
+                    ("flash_temperature_k", sliding.flash_temperature),
+                    ("friction_power_w", sliding.power),
+                ] {
+                    match value {
+                        Some(value) => table.number(name, value)?,
+                        None => table.text(""),
+                    }
                 }
                 table.end_row();
             }

@@ -3,9 +3,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use super::comparison::with_unit;
 use super::drivers;
 use super::format::{count, plain, probability, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
+use super::measured_curves;
 use crate::learn::diagnose::{Diagnosis, NextExperiment, NextTest, Ranked, Screened};
 
 /// Entries of the ranking shown on the terminal.
@@ -127,7 +129,9 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
          its free parameters counted against it. angle: between what an effect and the leading one change in these measurements, \
          k refitted; at 90° they have nothing in common, below some 10° they do the same.",
     );
-    let mut sections = vec![why, ranking];
+    let mut sections = vec![why];
+    sections.extend(measured_curves::section(&diagnosis.residual_drivers));
+    sections.push(ranking);
     sections.extend(fitted(diagnosis));
     sections.extend(drivers::sections(diagnosis));
     let mut next =
@@ -269,7 +273,7 @@ fn parameters(entry: &Ranked) -> String {
             format!(
                 "{} = {}{}",
                 p.name,
-                uncertain(p.value, p.sigma),
+                with_unit(uncertain(p.value, p.sigma), &p.unit),
                 if p.at_bound { " (bound)" } else { "" }
             )
         })

@@ -311,6 +311,8 @@ mod tests {
             ],
             constant: vec!["film_ratio".to_owned()],
             rows: vec![DriverRow {
+                measured: 2.0,
+                sigma: 0.1,
                 test: "A, first".to_owned(),
                 member: "pair",
                 quantity: "mass_loss",

@@ -47,6 +47,12 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
             "stages": cost.stages.iter().map(|(name, seconds)| json!({"name": name, "seconds": seconds})).collect::<Vec<_>>(),
         },
     });
+    if let Some(both) = &run.root_stress {
+        for (member, root) in Member::BOTH.into_iter().zip(both) {
+            document["root_stress"][member.name()] =
+                json!({"stress_mpa": root.stress, "radius_mm": root.radius, "path_mm": root.path});
+        }
+    }
     if c.wear_coefficient[1] != c.wear_coefficient[0] {
         document["conditions"]["coefficient_gear"] = json!(c.wear_coefficient[1]);
     }
@@ -83,6 +89,9 @@ fn contact_of(state: &State) -> Value {
         "corner_pressure": corner.map(|p| p.0),
         "corner_pressure_path": corner.map(|p| p.1),
         "te_peak_to_peak_urad": state.te_peak_to_peak_urad(),
+        "least_film_ratio": state.least_film_ratio().map(|f| f.0),
+        "largest_flash_temperature_k": state.largest_flash_temperature().map(|f| f.0),
+        "friction_power_w": state.friction_power(),
     })
 }
 
@@ -141,8 +150,26 @@ fn check_numbers(run: &Run) -> Result<(), OutputError> {
             figures.push((format!("wear.{}.{key}", member.name()), value));
         }
     }
+    for (member, root) in Member::BOTH
+        .into_iter()
+        .zip(run.root_stress.iter().flatten())
+    {
+        figures.push((format!("root_stress.{}", member.name()), root.stress));
+    }
     for state in [run.first(), run.last()] {
         let at = state.cycles;
+        let figures_of_oil = [
+            ("least_film_ratio", state.least_film_ratio().map(|f| f.0)),
+            (
+                "largest_flash_temperature_k",
+                state.largest_flash_temperature().map(|f| f.0),
+            ),
+            ("friction_power_w", state.friction_power()),
+        ];
+        let told = figures_of_oil
+            .into_iter()
+            .filter_map(|(name, figure)| Some((format!("contact.{name} at {at} cycles"), figure?)));
+        figures.extend(told);
         figures.extend(
             state
                 .peak_pressure()

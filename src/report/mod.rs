@@ -19,6 +19,7 @@ pub mod guide;
 pub mod html;
 pub mod json;
 pub mod ladder;
+mod measured_curves;
 pub mod models;
 pub mod plan;
 pub mod plots;

@@ -25,9 +25,10 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
                 let figures = [row.expected_chi2, least(row)].map(|c| significant(c, 4));
                 line(&mut text, &row.test, &row.quantity, figures);
             }
+            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, each counted up to 60, which is enough\n";
             let _ = writeln!(
                 text,
-                "\nrepetition of the best test made already: χ² {:.1}",
+                "repetition of the best test made already: χ² {:.1}",
                 next.repetition_chi2
             );
         }

@@ -209,7 +209,7 @@ fn write_fields(run: &Run, staging: &mut Staging) -> Result<(), OutputError> {
         staging.write(&format!("fields/{name}"), &vtk::pvd(&series))?;
     }
     if let Some(script) = vtk::paraview(run) {
-        staging.write("fields/paraview.py", script.as_bytes())?;
+        staging.write("fields/open_in_paraview.py", script.as_bytes())?;
     }
     let loads = vtk::loads(files.iter().zip(&run.fields));
     staging.write(

@@ -10,6 +10,7 @@ use crate::simulate::fields::MemberFields;
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
 use crate::simulate::history::{WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
+use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
     Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State,
     WheelGeometry,
@@ -107,23 +108,23 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         cycles: state.cycles,
         pinion: profile(Member::Pinion),
         gear: profile(Member::Gear),
-        cycle: by_rotation(forward, state),
+        cycle: by_rotation(plan, forward, state),
     }
 }
 
 /// The mesh cycle by ascending rotation.
-fn by_rotation(forward: &Forward, state: &WearState) -> Vec<PositionState> {
+fn by_rotation(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<PositionState> {
     let mut cycle: Vec<PositionState> = state
         .contacts
         .iter()
         .enumerate()
-        .map(|(q, contact)| position(forward, q, contact))
+        .map(|(q, contact)| position(plan, forward, q, contact))
         .collect();
     cycle.sort_by(|a, b| a.position.total_cmp(&b.position));
     cycle
 }
 
-fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
+fn position(plan: &Plan, forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
     let position = &forward.cycle().positions[q];
     let torque = forward.torque();
     let pairs = position
@@ -132,6 +133,10 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
         .enumerate()
         .map(|(index, pair)| {
             let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
+            let at_corner = pair.frame.touch != Touch::Flanks
+                || ends_loaded(pair, pressure, forward.cycle().spec.window);
+            let sliding =
+                oil_and_heat::of_pair(plan, &forward.cycle().pair, pair, contact, at_corner);
             PairState {
                 pair: position.pair_number(pair),
                 path: pair.path,
@@ -140,8 +145,8 @@ fn position(forward: &Forward, q: usize, contact: &PositionContact) -> PositionS
                 peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
                 half_width: half_width(&pair.xi, pressure),
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
-                at_corner: pair.frame.touch != Touch::Flanks
-                    || ends_loaded(pair, pressure, forward.cycle().spec.window),
+                at_corner,
+                sliding,
             }
         })
         .collect();

@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::paper::{self, Inputs};
 use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::gather;
-use crate::simulate::result::{Cost, PairState, PositionState, Profile, Run, State};
+use crate::simulate::result::{Cost, PairState, PositionState, Profile, Run, Sliding, State};
 use crate::simulate::run::{Plan, RunError, pair_of};
 
 /// Speeds the paper prints: its gear turns at half the pinion's speed, which its wear numbers need.
@@ -91,6 +91,7 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
                             half_width: now.half_width,
                             off_line_of_action: false,
                             at_corner: false,
+                            sliding: Sliding::default(),
                         }],
                     }
                 })
@@ -119,6 +120,7 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
         mesh: None,
         states,
         fields: Vec::new(),
+        root_stress: None,
         balance_error: 0.0,
         checks: Vec::new(),
         cost: Cost {

@@ -48,6 +48,8 @@ pub struct Run {
     pub states: Vec<State>,
     /// Fields to be drawn, by ascending cycles, then position; empty for a model without a mesh.
     pub fields: Vec<FieldFrame>,
+    /// Largest tensile stress in the loaded fillet of pinion and gear, worn as in the last state; none for a model without a mesh.
+    pub root_stress: Option<[RootStress; 2]>,
     /// Relative gap between the worn area of the flanks and the area the wear law removed (Reye balance), both members.
     pub balance_error: f64,
     /// Further checks the run made on itself.
@@ -242,6 +244,31 @@ impl State {
         Some(high - low)
     }
 
+    /// The smallest film ratio over the mesh cycle and the path coordinate of that pair, mm.
+    pub fn least_film_ratio(&self) -> Option<(f64, f64)> {
+        let ratios = self
+            .pairs()
+            .filter_map(|p| Some((p.sliding.film_ratio?, p.path)));
+        ratios.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The largest rise of the contact temperature over the mesh cycle, K, and the path coordinate of that pair, mm.
+    pub fn largest_flash_temperature(&self) -> Option<(f64, f64)> {
+        let rises = self
+            .pairs()
+            .filter_map(|p| Some((p.sliding.flash_temperature?, p.path)));
+        rises.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// Mean power that friction between the teeth takes over the mesh cycle, W; none where no friction follows from the study.
+    pub fn friction_power(&self) -> Option<f64> {
+        let powers = self.pairs().filter_map(|p| p.sliding.power);
+        let sum = powers.fold(None, |sum: Option<f64>, power| {
+            Some(sum.unwrap_or(0.0) + power)
+        })?;
+        Some(sum / self.cycle.len() as f64)
+    }
+
     /// All pairs of all positions.
     pub fn pairs(&self) -> impl Iterator<Item = &PairState> {
         self.cycle.iter().flat_map(|position| &position.pairs)
@@ -318,6 +345,23 @@ pub struct PairState {
     /// True where the pressure does not fade out on both flanks: it reaches the tip corner (or the form circle) of a flank, or
     /// the pair touches outside the line of action.
     pub at_corner: bool,
+    /// What slides, heats and is lost there.
+    pub sliding: Sliding,
+}
+
+/// Sliding of one tooth pair and what follows from it; none where the study does not state what it takes, or nothing is loaded.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sliding {
+    /// Sliding speed, m/s.
+    pub speed: f64,
+    /// Smallest film thickness over the composite roughness; none at a tip corner.
+    pub film_ratio: Option<f64>,
+    /// Rise of the contact temperature over the bulk, K; none at a tip corner.
+    pub flash_temperature: Option<f64>,
+    /// Coefficient of friction.
+    pub friction: Option<f64>,
+    /// Power that friction takes over the face width, W.
+    pub power: Option<f64>,
 }
 
 /// Both members at one wear state and mesh position, for drawing.
@@ -375,6 +419,17 @@ pub struct MemberField {
     pub contact_force: Vec<[f64; 2]>,
     /// Worn depth normal to the flank, µm; 0 off the loaded flanks.
     pub wear_depth: Vec<f64>,
+}
+
+/// The largest first principal stress in the fillet on the loaded side of a tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RootStress {
+    /// First principal stress, MPa.
+    pub stress: f64,
+    /// Radius of the place, mm.
+    pub radius: f64,
+    /// Where the tooth is loaded then: path coordinate of its contact, mm from the pitch point.
+    pub path: f64,
 }
 
 /// A check a run made on itself.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use crate::contact::model::PositionContact;
+use crate::effects::Surroundings;
 use crate::gear::{Member, Pair};
 use crate::mesh::Quality;
 use crate::simulate::checkpoint::{Checkpoint, Stored};
@@ -12,7 +13,9 @@ use crate::simulate::gather;
 use crate::simulate::history::{Progress, StepReport, WearState};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
-use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, Run, State};
+use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, RootStress, Run, State};
+use crate::simulate::root_stress;
+use crate::simulate::worn_away::WornAway;
 use crate::wear::acting::Acting;
 
 /// What a run is to do.
@@ -32,12 +35,16 @@ pub struct Plan<'a> {
     pub kind: ContactKind,
     /// Physical effects, if any.
     pub acting: Option<&'a Acting>,
+    /// What the study states about oil and heat.
+    pub surroundings: Surroundings,
     /// Their names with parameter values, for the results.
     pub effects: &'a [String],
     /// Worn states to store, evenly over the cycles.
     pub stored_states: usize,
     /// Mesh positions to draw at the last state.
     pub drawn_positions: usize,
+    /// Whether the stresses in the fillets are wanted, where there is a mesh.
+    pub root_stress: bool,
 }
 
 /// Where a run is.
@@ -92,6 +99,9 @@ pub enum RunError {
     /// A checkpoint could not be kept.
     #[error("{0}")]
     Keep(String),
+    /// More wear than there is tooth.
+    #[error(transparent)]
+    WornAway(#[from] WornAway),
     /// The result is not one that can be relied on.
     #[error("{}", failed_checks(.0))]
     Unsound(Vec<Check>),
@@ -196,6 +206,7 @@ pub fn run(
     if !failed.is_empty() {
         return Err(RunError::Unsound(failed));
     }
+    let root_stress = worn.kept.last().and_then(|kept| kept.root_stress);
     let (states, frames): (Vec<State>, Vec<Vec<FieldFrame>>) =
         worn.kept.into_iter().map(|k| (k.state, k.frames)).unzip();
     Ok(Run {
@@ -205,6 +216,7 @@ pub fn run(
         mesh,
         states,
         fields: frames.into_iter().flatten().collect(),
+        root_stress,
         balance_error: worn.progress.balance.error(),
         checks,
         cost: Cost {
@@ -229,6 +241,7 @@ struct Worn {
 struct Kept {
     state: State,
     frames: Vec<FieldFrame>,
+    root_stress: Option<[RootStress; 2]>,
     penetration: f64,
     torque_error: f64,
 }
@@ -257,8 +270,14 @@ fn wear(
     }
     for &stop in &stops[stored.len()..] {
         let mut outcome_of_keeping = Ok(());
+        let mut worn_away = None;
+        let pair = forward.cycle().pair.clone();
         let outcome = forward.wear_to(&mut progress, stop, &mut |preparation, progress| {
             let fraction = progress.stand.n / end;
+            worn_away = WornAway::by_the_end(plan, &pair, progress);
+            if worn_away.is_some() {
+                return false;
+            }
             outcome_of_keeping = observer.keep(&Checkpoint {
                 preparation: preparation.clone(),
                 progress: Some(progress.clone()),
@@ -271,6 +290,9 @@ fn wear(
                 })
         });
         outcome_of_keeping.map_err(RunError::Keep)?;
+        if let Some(error) = worn_away {
+            return Err(error.into());
+        }
         let reached = progress.as_ref().map_or(0.0, |p| p.stand.n);
         let failed = |source: ForwardError| match reached {
             cycles if cycles > 0.0 => RunError::Midway {
@@ -333,10 +355,16 @@ fn keep(
             )
         })
         .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()?;
+    let root_stress = if plan.root_stress && worn.cycles == plan.conditions.cycles {
+        root_stress::largest(forward, &worn)?
+    } else {
+        None
+    };
     stages.end("fields");
     Ok(Kept {
         state,
         frames: frames.into_iter().flatten().collect(),
+        root_stress,
         penetration: largest(&worn, |c| c.penetration),
         torque_error: largest(&worn, |c| c.torque_error),
     })

@@ -13,6 +13,18 @@ pub(super) type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 /// Where each key's value stands, by its path (`test[0].torque`); an absent key has no entry.
 pub(super) type Spans = BTreeMap<String, Range<usize>>;
 
+/// What users look for and the program does not have, with what there is.
+const NOT_MODELLED: [(&str, &str); 2] = [
+    (
+        "helix_angle",
+        "gears are spur gears: helical teeth are not modelled",
+    ),
+    (
+        "temperature",
+        "`bulk_temperature` stands in [thermal], or in a [[test]]",
+    ),
+];
+
 /// A table of the study file with its path.
 #[derive(Debug)]
 pub(super) struct Table<'a> {
@@ -269,7 +281,9 @@ impl<'a> Table<'a> {
         )
         .with_values(format!("`{key}`"), list(self.keys.iter().copied()))
         .with_span(span);
-        if let Some(near) = nearest(key, self.keys.iter().copied()) {
+        if let Some((_, why)) = NOT_MODELLED.iter().find(|(name, _)| *name == key) {
+            diagnostic = diagnostic.with_hint(*why);
+        } else if let Some(near) = nearest(key, self.keys.iter().copied()) {
             diagnostic = diagnostic.with_hint(format!("the nearest valid key is `{near}`"));
         }
         if let Some((home, _)) = self.elsewhere.iter().find(|(_, keys)| keys.contains(&key)) {

@@ -2,10 +2,8 @@
 //!
 //! Targets: an independent program, quadratic triangles of 0.06 modules in the fillet.
 
-use std::f64::consts::PI;
-
 use crate::fem::{largest_principal, nodal_stress};
-use crate::mesh::{Mesh, boundary_edges};
+use crate::simulate::root_stress::fillet_nodes;
 use crate::verify::gear_pairs::{Bench, Solved, Teeth};
 use crate::verify::{CaseError, Measured};
 
@@ -87,34 +85,11 @@ pub fn root_stress(
     let displacement = member.body.solve(&solved.nodal_forces(q, side, bench))?;
     let stress = nodal_stress(&member.mesh, member.material, &displacement)?;
     let tooth = crate::contact::fem::member_tooth(solved.pair(q, path), side);
-    let nodes = fillet_nodes(bench, &member.mesh, side, tooth);
+    let nodes = fillet_nodes(&bench.case.set.gears[side], &member.mesh, tooth);
     Ok(
         largest_principal(&stress, &nodes).map(|(node, stress)| RootStress {
             stress,
             radius: member.mesh.points[node as usize].norm(),
         }),
     )
-}
-
-/// Boundary nodes between root and form circle on the loaded side of `tooth`.
-fn fillet_nodes(bench: &Bench, mesh: &Mesh, side: usize, tooth: i32) -> Vec<u32> {
-    let gear = &bench.case.set.gears[side];
-    let pitch = gear.pitch_angle();
-    let mut nodes: Vec<u32> = boundary_edges(mesh)
-        .iter()
-        .flat_map(|e| [Some(e.start), e.mid, Some(e.end)])
-        .flatten()
-        .filter(|&node| {
-            let x = mesh.points[node as usize];
-            let turned = x.y.atan2(x.x) - f64::from(tooth) * pitch;
-            let angle = turned - 2.0 * PI * (turned / (2.0 * PI)).round();
-            let r = x.norm();
-            let slack = 1e-6 * gear.rack.module;
-            (gear.root_radius - slack..=gear.form_radius + slack).contains(&r)
-                && (0.0..=0.5 * pitch + 1e-9).contains(&angle)
-        })
-        .collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    nodes
 }

@@ -70,6 +70,15 @@ impl PairLoad {
     }
 }
 
+/// Rolling speeds of pinion and gear flank at a tooth pair, m/s, the pinion at `speed` rpm.
+pub fn rolling(gears: &Pair, pair: &PairContact, speed: f64) -> [f64; 2] {
+    let omega = speed * TAU / 60.0;
+    // along the path at r_b1 ω1; the mean of both rolling speeds and their difference, the sliding
+    let sliding = 1e-3 * pair.slip * gears.pinion.base_radius * omega;
+    let mean = 0.5e-3 * omega * (pair.frame.rho[0] + pair.frame.rho[1] / gears.speed_ratio);
+    [mean + 0.5 * sliding, mean - 0.5 * sliding]
+}
+
 impl Acting {
     /// Whether any effect acts through `hook`.
     pub fn acts(&self, hook: Hook) -> bool {
@@ -146,10 +155,6 @@ impl Acting {
     /// What holds for all of a tooth pair's contact; the place on a flank is then set by [`Acting::at_point`].
     pub fn at_pair(&self, cycle: &Cycle, pair: &PairContact, load: PairLoad, age: Age) -> Local {
         let gears = &cycle.pair;
-        let omega = self.speed * TAU / 60.0;
-        // along the path at r_b1 ω1; the mean of both rolling speeds and their difference, the sliding
-        let sliding = 1e-3 * pair.slip * gears.pinion.base_radius * omega;
-        let mean = 0.5e-3 * omega * (pair.frame.rho[0] + pair.frame.rho[1] / gears.speed_ratio);
         let hours = if self.speed > 0.0 {
             1.0 / (60.0 * self.speed)
         } else {
@@ -161,7 +166,7 @@ impl Acting {
             path: pair.path,
             approach: (pair.path < 0.0) != self.reversed,
             curvature: pair.frame.rho,
-            rolling: [mean + 0.5 * sliding, mean - 0.5 * sliding],
+            rolling: rolling(gears, pair, self.speed),
             pressure: 0.0,
             peak_pressure: load.peak_pressure,
             hertz_pressure: 0.0,

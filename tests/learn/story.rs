@@ -235,7 +235,7 @@ fn the_worst_place_is_told_in_words() {
     for words in [
         "early in life (0 to ",
         "too low",
-        "(lower_double)",
+        "'s tip in",
         "falls",
         "shares it",
         "show the same",

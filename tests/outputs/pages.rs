@@ -60,8 +60,8 @@ fn the_report_is_self_contained_and_complete() {
         page.contains("Made-up pair &lt;27/53&gt; &amp; &quot;quotes&quot;")
             && !page.contains("<27/53>")
     );
-    // wear of both flanks, growth; pressure, share, lag, two of sliding, tip corners; stresses
-    assert_eq!(page.matches("<figure ").count(), 10);
+    // wear of both flanks, growth; pressure, share, lag, two of sliding, tip corners; film, losses; stresses
+    assert_eq!(page.matches("<figure ").count(), 12);
     for heading in [
         "Results",
         "Wear",

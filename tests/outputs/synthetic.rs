@@ -45,6 +45,11 @@ pub(crate) fn run() -> Run {
             frame(50_000.0, 0.0),
             frame(50_000.0, 0.25),
         ],
+        root_stress: Some([148.8, 122.8].map(|stress| RootStress {
+            stress,
+            radius: 24.8,
+            path: 0.69,
+        })),
         balance_error: 3.2e-4,
         checks: vec![
             Check {
@@ -184,6 +189,13 @@ fn position(position: f64, worn: f64) -> PositionState {
                 half_width: 0.0897 * share.sqrt(),
                 off_line_of_action: path < LIMITS[0] + 0.3,
                 at_corner: path < LIMITS[0] + 0.3,
+                sliding: Sliding {
+                    speed: 0.315 * path.abs(),
+                    film_ratio: Some(0.2 + 0.01 * path),
+                    flash_temperature: None,
+                    friction: Some(0.06),
+                    power: Some(0.06 * share * load * 33.0 * 0.315 * path.abs()),
+                },
             }
         })
         .collect();

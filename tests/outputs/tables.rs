@@ -59,6 +59,7 @@ fn tables_read_back_to_the_same_doubles() {
         .last()
         .unwrap()
         .split(',')
+        .take(12)
         .map(|cell| cell.parse().unwrap())
         .collect();
     let pair = run.last().pairs().last().unwrap();
@@ -72,6 +73,12 @@ fn tables_read_back_to_the_same_doubles() {
             pair.half_width
         ]
     );
+    assert_eq!(
+        last[10..],
+        [pair.sliding.speed, pair.sliding.film_ratio.unwrap()]
+    );
+    // no flash temperature: an empty cell
+    assert_eq!(text.lines().last().unwrap().split(',').nth(13), Some(""));
 
     let text = read(&dir, "transmission_error.csv");
     assert_eq!(text.lines().next(), Some("cycles,position,angle"));

@@ -19,7 +19,7 @@ use super::home::{Home, study_with};
 
 #[test]
 fn wear_that_no_mesh_can_follow_ends_with_the_cycles_reached() {
-    let home = Home::with(&[("coefficient", "1e-4")]);
+    let home = Home::with(&[("coefficient", "2e-6")]);
     let answer = home.gearwear("run study.toml -o run");
     assert_eq!((answer.code, answer.out.as_str()), (Some(1), ""));
     for part in ["error: ", "of 50000 cycles", "--resume"] {
@@ -196,6 +196,8 @@ fn a_checkpoint_that_cannot_be_kept_ends_the_run() {
         kind: gearwear::simulate::forward::ContactKind::Hertz,
         stored_states: 2,
         drawn_positions: 0,
+        surroundings: study.surroundings(&study.operation),
+        root_stress: true,
     };
     let error = run(&plan, None, None, &mut Full).unwrap_err();
     assert!(
@@ -262,4 +264,31 @@ impl ContactModel for Doctored<'_> {
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
         self.model.linearised(q, contact, depth)
     }
+}
+
+/// Each revolution takes the same area off a flank, so more wear than there is tooth is known after the first steps.
+#[test]
+fn more_wear_than_tooth_is_told_at_once() {
+    let home = Home::with(&[("cycles", "6e9")]);
+    let answer = home.gearwear("run study.toml -o out");
+    assert_eq!(answer.code, Some(1), "{}", answer.err);
+    for part in [
+        "6e9 cycles would wear",
+        "off each tooth of the pinion",
+        "mm deep on average",
+        "cycles wear a tenth of the tooth",
+    ] {
+        assert!(answer.err.contains(part), "no `{part}` in {}", answer.err);
+    }
+    // what it says can be run: about 1e7 cycles here
+    let words: Vec<&str> = answer.err.split_whitespace().collect();
+    let about = words.iter().position(|word| *word == "about").unwrap();
+    let cycles: f64 = words[about + 1].parse().unwrap();
+    assert!((1e6..1e8).contains(&cycles), "{cycles}");
+    assert!(!home.path("out").exists());
+    assert!(
+        home.tree().iter().all(|name| name == "study.toml"),
+        "{:?}",
+        home.tree()
+    );
 }

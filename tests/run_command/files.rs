@@ -244,8 +244,8 @@ fn report_is_one_file_and_names_only_files_that_exist() {
         ];
         assert!(known.contains(&address), "{address}");
     }
-    // nine plots, the pair twice, two worn teeth
-    assert_eq!(page.matches("<svg").count(), 13, "every picture of a run");
+    // ten plots, the pair twice, two worn teeth
+    assert_eq!(page.matches("<svg").count(), 14, "every picture of a run");
     let links: Vec<&str> = page
         .split("href=\"")
         .skip(1)

@@ -116,6 +116,8 @@ fn simulated(text: &str) -> Result<Run, String> {
         },
         stored_states: study.numerics.stored_states,
         drawn_positions: 0,
+        surroundings: study.surroundings(&study.operation),
+        root_stress: true,
     };
     Ok(run(&plan, None, None, &mut Silent).unwrap_or_else(|e| panic!("{e}\n{text}")))
 }

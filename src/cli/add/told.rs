@@ -40,7 +40,14 @@ pub(super) fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
         };
         let _ = writeln!(text, "    {}: {known}{at_bound}", p.name);
     }
-    if !comparison.converged {
+    if let Some(share) = addition.compared.given_up {
+        let _ = writeln!(
+            text,
+            "  given up early: after a few steps the effect explains {:.0} % of what the model without it misses; it is hardly the one \
+             (gearwear diagnose ranks them all)",
+            100.0 * share.max(0.0)
+        );
+    } else if !comparison.converged {
         let _ = writeln!(
             text,
             "  the fit came to no end: these are the values where it stopped, not what the measurements ask for; another effect, or a \
@@ -97,6 +104,7 @@ pub(super) fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
             "fit": comparison.fit,
             "holdout": comparison.holdout,
             "converged": comparison.converged,
+            "given_up_explaining": addition.compared.given_up,
             "warnings": comparison.warnings,
         }),
         text,

@@ -371,6 +371,8 @@ fn one(study: &Study, set: &GearSet, members: Option<&Members>) -> Result {
         effects: &[],
         stored_states: study.numerics.stored_states,
         drawn_positions: 0,
+        surroundings: study.surroundings(&study.operation),
+        root_stress: false,
     };
     let result = if study.contact == study::ContactKind::Paper {
         paper_run::run(&plan)

@@ -3,7 +3,9 @@
 //! Nature does not use our formulas. A running-in that decays as a hyperbola is a running-in, but fitted by an exponential it leaves
 //! a misfit behind, in which the next effect would be looked for in vain.
 
-use super::compare::{CompareError, Compared, Doing, contact_of};
+use std::cell::OnceCell;
+
+use super::compare::{CompareError, Compared, Doing, Missed, contact_of};
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::measured::Measured;
@@ -65,13 +67,27 @@ pub fn add(
     let (own, others) = forms
         .split_first()
         .expect("an effect has a form of its own");
-    let own = measured.compare(&bench, &own.version, &|doing| watch(doing, 0))?;
+    let without = ModelVersion::of(study);
+    // a study with effects of its own to fit is no model that k alone is fitted of
+    let alone = without
+        .free
+        .iter()
+        .all(|free| free.name == WEAR_COEFFICIENT);
+    let missed = alone.then(|| Missed {
+        without: &without,
+        bench: &bench,
+        square: OnceCell::new(),
+    });
+    let missed = missed.as_ref();
+    let first = |doing| watch(doing, 0);
+    let own = measured.compare_from(&bench, &own.version, Vec::new(), missed, &first)?;
     let mut tried = vec![Some(in_short(&own))];
     let mut best = (0, own.clone());
     for (i, form) in others.iter().enumerate() {
         let fitted = leaves_something(&own).then(|| {
             let places = places(form, &own.fit);
-            measured.compare_from(&bench, &form.version, places, &|doing| watch(doing, i + 1))
+            let other = |doing| watch(doing, i + 1);
+            measured.compare_from(&bench, &form.version, places, missed, &other)
         });
         // a form that cannot be fitted is no reason against the others
         let fitted = fitted.and_then(Result::ok);

@@ -15,7 +15,7 @@ use crate::learn::noise::NoiseModel;
 use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
-use crate::study::{ContactKind, Study, StudyError, WEAR_COEFFICIENT};
+use crate::study::{ContactKind, Role, Study, StudyError, WEAR_COEFFICIENT};
 
 /// A fit and what it says of the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +24,8 @@ pub struct Compared {
     pub fit: Fit,
     /// How wrong the fitted model is, and where.
     pub comparison: Comparison,
+    /// Where the fit was given up early: the share that it had explained of what the model without its last effect misses beyond noise.
+    pub given_up: Option<f64>,
 }
 
 /// What a comparison is at.
@@ -121,18 +123,20 @@ impl Measured<'_> {
         version: &ModelVersion,
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
-        self.compare_from(bench, version, Vec::new(), watch)
+        self.compare_from(bench, version, Vec::new(), None, watch)
     }
 
-    /// The same where a fit may start from some places too, each a value for every free parameter but k.
+    /// The same where a fit may start from some places too, each a value for every free parameter but k, and is given up early
+    /// where that is hopeless against `missed`.
     ///
     /// # Errors
     /// [`FitError`].
-    pub fn compare_from(
+    pub(super) fn compare_from(
         &self,
         bench: &Bench<'_>,
         version: &ModelVersion,
         places: Vec<Vec<f64>>,
+        missed: Option<&Missed<'_>>,
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
         let noise = NoiseModel::of(&self.study().noise);
@@ -146,7 +150,31 @@ impl Measured<'_> {
         };
         told(0);
         let start = self.start(bench, version, noise, places, &told);
-        let first = self.fit(bench, version, noise, &[start], &effort, &told)?;
+        let first = match missed {
+            None => self.fit(bench, version, noise, &[start], &effort, &told)?,
+            Some(missed) => {
+                let look = Effort {
+                    iterations: LOOK_STEPS,
+                    ..effort
+                };
+                let mut first = self.fit(bench, version, noise, &[start], &look, &told)?;
+                let hopeless = |fit: &Fit| missed.explained(self, fit).filter(|s| *s < HOPELESS);
+                if hopeless(&first).is_some() {
+                    // not without a look from elsewhere
+                    let medians = [medians(version)];
+                    if let Ok(second) = self.fit(bench, version, noise, &medians, &look, &told)
+                        && second.log_posterior > first.log_posterior
+                    {
+                        first = second;
+                    }
+                }
+                match hopeless(&first) {
+                    Some(share) => return Ok(self.judged(bench, version, first, Some(share))),
+                    None if first.converged => first,
+                    None => self.go_on(bench, version, noise, &first, &effort, &told)?,
+                }
+            }
+        };
         let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
         let fit = if settled || version.effects.is_empty() {
             first
@@ -159,10 +187,25 @@ impl Measured<'_> {
                 .unwrap_or(first)
         };
         let fit = self.refined(bench, version, noise, fit, &effort, &told);
+        Ok(self.judged(bench, version, fit, None))
+    }
+
+    /// A fit with what it says of the model.
+    fn judged(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        fit: Fit,
+        given_up: Option<f64>,
+    ) -> Compared {
         let mut comparison = Comparison::new(self.study(), &self.data, &fit);
         let closed = self.closed_backlash(bench, version, &fit);
         comparison.warnings.extend(closed);
-        Ok(Compared { fit, comparison })
+        Compared {
+            fit,
+            comparison,
+            given_up,
+        }
     }
 
     /// What to say where the fitted effects bring the axes so close that teeth of full thickness would jam.
@@ -224,6 +267,61 @@ impl Measured<'_> {
         fit
     }
 }
+
+/// Steps after which it is looked at whether a fit is hopeless.
+const LOOK_STEPS: usize = 6;
+/// Share of what is missed below which a fit is hopeless by then.
+const HOPELESS: f64 = 0.1;
+
+/// What a model without an effect misses, asked for only where a fit of the effect does not come to an end soon.
+pub(super) struct Missed<'m> {
+    /// The model without it: k alone is fitted.
+    pub(super) without: &'m ModelVersion,
+    /// Its bench.
+    pub(super) bench: &'m Bench<'m>,
+    /// χ² of the fit tests, once known; None where it cannot be computed.
+    pub(super) square: std::cell::OnceCell<Option<f64>>,
+}
+
+impl Missed<'_> {
+    /// The share of the misfit beyond noise that `fit` explains; None where it leaves little, or the model without the effect does.
+    fn explained(&self, measured: &Measured<'_>, fit: &Fit) -> Option<f64> {
+        let chi2 = |fit: &Fit| -> (f64, f64) {
+            let rows = measured.data.observations.iter().zip(&fit.rows);
+            let fitted = rows.filter(|(o, _)| measured.roles[o.test] == Role::Fit);
+            fitted.fold((0.0, 0.0), |(sum, count), (_, row)| {
+                (sum + row.standardised.powi(2), count + 1.0)
+            })
+        };
+        let (with, points) = chi2(fit);
+        if fit.converged && with < points * (1.0 + LEAST_MISSED) {
+            return None;
+        }
+        let square = self.square.get_or_init(|| {
+            let noise = NoiseModel::of(&measured.study().noise);
+            let effort = Effort {
+                iterations: 2,
+                settle: 0,
+                ..Effort::for_simulations()
+            };
+            let base = measured.fit(
+                self.bench,
+                self.without,
+                noise,
+                &[Vec::new()],
+                &effort,
+                &|_| {},
+            );
+            base.ok().map(|base| chi2(&base).0)
+        });
+        let square = (*square)?;
+        let missed = square - points;
+        (missed > points * LEAST_MISSED).then(|| (square - with) / missed)
+    }
+}
+
+/// Misfit beyond noise, as a share of that of noise, from which an effect can be hopeless.
+const LEAST_MISSED: f64 = 0.5;
 
 /// Wear histories of one test that a fit of one parameter takes, from experience.
 const HISTORIES_PER_TEST: usize = 6;

@@ -137,12 +137,7 @@ fn size(cell: &Cell) -> String {
 fn place(key: &CellKey) -> String {
     match (key.1.member(), key.3) {
         (Some(member), Some(region)) => {
-            format!(
-                " on the {}'s {} ({})",
-                member.name(),
-                words(member, region),
-                region.name()
-            )
+            format!(" on the {}'s {}", member.name(), words(member, region))
         }
         (Some(member), None) => format!(" of the {}", member.name()),
         (None, _) => String::new(),

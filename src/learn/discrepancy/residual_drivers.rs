@@ -111,6 +111,10 @@ pub struct DriverRow {
     pub position: Option<f64>,
     /// Values of [`DRIVER_KINDS`]; None where there is none.
     pub values: [Option<f64>; DRIVERS],
+    /// The measured value, in the quantity's unit.
+    pub measured: f64,
+    /// One standard deviation of it.
+    pub sigma: f64,
     /// Residual of the base model, in sigmas.
     pub before: f64,
     /// Of the model after.
@@ -136,6 +140,8 @@ pub(in crate::learn) fn of(
                 member: o.member.name(),
                 quantity: o.quantity.name(),
                 position: o.position,
+                measured: o.value,
+                sigma: o.sigma,
                 values: values(o, conditions, locals[i].as_ref()),
                 before: before[i],
                 after: now.as_ref().map(|now| now[i]),
@@ -274,6 +280,8 @@ mod tests {
                     quantity: "wear_depth",
                     position: Some(27.0),
                     values,
+                    measured: 0.0,
+                    sigma: 1.0,
                     before: before(path, torque, e[i]),
                     after: Some(f[i]),
                 }

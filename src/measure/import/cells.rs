@@ -12,6 +12,8 @@ pub struct Sheet {
     pub name: String,
     /// Its rows from the first on, empty cells as empty texts.
     pub rows: Vec<Vec<String>>,
+    /// Whether `1.234` can only be one and a bit: numbers of a spreadsheet, and texts with commas between columns.
+    pub plain_decimals: bool,
 }
 
 /// Spreadsheets that have to be saved in another form first.
@@ -73,6 +75,7 @@ fn of_text(text: &str) -> Sheet {
     Sheet {
         name: String::new(),
         rows: rows.collect(),
+        plain_decimals: separator == b',',
     }
 }
 

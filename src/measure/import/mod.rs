@@ -1,15 +1,21 @@
 //! Tables that are no measurement file yet: a column for each checkpoint or for each radius, from a spreadsheet or a text, as rows of one.
 //!
 //! ```text
-//! .xlsx or text -> sheets of cells (cells) -> which cell is what (wide) -> rows of measurements.csv
+//! .xlsx or text -> sheets of cells (cells) -> which cell is what (wide; rows where it is a measurement file) -> measurements.csv
 //! ```
 
 mod cells;
+mod numbers;
+mod rows;
+mod units;
 mod wide;
 mod xlsx;
 
 pub use cells::{Sheet, sheets};
-pub use wide::{Across, Mapping, PositionKind, Wanted, as_measurements, map};
+pub use numbers::Decimal;
+pub use rows::as_measurements;
+pub use units::factor;
+pub use wide::{Across, Mapping, PositionKind, Wanted, map};
 
 /// Why a table cannot be read as measurements: what is wrong, where, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -1,8 +1,10 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
-use super::{ImportError, Sheet, cell_name};
+use super::numbers::{
+    Decimal, header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
+};
+use super::{ImportError, Sheet, cell_name, units};
 use crate::gear::{Gear, Member};
-use crate::measure::dialect::in_thousands;
 use crate::measure::{Place, Quantity, Subject};
 
 /// What the columns of a wide table are.
@@ -88,8 +90,12 @@ pub struct Wanted<'a> {
     pub position: Option<PositionKind>,
     /// What the columns are; the numbers say it otherwise.
     pub across: Option<Across>,
-    /// Factor from the table's unit to the quantity's, with a sign.
-    pub factor: f64,
+    /// Unit of the values; what the headers say otherwise, or the quantity's own.
+    pub unit: Option<&'a str>,
+    /// Whether lost material is negative in the table.
+    pub turn_sign: bool,
+    /// How decimals are written; the numbers say it otherwise.
+    pub decimal: Option<Decimal>,
     /// One standard deviation, in the quantity's unit.
     pub sigma: f64,
     /// Whether each checkpoint is a trace with a zero of its own.
@@ -109,6 +115,8 @@ pub struct Mapping {
     pub checkpoints: Vec<f64>,
     /// Least and largest position as the table has them.
     pub from_to: [f64; 2],
+    /// Unit of the values in the table, and whether a header states it.
+    pub unit: (String, bool),
     /// Cells without a value.
     pub empty: usize,
     /// Rows of a measurement file, without header.
@@ -122,6 +130,7 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
+    let sheet = &with_points(sheet, wanted.decimal)?;
     let head = header(sheet)?;
     let across: Vec<(usize, f64)> = sheet.rows[head]
         .iter()
@@ -156,13 +165,18 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
         (Some(kind), _) => kind,
         (None, _) => PositionKind::of_header(&corner),
     };
+    let angle = position == PositionKind::RollAngle;
+    let scale = match position {
+        PositionKind::Rotation => 1.0,
+        _ => units::of_position(&corner, angle)?,
+    };
     let (column_numbers, row_numbers): (Vec<f64>, Vec<f64>) = (
         across.iter().map(|a| a.1).collect(),
         down.iter().map(|d| d.1).collect(),
     );
     let orientation = match wanted.across {
         Some(across) => across,
-        None => orientation(&column_numbers, &row_numbers, position, wanted)?,
+        None => orientation(&column_numbers, &row_numbers, (position, scale), wanted)?,
     };
     let (places, checkpoints) = match orientation {
         Across::Checkpoints => (&row_numbers, &column_numbers),
@@ -176,6 +190,22 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
             (down.iter()).try_for_each(|&(row, _)| plain_cycles(cell(row, 0), row, 0))?
         }
     }
+    // beside positions the headers' unit is that of the positions
+    let headers = across.iter().map(|&(column, _)| cell(head, column));
+    let unit = match orientation {
+        Across::Checkpoints => unit(headers, wanted)?,
+        Across::Positions => (
+            wanted.unit.unwrap_or(wanted.quantity.unit()).to_owned(),
+            false,
+        ),
+    };
+    let own = wanted.unit.is_none() && !unit.1;
+    let factor = if own {
+        1.0
+    } else {
+        units::factor(&unit.0, wanted.quantity)?
+    };
+    let factor = if wanted.turn_sign { -factor } else { factor };
     let mut rows = Vec::new();
     let mut empty = 0;
     for &(column, head_number) in &across {
@@ -185,7 +215,7 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
                 empty += 1;
                 continue;
             }
-            let value = wanted.factor * number(text, row, column)?;
+            let value = factor * number(text, row, column)?;
             let (cycles, place) = match orientation {
                 Across::Checkpoints => (head_number, first),
                 Across::Positions => (first, head_number),
@@ -211,7 +241,7 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
                 quoted(wanted.test),
                 wanted.member.name(),
                 wanted.quantity.name(),
-                rounded(position.position(place, wanted.gear)),
+                rounded(position.position(scale * place, wanted.gear)),
                 rounded(value),
                 wanted.sigma,
                 quoted(&trace)
@@ -228,9 +258,34 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
         corner: (cell_name(head, 0), corner),
         checkpoints,
         from_to: [least, largest],
+        unit,
         empty,
         rows,
     })
+}
+
+/// The unit of the values: as stated, as headers say, or the quantity's own; and whether a header says it.
+fn unit<'h>(headers: impl Iterator<Item = &'h str>, wanted: &Wanted<'_>) -> Result<(String, bool)> {
+    let mut said: Vec<&str> = headers
+        .filter_map(|header| units::of_values(header, wanted.quantity))
+        .collect();
+    said.dedup();
+    match (said[..].first(), wanted.unit) {
+        (_, _) if said.len() > 1 => Err(ImportError(format!(
+            "the headers state several units: {}",
+            said.join(", ")
+        ))),
+        (Some(said), Some(stated))
+            if units::factor(said, wanted.quantity) != units::factor(stated, wanted.quantity) =>
+        {
+            Err(ImportError(format!(
+                "the headers say {said}, --unit says {stated}"
+            )))
+        }
+        (Some(said), None) => Ok(((*said).to_owned(), true)),
+        (_, Some(stated)) => Ok((stated.to_owned(), false)),
+        (None, None) => Ok((wanted.quantity.unit().to_owned(), false)),
+    }
 }
 
 /// The first row with something in the first column and a number in the header of another: titles stand above it.
@@ -259,12 +314,12 @@ fn header(sheet: &Sheet) -> Result<usize> {
 fn orientation(
     columns: &[f64],
     rows: &[f64],
-    position: PositionKind,
+    (position, scale): (PositionKind, f64),
     wanted: &Wanted<'_>,
 ) -> Result<Across> {
     let on_flank = |numbers: &[f64]| match wanted.gear {
         Some(gear) => numbers.iter().all(|&n| {
-            let radius = position.position(n, Some(gear));
+            let radius = position.position(scale * n, Some(gear));
             (gear.form_radius - 0.01..=gear.tip_radius + 0.01).contains(&radius)
         }),
         None => numbers.iter().all(|n| (0.0..=1.0).contains(n)),
@@ -294,111 +349,7 @@ fn orientation(
     }
 }
 
-/// The one number of a header such as `250000 cycles` or `r = 26,5 mm`.
-fn header_number(text: &str, row: usize, column: usize) -> Result<f64> {
-    let refuse = |why: &str| {
-        let cell = cell_name(row, column);
-        Err(ImportError(format!("{cell}: {why} in the header `{text}`")))
-    };
-    let words = number_words(text);
-    let [one] = words[..] else {
-        return refuse(if words.is_empty() {
-            "no number"
-        } else {
-            "several numbers (write one, without marks between thousands)"
-        });
-    };
-    let at = text.find(one).unwrap_or_default();
-    let letter = |c: Option<char>| c.is_some_and(char::is_alphabetic);
-    let (before, after) = (&text[..at], &text[at + one.len()..]);
-    if letter(before.chars().next_back()) || letter(after.chars().next()) || scaled(after) {
-        return refuse(
-            "a number with a letter, a multiple or a time (write plain pinion revolutions or places)",
-        );
-    }
-    match pointed(one).parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => refuse("no plain number (marks between thousands are left out)"),
-    }
-}
-
-/// Whether what follows a number makes another one of it: `Mio`, `thousand`, `h`.
-fn scaled(after: &str) -> bool {
-    const WORDS: [&str; 14] = [
-        "k", "m", "mio", "million", "millions", "thousand", "tsd", "h", "hour", "hours", "std",
-        "min", "s", "days",
-    ];
-    let mut words = after.split(|c: char| !c.is_alphabetic());
-    let first = words.find(|word| !word.is_empty()).unwrap_or_default();
-    WORDS.contains(&first.to_lowercase().as_str())
-}
-
-/// Refuses a count of cycles that may be marked between its thousands: `250.000` is 250 or a quarter of a million.
-fn plain_cycles(text: &str, row: usize, column: usize) -> Result<()> {
-    match number_words(text)
-        .into_iter()
-        .find(|word| in_thousands(word))
-    {
-        None => Ok(()),
-        Some(word) => Err(ImportError(format!(
-            "{}: are the cycles `{word}` marked between thousands? Write them without marks",
-            cell_name(row, column)
-        ))),
-    }
-}
-
-/// The words of a text that hold digits.
-fn number_words(text: &str) -> Vec<&str> {
-    let part = |c: char| c.is_ascii_digit() || "+-.,eE".contains(c);
-    text.split(|c: char| !part(c))
-        .map(|word| word.trim_matches(['e', 'E', '.', ',']))
-        .filter(|word| word.contains(|c: char| c.is_ascii_digit()))
-        .collect()
-}
-
-fn number(text: &str, row: usize, column: usize) -> Result<f64> {
-    let found = pointed(text).parse::<f64>().ok().filter(|v| v.is_finite());
-    found.ok_or_else(|| {
-        ImportError(format!(
-            "{}: `{text}` is not a number",
-            cell_name(row, column)
-        ))
-    })
-}
-
-/// With a point for a decimal comma.
-fn pointed(text: &str) -> String {
-    if text.matches(',').count() == 1 && !text.contains('.') {
-        text.replace(',', ".")
-    } else {
-        text.to_owned()
-    }
-}
-
-/// Nine digits: conversions leave no trail of rounding.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.8e}").parse().unwrap_or(value)
-}
-
-/// A sheet in the columns of a measurement file, as its text; none if it has other columns.
-pub fn as_measurements(sheet: &Sheet) -> Option<String> {
-    let is_header = |row: &&Vec<String>| {
-        let has = |name: &str| row.iter().any(|cell| cell.to_lowercase() == name);
-        ["test", "member", "quantity"].into_iter().all(has)
-    };
-    let head = sheet.rows.iter().position(|row| is_header(&row))?;
-    let columns = sheet.rows[head].len();
-    let rows = sheet.rows[head..]
-        .iter()
-        .filter(|row| !row.iter().all(String::is_empty));
-    let line = |row: &Vec<String>| {
-        let cells = (0..columns).map(|i| quoted(row.get(i).map_or("", String::as_str)));
-        cells.collect::<Vec<_>>().join(",") + "\n"
-    };
-    Some(rows.map(line).collect())
-}
-
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     if text.contains([',', '"']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

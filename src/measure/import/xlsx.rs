@@ -49,6 +49,7 @@ pub(super) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>> {
         Ok(Sheet {
             name: sheet.attribute("name").unwrap_or_default().to_owned(),
             rows: rows(&parsed(&text)?, &shared)?,
+            plain_decimals: true,
         })
     });
     sheets.collect()

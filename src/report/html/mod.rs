@@ -9,6 +9,7 @@ mod files;
 mod ladder;
 mod live;
 mod models;
+mod oil_and_heat;
 mod page;
 mod run;
 mod table;

@@ -1,5 +1,6 @@
 //! `report.html` of one run.
 use super::files;
+use super::oil_and_heat::oil_and_heat;
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::gear::Pair;
@@ -21,6 +22,7 @@ pub fn run(run: &Run, pair: Option<&Pair>) -> Result<Page, OutputError> {
     sections.extend(pair.map(|pair| Section::new("The gears").drawings(drawings::of_pair(pair))));
     sections.push(wear(run).drawings(worn));
     sections.push(contact(run));
+    sections.push(oil_and_heat(run));
     let stresses = drawings::stresses(run)?;
     sections.extend(stresses.map(|drawing| stress(run).drawings([drawing])));
     sections.extend([inputs(run), geometry(run), mesh_and_cost(run)]);
@@ -102,7 +104,23 @@ fn contact(run: &Run) -> Section {
 }
 
 fn stress(run: &Run) -> Section {
-    Section::new("Mesh and stress").note(format!(
+    let section = Section::new("Mesh and stress");
+    let roots = Member::BOTH
+        .into_iter()
+        .zip(run.root_stress.iter().flatten());
+    let section = roots.fold(section, |mut section, (member, root)| {
+        section.key_figures.push((
+            format!(
+                "largest tensile stress in the {}'s fillet, at radius {} mm, tooth loaded {} mm from the pitch point",
+                member.name(),
+                significant(root.radius, 4),
+                significant(root.path, 3)
+            ),
+            format!("{} MPa", significant(root.stress, 4)),
+        ));
+        section
+    });
+    section.note(format!(
         "Deformed as computed, not magnified. Along the flanks elements are too small to be told apart but in the close-ups, which show \
          the contact that carries most and have a scale of their own. As files: `plots/stress_*.svg` and `.png`. The {} stored \
          fields hold displacement, stress tensor, contact pressure and worn depth for ParaView.",
@@ -373,7 +391,7 @@ pub fn files_of_run(run: &Run, names: &[String]) -> Section {
         return section;
     }
     section.note(
-        "To look at the fields, load `fields/paraview.py` in ParaView (File, Load State), which sets range, camera and colours; or open \
+        "To look at the fields, load `fields/open_in_paraview.py` in ParaView (File, Load State), which sets range, camera and colours; or open \
          `fields/wear.pvd`, press Apply and choose an array to colour by \
          (`von_mises`, `contact_pressure`, `wear_depth`). The time slider runs over pinion revolutions; \
          `fields/mesh_cycle_NNN.pvd` runs over one base pitch instead. The filter Warp By Vector makes deflection \

@@ -7,6 +7,24 @@ use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity}
 pub fn conclusions(comparison: &Comparison) -> Vec<String> {
     let all = &comparison.mounted;
     let mut said = Vec::new();
+    for (quantity, member) in [
+        (Quantity::DepthPinion, "pinion"),
+        (Quantity::DepthGear, "gear"),
+    ] {
+        let off = all
+            .iter()
+            .filter_map(|m| ratio(m, quantity, Kind::Hertz))
+            .map(|r| r - 1.0);
+        if let Some(range) = range(off, |v| format!("{} %", signed(100.0 * v, 1))) {
+            let ways = all
+                .iter()
+                .map(|m| m.causes(quantity, Kind::Hertz, Kind::Fem));
+            said.push(format!(
+                "On the {member} the Hertz model's mean depth is {range} off that of finite elements, {}.",
+                blame(ways)
+            ));
+        }
+    }
     let single = all
         .iter()
         .filter_map(|m| m.single)
@@ -32,24 +50,6 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
             "The published model wears the pinion {range} times as deep as finite elements do, {}.",
             blame(ways)
         ));
-    }
-    for (quantity, member) in [
-        (Quantity::DepthPinion, "pinion"),
-        (Quantity::DepthGear, "gear"),
-    ] {
-        let off = all
-            .iter()
-            .filter_map(|m| ratio(m, quantity, Kind::Hertz))
-            .map(|r| r - 1.0);
-        if let Some(range) = range(off, |v| format!("{} %", signed(100.0 * v, 1))) {
-            let ways = all
-                .iter()
-                .map(|m| m.causes(quantity, Kind::Hertz, Kind::Fem));
-            said.push(format!(
-                "The Hertz model's mean depth on the {member} differs from that of finite elements by {range}, {}.",
-                blame(ways)
-            ));
-        }
     }
     for out in &comparison.left_out {
         said.push(format!(

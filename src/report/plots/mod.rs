@@ -16,7 +16,7 @@ pub use comparison::{errors_by_place, of_comparison};
 pub use ladder::of_ladder;
 pub use models::of_models;
 pub(in crate::report) use run::depths;
-pub use run::{contact_of_run, live_states, of_run, wear_of_run};
+pub use run::{contact_of_run, live_states, of_run, oil_and_heat_of_run, wear_of_run};
 pub(in crate::report) use style::Hue;
 pub use sweep::{SweepCurve, sweep_picture};
 

@@ -30,6 +30,34 @@ pub fn contact_of_run(run: &Run) -> Vec<Plot> {
     plots.into_iter().filter(|plot| !plot.is_empty()).collect()
 }
 
+/// Film ratio, flash temperature and power lost along the path of contact; those that do not follow from the study left out.
+pub fn oil_and_heat_of_run(run: &Run) -> Vec<Plot> {
+    let film = Plot::new(
+        "film_ratio",
+        "Film ratio: smallest film thickness over the composite roughness",
+        PATH,
+        "film ratio, -",
+    );
+    let flash = Plot::new(
+        "flash_temperature",
+        "Rise of the contact temperature over the bulk",
+        PATH,
+        "flash temperature, K",
+    );
+    let power = Plot::new(
+        "friction_power",
+        "Power that friction takes at one tooth pair",
+        PATH,
+        "power, W",
+    );
+    let plots = [
+        along_path_where(film, run, |pair| pair.sliding.film_ratio),
+        along_path_where(flash, run, |pair| pair.sliding.flash_temperature),
+        along_path_where(power, run, |pair| pair.sliding.power),
+    ];
+    plots.into_iter().filter(|plot| !plot.is_empty()).collect()
+}
+
 /// The states that a page with scripts can be moved through: at most 40, the first and the last among them.
 pub fn live_states(run: &Run) -> Vec<usize> {
     chosen(run.states.len(), 40)
@@ -149,12 +177,17 @@ fn corner_pressure(run: &Run) -> Plot {
 
 /// First and last state; the pairs that touch with a tip corner as crosses of the same colour.
 fn along_path(plot: Plot, run: &Run, value: impl Fn(&PairState) -> f64) -> Plot {
+    along_path_where(plot, run, |pair| Some(value(pair)))
+}
+
+/// The same, of the pairs that have a value.
+fn along_path_where(plot: Plot, run: &Run, value: impl Fn(&PairState) -> Option<f64>) -> Plot {
     let mut plot = plot.with_marks(letters(run)).starting_at_zero();
     let gather = |state: &State, at_corner: bool| {
         let mut points: Vec<(f64, f64)> = state
             .pairs()
             .filter(|pair| pair.line_load > 0.0 && pair.at_corner == at_corner)
-            .map(|pair| (pair.path, value(pair)))
+            .filter_map(|pair| Some((pair.path, value(pair)?)))
             .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         points

@@ -1,4 +1,4 @@
-//! `fields/paraview.py`: opens the fields in ParaView with range, camera and colours set.
+//! `fields/open_in_paraview.py`: opens the fields in ParaView with range, camera and colours set.
 
 use crate::report::format::significant;
 use crate::simulate::result::{FieldFrame, Member, Run};
@@ -11,7 +11,7 @@ const IN_RANGE: f64 = 0.99;
 const WARP: f64 = 10.0;
 
 const SCRIPT: &str = r#"# Opens these fields in ParaView, coloured by von Mises stress, the contact in view, displacements WARP times enlarged.
-#   File > Load State..., or: paraview paraview.py, or: pvpython paraview.py picture.png
+#   File > Load State..., or: paraview --script=open_in_paraview.py, or: pvpython open_in_paraview.py picture.png
 import os
 import sys
 
@@ -27,13 +27,9 @@ if not os.path.isfile(os.path.join(here, "wear.pvd")):
 series = PVDReader(FileName=os.path.join(here, "wear.pvd"))
 RenameSource("wear.pvd", series)
 view = GetActiveViewOrCreate("RenderView")
-view.InteractionMode = "2D"
-view.CameraParallelProjection = 1
-view.CameraPosition = [X, Y, 100.0]
-view.CameraFocalPoint = [X, Y, 0.0]
-view.CameraViewUp = [0.0, 1.0, 0.0]
-view.CameraParallelScale = HALF_HEIGHT
 view.OrientationAxesVisibility = 0
+if len(sys.argv) > 1:
+    view.ViewSize = [1200, 800]
 
 scene = GetAnimationScene()
 scene.UpdateAnimationUsingDataTimeSteps()
@@ -55,6 +51,23 @@ shown.SetScalarBarVisibility(view, True)
 bar = GetScalarBar(colours, view)
 bar.Title = "von Mises, MPa"
 bar.ComponentTitle = ""
+bar.Orientation = "Vertical"
+bar.WindowLocation = "Any Location"
+bar.Position = [0.88, 0.3]
+bar.ScalarBarLength = 0.4
+bar.ScalarBarThickness = 14
+bar.TitleFontSize = bar.LabelFontSize = 14
+bar.AutomaticLabelFormat = 0
+bar.LabelFormat = bar.RangeLabelFormat = "%.0f"
+
+# the first picture of a view moves the camera: the contact is looked at after it
+Render(view)
+view.InteractionMode = "2D"
+view.CameraParallelProjection = 1
+view.CameraPosition = [X, Y, 100.0]
+view.CameraFocalPoint = [X, Y, 0.0]
+view.CameraViewUp = [0.0, 1.0, 0.0]
+view.CameraParallelScale = HALF_HEIGHT
 Render(view)
 if len(sys.argv) > 1 and sys.argv[1].endswith(".png"):
     SaveScreenshot(sys.argv[1], view, ImageResolution=[1200, 800])

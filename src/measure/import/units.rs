@@ -1,0 +1,120 @@
+//! Units of tables: what headers say, and factors to the units of a measurement file.
+
+use super::ImportError;
+use crate::measure::Quantity;
+
+/// Units of a quantity's values with their factors to its own, the first one.
+fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
+    match quantity {
+        Quantity::WearDepth => &[("um", 1.0), ("mm", 1e3), ("nm", 1e-3), ("in", 25.4e3)],
+        Quantity::TransmissionError => &[("urad", 1.0), ("mrad", 1e3), ("arcsec", 4.848_136_811)],
+        Quantity::ContactPressure => &[("MPa", 1.0), ("GPa", 1e3), ("N/mm2", 1.0)],
+        Quantity::LoadShare => &[("1", 1.0), ("%", 0.01)],
+        Quantity::MeshStiffness => &[("N/(mm um)", 1.0), ("N/mm/um", 1.0)],
+        Quantity::MassLoss => &[],
+    }
+}
+
+/// Units of positions with their factors to mm and degrees.
+const LENGTHS: [(&str, f64); 5] = [
+    ("mm", 1.0),
+    ("um", 1e-3),
+    ("cm", 10.0),
+    ("m", 1e3),
+    ("in", 25.4),
+];
+const ANGLES: [(&str, f64); 4] = [
+    ("deg", 1.0),
+    ("\u{b0}", 1.0),
+    ("rad", 180.0 / std::f64::consts::PI),
+    ("mrad", 0.18 / std::f64::consts::PI),
+];
+
+/// The factor from `unit` to the quantity's own.
+///
+/// # Errors
+/// [`ImportError`] for a unit that the quantity does not have.
+pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, ImportError> {
+    let known = units(quantity);
+    find(known, unit).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        ImportError(format!(
+            "unit {unit}: units of {} are {}",
+            quantity.name(),
+            names.join(", ")
+        ))
+    })
+}
+
+/// The factor of a position's unit that `header` states in brackets to mm, or to degrees of an `angle`; 1 if it states none.
+pub(super) fn of_position(header: &str, angle: bool) -> Result<f64, ImportError> {
+    let known: &[(&str, f64)] = if angle { &ANGLES } else { &LENGTHS };
+    let Some(unit) = bracketed(header) else {
+        return Ok(1.0);
+    };
+    find(known, unit).ok_or_else(|| {
+        let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        ImportError(format!(
+            "`{header}`: positions in {unit} are not read; their unit is one of {}",
+            names.join(", ")
+        ))
+    })
+}
+
+/// The unit of the values that a header beside them states: in brackets, or as a word of its own.
+pub(super) fn of_values(header: &str, quantity: Quantity) -> Option<&'static str> {
+    let known = units(quantity).iter().filter(|(name, _)| *name != "1");
+    // `in` is a word of English too
+    let words = header.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
+    let words = words.map(plain).filter(|word| word != "in");
+    let mut stated = bracketed(header).map(plain).into_iter().chain(words);
+    stated.find_map(|word| {
+        known
+            .clone()
+            .find(|(name, _)| *name == word)
+            .map(|(name, _)| *name)
+    })
+}
+
+fn find(known: &[(&str, f64)], unit: &str) -> Option<f64> {
+    let unit = plain(unit);
+    let found = known.iter().find(|(name, _)| *name == unit);
+    found.map(|(_, factor)| *factor)
+}
+
+/// With the letter u for micro.
+fn plain(unit: &str) -> String {
+    unit.trim()
+        .replace(['\u{b5}', '\u{3bc}'], "u")
+        .replace("mm\u{b2}", "mm2")
+}
+
+/// What stands in the last brackets.
+fn bracketed(header: &str) -> Option<&str> {
+    let open = header.rfind(['[', '('])?;
+    let rest = &header[open + 1..];
+    let unit = &rest[..rest.find([']', ')'])?];
+    Some(unit.trim()).filter(|unit| !unit.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_tell_units() {
+        let depth = |header| of_values(header, Quantity::WearDepth);
+        assert_eq!(depth("Verschlei\u{df} [mm] nach 250000"), Some("mm"));
+        assert_eq!(depth("250000 (\u{b5}m)"), Some("um"));
+        assert_eq!(depth("250000 in total"), None);
+        assert_eq!(depth("250000 [in]"), Some("in"));
+        assert_eq!(depth("250000 cycles"), None);
+        assert_eq!(of_values("1e5 [%]", Quantity::LoadShare), Some("%"));
+        assert_eq!(of_values("1", Quantity::LoadShare), None);
+        assert_eq!(of_position("radius [in]", false), Ok(25.4));
+        assert_eq!(of_position("radius", false), Ok(1.0));
+        assert!(of_position("radius [furlong]", false).is_err());
+        let degrees = of_position("roll angle (rad)", true).unwrap();
+        assert!((degrees - 57.295_779_513).abs() < 1e-8);
+    }
+}
