@@ -180,6 +180,16 @@ fn headers_with_units_other_marks_and_repeated_measurements_are_read() {
         "radius;100000\n26.500;1.234\n27.000;0.512\n",
     );
     assert!(written.contains("wear_depth,27,0.512,"), "{written}");
+    // scatter that grows with the value: √(0.2² + (0.3·1)²)
+    let (told, _) = rows(
+        "-o rel.csv --relative-sigma 0.3",
+        "radius;100000\n26,5;1,0\n",
+    );
+    assert!(
+        told.contains("0.2 um for each, and 30 % of the value"),
+        "{told}"
+    );
+    assert!(read(&home, "rel.csv").contains("26.5,1,0.360555128,"));
     // the same table once more is a mistake, a repeated measurement is none
     let (code, _, error) = import(unclear, "-o out.csv --append --decimal point");
     assert_eq!(

@@ -54,6 +54,9 @@ pub struct ImportArgs {
     /// One standard deviation of every value, in the quantity's own unit (um of depth)
     #[arg(long, value_name = "SIGMA")]
     sigma: Option<f64>,
+    /// A further standard deviation as a share of each value (0.03: three percent), for scatter that grows with the wear
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    relative_sigma: f64,
     /// The instrument's zero is the same for all checkpoints: no trace of its own for each
     #[arg(long)]
     no_traces: bool,
@@ -273,6 +276,12 @@ fn wide(
             quantity.unit()
         ))
     })?;
+    if !(0.0..1.0).contains(&args.relative_sigma) {
+        return Err(unusable(format!(
+            "--relative-sigma {}: a share of the value, 0 to below 1",
+            args.relative_sigma
+        )));
+    }
     if let Some(unit) = &args.unit {
         import::factor(unit, quantity).map_err(|error| unusable(format!("--unit: {error}")))?;
     }
@@ -298,6 +307,7 @@ fn wide(
             Mark::Comma => import::Decimal::Comma,
         }),
         sigma,
+        relative_sigma: args.relative_sigma,
         traces: !args.no_traces,
     };
     let mut mapping = import::map(sheet, &wanted)
@@ -351,7 +361,7 @@ fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping
          down     {down}\n\
          across   {across}\n\
          values   {} of the {} in test {}, in {unit}{sign}\n\
-         sigma    {} {} for each\n\
+         sigma    {} {} for each{}\n\
          traces   {}\n",
         named(args, sheet),
         if words.is_empty() {
@@ -364,6 +374,10 @@ fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping
         wanted.test,
         wanted.sigma,
         wanted.quantity.unit(),
+        match wanted.relative_sigma {
+            0.0 => String::new(),
+            share => format!(", and {} % of the value", 100.0 * share),
+        },
         if wanted.traces {
             "one for each checkpoint: the instrument's zero is not known (--no-traces: it is the same for all)"
         } else {

@@ -98,6 +98,8 @@ pub struct Wanted<'a> {
     pub decimal: Option<Decimal>,
     /// One standard deviation, in the quantity's unit.
     pub sigma: f64,
+    /// Another, independent one as a share of the value.
+    pub relative_sigma: f64,
     /// Whether each checkpoint is a trace with a zero of its own.
     pub traces: bool,
 }
@@ -236,6 +238,10 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
             } else {
                 String::new()
             };
+            let sigma = match wanted.relative_sigma {
+                0.0 => wanted.sigma,
+                share => rounded(wanted.sigma.hypot(share * value)),
+            };
             format!(
                 "{},{},{cycles},{},{},{},{},{}",
                 quoted(wanted.test),
@@ -243,7 +249,7 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
                 wanted.quantity.name(),
                 rounded(position.position(scale * place, wanted.gear)),
                 rounded(value),
-                wanted.sigma,
+                sigma,
                 quoted(&trace)
             )
         })
