@@ -333,6 +333,48 @@ fn a_wave_is_found_from_another_valley() {
     }
 }
 
+/// An effect that explains next to nothing of what is missed is given up early, which is said; the right one is not.
+#[test]
+fn a_hopeless_effect_is_given_up_early() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let tests = [("A", "100.0"), ("B", "160.0")]
+        .map(|(id, torque)| format!("[[test]]\nid = \"{id}\"\ntorque = {torque}\ncycles = 8e5\n"));
+    let study = |end: &str| {
+        let rest = "[model]\ncontact = \"hertz\"\n[numerics]\npositions = 40\n";
+        let wear = WEAR.replace("6e-10", "5e-10").replace("50000", "1e6");
+        format!("{GEARS}{wear}{rest}{}{end}", tests.concat())
+    };
+    let hidden = "[[effect]]\nkind = \"running_in\"\namplitude = 4.0\ndecay_cycles = 1.5e5\n";
+    write("true.toml", study(hidden));
+    let made = [
+        "synthesize",
+        "true.toml",
+        "-o",
+        "made",
+        "--noise",
+        "0.02",
+        "--seed",
+        "1",
+    ];
+    let (code, _, err) = gearwear(&home, &made);
+    assert_eq!(code, Some(0), "{err}");
+    let measured = "[measurements]\nfile = \"measurements.csv\"\n";
+    write("made/start.toml", study(measured));
+    let explained = |effect: &str| {
+        let (code, out, err) = gearwear(&home, &["add", "made/start.toml", effect, "--json"]);
+        assert_eq!(code, Some(0), "{err}");
+        let document: serde_json::Value = serde_json::from_str(&out).unwrap();
+        document["fit"]["given_up_explaining"].as_f64()
+    };
+    let share = explained("tip_relief").expect("the profile does not run in");
+    assert!((-0.2..0.1).contains(&share), "{share}");
+    assert_eq!(explained("running_in"), None);
+    let again = ["add", "made/start.toml", "tip_relief", "--force"];
+    let (_, out, _) = gearwear(&home, &again);
+    assert!(out.contains("given up early"), "{out}");
+}
+
 /// A folder with the example of a hidden effect.
 fn home() -> TempDir {
     let home = tempfile::tempdir().unwrap();

@@ -10,7 +10,7 @@ use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::measured::Measured;
 use crate::measure::Dataset;
-use crate::study::{Study, WEAR_COEFFICIENT};
+use crate::study::{EffectModel, FreeParameter, Study, WEAR_COEFFICIENT};
 
 /// χ² per point beyond 1, in standard deviations of noise, with which another form is tried.
 const LEFT: f64 = 2.0;
@@ -67,14 +67,9 @@ pub fn add(
     let (own, others) = forms
         .split_first()
         .expect("an effect has a form of its own");
-    let without = ModelVersion::of(study);
-    // a study with effects of its own to fit is no model that k alone is fitted of
-    let alone = without
-        .free
-        .iter()
-        .all(|free| free.name == WEAR_COEFFICIENT);
-    let missed = alone.then(|| Missed {
-        without: &without,
+    let without = without_last(&forms[0].version);
+    let missed = without.as_ref().map(|without| Missed {
+        without,
         bench: &bench,
         square: OnceCell::new(),
     });
@@ -104,6 +99,25 @@ pub fn add(
         form,
         compared,
         tried,
+    })
+}
+
+/// The version without the effect that joined last, k free; None where parameters of other effects are free too, for then k alone
+/// does not make the model that it joined.
+fn without_last(version: &ModelVersion) -> Option<ModelVersion> {
+    let (last, before) = version.effects.specs().split_last()?;
+    let own = format!("{}.", last.name);
+    let of_k = |free: &FreeParameter| free.name == WEAR_COEFFICIENT;
+    let mut free = version.free.iter();
+    let alone = free.all(|free| of_k(free) || free.name.starts_with(&own));
+    alone.then(|| ModelVersion {
+        effects: EffectModel::new(before.to_vec()),
+        free: version
+            .free
+            .iter()
+            .filter(|free| of_k(free))
+            .cloned()
+            .collect(),
     })
 }
 
