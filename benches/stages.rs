@@ -25,7 +25,7 @@ use gearwear::material::Elastic;
 use gearwear::simulate::checkpoint::Checkpoint;
 use gearwear::simulate::forward::{Conditions, ContactKind, Forward, GearSet};
 use gearwear::simulate::gather;
-use gearwear::simulate::history::{Progress, WearLaw, wear_until};
+use gearwear::simulate::history::{Balancing, Progress, WearLaw, wear_until};
 use gearwear::simulate::members::{Member, Members};
 use gearwear::simulate::numerics::Numerics;
 use gearwear::simulate::run::{Event, Observer, Plan, run};
@@ -192,7 +192,7 @@ mod contact {
             coefficient: CONDITIONS.coefficient,
             acting: None,
             tolerance: numerics(fineness).step_tolerance,
-            balance: true,
+            balance: Balancing::History,
         };
         forward
             .with_model(|model| {
@@ -237,7 +237,7 @@ fn wear(bencher: Bencher, fineness: usize) {
         coefficient: CONDITIONS.coefficient,
         acting: None,
         tolerance: numerics(fineness).step_tolerance,
-        balance: true,
+        balance: Balancing::History,
     };
     forward
         .with_model(|model| {

@@ -5,7 +5,8 @@
 
 use gearwear::effects::CATALOGUE;
 use gearwear::learn::diagnose::{
-    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, RemainderEvidence,
+    Verdict, decide,
 };
 use proptest::prelude::*;
 
@@ -29,6 +30,22 @@ fn evidence(candidates: Vec<CandidateEvidence>, attainable: f64, unknown: f64) -
         attainable_drop: attainable,
         attainable_spread: 6.0,
         unknown_evidence_gain: unknown,
+        beside_unknown: Vec::new(),
+    }
+}
+
+/// The effect at this place of the catalogue, fitted beside a discrepancy: it brings `drop` alone and leaves `remaining` of χ².
+fn beside(place: usize, gain_over_unknown: f64, drop: f64, remaining: f64) -> RemainderEvidence {
+    RemainderEvidence {
+        effects: EffectSet::new([CATALOGUE[place]]),
+        identified: true,
+        gain_over_unknown,
+        remainder_gain: 0.4 * remaining,
+        chi2_drop: drop,
+        remaining_drop: remaining,
+        remaining_spread: 6.0,
+        transfer_drop: 2.0,
+        transfer_strengths: 3,
     }
 }
 
@@ -58,8 +75,15 @@ prop_compose! {
         candidates in prop::collection::vec(any_candidate(), 1..30),
         attainable in 0.0..8000.0_f64,
         unknown in -50.0..4000.0_f64,
+        remainders in prop::collection::btree_map(0..CATALOGUE.len(), (-5.0..300.0_f64, 0.0..1.0_f64), 0..=6),
     ) -> Evidence {
-        evidence(candidates, attainable, unknown)
+        let of = |(place, (gain, left)): (usize, (f64, f64))| {
+            beside(place, gain, attainable * (1.0 - left), attainable * left)
+        };
+        Evidence {
+            beside_unknown: remainders.into_iter().map(of).collect(),
+            ..evidence(candidates, attainable, unknown)
+        }
     }
 }
 
@@ -68,7 +92,12 @@ proptest! {
     fn the_order_of_the_candidates_changes_not_one_bit(
         (all, shuffled) in any_evidence().prop_flat_map(|e| {
             let candidates = Just(e.candidates.clone()).prop_shuffle();
-            (Just(e.clone()), candidates.prop_map(move |candidates| Evidence { candidates, ..e.clone() }))
+            let beside = Just(e.beside_unknown.clone()).prop_shuffle();
+            let shuffled = (candidates, beside).prop_map({
+                let e = e.clone();
+                move |(candidates, beside_unknown)| Evidence { candidates, beside_unknown, ..e.clone() }
+            });
+            (Just(e), shuffled)
         })
     ) {
         prop_assert_eq!(decided(&all), decided(&shuffled));
@@ -89,6 +118,15 @@ proptest! {
         }
         if decision.verdict == Verdict::Ambiguous {
             prop_assert!(decision.group.len() > 1);
+        }
+        if decision.verdict == Verdict::Partial {
+            prop_assert!(decision.probability(&Hypothesis::NothingMissing) < rule.doubt);
+            let of_group = |h: &Hypothesis| {
+                let alone = h.effects().map_or(0.0, |own| decision.probability_of(own));
+                decision.probability(h) + alone
+            };
+            let held: f64 = decision.group.iter().map(of_group).sum();
+            prop_assert!(held >= rule.claim * (1.0 - 6.0 * rule.alike), "{}", held);
         }
     }
 
@@ -126,6 +164,23 @@ proptest! {
             decided(&e).probability_of(&EffectSet::new([CATALOGUE[0]]))
         };
         prop_assert!(with(share + more) >= with(share) - 1e-12);
+    }
+
+    #[test]
+    fn more_evidence_beside_the_unknown_makes_an_effect_no_less_probable(
+        e in any_evidence(), more in 0.1..50.0_f64
+    ) {
+        for i in 0..e.beside_unknown.len() {
+            let mut risen = e.clone();
+            risen.beside_unknown[i].gain_over_unknown += more;
+            let own = &e.beside_unknown[i].effects;
+            let together = |d: &Decision| {
+                d.probability_of(own) + d.probability(&Hypothesis::EffectsAndUnknown(own.clone()))
+            };
+            let (before, after) = (decided(&e), decided(&risen));
+            prop_assert!(together(&after) >= together(&before) - 1e-9);
+            prop_assert!(after.probability(&Hypothesis::Unknown) <= before.probability(&Hypothesis::Unknown) + 1e-9);
+        }
     }
 
     #[test]
@@ -198,6 +253,42 @@ fn each_verdict_has_its_evidence() {
     let decision = decided(&evidence(vec![unidentified], 2000.0, 850.0));
     assert_eq!(decision.verdict, Verdict::Ambiguous);
     assert!(decision.group.contains(&Hypothesis::Unknown));
+}
+
+/// Half of what is missing is an effect that acts alike everywhere, the other half is smooth and of no effect: with the one established the
+/// other is not denied. Without evidence beside the discrepancy the same figures are unknown.
+#[test]
+fn an_effect_that_leaves_half_is_established_beside_something_unknown() {
+    let figures = evidence(vec![candidate(&[0], 480.0, 1000.0)], 2000.0, 850.0);
+    let with = |gain_over_unknown| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(0, gain_over_unknown, 1000.0, 1000.0)],
+            ..figures.clone()
+        })
+    };
+    let partial = with(40.0);
+    assert_eq!(partial.verdict, Verdict::Partial);
+    let own = EffectSet::new([CATALOGUE[0]]);
+    assert_eq!(partial.group, [Hypothesis::EffectsAndUnknown(own)]);
+    assert_eq!(with(-1.0).verdict, Verdict::Unknown);
+    assert_eq!(decided(&figures).verdict, Verdict::Unknown);
+}
+
+/// An effect that accounts for nine tenths is one; what it leaves beyond another form of it is said, what another form leaves is not.
+#[test]
+fn what_an_effect_leaves_is_said_where_its_form_does_not_excuse_it() {
+    let with = |drop: f64, remaining: f64| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(0, 60.0, drop, remaining)],
+            ..evidence(
+                vec![candidate(&[0], 0.5 * drop - 10.0, drop)],
+                2000.0,
+                850.0,
+            )
+        })
+    };
+    assert_eq!(with(1980.0, 20.0).verdict, Verdict::Effect);
+    assert_eq!(with(1760.0, 240.0).verdict, Verdict::Partial);
 }
 
 /// The weaker effect of a pair that adds next to nothing mends the form of the stronger one, which is named alone.

@@ -16,7 +16,9 @@ use gearwear::simulate::forward::ContactKind;
 use gearwear::study::Study;
 
 mod diagnosis {
+    pub(crate) mod climb;
     pub(crate) mod command;
+    pub(crate) mod partial;
     pub(crate) mod plan;
     pub(crate) mod spoiled;
 }

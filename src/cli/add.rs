@@ -5,7 +5,7 @@
 //!       -> the draft that fits best -> new study file
 //! ```
 
-mod drafts;
+pub(super) mod drafts;
 mod target;
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::{
-    CliError, Context, Outcome, add, check, compare, completions, diagnose, effects, export,
+    CliError, Context, Outcome, add, check, climb, compare, completions, diagnose, effects, export,
     import, init, ladder, mesh, models, plan, run, sweep, synthesize, validate,
 };
 
@@ -82,6 +82,8 @@ pub enum Command {
     Plan(plan::PlanArgs),
     /// Add a physical effect to a study, its parameters and the wear coefficient fitted to the measurements unless set
     Add(add::AddArgs),
+    /// Add one missing effect after the other, each only if it pays, until nothing more does
+    Climb(climb::ClimbArgs),
     /// Put versions of a model side by side: the error of each on fitted and on held-out tests
     Ladder(ladder::LadderArgs),
     /// Make up measurements of the study's own model, with noise, to plan and to try
@@ -110,6 +112,7 @@ impl Command {
             Command::Diagnose(args) => diagnose::execute(args, context),
             Command::Plan(args) => plan::execute(args, context),
             Command::Add(args) => add::execute(args, context),
+            Command::Climb(args) => climb::execute(args, context),
             Command::Ladder(args) => ladder::execute(args, context),
             Command::Synthesize(args) => synthesize::execute(args, context),
             Command::Effects(args) => effects::execute(args),

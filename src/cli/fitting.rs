@@ -42,7 +42,8 @@ pub(super) fn show_one_of(progress: &Progress, doing: Doing, number: usize, coun
     progress.show(done, format!("version {} of {count}: {what}", number + 1));
 }
 
-fn state(doing: Doing) -> (f64, String) {
+/// Share done, and what is being done.
+pub(super) fn state(doing: Doing) -> (f64, String) {
     match doing {
         Doing::Members => (0.0, "meshing and condensing the members".to_owned()),
         Doing::Tests => (0.1, "preparing the tests".to_owned()),

@@ -11,6 +11,7 @@
 mod add;
 pub mod args;
 mod check;
+mod climb;
 mod compare;
 mod completions;
 mod diagnose;

@@ -6,7 +6,8 @@
 //! discrepancy   what anything smooth could bring, a Gaussian process of unknown cause
 //! data checks   is the stated noise right, is one curve at fault, is there enough
 //! model search  all by the analytic model, leaders by coarse and by fine finite elements, pairs
-//! decision      nothing | effect | effects | ambiguous | unknown: one function of the evidence
+//! beside        every effect fitted together with a smooth discrepancy, where something smooth is missed
+//! decision      nothing | effect | effects | partial | ambiguous | unknown: one function of the evidence
 //! experiment    the test that would separate what is left
 //! explanation   the document and its sentences
 //! ```
@@ -14,7 +15,9 @@
 //! marginal likelihood with the noise of [`NoiseModel`], a correlated model error among it, and for each effect a tolerance for
 //! its own form (`OWN_FORM` in `likelihood`).
 
-pub use super::decision::{CandidateEvidence, Decision, DecisionRule, Evidence, Verdict, decide};
+pub use super::decision::{
+    CandidateEvidence, Decision, DecisionRule, Evidence, RemainderEvidence, Verdict, decide,
+};
 pub use super::discrepancy::{
     BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
     ResidualDriver, ResidualDrivers,
@@ -23,7 +26,7 @@ pub use super::experiment::{
     AloneTest, Campaign, ChosenTest, Decided, Leader, NextExperiment, NextTest, NextTests, Plan,
     RankedTest, Separated, Shown, plan_after, plan_first,
 };
-pub use super::explanation::{Diagnosis, Named, ParameterValue, Ranked, Screened};
+pub use super::explanation::{Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened};
 pub use super::fidelity::Fidelity;
 pub use super::hypothesis::candidate::NotJudged;
 pub use super::hypothesis::{EffectSet, Hypothesis};
@@ -133,7 +136,12 @@ fn search(
     let (singles, not_judged) = Candidate::singles(likelihood.measured.study());
     watch(0.2, format!("screening {} effects", singles.len()));
     let mut fitted = context.screen(base, &singles);
-    let unknown = gaussian_process::log_evidence(likelihood, base);
+    let unknown = gaussian_process::log_evidence(
+        likelihood,
+        &base.fitted.found,
+        &base.fitted.candidate.parameters,
+        None,
+    );
     let smooth = SmoothDiscrepancy::of(likelihood, &base.fitted.found.model)
         .gaining(unknown - base.fitted.log_evidence);
     let sparse_regression = matching_pursuit::selection(context, base, &fitted);
@@ -145,22 +153,29 @@ fn search(
     }
     if context.fidelity != Fidelity::Middle {
         fitted = decide_leaders(context, base, fitted, &|done, what| {
-            watch(0.5 + 0.3 * done, what);
+            watch(0.5 + 0.25 * done, what);
         });
     }
     let not_fitted = not_fitted(&singles, &fitted);
     if !context.approximate {
         // by the analytic model second effects would mend its own error
-        watch(0.8, "looking at pairs".to_owned());
+        watch(0.75, "looking at pairs".to_owned());
         fitted.extend(pairs::pairs(context, base, &fitted));
     }
-    watch(0.93, "weighing".to_owned());
     let rule = if context.approximate {
         DecisionRule::of_analytic_model()
     } else {
         DecisionRule::default()
     };
-    let posterior = Posterior::new(likelihood, base, fitted, &smooth, unknown, rule);
+    fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+    // by the analytic model what remains would be its own error
+    let beside = if smooth.is_real() && !context.approximate {
+        watch(0.85, "effects beside something unknown".to_owned());
+        context.beside_unknown(base, &singles, &fitted)
+    } else {
+        Vec::new()
+    };
+    let posterior = Posterior::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
     watch(0.95, "held-out tests and the next experiment".to_owned());
     let diagnosis = Diagnosis::new(Findings {
         context,

@@ -128,7 +128,7 @@ impl BaseFit {
 }
 
 /// Gram and Schmidt's columns of length 1, twice for rounding; dependent ones become 0.
-fn orthonormalise(columns: &mut DMatrix<f64>) {
+pub(super) fn orthonormalise(columns: &mut DMatrix<f64>) {
     for i in 0..columns.ncols() {
         let before = columns.column(i).norm();
         for _ in 0..2 {

@@ -6,10 +6,10 @@ use nalgebra::DMatrix;
 
 use crate::learn::hypothesis::version::parameter;
 use crate::learn::measured::Measured;
-use crate::learn::noise::{Covariance, ModelError, NoiseModel};
+use crate::learn::noise::{Covariance, Discrepancy, ModelError, NoiseModel};
 use crate::learn::parameters::Parameter;
 use crate::learn::predictor::{PredictError, Predictor};
-use crate::learn::quadratic::{Layout, State};
+use crate::learn::quadratic::{Layout, Normal, State};
 use crate::learn::scatter::marginal;
 use crate::learn::search::{Effort, Found, Search};
 use crate::learn::selection::Selection;
@@ -37,6 +37,8 @@ pub(super) struct Likelihood<'a> {
     pub(super) measured: &'a Measured<'a>,
     pub(super) noise: NoiseModel,
     selection: Selection<'a>,
+    /// What is integrated out with the noise.
+    discrepancy: Option<Discrepancy>,
     coefficient: Option<Parameter>,
     fixed_log_k: f64,
 }
@@ -56,6 +58,7 @@ impl<'a> Likelihood<'a> {
         let free = study.free().iter().find(|f| f.name == WEAR_COEFFICIENT);
         Self {
             selection: Selection::new(&measured.data, &measured.roles, role, &noise),
+            discrepancy: None,
             coefficient: free.filter(|_| role == Role::Fit).map(parameter),
             fixed_log_k: study.wear.coefficient.ln(),
             measured,
@@ -181,18 +184,58 @@ impl<'a> Likelihood<'a> {
         parameters: &[Parameter],
         error: Option<(&[f64], ModelError)>,
     ) -> (f64, DMatrix<f64>) {
-        let layout = self.layout(parameters);
-        let own;
-        let (covariance, normal) = match error {
-            None => (&self.covariance, &found.normal),
-            Some(error) => {
-                let (data, numbers) = (&self.measured.data, &self.numbers);
-                let covariance = Covariance::with_errors(data, numbers, &self.noise, &[error]);
-                let normal = self.normal(&found.model, &found.jacobian, &covariance);
-                own = (normal, covariance);
-                (&own.1, &own.0)
-            }
+        match error {
+            None => self.evidence_of(found, parameters, &self.covariance, &found.normal),
+            Some(error) => self.evidence_in(&self.covariance_with(&[error]), found, parameters),
+        }
+    }
+
+    /// The covariance with further correlated errors, each with its amplitude at every row.
+    pub(super) fn covariance_with(&self, errors: &[(&[f64], ModelError)]) -> Covariance {
+        let mut errors = errors.to_vec();
+        if let Some(Discrepancy::EachCurve(size, error)) = &self.discrepancy {
+            errors.push((size, *error));
+        }
+        let covariance =
+            Covariance::with_errors(&self.measured.data, &self.numbers, &self.noise, &errors);
+        match &self.discrepancy {
+            Some(Discrepancy::Shared(functions)) => covariance.with_shared(functions),
+            _ => covariance,
+        }
+    }
+
+    /// The same observations with a discrepancy beside every model.
+    pub(super) fn beside(&self, discrepancy: Discrepancy) -> Self {
+        let mut beside = Self {
+            selection: self.selection.clone(),
+            discrepancy: Some(discrepancy),
+            coefficient: self.coefficient.clone(),
+            ..*self
         };
+        let covariance = beside.covariance_with(&[]);
+        beside.selection = beside.selection.with_covariance(covariance);
+        beside
+    }
+
+    /// As [`Self::evidence`] with any covariance, linearised about the fit.
+    pub(super) fn evidence_in(
+        &self,
+        covariance: &Covariance,
+        found: &Found,
+        parameters: &[Parameter],
+    ) -> (f64, DMatrix<f64>) {
+        let normal = self.normal(&found.model, &found.jacobian, covariance);
+        self.evidence_of(found, parameters, covariance, &normal)
+    }
+
+    fn evidence_of(
+        &self,
+        found: &Found,
+        parameters: &[Parameter],
+        covariance: &Covariance,
+        normal: &Normal,
+    ) -> (f64, DMatrix<f64>) {
+        let layout = self.layout(parameters);
         let posterior = marginal(self.noise.scatter, &layout, normal, &found.state);
         let log_evidence = posterior.log_integral - self.log_norm(covariance);
         (log_evidence, posterior.covariance)

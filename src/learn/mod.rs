@@ -17,6 +17,7 @@ mod anchored;
 mod bench;
 mod candidate_model;
 mod checks;
+pub mod climb;
 mod comparison;
 mod decision;
 pub mod diagnose;
@@ -51,9 +52,9 @@ mod trajectory;
 pub use bench::{Bench, MeasuredTest, Workshop};
 pub use comparison::{
     AddedForm, Addition, Cell, CompareError, Compared, Comparison, Curve, CurvePoint, Doing, Group,
-    Improvement, Item, LadderStep, Outlier, ParameterRecord, Prospects, Ratio, Share, TestRecord,
-    Tried, Validation, Version, Watch, add, compare, compare_all, contact_of, curves, differences,
-    ladder, prospects,
+    Improvement, Item, LadderStep, LeftOut, Outlier, ParameterRecord, Prospects, Ratio, Share,
+    TestRecord, Tried, Validation, Version, Watch, add, compare, compare_all, contact_of, curves,
+    differences, ladder, left_out, prospects,
 };
 pub use fit::{Coefficient, FitError, Problem};
 pub use fitted::{Fit, Jacobian, RowFit, TestFit};

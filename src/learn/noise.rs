@@ -78,22 +78,33 @@ pub struct Datum {
     pub sigma: f64,
 }
 
+/// A smooth discrepancy of unknown cause, integrated out with the noise.
+#[derive(Debug, Clone)]
+pub(super) enum Discrepancy {
+    /// Of each curve's own, with its amplitude at every row.
+    EachCurve(Vec<f64>, ModelError),
+    /// A sum of functions of the rows (the columns), each in its prior standard deviation: common to all tests.
+    Shared(DMatrix<f64>),
+}
+
 /// The covariance of some of a data set's rows.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Covariance {
     sigma: Vec<f64>,
     blocks: Vec<Block>,
     traces: Vec<TraceRows>,
+    /// Orthonormal whitened directions of a shared discrepancy with their variances.
+    shared: Vec<(DVector<f64>, f64)>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct TraceRows {
     trace: usize,
     rows: Vec<usize>,
     tau: f64,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Block {
     Datum(TraceRows),
     Dense(Vec<usize>, Box<Cholesky<f64, Dyn>>),
@@ -131,11 +142,54 @@ impl Covariance {
             sigma,
             blocks,
             traces: traces(),
+            shared: Vec::new(),
         }
+    }
+
+    /// With functions common to all rows, one a column, each in its prior standard deviation.
+    ///
+    /// ```text
+    /// X = W Φ = U s Vᵀ:   (I + X Xᵀ)^(−½) = I − U (1 − 1/√(1 + s²)) Uᵀ
+    /// ```
+    pub(super) fn with_shared(mut self, functions: &DMatrix<f64>) -> Self {
+        let columns: Vec<DVector<f64>> = (functions.column_iter())
+            .map(|column| DVector::from_vec(self.whiten(column.as_slice())))
+            .collect();
+        if columns.is_empty() {
+            return self;
+        }
+        let x = DMatrix::from_columns(&columns);
+        let eigen = x.tr_mul(&x).symmetric_eigen();
+        let largest = eigen.eigenvalues.max();
+        for (variance, vector) in eigen
+            .eigenvalues
+            .iter()
+            .zip(eigen.eigenvectors.column_iter())
+        {
+            if *variance > 1e-12 * largest && *variance > 1e-12 {
+                self.shared
+                    .push(((&x * vector) / variance.sqrt(), *variance));
+            }
+        }
+        self
     }
 
     /// W v, where WᵀW is the inverse of the covariance.
     pub(super) fn whiten(&self, v: &[f64]) -> Vec<f64> {
+        let z = self.whiten_blocks(v);
+        if self.shared.is_empty() {
+            return z;
+        }
+        let mut z = DVector::from_vec(z);
+        let along: Vec<f64> = self.shared.iter().map(|(u, _)| u.dot(&z)).collect();
+        for ((u, variance), along) in self.shared.iter().zip(along) {
+            z.axpy(-(1.0 - (1.0 + variance).sqrt().recip()) * along, u, 1.0);
+        }
+        z.as_slice().to_vec()
+    }
+
+    /// The same without a shared discrepancy.
+    fn whiten_blocks(&self, v: &[f64]) -> Vec<f64> {
         let mut z: Vec<f64> = v.iter().zip(&self.sigma).map(|(v, s)| v / s).collect();
         for block in &self.blocks {
             match block {
@@ -178,7 +232,12 @@ impl Covariance {
             }
         }
         let alone = self.sigma.iter().zip(dense).filter(|(_, dense)| !dense);
-        sum + alone.map(|(sigma, _)| 2.0 * sigma.ln()).sum::<f64>()
+        let shared: f64 = self
+            .shared
+            .iter()
+            .map(|(_, variance)| variance.ln_1p())
+            .sum();
+        sum + shared + alone.map(|(sigma, _)| 2.0 * sigma.ln()).sum::<f64>()
     }
 
     /// Each trace's most probable datum when measured minus model is `residual`; a model error is not counted.
@@ -352,5 +411,43 @@ mod tests {
         // and what needs nothing gets nothing
         let plain = DMatrix::identity(3, 3) * 4.0;
         assert_eq!(factor(plain.clone()).l(), plain / 2.0);
+    }
+
+    /// Against the dense covariance σ² + τ² 1 1ᵀ (per trace) + Φ Φᵀ: the square of the whitened rows and the determinant.
+    #[test]
+    fn functions_common_to_all_rows_join_the_covariance() {
+        let sigma: Vec<f64> = (0..12).map(|i| 0.3 + 0.05 * f64::from(i)).collect();
+        let traces: Vec<TraceRows> = [(0, 0..5), (1, 5..9)]
+            .map(|(trace, rows)| TraceRows {
+                trace,
+                rows: rows.collect(),
+                tau: 0.7,
+            })
+            .into();
+        let plain = Covariance {
+            blocks: traces.iter().cloned().map(Block::Datum).collect(),
+            sigma: sigma.clone(),
+            traces: traces.clone(),
+            shared: Vec::new(),
+        };
+        let functions = DMatrix::from_fn(12, 3, |i, j| (0.4 * (i * (j + 1)) as f64).cos());
+        let mut dense = DMatrix::from_diagonal(&DVector::from_vec(sigma).map(|s| s * s));
+        for trace in &traces {
+            for &i in &trace.rows {
+                for &j in &trace.rows {
+                    dense[(i, j)] += trace.tau * trace.tau;
+                }
+            }
+        }
+        dense += &functions * functions.transpose();
+        let shared = plain.with_shared(&functions);
+        let factor = Cholesky::new(dense).unwrap();
+        assert!((shared.log_determinant() - factor.determinant().ln()).abs() < 1e-10);
+        for seed in 0..4 {
+            let v = DVector::from_fn(12, |i, _| (1.3 * i as f64 + f64::from(seed)).sin());
+            let square: f64 = (shared.whiten(v.as_slice()).iter()).map(|z| z * z).sum();
+            let exact = v.dot(&factor.solve(&v));
+            assert!((square - exact).abs() < 1e-10 * exact, "{square} {exact}");
+        }
     }
 }

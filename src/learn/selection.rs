@@ -12,6 +12,7 @@ use crate::measure::{Dataset, Observation, Quantity};
 use crate::study::Role;
 
 /// The observations of the tests with one role.
+#[derive(Clone)]
 pub(super) struct Selection<'a> {
     data: &'a Dataset,
     /// The tests, by their number in the data set.
@@ -58,6 +59,13 @@ impl<'a> Selection<'a> {
         };
         selection.measured_wear = selection.wear_of(&selection.values);
         selection
+    }
+
+    /// The same rows with another covariance.
+    pub(super) fn with_covariance(mut self, covariance: Covariance) -> Self {
+        self.covariance = covariance;
+        self.measured_wear = self.wear_of(&self.values);
+        self
     }
 
     /// Number of observations.

@@ -7,6 +7,7 @@
 //! Every command that writes a folder does so through [`Staging`], every single file through [`write_file`].
 pub mod atomic;
 mod bitmap;
+pub mod climb;
 pub mod comparison;
 pub mod csv;
 pub mod diagnosis;

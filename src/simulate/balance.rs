@@ -24,14 +24,14 @@ impl Balance {
     }
 
     /// How far what the step from `before` took off is from what the law says, over [`STEP_BALANCE`], the worse of both flanks;
-    /// `unit` is each flank's area of a mean depth of one module, mm².
-    pub(super) fn off(&self, before: &Self, unit: [f64; 2]) -> f64 {
+    /// `unit` is each flank's area of a mean depth of one module, mm²; `drift`: whether what stands already counts.
+    pub(super) fn off(&self, before: &Self, unit: [f64; 2], drift: bool) -> f64 {
         let off = |i: usize| {
             let law = self.law[i] - before.law[i];
             let geometry = self.geometry[i] - before.geometry[i];
             let mut worn = (0.05 * self.law[i]).min(unit[i] * BALANCE_CEILING);
             let apart = before.geometry[i] - before.law[i];
-            if apart * (geometry - law) > 0.0 {
+            if drift && apart * (geometry - law) > 0.0 {
                 // once the areas have come apart, steps do not add to it
                 worn *= (1.0 - apart.abs() / (BALANCE_DRIFT * before.law[i])).max(0.0);
             }
@@ -81,7 +81,7 @@ mod tests {
                     let (mut passes, mut fails) = (0.0, 100.0);
                     for _ in 0..60 {
                         let middle = 0.5 * (passes + fails);
-                        if after(middle).off(&before, [1.0; 2]) <= 1.0 {
+                        if after(middle).off(&before, [1.0; 2], true) <= 1.0 {
                             passes = middle;
                         } else {
                             fails = middle;
@@ -110,7 +110,7 @@ mod tests {
             law: [0.101; 2],
             geometry: [before.geometry[0] + 0.001 + off; 2],
         };
-        let judged = |off: f64| after(off).off(&before, [1.0; 2]);
+        let judged = |off: f64| after(off).off(&before, [1.0; 2], true);
         let (adding, mending) = (judged(-1e-6), judged(1e-6));
         assert!((adding - 1e-6 / 1e-3 / STEP_BALANCE).abs() < 0.01 * adding);
         assert!((mending - 1e-6 / 2e-3 / STEP_BALANCE).abs() < 0.01 * mending);

@@ -84,16 +84,45 @@ pub struct WearLaw<'a> {
     pub acting: Option<&'a Acting>,
     /// Allowed step error relative to the largest depth.
     pub tolerance: f64,
-    /// Whether the worn area is also integrated from the line loads; if not, [`Balance::law`] and
-    /// [`Progress::displaced`] stay 0.
-    pub balance: bool,
+    /// How the worn area is held against the line loads.
+    pub balance: Balancing,
+}
+
+/// How the worn area is held against what the line loads wear off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Balancing {
+    /// It is not integrated from the line loads: [`Balance::law`] and [`Progress::displaced`] stay 0.
+    Off,
+    /// A step that is off is taken again, shorter.
+    Steps,
+    /// The same, and steps that would add to a difference that stands already are to be better the larger it is. Of a contact that is not
+    /// solved (Hertz) a part of the difference is its own, at any length of step.
+    History,
+}
+
+/// A shorter step was taken in vain if it is farther off than this share of the longer one: errors of a step fall at least in proportion to
+/// it.
+const IN_VAIN: f64 = 0.85;
+
+/// So many shorter steps are taken in vain; a corner that comes into contact within the step is left behind by then.
+const MOST_IN_VAIN: usize = 4;
+
+/// Attempts at a step that were refused for their worn area.
+#[derive(Debug, Clone, Copy)]
+struct Refused {
+    /// How far off the last one was.
+    off: f64,
+    in_vain: usize,
+    /// Length of the first one, cycles.
+    longest: f64,
 }
 
 /// Depth below which the step tolerance is absolute, modules.
 const DEPTH_FLOOR: f64 = 5e-5;
 
-/// Depth above which the step tolerance is absolute, modules: what the teeth give and how contacts pass over worn flanks does not grow with
-/// the depth, and in proportion to it steps of a flank worn by a fifth of its tooth left areas by law and geometry 1.5 % apart.
+/// Depth above which the step tolerance is absolute where areas are balanced over the history, modules: what the teeth give and how
+/// contacts pass over worn flanks does not grow with the depth, and in proportion to it steps of a flank worn by a fifth of its tooth left
+/// areas by law and geometry 1.5 % apart. (In a fit's analytic histories, which try any coefficient, it made hundreds of thousands of steps.)
 const DEPTH_CEILING: f64 = 0.05;
 
 /// The deepest place grows by more than this in every step, modules.
@@ -106,7 +135,10 @@ impl WearLaw<'_> {
         StepControl {
             tolerance: self.tolerance,
             floor: DEPTH_FLOOR * module,
-            ceiling: DEPTH_CEILING * module,
+            ceiling: match self.balance {
+                Balancing::History => DEPTH_CEILING * module,
+                Balancing::Off | Balancing::Steps => f64::INFINITY,
+            },
             first_step: 0.1 * DEPTH_FLOOR * module / fastest,
             least_growth: LEAST_GROWTH * module,
         }
@@ -200,7 +232,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
     let module = cycle.pair.pinion.rack.module;
     let mut system = ArchardSystem::new(model, law.coefficient).with(law.acting);
     let area_rate = |system: &mut ArchardSystem<'_, M>, n, u: &[f64]| {
-        if law.balance {
+        if law.balance != Balancing::Off {
             system.area_rate(n, u)
         } else {
             Ok(AreaRate::default())
@@ -231,6 +263,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
     }
     let solves_before = progress.solves;
     system.start_from(&progress.warm);
+    let mut refused: Option<Refused> = None;
     while progress.stand.n < end {
         // with the balance, a step counts only once the contact at its end is known too
         let mut stand = progress.stand.clone();
@@ -247,16 +280,28 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
         // worn areas of a mean depth of one module
         let unit =
             (cycle.stations.arc.each_ref()).map(|arc| module * (arc[arc.len() - 1] - arc[0]));
-        if law.balance {
-            let off = balance.off(&progress.balance, unit);
+        if law.balance != Balancing::Off {
+            let drift = law.balance == Balancing::History;
+            let off = balance.off(&progress.balance, unit, drift);
             let grown = (stand.u.iter().zip(&progress.stand.u))
                 .any(|(now, then)| now - then > LEAST_GROWTH * module);
-            if off > 1.0 && grown {
+            let helps = refused.is_none_or(|before| off <= IN_VAIN * before.off);
+            let in_vain = refused.map_or(0, |before| before.in_vain + usize::from(!helps));
+            let longest = refused.map_or(step, |before| before.longest);
+            if off > 1.0 && grown && in_vain < MOST_IN_VAIN {
                 progress.stand.step = step * (0.85 / off.sqrt()).clamp(0.2, 0.7);
                 progress.stand.rejected += 1;
+                refused = Some(Refused {
+                    off,
+                    in_vain,
+                    longest,
+                });
                 continue;
             }
-            if off > 0.5 {
+            if in_vain == MOST_IN_VAIN {
+                // no matter of the step's length
+                stand.step = stand.step.max(longest);
+            } else if off > 0.5 {
                 // the depth's own error would have it longer, and taken again
                 stand.step = stand.step.min(step);
             }
@@ -273,6 +318,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
                 .map_err(|source| StepError::System { n: stand.n, source })?;
         }
         // from here on nothing fails: a step counts whole or not at all
+        refused = None;
         progress.balance = balance;
         for side in 0..2 {
             progress.displaced[side] +=

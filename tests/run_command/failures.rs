@@ -8,7 +8,7 @@ use gearwear::contact::cycle::Cycle;
 use gearwear::contact::model::{ContactError, ContactModel, PositionContact};
 use gearwear::contact::tangent::LinearContact;
 use gearwear::simulate::forward::Forward;
-use gearwear::simulate::history::{WearLaw, wear_until};
+use gearwear::simulate::history::{Balancing, WearLaw, wear_until};
 use gearwear::simulate::run::Plan;
 use gearwear::study::Study;
 use gearwear::wear::archard::WearError;
@@ -215,7 +215,7 @@ const LAW: WearLaw<'static> = WearLaw {
     coefficient: [6e-10; 2],
     acting: None,
     tolerance: 2e-3,
-    balance: true,
+    balance: Balancing::History,
 };
 
 fn study() -> Study {

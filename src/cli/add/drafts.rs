@@ -5,7 +5,9 @@ use std::path::Path;
 use super::target::folder;
 use super::{AddArgs, CliError};
 use crate::effects::{Card, Form, find};
-use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, wear_coefficient_fault};
+use crate::study::{
+    Edit, EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT, wear_coefficient_fault,
+};
 
 /// Name of the form that the card's own values make.
 const OWN: &str = "own";
@@ -29,7 +31,7 @@ impl Draft {
 
 /// The forms to fit: the one asked for; else the own one first, and the others that the study states enough for unless the effect's own
 /// parameters are set.
-pub(super) fn forms(
+pub(in crate::cli) fn forms(
     card: &'static Card,
     asked: Option<&str>,
     set: bool,
@@ -122,20 +124,9 @@ pub(super) fn draft(
         }
     }
     let spec = EffectSpec::of_form(card, form, &own)?;
-    let fitted = spec.fitted();
-    let is_fitted = |name: &str| fitted.iter().any(|free| free.name == name);
-    let values: Vec<(String, f64)> = spec
-        .parameters
-        .iter()
-        .filter(|parameter| parameter.stated || is_fitted(&parameter.name))
-        .map(|parameter| (parameter.short().to_owned(), parameter.value))
-        .collect();
-    let free: Vec<String> = (fitted.iter().map(|free| free.name.clone()))
-        .filter(|name| !set.iter().any(|(set, _)| set == name))
-        .collect();
+    let is_set = |name: &str| set.iter().any(|(set, _)| set == name);
     let mut edit = study.edit();
-    edit.add_effect(card.name, &values)?;
-    edit.free(&free);
+    state(&mut edit, &spec, &is_set)?;
     if let Some((_, coefficient)) = set.iter().find(|(name, _)| name == WEAR_COEFFICIENT) {
         edit.set(WEAR_COEFFICIENT, *coefficient);
     }
@@ -144,12 +135,43 @@ pub(super) fn draft(
     let free = study.free().iter();
     Ok(Draft {
         form,
-        free: free
-            .filter(|free| !set.iter().any(|(name, _)| *name == free.name))
-            .cloned()
-            .collect(),
+        free: free.filter(|free| !is_set(&free.name)).cloned().collect(),
         study,
     })
+}
+
+/// The study with an effect more in one of its forms, under `name`; all that is fitted of it is free.
+pub(in crate::cli) fn with_form(
+    study: &Study,
+    card: &'static Card,
+    form: Option<&'static Form>,
+    name: &str,
+) -> Result<Study, CliError> {
+    let mut edit = study.edit();
+    state(&mut edit, &EffectSpec::of_form(card, form, &[])?, &|_| {
+        false
+    })?;
+    Ok(edit.finish(name)?)
+}
+
+/// Adds an effect with all that is stated or fitted of it; what is fitted becomes free unless it is set.
+fn state(
+    edit: &mut Edit<'_>,
+    spec: &EffectSpec,
+    is_set: &dyn Fn(&str) -> bool,
+) -> Result<(), CliError> {
+    let fitted = spec.fitted();
+    let is_fitted = |name: &str| fitted.iter().any(|free| free.name == name);
+    let values: Vec<(String, f64)> = (spec.parameters.iter())
+        .filter(|parameter| parameter.stated || is_fitted(&parameter.name))
+        .map(|parameter| (parameter.short().to_owned(), parameter.value))
+        .collect();
+    let free: Vec<String> = (fitted.iter().map(|free| free.name.clone()))
+        .filter(|name| !is_set(name))
+        .collect();
+    edit.add_effect(&spec.name, &values)?;
+    edit.free(&free);
+    Ok(())
 }
 
 /// The effect's card; a user's own effect has none.

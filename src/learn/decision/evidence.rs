@@ -17,6 +17,39 @@ pub struct Evidence {
     pub attainable_spread: f64,
     /// ln Z of a Gaussian-process discrepancy over ln Z of the base model.
     pub unknown_evidence_gain: f64,
+    /// Effects fitted together with a discrepancy; none where nothing smooth is missed.
+    #[serde(default)]
+    pub beside_unknown: Vec<RemainderEvidence>,
+}
+
+/// An effect judged beside something unknown.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RemainderEvidence {
+    /// The effect, in its form of the largest evidence beside the discrepancy.
+    pub effects: EffectSet,
+    /// Whether the data determine the parameter by which the effect is known.
+    pub identified: bool,
+    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone).
+    pub gain_over_unknown: f64,
+    /// ln Z(effect and discrepancy) − ln Z(effect).
+    pub remainder_gain: f64,
+    /// Fall of χ² by the effect alone.
+    pub chi2_drop: f64,
+    /// Fall of χ² that anything smooth could still bring once the effect is in.
+    pub remaining_drop: f64,
+    /// Standard deviation of that on noise alone.
+    pub remaining_spread: f64,
+    /// Fall of χ² where the effect may be stronger in one test and weaker in another, beside the discrepancy.
+    pub transfer_drop: f64,
+    /// How many strengths more that takes.
+    pub transfer_strengths: usize,
+}
+
+impl RemainderEvidence {
+    /// Whether something is left beside the effect.
+    pub fn is_remaining(&self) -> bool {
+        is_significant(self.remaining_drop, self.remaining_spread)
+    }
 }
 
 /// One form of one effect, or of several together, as fitted.

@@ -1,6 +1,6 @@
 //! All fitted candidates with what the decision says of them.
 
-use super::evidence::{CandidateEvidence, Evidence};
+use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
 use crate::learn::checks::identifiability::unidentified;
@@ -8,11 +8,14 @@ use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::likelihood::Likelihood;
+use crate::learn::model_search::beside_unknown::BesideUnknown;
 
 /// Everything fitted, and the decision on it.
 pub(in crate::learn) struct Posterior {
     /// All fitted candidates that are not the base, by falling evidence.
     pub(in crate::learn) candidates: Vec<FittedCandidate>,
+    /// The effects fitted beside something unknown.
+    pub(in crate::learn) beside_unknown: Vec<BesideUnknown>,
     /// The figures of the same, in the same order.
     pub(in crate::learn) evidence: Evidence,
     /// By this rule.
@@ -21,17 +24,17 @@ pub(in crate::learn) struct Posterior {
 }
 
 impl Posterior {
-    /// `log_evidence_of_unknown`: that of a Gaussian-process discrepancy beside the base model.
+    /// `candidates` by falling evidence; `log_evidence_of_unknown`: that of a Gaussian-process discrepancy beside the base model.
     pub(in crate::learn) fn new(
         likelihood: &Likelihood<'_>,
         base: &BaseFit,
-        mut candidates: Vec<FittedCandidate>,
+        candidates: Vec<FittedCandidate>,
+        beside_unknown: Vec<BesideUnknown>,
         smooth: &SmoothDiscrepancy,
         log_evidence_of_unknown: f64,
         rule: DecisionRule,
     ) -> Self {
         let base = &base.fitted;
-        candidates.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let figures = |fitted: &FittedCandidate| CandidateEvidence {
             effects: fitted.candidate.effects.clone(),
             accepted_forms: fitted.candidate.siblings,
@@ -44,10 +47,14 @@ impl Posterior {
             attainable_drop: smooth.drop,
             attainable_spread: smooth.spread(),
             unknown_evidence_gain: log_evidence_of_unknown - base.log_evidence,
+            beside_unknown: (beside_unknown.iter())
+                .map(|beside| remainder(likelihood, beside))
+                .collect(),
         };
         Self {
             decision: decide(&evidence, &rule),
             candidates,
+            beside_unknown,
             evidence,
             rule,
         }
@@ -68,6 +75,10 @@ impl Posterior {
         match hypothesis {
             Hypothesis::NothingMissing => Some(&base.fitted),
             Hypothesis::Effects(effects) => self.best_form(effects),
+            Hypothesis::EffectsAndUnknown(effects) => {
+                let mut all = self.beside_unknown.iter().map(|beside| &beside.fitted);
+                all.find(|fitted| fitted.candidate.effects == *effects)
+            }
             Hypothesis::Unknown => None,
         }
     }
@@ -85,5 +96,19 @@ impl Posterior {
         self.evidence
             .is_discrepant()
             .then(|| self.evidence.share(best))
+    }
+}
+
+fn remainder(likelihood: &Likelihood<'_>, beside: &BesideUnknown) -> RemainderEvidence {
+    RemainderEvidence {
+        effects: beside.fitted.candidate.effects.clone(),
+        identified: unidentified(likelihood, &beside.fitted).is_none(),
+        gain_over_unknown: beside.gain_over_unknown,
+        remainder_gain: beside.remainder_gain,
+        chi2_drop: beside.chi2_drop,
+        remaining_drop: beside.remaining.drop,
+        remaining_spread: beside.remaining.spread(),
+        transfer_drop: beside.transfer.0,
+        transfer_strengths: beside.transfer.1,
     }
 }

@@ -47,6 +47,12 @@ pub struct DecisionRule {
     /// Odds of another cause of the same pattern where the data do not determine the parameter that an effect is known by: neither is then
     /// to be named.
     pub unidentified_odds: f64,
+    /// Prior odds of one effect beside something unknown, shared evenly among the single effects, to something unknown alone.
+    pub remainder_odds: f64,
+    /// Share of what an effect and the remainder bring together from which the remainder is more than another form of the effect leaves.
+    pub remainder_share: f64,
+    /// Its width.
+    pub remainder_share_width: f64,
     /// Probability from which a single effect or set is named.
     pub claim: f64,
     /// Probability of nothing missing from which no effect is claimed; of that or of the unknown, from which a group holds it.
@@ -73,6 +79,9 @@ impl Default for DecisionRule {
             second_share: 0.10,
             second_share_width: 0.012,
             unidentified_odds: 0.5,
+            remainder_odds: 0.5,
+            remainder_share: 0.08,
+            remainder_share_width: 0.012,
             claim: 0.85,
             doubt: 0.2,
             alike: 0.03,

@@ -13,19 +13,30 @@
 //! weight of   nothing_missing     π_0
 //!             a single effect     Σ_forms t S(x)              + Σ_pairs of which it is the stronger t S(x) S(−y)
 //!             a pair              Σ_forms t S(x) S(y)
-//!             unknown             Σ_c t S(−x)  +  Σ_c not identified t S(x) o  +  min(u, cap)
+//!             unknown             W + Σ_c not identified t S(x) o             W: Σ_c t S(−x) + min(u, cap)
 //! u = Z_GP/Z_base e^offset π_u,     ln cap = ln t* + max(x*, Δ ln Z_GP − Δ ln Z*)          *: the candidate with the largest t
 //! ```
 //! A free discrepancy follows what remains of an effect in another form too. It counts only as far as the leader's share leaves room
 //! for it, or its evidence exceeds the leader's: effects that were really there never let that happen (97 of 99 sets gained at least 1.8
 //! more; the other two had not been found).
 //!
+//! W, which is not the effects' own, is shared between something unknown alone and effects beside something unknown, and where an effect
+//! leaves more than a tolerance of its form explains, so is what is its own (R: what the effects brought fitted beside a discrepancy,
+//! `n` single effects, r the share of all that is left once the effect is in, if that is more than noise):
+//!
+//! ```text
+//! v(R) = exp(Δ ln Z_R/T) o_R/n                  Δ ln Z_R: over that of the discrepancy alone
+//! unknown: W/(1 + Σ v),  R and unknown: W v/(1 + Σ v)          of which o/(1 + o) is unknown's if R is not identified
+//! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
+//! ```
 //! With p(0), p(u), and the effects' p of which p₁ is the largest and Σ the sum, the first that holds is the verdict:
 //!
 //! ```text
 //! nothing_missing   p(0) ≥ p(u) and p(0) ≥ Σ,  or  p(0) ≥ doubt and p(u) < Σ and p(0) > p₁
-//! unknown           p(u) ≥ Σ and p(u) ≥ p(0)
 //! effect, effects   p(0) < doubt and p₁ ≥ claim
+//! partial           p(0) < doubt, and what holds the most probable effect (alone, or beside something unknown) ≥ claim, or all those beside
+//!                   something unknown together: then they are a group
+//! unknown           p(u) ≥ Σ and p(u) ≥ p(0)                  p(u): with all that stands beside something unknown
 //! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone)
 //! ```
 
@@ -33,7 +44,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::evidence::{CandidateEvidence, Evidence};
+use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::numeric::logarithm::{log_sum_exp, softplus};
@@ -50,6 +61,8 @@ pub enum Verdict {
     Effects,
     /// Two or more that the data cannot tell apart.
     Ambiguous,
+    /// An effect is established, and something else remains.
+    Partial,
     /// Something that the catalogue does not hold.
     Unknown,
 }
@@ -91,31 +104,110 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
     let effects = by_probability(evidence, &log_probabilities);
     let log = |hypothesis: &Hypothesis| log_probabilities[hypothesis];
     let (log_nothing, log_unknown) = (log(&Hypothesis::NothingMissing), log(&Hypothesis::Unknown));
-    let (nothing, unknown) = (log_nothing.exp(), log_unknown.exp());
     let log_of: Vec<f64> = (effects.iter())
         .map(|effects| log(&Hypothesis::Effects(effects.clone())))
         .collect();
-    let named: f64 = log_of.iter().map(|log| log.exp()).sum();
+    let remainders = with_remainder(evidence, &log_probabilities);
+    let mass = Mass {
+        nothing: log_nothing.exp(),
+        unknown: log_unknown.exp(),
+        named: log_of.iter().map(|log| log.exp()).sum(),
+        leading: log_of.first().map_or(0.0, |log| log.exp()),
+        partial: remainders.iter().map(|(_, p)| p).sum(),
+    };
+    let verdict = verdict(&mass, &effects, &remainders, &log_probabilities, rule);
+    let group = match verdict {
+        Verdict::NothingMissing | Verdict::Unknown => Vec::new(),
+        Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => {
+            look_alikes(verdict, &mass, &effects, &log_of, rule)
+        }
+        Verdict::Partial => {
+            let most = remainders[0].1;
+            let own = remainders.iter().filter(|(_, p)| *p > rule.alike * most);
+            own.map(|(effects, _)| Hypothesis::EffectsAndUnknown((*effects).clone()))
+                .collect()
+        }
+    };
+    Decision {
+        verdict,
+        log_probabilities,
+        effects,
+        group,
+    }
+}
+
+/// Probabilities by kind of hypothesis.
+struct Mass {
+    nothing: f64,
+    /// Something unknown alone.
+    unknown: f64,
+    /// All effects and sets that alone are missing, and the most probable of them.
+    named: f64,
+    leading: f64,
+    /// All effects beside something unknown.
+    partial: f64,
+}
+
+/// The first verdict of which the condition holds.
+fn verdict(
+    mass: &Mass,
+    effects: &[EffectSet],
+    remainders: &[(&EffectSet, f64)],
+    logs: &BTreeMap<Hypothesis, f64>,
+    rule: &DecisionRule,
+) -> Verdict {
+    let &Mass {
+        nothing,
+        named,
+        leading,
+        partial,
+        ..
+    } = mass;
+    let unknown = mass.unknown + partial;
+    if nothing >= unknown && nothing >= named
+        || nothing >= rule.doubt && unknown < named && nothing > leading
+    {
+        return Verdict::NothingMissing;
+    }
+    let all = named + nothing + unknown;
+    if nothing < rule.doubt && leading >= rule.claim * all {
+        return match effects[0].single() {
+            Some(_) => Verdict::Effect,
+            None => Verdict::Effects,
+        };
+    }
+    if let Some((effect, p)) = remainders.first() {
+        let alone = logs.get(&Hypothesis::Effects((*effect).clone()));
+        let established = p + alone.map_or(0.0, |log| log.exp());
+        let is_partial = *p >= established - p && established >= rule.claim * all;
+        if nothing < rule.doubt && (is_partial || partial >= rule.claim * all) {
+            return Verdict::Partial;
+        }
+    }
+    if unknown >= named && unknown >= nothing {
+        Verdict::Unknown
+    } else {
+        Verdict::Ambiguous
+    }
+}
+
+/// The leader, what the data cannot tell from it, and what keeps it from being named.
+fn look_alikes(
+    verdict: Verdict,
+    mass: &Mass,
+    effects: &[EffectSet],
+    log_of: &[f64],
+    rule: &DecisionRule,
+) -> Vec<Hypothesis> {
     let log_leading = log_of.first().copied().unwrap_or(f64::NEG_INFINITY);
-    let leading = log_leading.exp();
-    let mut group: Vec<Hypothesis> = (effects.iter().zip(&log_of))
+    let mut group: Vec<Hypothesis> = (effects.iter().zip(log_of))
         .filter(|(_, log)| **log > rule.alike.ln() + log_leading)
         .map(|(effects, _)| Hypothesis::Effects(effects.clone()))
         .collect();
-    let verdict = if nothing >= unknown && nothing >= named
-        || nothing >= rule.doubt && unknown < named && nothing > leading
-    {
-        Verdict::NothingMissing
-    } else if unknown >= named && unknown >= nothing {
-        Verdict::Unknown
-    } else if nothing < rule.doubt && leading >= rule.claim * (named + nothing + unknown) {
-        match effects[0].single() {
-            Some(_) => Verdict::Effect,
-            None => Verdict::Effects,
-        }
-    } else {
+    if verdict == Verdict::Ambiguous {
+        let unknown = mass.unknown + mass.partial;
         let others = [
-            (Hypothesis::NothingMissing, nothing),
+            (Hypothesis::NothingMissing, mass.nothing),
             (Hypothesis::Unknown, unknown),
         ];
         let doubted = others.iter().filter(|other| other.1 >= rule.doubt);
@@ -123,19 +215,29 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
         if group.len() < 2 {
             // What keeps the leader from being named is then the more probable of these.
             let [zero, one] = others;
-            group.push(if nothing > unknown { zero.0 } else { one.0 });
+            group.push(if mass.nothing > unknown {
+                zero.0
+            } else {
+                one.0
+            });
         }
-        Verdict::Ambiguous
-    };
-    if matches!(verdict, Verdict::NothingMissing | Verdict::Unknown) {
-        group.clear();
     }
-    Decision {
-        verdict,
-        log_probabilities,
-        effects,
-        group,
-    }
+    group
+}
+
+/// Effects beside something unknown with their probability, the most probable first.
+fn with_remainder<'e>(
+    evidence: &'e Evidence,
+    logs: &BTreeMap<Hypothesis, f64>,
+) -> Vec<(&'e EffectSet, f64)> {
+    let mut all: Vec<(&EffectSet, f64)> = (evidence.beside_unknown.iter())
+        .map(|r| {
+            let hypothesis = Hypothesis::EffectsAndUnknown(r.effects.clone());
+            (&r.effects, logs[&hypothesis].exp())
+        })
+        .collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(b.0)));
+    all
 }
 
 /// Posterior probabilities of all hypotheses.
@@ -159,6 +261,8 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
     let mut logs: BTreeMap<Hypothesis, Vec<f64>> = BTreeMap::new();
     let mut add = |hypothesis, log| logs.entry(hypothesis).or_default().push(log);
     add(Hypothesis::NothingMissing, rule.prior_nothing.ln());
+    // of the same pattern as an effect: not shared with that effect beside something else
+    let mut other_causes = vec![f64::NEG_INFINITY];
     let (mut leading, mut cap) = (f64::NEG_INFINITY, f64::INFINITY);
     for c in &candidates {
         let log = most - (most - log_posterior(c)) / rule.temper;
@@ -183,9 +287,8 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
             None => add(own, log - softplus(odds)),
         }
         add(Hypothesis::Unknown, log - softplus(-odds));
-        if !c.identified && rule.unidentified_odds > 0.0 {
-            let other_cause = log - softplus(odds) + rule.unidentified_odds.ln();
-            add(Hypothesis::Unknown, other_cause);
+        if !c.identified {
+            other_causes.push(log - softplus(odds) + rule.unidentified_odds.ln());
         }
         if evidence.is_discrepant() && log > leading {
             leading = log;
@@ -194,14 +297,59 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
     }
     let alone = unknown + rule.unknown_offset + rule.prior_unknown.ln();
     add(Hypothesis::Unknown, alone.min(cap));
-    let logs: BTreeMap<Hypothesis, f64> = (logs.into_iter())
+    let mut logs: BTreeMap<Hypothesis, f64> = (logs.into_iter())
         .map(|(hypothesis, logs)| (hypothesis, log_sum_exp(&logs)))
         .collect();
+    share_with_remainders(&mut logs, evidence, rule, count);
+    let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
+    logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
     let all: Vec<f64> = logs.values().copied().collect();
     let total = log_sum_exp(&all);
     (logs.into_iter())
         .map(|(hypothesis, log)| (hypothesis, log - total))
         .collect()
+}
+
+/// Shares the weight of the unknown, and of effects that leave something, with effects beside something unknown.
+fn share_with_remainders(
+    logs: &mut BTreeMap<Hypothesis, f64>,
+    evidence: &Evidence,
+    rule: &DecisionRule,
+    singles: f64,
+) {
+    let mut remainders: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
+    remainders.sort_by(|a, b| a.effects.cmp(&b.effects));
+    let odds = |r: &RemainderEvidence| {
+        r.gain_over_unknown / rule.temper + (rule.remainder_odds / singles).ln()
+    };
+    let all: Vec<f64> = std::iter::once(0.0)
+        .chain(remainders.iter().map(|r| odds(r)))
+        .collect();
+    let total = log_sum_exp(&all);
+    let unknown = logs[&Hypothesis::Unknown];
+    logs.insert(Hypothesis::Unknown, unknown - total);
+    for r in remainders {
+        let mut beside = vec![unknown + odds(r) - total];
+        if !r.identified {
+            // another cause of the same pattern is as good, and unknown
+            let other = beside[0] - softplus(-rule.unidentified_odds.ln());
+            beside[0] -= softplus(rule.unidentified_odds.ln());
+            logs.insert(
+                Hypothesis::Unknown,
+                log_sum_exp(&[logs[&Hypothesis::Unknown], other]),
+            );
+        }
+        if let Some(alone) = logs.get_mut(&Hypothesis::Effects(r.effects.clone()))
+            && r.is_remaining()
+        {
+            let left = r.remaining_drop / (r.remaining_drop + r.chi2_drop.max(0.0));
+            let within = (rule.remainder_share - left) / rule.remainder_share_width;
+            beside.push(*alone - softplus(within));
+            *alone -= softplus(-within);
+        }
+        let beside = log_sum_exp(&beside);
+        logs.insert(Hypothesis::EffectsAndUnknown(r.effects.clone()), beside);
+    }
 }
 
 /// The candidates in an order that does not depend on theirs, so that sums are the same to the last bit.

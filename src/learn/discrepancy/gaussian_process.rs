@@ -14,11 +14,13 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::basis::{numbered, polynomials, waves};
-use crate::learn::fitted_candidate::BaseFit;
-use crate::learn::likelihood::Likelihood;
-use crate::learn::noise::{ModelError, amplitudes};
+use super::basis::{self, numbered, polynomials, waves};
+use crate::learn::fitted_candidate::orthonormalise;
+use crate::learn::likelihood::{Likelihood, OWN_FORM, whiten};
+use crate::learn::noise::{Covariance, Discrepancy, ModelError, amplitudes};
+use crate::learn::parameters::Parameter;
 use crate::learn::region::Map;
+use crate::learn::search::Found;
 use crate::measure::Observation;
 use crate::numeric::logarithm::log_mean_exp;
 
@@ -31,19 +33,35 @@ const OVER_CYCLES: usize = 8;
 const LENGTHS: [f64; 3] = [0.03, 0.08, 0.25];
 const RATIOS: [f64; 2] = [0.3, 0.7];
 
-/// Log evidence of the base model with a discrepancy: the mean over its kinds and sizes.
-pub(in crate::learn) fn log_evidence(likelihood: &Likelihood<'_>, base: &BaseFit) -> f64 {
+/// Log evidence of a fitted model with a discrepancy: the mean over its kinds and sizes. `change`: what the model's effects change, whose
+/// form is uncertain ([`Likelihood::evidence`]); None of the base model.
+pub(in crate::learn) fn log_evidence(
+    likelihood: &Likelihood<'_>,
+    fit: &Found,
+    parameters: &[Parameter],
+    change: Option<&[f64]>,
+) -> f64 {
     let observations: Vec<&Observation> = (0..likelihood.len())
         .map(|i| likelihood.observation(i))
         .collect();
     let size = amplitudes(&observations);
-    let before = base.fitted.log_evidence;
-    let common = before + log_mean_exp(&common(likelihood, base, &observations, &size));
-    log_mean_exp(&[log_mean_exp(&each_its_own(likelihood, base, &size)), common])
+    let form = change.map(|change| (change, OWN_FORM));
+    let each = curves().into_par_iter().map(|error| {
+        let errors: Vec<_> = [(size.as_slice(), error)].into_iter().chain(form).collect();
+        let covariance = likelihood.covariance_with(&errors);
+        likelihood.evidence_in(&covariance, fit, parameters).0
+    });
+    let each: Vec<f64> = each.collect();
+    // the fit may have been made with another covariance, so its own normal equations are not asked
+    let own: Vec<_> = form.into_iter().collect();
+    let covariance = likelihood.covariance_with(&own);
+    let before = likelihood.evidence_in(&covariance, fit, parameters).0;
+    let common = before + log_mean_exp(&common(likelihood, fit, &covariance, &observations, &size));
+    log_mean_exp(&[log_mean_exp(&each), common])
 }
 
-/// Each curve with a discrepancy of its own.
-fn each_its_own(likelihood: &Likelihood<'_>, base: &BaseFit, size: &[f64]) -> Vec<f64> {
+/// Discrepancies of each curve's own.
+fn curves() -> Vec<ModelError> {
     let mut grid = Vec::new();
     for relative in SIZES {
         for along in [0.08, 0.25] {
@@ -56,56 +74,181 @@ fn each_its_own(likelihood: &Likelihood<'_>, base: &BaseFit, size: &[f64]) -> Ve
             }
         }
     }
-    let base = &base.fitted;
-    grid.par_iter()
-        .map(|error| {
-            let parameters = &base.candidate.parameters;
-            let error = Some((size, *error));
-            likelihood.evidence_with(&base.found, parameters, error).0
-        })
-        .collect()
+    grid
+}
+
+/// The most probable discrepancy beside a model, of each curve's own or common to all tests.
+pub(in crate::learn) fn most_probable(
+    likelihood: &Likelihood<'_>,
+    fit: &Found,
+    parameters: &[Parameter],
+) -> Discrepancy {
+    let observations: Vec<&Observation> = (0..likelihood.len())
+        .map(|i| likelihood.observation(i))
+        .collect();
+    let size = amplitudes(&observations);
+    let each = curves().into_par_iter().map(|error| {
+        let covariance = likelihood.covariance_with(&[(&size, error)]);
+        let evidence = likelihood.evidence_in(&covariance, fit, parameters).0;
+        (evidence, Discrepancy::EachCurve(size.clone(), error))
+    });
+    let mut all: Vec<(f64, Discrepancy)> = each.collect();
+    let covariance = likelihood.covariance_with(&[]);
+    let before = likelihood.evidence_in(&covariance, fit, parameters).0;
+    let left = Left::new(likelihood, fit, &covariance);
+    for (functions, weights) in shared(likelihood, &fit.model, &observations, &size) {
+        let seen = SharedFunctions::new(&left, &functions);
+        for weight in &weights {
+            let best = (SIZES.into_iter().zip(seen.gains(weight)))
+                .max_by(|a, b| a.1.total_cmp(&b.1))
+                .expect("there are sizes");
+            let roots = seen.deviations(weight, best.0);
+            let columns = functions.columns();
+            let scaled: Vec<DVector<f64>> = (columns.into_iter().zip(roots.iter()))
+                .map(|(column, root)| DVector::from_vec(column) * *root)
+                .collect();
+            if !scaled.is_empty() {
+                let functions = DMatrix::from_columns(&scaled);
+                all.push((before + best.1, Discrepancy::Shared(functions)));
+            }
+        }
+    }
+    let best = all.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    best.expect("there are kinds of discrepancy").1
+}
+
+/// Functions common to all tests, each times `g`, one set for each group of rows.
+struct Functions<'a> {
+    g: &'a [f64],
+    groups: Vec<(usize, usize)>,
+    functions: basis::Functions,
+}
+
+/// The variance of a function by its degree.
+type Weight = Box<dyn Fn(usize) -> f64 + Sync>;
+
+impl Functions<'_> {
+    /// Group and degree of each column.
+    fn wanted(&self) -> Vec<((usize, usize), usize)> {
+        let mut distinct = self.groups.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        (distinct.iter())
+            .flat_map(|&group| (0..self.functions.len()).map(move |degree| (group, degree)))
+            .collect()
+    }
+
+    fn column(&self, (group, degree): ((usize, usize), usize)) -> Vec<f64> {
+        let own = |i: usize| self.groups[i] == group;
+        let value = |i: usize| self.g[i] * self.functions[degree][i];
+        let rows = 0..self.g.len();
+        rows.map(|i| if own(i) { value(i) } else { 0.0 }).collect()
+    }
+
+    fn columns(&self) -> Vec<Vec<f64>> {
+        self.wanted()
+            .into_iter()
+            .map(|at| self.column(at))
+            .collect()
+    }
+}
+
+/// The kinds of discrepancy common to all tests: of the position on each member, and of the cycles.
+fn shared<'a>(
+    likelihood: &Likelihood<'_>,
+    model: &'a [f64],
+    observations: &[&Observation],
+    size: &'a [f64],
+) -> Vec<(Functions<'a>, Vec<Weight>)> {
+    let observations = || observations.iter().copied();
+    let map = Map::new(likelihood.measured.study(), &likelihood.measured.data);
+    let kinds = numbered(observations().map(|o| o.quantity));
+    let places: Vec<f64> = observations()
+        .map(|o| map.path(o).or(o.position).unwrap_or(0.0))
+        .collect();
+    let members: Vec<(usize, usize)> = observations()
+        .map(|o| (o.member as usize, o.quantity as usize))
+        .collect();
+    let quantities: Vec<(usize, usize)> =
+        observations().map(|o| (0, o.quantity as usize)).collect();
+    let of_place = waves(&kinds, &places, ALONG);
+    let along = |g: &'a [f64]| {
+        let weight = |length: f64| -> Weight {
+            Box::new(move |p| (-0.5 * (PI * length * p as f64).powi(2)).exp())
+        };
+        let functions = Functions {
+            g,
+            groups: members.clone(),
+            functions: of_place.clone(),
+        };
+        (functions, LENGTHS.map(weight).into())
+    };
+    let over_cycles = |scale: fn(f64) -> f64| {
+        let cycles: Vec<f64> = observations().map(|o| scale(o.cycles)).collect();
+        let weight = |ratio: f64| -> Weight { Box::new(move |degree| ratio.powi(degree as i32)) };
+        let functions = Functions {
+            g: model,
+            groups: quantities.clone(),
+            functions: polynomials(&kinds, &cycles, OVER_CYCLES),
+        };
+        (functions, RATIOS.map(weight).into())
+    };
+    vec![
+        along(model),
+        along(size),
+        over_cycles(f64::ln_1p),
+        over_cycles(|n| n),
+    ]
 }
 
 /// Gains of log evidence by functions common to all tests.
 fn common(
     likelihood: &Likelihood<'_>,
-    base: &BaseFit,
+    fit: &Found,
+    covariance: &Covariance,
     observations: &[&Observation],
     size: &[f64],
 ) -> Vec<f64> {
-    let observations = || observations.iter().copied();
-    let map = Map::new(likelihood.measured.study(), &likelihood.measured.data);
-    let kinds = numbered(observations().map(|o| o.quantity));
-    let model = base.fitted.found.model.as_slice();
-    let places: Vec<f64> = observations()
-        .map(|o| map.path(o).or(o.position).unwrap_or(0.0))
-        .collect();
-    let groups: Vec<(usize, usize)> = observations()
-        .map(|o| (o.member as usize, o.quantity as usize))
-        .collect();
-    let of_place = waves(&kinds, &places, ALONG);
-    let mut gains = Vec::new();
-    for g in [model, size] {
-        let seen = SharedFunctions::new(likelihood, base, &groups, &of_place, g);
-        for length in LENGTHS {
-            let weight = |p: usize| {
-                let exponent = 0.5 * (PI * length * p as f64).powi(2);
-                (-exponent).exp()
-            };
-            gains.extend(seen.gains(weight));
+    let left = Left::new(likelihood, fit, covariance);
+    let kinds = shared(likelihood, &fit.model, observations, size);
+    let of = |(functions, weights): &(Functions<'_>, Vec<Weight>)| {
+        let seen = SharedFunctions::new(&left, functions);
+        weights
+            .iter()
+            .flat_map(move |weight| seen.gains(weight))
+            .collect::<Vec<_>>()
+    };
+    kinds.iter().flat_map(of).collect()
+}
+
+/// What a fit leaves, whitened, with what its own parameters could still change taken out.
+struct Left<'a> {
+    covariance: &'a Covariance,
+    /// The model's own error, relative.
+    error: f64,
+    adjustable: DMatrix<f64>,
+    residual: DVector<f64>,
+}
+
+impl<'a> Left<'a> {
+    fn new(likelihood: &Likelihood<'_>, fit: &Found, covariance: &'a Covariance) -> Self {
+        let mut adjustable = whiten(covariance, &fit.jacobian);
+        orthonormalise(&mut adjustable);
+        let residual = covariance.whiten(&likelihood.residual(&fit.model));
+        let own = likelihood.noise.model_error;
+        Self {
+            error: own.map_or(0.0, |error| error.relative),
+            residual: DVector::from_vec(residual),
+            adjustable,
+            covariance,
         }
     }
-    let quantities: Vec<(usize, usize)> =
-        observations().map(|o| (0, o.quantity as usize)).collect();
-    for scale in [f64::ln_1p, |n| n] {
-        let cycles: Vec<f64> = observations().map(|o| scale(o.cycles)).collect();
-        let functions = polynomials(&kinds, &cycles, OVER_CYCLES);
-        let seen = SharedFunctions::new(likelihood, base, &quantities, &functions, model);
-        for ratio in RATIOS {
-            gains.extend(seen.gains(|degree| f64::powi(ratio, degree as i32)));
-        }
+
+    fn visible(&self, column: &[f64]) -> DVector<f64> {
+        let v = DVector::from_vec(self.covariance.whiten(column));
+        let along = self.adjustable.tr_mul(&v);
+        v - &self.adjustable * along
     }
-    gains
 }
 
 /// Functions common to all tests as the data see them.
@@ -122,56 +265,35 @@ struct SharedFunctions {
 
 impl SharedFunctions {
     /// g φ_j at the rows of each group.
-    fn new(
-        likelihood: &Likelihood<'_>,
-        base: &BaseFit,
-        groups: &[(usize, usize)],
-        functions: &[Vec<f64>],
-        g: &[f64],
-    ) -> Self {
-        let mut distinct = groups.to_vec();
-        distinct.sort_unstable();
-        distinct.dedup();
-        let wanted: Vec<((usize, usize), usize)> = (distinct.iter())
-            .flat_map(|&group| (0..functions.len()).map(move |degree| (group, degree)))
-            .collect();
+    fn new(left: &Left<'_>, functions: &Functions<'_>) -> Self {
+        let wanted = functions.wanted();
         let columns: Vec<DVector<f64>> = (wanted.par_iter())
-            .map(|&(group, degree)| {
-                let function = &functions[degree];
-                let column: Vec<f64> = (0..g.len())
-                    .map(|i| {
-                        if groups[i] == group {
-                            g[i] * function[i]
-                        } else {
-                            0.0
-                        }
-                    })
-                    .collect();
-                base.visible(likelihood, &column)
-            })
+            .map(|&at| left.visible(&functions.column(at)))
             .collect();
         let x = DMatrix::from_columns(&columns);
-        let own = likelihood.noise.model_error;
         Self {
-            error: own.map_or(0.0, |error| error.relative),
+            error: left.error,
             degrees: wanted.iter().map(|w| w.1).collect(),
             normal: x.tr_mul(&x),
-            right: x.tr_mul(&base.residual),
+            right: x.tr_mul(&left.residual),
         }
     }
 
-    /// For each size, with variances in the ratio of `weight`, beyond what the model's own error gains.
-    fn gains(&self, weight: impl Fn(usize) -> f64) -> Vec<f64> {
+    /// Each column's prior standard deviation at a size of the discrepancy, with variances in the ratio of `weight`.
+    fn deviations(&self, weight: &Weight, size: f64) -> DVector<f64> {
         let most = self.degrees.iter().max().map_or(0, |last| last + 1);
         // cosines and polynomials have a mean square of about a half, but the constant
         let square = |degree: usize| if degree == 0 { 1.0 } else { 0.5 };
         let total: f64 = (0..most).map(|d| weight(d) * square(d)).sum();
+        let variance = |d: &usize| size * size * weight(*d) / total;
+        let roots = self.degrees.iter().map(|d| variance(d).sqrt());
+        DVector::from_iterator(self.degrees.len(), roots)
+    }
+
+    /// For each size, beyond what the model's own error gains.
+    fn gains(&self, weight: &Weight) -> Vec<f64> {
         let of_size = |size: f64| {
-            let variance = |d: &usize| size * size * weight(*d) / total;
-            let roots = DVector::from_iterator(
-                self.degrees.len(),
-                self.degrees.iter().map(|d| variance(d).sqrt()),
-            );
+            let roots = self.deviations(weight, size);
             log_gain(&self.normal, &self.right, &roots)
         };
         let unmissed = of_size(self.error);

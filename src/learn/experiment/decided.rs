@@ -73,12 +73,14 @@ impl DecidedCandidate {
 impl Decided {
     /// What leads: the first two, and up to two more that are not far behind.
     pub(super) fn leaders(&self) -> Vec<&DecidedCandidate> {
-        let Some(first) = self.ranking.first() else {
+        let Some(first) = self.ranking.iter().find(|c| c.effects().is_some()) else {
             return Vec::new();
         };
         let near =
             |(i, c): &(usize, &DecidedCandidate)| *i < LEADERS[0] || c.behind(first) < LEADING;
-        let all = self.ranking.iter().enumerate().take(LEADERS[1]);
+        // what stands beside something unknown predicts no further test
+        let known = self.ranking.iter().filter(|c| c.effects().is_some());
+        let all = known.enumerate().take(LEADERS[1]);
         all.filter(near).map(|(_, candidate)| candidate).collect()
     }
 

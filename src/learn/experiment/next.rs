@@ -60,12 +60,13 @@ pub(in crate::learn) fn separating(
         Verdict::NothingMissing => std::iter::once(Hypothesis::NothingMissing)
             .chain(effects().take(1))
             .collect(),
-        Verdict::Unknown => return None,
+        Verdict::Partial if decision.group.len() > 1 => decision.group.clone(),
+        Verdict::Partial | Verdict::Unknown => return None,
     };
     let mut left = hypotheses.iter().filter_map(|h| posterior.fitted(base, h));
     let (a, b) = (left.next()?, left.next()?);
     let settled = (a.log_evidence - b.log_evidence).abs() > SETTLED;
-    if settled && decision.verdict != Verdict::Ambiguous {
+    if settled && decision.group.len() < 2 {
         return None;
     }
     experiment(context, shop, a, b).filter(|told| told.together_chi2 >= WORTH_MAKING)

@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
 use super::ranked::{Ranked, form, parameters, ranked};
-use super::sentences::{Explanation, undecided};
+use super::remainder::{Remainder, established, remainder};
+use super::sentences::undecided;
 use super::warnings::warnings;
+use super::wording::Explanation;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::posterior::Posterior;
-use crate::learn::decision::{DecisionRule, Verdict};
+use crate::learn::decision::{DecisionRule, RemainderEvidence, Verdict};
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
 use crate::learn::discrepancy::smooth::MapPoint;
@@ -48,6 +50,8 @@ pub struct Diagnosis {
     pub probabilities: BTreeMap<String, f64>,
     /// The most probable first.
     pub ranking: Vec<Ranked>,
+    /// What remains beside the effect; None unless the verdict is `partial`.
+    pub remainder: Option<Remainder>,
     /// Groups that the data cannot tell apart.
     pub indistinguishable: Vec<Vec<String>>,
     /// What the discrepancy depends on most; None without a discrepancy.
@@ -73,6 +77,8 @@ pub struct Diagnosis {
     pub next_experiment: Option<NextExperiment>,
     /// Everything fitted, by falling evidence.
     pub screened: Vec<Screened>,
+    /// Effects fitted beside something unknown.
+    pub beside_unknown: Vec<RemainderEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
     /// Effects that could not be judged.
@@ -126,7 +132,12 @@ impl Diagnosis {
         let leader = posterior.leader();
         let next_experiment = separating(context, findings.workshop, base, posterior);
         let explanation = Explanation::new(&findings, drivers.first(), next_experiment.as_ref());
-        let group = decision.group.iter().map(Hypothesis::to_string).collect();
+        // beside something unknown the effects alone are what cannot be told apart
+        let member = |hypothesis: &Hypothesis| match hypothesis {
+            Hypothesis::EffectsAndUnknown(effects) => effects.to_string(),
+            other => other.to_string(),
+        };
+        let group = decision.group.iter().map(member).collect();
         let alone = decision.group.len() < 2;
         let names = |hypotheses: Vec<Hypothesis>| -> Vec<String> {
             hypotheses.iter().map(Hypothesis::to_string).collect()
@@ -134,7 +145,7 @@ impl Diagnosis {
         Self {
             verdict: decision.verdict,
             undecided: undecided(context, posterior),
-            effect: named(posterior),
+            effect: named(&findings),
             sentence: explanation.sentence,
             reasons: explanation.reasons,
             next_step: explanation.next_step,
@@ -142,6 +153,7 @@ impl Diagnosis {
                 .map(|(hypothesis, log)| (hypothesis.to_string(), log.exp()))
                 .collect(),
             ranking: ranked(context, base, posterior),
+            remainder: remainder(&findings),
             indistinguishable: if alone { Vec::new() } else { vec![group] },
             driver: drivers.first().cloned(),
             drivers,
@@ -158,6 +170,7 @@ impl Diagnosis {
             unknown_evidence_gain: posterior.evidence.unknown_evidence_gain,
             next_experiment,
             screened: screened(context, posterior),
+            beside_unknown: posterior.evidence.beside_unknown.clone(),
             rule: posterior.rule,
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),
@@ -166,12 +179,17 @@ impl Diagnosis {
     }
 }
 
-fn named(posterior: &Posterior) -> Option<Named> {
-    let leader = posterior.decision.leader()?;
-    match posterior.decision.verdict {
+fn named(findings: &Findings<'_>) -> Option<Named> {
+    let decision = &findings.posterior.decision;
+    let leader = decision.leader()?;
+    match decision.verdict {
         Verdict::Effect => Some(Named::One(leader.to_string())),
         Verdict::Effects => Some(Named::Several(leader.clone().into())),
-        _ => None,
+        Verdict::Partial => match &established(findings)[..] {
+            [effects] => Some(Named::One(effects.to_string())),
+            _ => None,
+        },
+        Verdict::NothingMissing | Verdict::Ambiguous | Verdict::Unknown => None,
     }
 }
 

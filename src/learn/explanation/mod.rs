@@ -3,8 +3,11 @@
 mod diagnosis;
 pub(in crate::learn) mod findings;
 mod ranked;
+mod remainder;
 mod sentences;
 mod warnings;
+mod wording;
 
 pub use diagnosis::{Diagnosis, Named, Screened};
 pub use ranked::{ParameterValue, Ranked};
+pub use remainder::Remainder;

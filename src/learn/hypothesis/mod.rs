@@ -13,13 +13,15 @@ use crate::effects::{CATALOGUE, Card, EffectError, find};
 /// One answer to the question what is missing.
 ///
 /// All accepted forms of an effect's law belong to one hypothesis. In documents it has one name: `nothing_missing`, `unknown`,
-/// `running_in`, `running_in+tip_relief`. A remainder beside named effects would be a fourth kind.
+/// `running_in`, `running_in+tip_relief`, `running_in+unknown`.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Hypothesis {
     /// The base model is complete, as far as these data show.
     NothingMissing,
     /// One or several effects of the catalogue are missing, and nothing else.
     Effects(EffectSet),
+    /// Effects of the catalogue are missing, and beside them something that it does not hold.
+    EffectsAndUnknown(EffectSet),
     /// Something is missing that the catalogue does not hold.
     Unknown,
 }
@@ -30,11 +32,11 @@ pub enum Hypothesis {
 pub struct EffectSet(Vec<&'static Card>);
 
 impl Hypothesis {
-    /// Its effects; none of `nothing_missing` and `unknown`.
+    /// Its effects, if they alone are missing.
     pub fn effects(&self) -> Option<&EffectSet> {
         match self {
             Self::Effects(effects) => Some(effects),
-            Self::NothingMissing | Self::Unknown => None,
+            Self::NothingMissing | Self::EffectsAndUnknown(_) | Self::Unknown => None,
         }
     }
 
@@ -42,6 +44,9 @@ impl Hypothesis {
     pub fn in_words(&self) -> String {
         match self {
             Self::Effects(effects) => effects.in_words(),
+            Self::EffectsAndUnknown(effects) => {
+                format!("{} beside something unknown", effects.in_words())
+            }
             Self::NothingMissing | Self::Unknown => self.to_string(),
         }
     }
@@ -149,6 +154,7 @@ impl fmt::Display for Hypothesis {
         match self {
             Self::NothingMissing => f.write_str("nothing_missing"),
             Self::Effects(effects) => effects.fmt(f),
+            Self::EffectsAndUnknown(effects) => write!(f, "{effects}+unknown"),
             Self::Unknown => f.write_str("unknown"),
         }
     }

@@ -5,6 +5,7 @@
 //! ```
 
 mod base_fit;
+pub(in crate::learn) mod beside_unknown;
 pub(in crate::learn) mod context;
 pub(in crate::learn) mod high_fidelity;
 pub(in crate::learn) mod matching_pursuit;

@@ -3,7 +3,7 @@
 use super::{ContactKind, Forward, ForwardError, Preparation, Variation};
 use crate::contact::model::PositionContact;
 use crate::simulate::history::{
-    HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at, state_of,
+    Balancing, HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at, state_of,
     wear_with_tangents,
 };
 use crate::wear::archard::WearError;
@@ -69,7 +69,13 @@ impl Forward<'_> {
             acting: self.acting,
             tolerance: self.numerics.step_tolerance,
             // of several runs only the depths are asked for, and the mass that is not lost with them
-            balance: !self.shares || self.acting.is_some_and(|a| a.effects.displaces()),
+            balance: match self.kind {
+                _ if self.shares && !self.acting.is_some_and(|a| a.effects.displaces()) => {
+                    Balancing::Off
+                }
+                ContactKind::Fem => Balancing::History,
+                ContactKind::Hertz => Balancing::Steps,
+            },
         };
         loop {
             // here and not after the step that calls for it: a run resumed from that step does the same

@@ -287,8 +287,8 @@ pub fn strength(
     for &(name, form) in named {
         let mut law = draw::draw(name, form, context, d);
         let weigh = !law.moves_material();
-        // Pairs: each cause is strong enough by itself.
-        let aim = if kind == Kind::Pair {
+        // Two causes: each is strong enough by itself.
+        let aim = if matches!(kind, Kind::Pair | Kind::Mixed) {
             target.max(12.0)
         } else {
             target
@@ -340,7 +340,8 @@ pub fn strength(
         each = (0..2)
             .map(|x| given(bench, &laws, x, &rows, weigh))
             .collect();
-        if each.iter().any(|&v| v < 3.0) {
+        let least = if kind == Kind::Mixed { 6.0 } else { 3.0 };
+        if each.iter().any(|&v| v < least) {
             return None;
         }
     }

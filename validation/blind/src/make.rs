@@ -18,11 +18,13 @@ pub enum Kind {
     Foreign,
     Outside,
     Pair,
+    /// A known cause in any form beside one that the catalogue lacks.
+    Mixed,
 }
 
 impl Kind {
     pub fn name(self) -> &'static str {
-        ["none", "single", "foreign", "outside", "pair"][self as usize]
+        ["none", "single", "foreign", "outside", "pair", "mixed"][self as usize]
     }
 
     pub fn named(name: &str) -> Option<Self> {
@@ -120,7 +122,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let named: Vec<(&'static str, &'static str)> = names(wish, kind, &mut choice);
 
     let mut d = root.branch(attempt as u64);
-    let mut rig = Rig::draw(paper, kind == Kind::Outside, &mut d);
+    let mut rig = Rig::draw(paper, matches!(kind, Kind::Outside | Kind::Mixed), &mut d);
     if named
         .iter()
         .any(|n| ["pressure_exponent", "micropitting", "plastic_deformation"].contains(&n.0))
@@ -307,22 +309,21 @@ fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static s
         assert!(!fits.is_empty(), "no law named {name}");
         return vec![*d.pick(&fits)];
     }
+    let any = |d: &mut Dice| {
+        let class = if d.unit() < 0.5 {
+            Class::Single
+        } else {
+            Class::Foreign
+        };
+        known(class, d)
+    };
     match kind {
         Kind::None => Vec::new(),
         Kind::Single => vec![known(Class::Single, d)],
         Kind::Foreign => vec![known(Class::Foreign, d)],
         Kind::Outside => vec![(*d.pick(OUTSIDE), "own")],
+        Kind::Mixed => vec![any(d), (*d.pick(OUTSIDE), "own")],
         Kind::Pair => loop {
-            let any = |d: &mut Dice| {
-                known(
-                    if d.unit() < 0.5 {
-                        Class::Single
-                    } else {
-                        Class::Foreign
-                    },
-                    d,
-                )
-            };
             let (a, b) = (any(d), any(d));
             if a.0 != b.0 {
                 return vec![a, b];

@@ -1,0 +1,210 @@
+//! `gearwear climb`: from a study up, one effect after the other.
+//!
+//! ```text
+//! study -> fit -> diagnosis -> effect -> fit -> pays? -> … -> climbed study, ladder, last diagnosis
+//! ```
+
+mod kept;
+mod version;
+
+use self::kept::{Kept, State};
+use self::version::{Fitter, Rung};
+use super::args::StudyAndOutput;
+use super::{CliError, Context, Outcome, folder, inputs, interrupt};
+use crate::learn::climb::{DoesNotPay, proposals};
+use crate::learn::diagnose::{Diagnosis, Fidelity, Verdict, diagnose};
+use crate::learn::{Measured, contact_of};
+use crate::report;
+use crate::study::{self, Study};
+use clap::Args;
+
+/// Arguments of `climb`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Diagnoses, adds the effect that the diagnosis names, fits everything again, takes out what is no longer needed, and diagnoses\nagain. A step is kept if it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is\nheld out, each fit test left out in turn.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
+)]
+pub struct ClimbArgs {
+    #[command(flatten)]
+    paths: StudyAndOutput,
+    /// Most effects to add
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=8))]
+    most: u8,
+    /// Go on from the last step of an interrupted climb
+    #[arg(long)]
+    resume: bool,
+}
+
+/// Checks the input and the folder, climbs, writes.
+pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, CliError> {
+    let path = &args.paths.study;
+    let study = Study::load(path)?;
+    contact_of(&study)?;
+    let data = study.dataset_to_fit()?;
+    context.tell_reading(&data);
+    let default = || folder::default_path(path, "climb");
+    let target = args.paths.output.clone().unwrap_or_else(default);
+    folder::check(&target, path, &study)?;
+    let kept = Kept::new(&target, inputs::identity(&study)?);
+    let again = (args.paths.output.as_ref()).map(|target| format!(" -o {}", target.display()));
+    interrupt::tells(
+        kept.path().to_owned(),
+        format!(
+            "gearwear climb {}{} --resume goes on",
+            path.display(),
+            again.unwrap_or_default()
+        ),
+    );
+    let progress = context.progress("climb");
+    let most = usize::from(args.most);
+    let show = |rungs: usize, done: f64, what: String| {
+        let share = (rungs as f64 + done.min(1.0)) / (most as f64 + 1.0);
+        progress.show(share, what);
+    };
+    let fitter = Fitter {
+        study: &study,
+        path,
+        data: &data,
+    };
+    let mut state = match kept.read(args.resume)? {
+        Some(state) => state,
+        None => State::first(&fitter, &|doing| show(0, 0.0, doing))?,
+    };
+    let (diagnosis, stopped) = loop {
+        let rungs = state.rungs.len();
+        let version = fitter.version(&state.rungs, &state.values)?;
+        let diagnosis = diagnosis(&version, &fitter, &|done, what| {
+            show(rungs, 0.6 * done, what);
+        })?;
+        let watch = |doing| show(rungs, 0.6, doing);
+        match step(&mut state, &fitter, &diagnosis, most, &watch)? {
+            None => kept.keep(&state)?,
+            Some(stopped) => break (diagnosis, stopped),
+        }
+    };
+    drop(progress);
+    let climbed = fitter.moved(&state.rungs, &state.values, &target)?;
+    let result = report::climb::Result {
+        title: &study.title,
+        steps: &state.steps,
+        versions: &state.versions,
+        effects: state
+            .rungs
+            .iter()
+            .map(|rung| rung.effect.as_str())
+            .collect(),
+        diagnosis: &diagnosis,
+        stopped: &stopped,
+    };
+    let document = report::climb::document(&result);
+    let shown = target.join("climbed.toml").display().to_string();
+    let page = report::climb::page(&result, &shown);
+    let further = [
+        ("climbed.toml", climbed.text().as_bytes().to_vec()),
+        (
+            "diagnosis.json",
+            report::json::text("diagnosis.json", &diagnosis)?,
+        ),
+    ];
+    let written = report::write_page_with(&page, "climb.json", &document, &further, &target)?;
+    kept.discard();
+    Ok(Outcome {
+        json: document,
+        text: report::climb::summary(&result, &shown, &written.folder),
+        success: true,
+    })
+}
+
+/// What is missing of a version, by coarse elements for what effects change.
+fn diagnosis(
+    version: &Study,
+    fitter: &Fitter<'_>,
+    watch: &(dyn Fn(f64, String) + Sync),
+) -> Result<Diagnosis, CliError> {
+    let fidelity = match version.contact {
+        study::ContactKind::Hertz => Fidelity::Screening,
+        study::ContactKind::Fem | study::ContactKind::Paper => Fidelity::Middle,
+    };
+    let measured = Measured::new(version, fitter.data.clone());
+    Ok(diagnose(&measured, fidelity, watch)?)
+}
+
+/// One step up if one pays; else why there is none.
+fn step(
+    state: &mut State,
+    fitter: &Fitter<'_>,
+    diagnosis: &Diagnosis,
+    most: usize,
+    watch: &(dyn Fn(String) + Sync),
+) -> Result<Option<String>, CliError> {
+    match diagnosis.verdict {
+        Verdict::NothingMissing => return Ok(Some("nothing more is missing".to_owned())),
+        Verdict::Unknown => {
+            return Ok(Some(
+                "what remains is nothing that the catalogue holds".to_owned(),
+            ));
+        }
+        Verdict::Effect | Verdict::Effects | Verdict::Partial | Verdict::Ambiguous => {}
+    }
+    if state.rungs.len() >= most {
+        let stopped = format!("--most {most} allows no more; something is still missing");
+        return Ok(Some(stopped));
+    }
+    for effect in proposals(diagnosis) {
+        if state.has(&effect) {
+            continue;
+        }
+        let added = fitter.with_effect(&state.rungs, &state.values, &effect, watch)?;
+        let paid = added.standing.pays_over(&state.standing);
+        let mut told = added
+            .standing
+            .step(Some(&state.standing), names(&added.rungs));
+        told.added = Some(effect);
+        refused(&mut told, paid);
+        let kept = told.kept;
+        state.steps.push(told);
+        if kept {
+            state.go_on(added);
+            drop_needless(state, fitter, watch)?;
+            return Ok(None);
+        }
+    }
+    Ok(Some(
+        "no effect that the diagnosis proposes pays".to_owned(),
+    ))
+}
+
+/// Takes out effects, the newest excepted, without which the version stands as well.
+fn drop_needless(
+    state: &mut State,
+    fitter: &Fitter<'_>,
+    watch: &(dyn Fn(String) + Sync),
+) -> Result<(), CliError> {
+    let mut place = 0;
+    while place + 1 < state.rungs.len() {
+        let mut rungs = state.rungs.clone();
+        let removed = rungs.remove(place);
+        let without = fitter.fit(rungs, &state.values, &|doing| {
+            watch(format!("without {}: {doing}", removed.effect));
+        })?;
+        if state.standing.pays_over(&without.standing).is_ok() {
+            place += 1;
+            continue;
+        }
+        let mut told = (without.standing).step(Some(&state.standing), names(&without.rungs));
+        told.removed = Some(removed.effect);
+        state.steps.push(told);
+        state.go_on(without);
+    }
+    Ok(())
+}
+
+fn refused(step: &mut crate::learn::climb::ClimbStep, paid: Result<(), DoesNotPay>) {
+    if let Err(why) = paid {
+        step.kept = false;
+        step.why = Some(why.to_string());
+    }
+}
+
+fn names(rungs: &[Rung]) -> Vec<String> {
+    rungs.iter().map(|rung| rung.effect.clone()).collect()
+}

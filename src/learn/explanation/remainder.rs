@@ -1,0 +1,117 @@
+//! What is left beside an effect that is established.
+
+use serde::{Deserialize, Serialize};
+
+use super::findings::Findings;
+use super::wording::{Explanation, before, chi2, percent, values};
+use crate::learn::decision::Verdict;
+use crate::learn::discrepancy::dependence::{self, Driver};
+use crate::learn::hypothesis::{EffectSet, Hypothesis};
+
+/// What remains once the established effect is in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Remainder {
+    /// Mean squared standardised residual of the fit tests with the effect, fitted without a discrepancy beside it.
+    pub chi2_per_point: f64,
+    /// Share of the attainable fall of χ² that the effect leaves.
+    pub share: f64,
+    /// What the remainder depends on most.
+    pub driver: Option<Driver>,
+}
+
+/// The effects beside something unknown, the most probable first; none unless the verdict is `partial`.
+pub(super) fn established(findings: &Findings<'_>) -> Vec<EffectSet> {
+    let decision = &findings.posterior.decision;
+    if decision.verdict != Verdict::Partial {
+        return Vec::new();
+    }
+    let effects = |hypothesis: &Hypothesis| match hypothesis {
+        Hypothesis::EffectsAndUnknown(effects) => Some(effects.clone()),
+        _ => None,
+    };
+    decision.group.iter().filter_map(effects).collect()
+}
+
+/// What remains beside the most probable effect; None unless the verdict is `partial`.
+pub(super) fn remainder(findings: &Findings<'_>) -> Option<Remainder> {
+    let effects = established(findings).into_iter().next()?;
+    let fitted = findings.posterior.best_form(&effects)?;
+    let figures = (findings.posterior.evidence.beside_unknown.iter())
+        .find(|beside| beside.effects == effects)?;
+    let likelihood = &findings.context.likelihood;
+    let remaining = figures.remaining_drop.max(0.0);
+    let model = &fitted.found.model;
+    let drivers = dependence::drivers(likelihood, model, remaining);
+    Some(Remainder {
+        chi2_per_point: likelihood.chi2_per_point(model),
+        share: remaining / (remaining + figures.chi2_drop.max(0.0)).max(f64::MIN_POSITIVE),
+        driver: drivers.into_iter().next(),
+    })
+}
+
+/// The verdict `partial` in words.
+pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
+    let posterior = findings.posterior;
+    let group = established(findings);
+    let beside = |effects: &EffectSet| {
+        posterior
+            .decision
+            .probability(&Hypothesis::EffectsAndUnknown(effects.clone()))
+    };
+    let sentence = match &group[..] {
+        [effects] => {
+            let alone = posterior.decision.probability_of(effects);
+            let fitted = posterior.best_form(effects);
+            let with = fitted.map_or(String::new(), |fitted| {
+                format!(
+                    " With it χ² per point falls from {:.2} to {:.2}; {}.",
+                    before(findings),
+                    chi2(findings, fitted),
+                    values(fitted)
+                )
+            });
+            format!(
+                "Established: {} is missing (probability {}), but it is not all that is.{with}",
+                effects.in_words(),
+                percent(alone + beside(effects))
+            )
+        }
+        _ => {
+            let list: Vec<String> = (group.iter())
+                .map(|effects| format!("{effects} ({})", percent(beside(effects))))
+                .collect();
+            format!(
+                "One of these effects is missing, and something else beside it: {}. The base model stands at χ² {:.2} per point.",
+                list.join(", "),
+                before(findings)
+            )
+        }
+    };
+    let mut reasons = Vec::new();
+    if let Some(remainder) = remainder(findings) {
+        reasons.push(format!(
+            "What remains beside {} is {} of the attainable reduction of χ² (χ² {:.2} per point is left).",
+            group[0].in_words(),
+            percent(remainder.share),
+            remainder.chi2_per_point
+        ));
+        if let Some(driver) = remainder.driver {
+            reasons.push(format!(
+                "With the effect in, what remains depends most on {}: {} of its variance.",
+                driver.name,
+                percent(driver.variance_share)
+            ));
+        }
+    }
+    let next_step = match &group[..] {
+        [effects] => format!(
+            "gearwear add STUDY {effects}, then diagnose the new study: what remains is judged with the effect in"
+        ),
+        _ => "make the proposed test, or add each in turn and see which lowers the held-out error; then diagnose the new study".to_owned(),
+    };
+    Explanation {
+        sentence,
+        reasons,
+        next_step,
+    }
+}

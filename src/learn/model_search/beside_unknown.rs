@@ -1,0 +1,166 @@
+//! Effects beside something unknown: each of them fitted together with a smooth discrepancy.
+//!
+//! ```text
+//! y = f(k_t, θ) + m + …      m: the Gaussian process of `discrepancy::gaussian_process`, integrated out
+//! ```
+//! An effect is a few parameters that act alike in all tests, conditions and members; the process has to be paid for in each of them. So an
+//! effect that is there gains over the process alone although it leaves a remainder, and a remainder that is smooth is not sold as an effect
+//! (Kennedy & O'Hagan, J. R. Stat. Soc. B 63, 2001, with the physics ranked inside).
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::context::Context;
+use super::screening::SCREEN;
+use crate::learn::candidate_model::{Anchored, model};
+use crate::learn::discrepancy::gaussian_process;
+use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
+use crate::learn::fidelity::Fidelity;
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate, orthonormalise};
+use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::likelihood::{Likelihood, whiten};
+use crate::learn::search::Found;
+
+/// Effects whose evidence is taken with every kind of discrepancy.
+const JUDGED: usize = 6;
+
+/// An effect fitted beside a smooth discrepancy.
+pub(in crate::learn) struct BesideUnknown {
+    /// The fit beside the discrepancy.
+    pub(in crate::learn) fitted: FittedCandidate,
+    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone).
+    pub(in crate::learn) gain_over_unknown: f64,
+    /// ln Z(effect and discrepancy) − ln Z(effect), the effect fitted without.
+    pub(in crate::learn) remainder_gain: f64,
+    /// Fall of χ² by the effect without the discrepancy.
+    pub(in crate::learn) chi2_drop: f64,
+    /// What anything smooth could still bring once the effect is in.
+    pub(in crate::learn) remaining: SmoothDiscrepancy,
+    /// Fall of χ² where the effect may be stronger in one test and weaker in another, beside the discrepancy, and how many strengths more
+    /// that takes.
+    pub(in crate::learn) transfer: (f64, usize),
+}
+
+impl Context<'_> {
+    /// Fits all effects beside the most probable discrepancy, by the stages of the search without one, and compares those that lead with a
+    /// discrepancy alone; the leader first. `alone`: the effects fitted without it.
+    pub(in crate::learn) fn beside_unknown(
+        &self,
+        base: &BaseFit,
+        singles: &[Candidate],
+        alone: &[FittedCandidate],
+    ) -> Vec<BesideUnknown> {
+        let plain = &self.likelihood;
+        let discrepancy = gaussian_process::most_probable(
+            plain,
+            &base.fitted.found,
+            &base.fitted.candidate.parameters,
+        );
+        let context = Context {
+            likelihood: plain.beside(discrepancy),
+            ..*self
+        };
+        let before = base.fitted.square;
+        let Some(base) = context.base_beside(base) else {
+            return Vec::new();
+        };
+        let mut fitted = context.screen(&base, singles);
+        if context.fidelity != Fidelity::Screening {
+            fitted = context.refine(&base, fitted, true);
+        }
+        fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let mut chosen: Vec<FittedCandidate> = Vec::new();
+        for candidate in fitted {
+            let known = |c: &FittedCandidate| c.candidate.effects == candidate.candidate.effects;
+            if chosen.len() < JUDGED && !chosen.iter().any(known) {
+                chosen.push(candidate);
+            }
+        }
+        let unknown = with_discrepancy(plain, &base.fitted);
+        let mut found: Vec<BesideUnknown> = (chosen.into_par_iter())
+            .filter_map(|fitted| {
+                // what the effect brings without the discrepancy: its form of the largest evidence
+                let without = alone
+                    .iter()
+                    .find(|c| c.candidate.effects == fitted.candidate.effects)?;
+                let remainder_gain = with_discrepancy(plain, without)
+                    - (plain.evidence(
+                        &without.found,
+                        &without.candidate.parameters,
+                        Some(&without.change),
+                    ))
+                    .0;
+                let remaining =
+                    SmoothDiscrepancy::of(plain, &without.found.model).gaining(remainder_gain);
+                Some(BesideUnknown {
+                    gain_over_unknown: (with_discrepancy(plain, &fitted) - unknown)
+                        .min(fitted.log_evidence - base.fitted.log_evidence),
+                    remainder_gain,
+                    chi2_drop: before - without.square,
+                    remaining,
+                    transfer: transfer(&context.likelihood, &fitted),
+                    fitted,
+                })
+            })
+            .collect();
+        found.sort_by(|a, b| b.gain_over_unknown.total_cmp(&a.gain_over_unknown));
+        found
+    }
+
+    /// The base model fitted beside the discrepancy of this context.
+    fn base_beside(&self, base: &BaseFit) -> Option<BaseFit> {
+        let fitted = &base.fitted;
+        let bench = match fitted.fidelity {
+            Fidelity::Screening => self.hertz,
+            Fidelity::Middle | Fidelity::Full => self.middle,
+        };
+        let predictor = Anchored::new(model(bench, &fitted.candidate), fitted.offset.clone());
+        let parameters = &fitted.candidate.parameters;
+        let start = fitted.found.state.clone();
+        let found = self.likelihood.fit(&predictor, parameters, start, &SCREEN);
+        let fitted = FittedCandidate::new(
+            &self.likelihood,
+            fitted.candidate.clone(),
+            found.ok()?,
+            fitted.offset.clone(),
+            None,
+            fitted.fidelity,
+        );
+        Some(BaseFit::new(
+            &self.likelihood,
+            fitted,
+            base.hertz_offset.clone(),
+        ))
+    }
+}
+
+/// Log evidence of a fit with a discrepancy of any kind.
+fn with_discrepancy(plain: &Likelihood<'_>, fitted: &FittedCandidate) -> f64 {
+    let change = (!fitted.change.is_empty()).then_some(fitted.change.as_slice());
+    let parameters = &fitted.candidate.parameters;
+    gaussian_process::log_evidence(plain, &fitted.found, parameters, change)
+}
+
+/// Fall of χ² where an effect may be stronger in one test and weaker in another, and how many strengths more that takes.
+fn transfer(likelihood: &Likelihood<'_>, fitted: &FittedCandidate) -> (f64, usize) {
+    let (found, change): (&Found, &[f64]) = (&fitted.found, &fitted.change);
+    let mut adjustable = whiten(&likelihood.covariance, &found.jacobian);
+    orthonormalise(&mut adjustable);
+    let visible = |v: Vec<f64>| {
+        let v = DVector::from_vec(likelihood.covariance.whiten(&v));
+        let along = adjustable.tr_mul(&v);
+        v - &adjustable * along
+    };
+    let columns: Vec<DVector<f64>> = (likelihood.rows.iter())
+        .map(|rows| {
+            let mut column = vec![0.0; change.len()];
+            rows.iter().for_each(|&row| column[row] = change[row]);
+            visible(column)
+        })
+        .collect();
+    let mut x = DMatrix::from_columns(&columns);
+    orthonormalise(&mut x);
+    let strengths = x.column_iter().filter(|column| column.norm() > 0.5).count();
+    let right = x.tr_mul(&visible(likelihood.residual(&found.model)));
+    (right.norm_squared(), strengths)
+}

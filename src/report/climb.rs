@@ -1,0 +1,223 @@
+//! A climb for people: document, summary on the terminal, page.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::format::significant;
+use super::html::{Cell, Page, Section, Table};
+use super::{html, ladder};
+use crate::learn::climb::ClimbStep;
+use crate::learn::diagnose::Diagnosis;
+use crate::learn::{self, Comparison, Version};
+
+/// All that `climb` shows.
+#[derive(Debug, Clone)]
+pub struct Result<'a> {
+    /// The study's title.
+    pub title: &'a str,
+    /// Everything tried, the study as it stands first.
+    pub steps: &'a [ClimbStep],
+    /// What was kept, each with its effects.
+    pub versions: &'a [(Vec<String>, Comparison)],
+    /// The effects found.
+    pub effects: Vec<&'a str>,
+    /// The diagnosis of the last version.
+    pub diagnosis: &'a Diagnosis,
+    /// Why the climb ended.
+    pub stopped: &'a str,
+}
+
+/// `climb.json`.
+pub fn document(result: &Result<'_>) -> Value {
+    json!({
+        "steps": result.steps,
+        "effects": result.effects,
+        "parameters": result.versions.last().map(|(_, last)| &last.parameters),
+        "verdict": result.diagnosis.verdict,
+        "remainder": result.diagnosis.remainder,
+        "next_experiment": result.diagnosis.next_experiment,
+        "stopped": result.stopped,
+    })
+}
+
+/// Steps, what was found, what remains, what to do next; `study` is where the climbed study stands.
+pub fn summary(result: &Result<'_>, study: &str, folder: &Path) -> String {
+    let mut text = String::new();
+    if !result.title.is_empty() {
+        let _ = writeln!(text, "{}\n", result.title);
+    }
+    let _ = writeln!(text, "{}\n", conclusion(result));
+    let names: Vec<String> = result.steps.iter().map(name).collect();
+    let longest = names.iter().map(|name| name.chars().count()).max();
+    let width = longest.unwrap_or(0).max(6);
+    let _ = writeln!(
+        text,
+        "  {:<width$}{:>11}{:>11}{:>13}",
+        "step",
+        "fit chi2",
+        error_name(result),
+        "ln evidence"
+    );
+    for (name, step) in names.iter().zip(result.steps) {
+        let _ = writeln!(
+            text,
+            "  {name:<width$}{:>11}{:>11}{:>13}{}",
+            number(step.fit_chi2_per_point),
+            number(step.holdout_chi2_per_point.or(step.left_out_chi2_per_point)),
+            gain(step),
+            step.why
+                .as_ref()
+                .map_or(String::new(), |why| format!("  not kept: {why}"))
+        );
+    }
+    let _ = writeln!(text, "\nstopped: {}", result.stopped);
+    if let Some((_, last)) = result.versions.last() {
+        for parameter in &last.parameters {
+            let _ = writeln!(
+                text,
+                "  {} = {}",
+                parameter.name,
+                super::comparison::with_unit(
+                    super::comparison::estimate(parameter),
+                    &parameter.unit
+                )
+            );
+        }
+    }
+    let _ = writeln!(text, "\nof what is left: {}", result.diagnosis.sentence);
+    if let Some(next) = &result.diagnosis.next_experiment {
+        let _ = writeln!(text, "next experiment: {}", next.why);
+    }
+    let _ = writeln!(
+        text,
+        "\nnext: {}",
+        result.diagnosis.next_step.replace("STUDY", study)
+    );
+    let _ = writeln!(text, "study:   {study}");
+    let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
+    let _ = writeln!(text, "figures: {}", folder.join("climb.json").display());
+    text
+}
+
+/// The ladder's page with every step that was tried, and what remains; `study` is where the climbed study stands.
+pub fn page(result: &Result<'_>, study: &str) -> Page {
+    let names: Vec<String> = (result.versions.iter())
+        .map(|(effects, _)| match &effects[..] {
+            [] => "the study".to_owned(),
+            effects => effects.join(" + "),
+        })
+        .collect();
+    let versions: Vec<Version<'_>> = (result.versions.iter().zip(&names).enumerate())
+        .map(|(i, ((effects, comparison), name))| Version {
+            study: name,
+            effects,
+            comparison,
+            comparable: i > 0,
+        })
+        .collect();
+    let rungs = ladder::Result {
+        title: result.title,
+        steps: learn::ladder(&versions),
+        comparisons: versions.iter().map(|v| v.comparison).collect(),
+        notes: vec![Vec::new(); versions.len()],
+    };
+    let mut page = html::ladder(&rungs);
+    page.kicker = "one effect after the other, each kept only if it pays".to_owned();
+    page.conclusion = conclusion(result);
+    let mut table = Table::new(
+        "",
+        ["step", "χ² fit", "χ² not fitted to", "ln evidence", "kept"],
+    );
+    for step in result.steps {
+        let kept = step
+            .why
+            .as_ref()
+            .map_or("yes".to_owned(), |why| format!("no: {why}"));
+        table = table.row([
+            Cell::text(name(step)),
+            Cell::number(number(step.fit_chi2_per_point)),
+            Cell::number(number(
+                step.holdout_chi2_per_point.or(step.left_out_chi2_per_point),
+            )),
+            Cell::number(gain(step)),
+            Cell::text(kept),
+        ]);
+    }
+    let tried = Section::new("Steps").table(table).note(
+        "χ² not fitted to: per point of the held-out tests or, where none is held out, of each fit test left out of the fit in turn. \
+         An effect is kept if the evidence outweighs the prior odds against one more effect and this error does not rise beyond its \
+         standard error; after each step, effects that are no longer needed are taken out.",
+    );
+    let mut rest = Section::new("What remains")
+        .paragraph(format!("The climb ended: {}.", result.stopped))
+        .paragraph(result.diagnosis.sentence.clone());
+    for reason in &result.diagnosis.reasons {
+        rest = rest.paragraph(reason.clone());
+    }
+    if let Some(next) = &result.diagnosis.next_experiment {
+        rest = rest.paragraph(next.why.clone());
+    }
+    rest = rest.paragraph(format!(
+        "Next: {}",
+        result.diagnosis.next_step.replace("STUDY", study)
+    ));
+    page.sections.insert(0, tried);
+    page.sections.push(rest);
+    page
+}
+
+/// What was found and what it is worth.
+fn conclusion(result: &Result<'_>) -> String {
+    let error = |comparison: &Comparison| {
+        (comparison
+            .holdout
+            .chi2_per_point
+            .map(|chi2| (chi2, "held-out tests")))
+        .or(comparison
+            .fit
+            .chi2_per_point
+            .map(|chi2| (chi2, "the fit tests")))
+    };
+    let ends = [result.versions.first(), result.versions.last()];
+    let [first, last] = ends.map(|end| end.and_then(|(_, comparison)| error(comparison)));
+    let found = match &result.effects[..] {
+        [] => "No effect was added.".to_owned(),
+        [one] => format!("Added: {one}."),
+        several => format!("Added: {}.", several.join(", ")),
+    };
+    match (first, last) {
+        (Some((before, of)), Some((after, _))) if !result.effects.is_empty() => format!(
+            "{found} χ² per point of {of} falls from {} to {}; 1 is the noise floor.",
+            significant(before, 3),
+            significant(after, 3)
+        ),
+        _ => found,
+    }
+}
+
+fn name(step: &ClimbStep) -> String {
+    match (&step.added, &step.removed) {
+        (Some(added), _) => format!("with {added}"),
+        (_, Some(removed)) => format!("without {removed}"),
+        _ => "the study".to_owned(),
+    }
+}
+
+fn error_name(result: &Result<'_>) -> &'static str {
+    let left_out = result
+        .steps
+        .iter()
+        .any(|s| s.left_out_chi2_per_point.is_some());
+    if left_out { "left out" } else { "held out" }
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or("–".to_owned(), |value| significant(value, 3))
+}
+
+fn gain(step: &ClimbStep) -> String {
+    step.log_evidence_gain
+        .map_or("–".to_owned(), |gain| format!("{gain:+.1}"))
+}
