@@ -14,7 +14,12 @@ const RUNNING_IN: &str = "[[effect]]\nkind = \"running_in\"\namplitude = 2.0\nde
 fn running_in_beside_waves_of_hardness_is_established_and_the_waves_remain() {
     let found = diagnosed(&format!("{RUNNING_IN}\n{WAVES}"), 0.05, 0.02, 31);
     assert_eq!(found.verdict, Verdict::Partial, "{:?}", found.probabilities);
-    assert_eq!(found.effect, Some(Named::One("running_in".to_owned())));
+    assert_eq!(
+        found.effect,
+        Some(Named::One("running_in".to_owned())),
+        "{:?}",
+        found.probabilities
+    );
     assert!(found.probabilities["running_in+unknown"] > 0.85);
     let remainder = found.remainder.expect("something remains");
     assert!(remainder.chi2_per_point > 1.2, "{remainder:?}");

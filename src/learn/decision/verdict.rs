@@ -122,8 +122,15 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
             look_alikes(verdict, &mass, &effects, &log_of, rule)
         }
         Verdict::Partial => {
-            let most = remainders[0].1;
-            let own = remainders.iter().filter(|(_, p)| *p > rule.alike * most);
+            // as with effects alone, one that is probable enough has no look-alikes
+            let (leader, most) = remainders[0];
+            let alone = log_probabilities.get(&Hypothesis::Effects(leader.clone()));
+            let least = if most + alone.map_or(0.0, |log| log.exp()) >= rule.claim {
+                most
+            } else {
+                rule.alike * most
+            };
+            let own = remainders.iter().filter(|(_, p)| *p >= least);
             own.map(|(effects, _)| Hypothesis::EffectsAndUnknown((*effects).clone()))
                 .collect()
         }

@@ -39,6 +39,25 @@ pub(in crate::learn) fn waves(kinds: &[usize], values: &[f64], most: usize) -> F
         .collect()
 }
 
+/// Means of cosines over 0 to a value, sin(pπx)/(pπx) with x the value as a share of the largest, fewer than there are different values.
+pub(in crate::learn) fn mean_waves(values: &[f64], most: usize) -> Functions {
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let mut distinct = values.to_vec();
+    distinct.sort_by(f64::total_cmp);
+    distinct.dedup();
+    let mean = |p: usize, value: f64| {
+        let angle = p as f64 * PI * value / largest;
+        if angle > 0.0 {
+            angle.sin() / angle
+        } else {
+            1.0
+        }
+    };
+    (0..most.min(distinct.len()))
+        .map(|p| values.iter().map(|&value| mean(p, value)).collect())
+        .collect()
+}
+
 /// Values as shares of the range that those of their kind have, and how many are different in a kind at most.
 fn ranged(kinds: &[usize], values: &[f64]) -> (Vec<f64>, usize) {
     let mut shares = vec![0.0; values.len()];

@@ -2,30 +2,34 @@
 //!
 //! ```text
 //! of every curve its own:   m ~ GP(0, r² a_i a_j exp(−Δs²/2l²) exp(−Δln n²/2g²)) within one test, member and quantity
-//! common to all tests:      m = g Σ_j a_j φ_j(driver),  a_j ~ N(0, r² w_j)       driver: the position on a member, or the cycles
+//! common to all tests:      m = g Σ_j a_j φ_j(driver),  a_j ~ N(0, r² w_j)       driver: the position on a member, or the cycles;
+//!                           of the cycles also (1/n) ∫₀ⁿ φ_j dn', what a factor φ_j on the wear rate leaves on a depth worn evenly
 //! ln Z(r) = ½ bᵀ (A + V⁻¹)⁻¹ b − ½ ln det(I + V A)       A = XᵀX, b = Xᵀz whitened, freed of what k and the model's parameters do
 //! ```
 //! a: a curve's largest magnitude; g: the same, or the model's own value. What is common to all tests has few terms and is seen where
 //! it is weak; but so is what the model itself computes a little wrong at the same place in every test: only what is gained beyond a
 //! discrepancy of the size of the model's own error counts.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::basis::{self, numbered, polynomials, waves};
+use super::basis::{self, mean_waves, numbered, polynomials, waves};
 use crate::learn::fitted_candidate::orthonormalise;
 use crate::learn::likelihood::{Likelihood, OWN_FORM, whiten};
 use crate::learn::noise::{Covariance, Discrepancy, ModelError, amplitudes};
 use crate::learn::parameters::Parameter;
 use crate::learn::region::Map;
 use crate::learn::search::Found;
-use crate::measure::Observation;
+use crate::measure::{Observation, Quantity};
 use crate::numeric::logarithm::log_mean_exp;
 
-/// Sizes of the discrepancy relative to the curve or the model.
+/// Sizes of the discrepancy relative to the curve; where it is common to all tests also larger ones, since a rate may change at any time
+/// as much as it will.
 const SIZES: [f64; 4] = [0.02, 0.05, 0.12, 0.3];
+const COMMON_SIZES: [f64; 5] = [0.02, 0.05, 0.12, 0.3, 0.7];
 /// Functions of the position and of the cycles.
 const ALONG: usize = 32;
 const OVER_CYCLES: usize = 8;
@@ -46,8 +50,9 @@ pub(in crate::learn) fn log_evidence(
         .collect();
     let size = amplitudes(&observations);
     let form = change.map(|change| (change, OWN_FORM));
-    let each = curves().into_par_iter().map(|error| {
-        let errors: Vec<_> = [(size.as_slice(), error)].into_iter().chain(form).collect();
+    let even = even_sizes(&observations, &size);
+    let each = curves(&size, &even).into_par_iter().map(|error| {
+        let errors: Vec<_> = [error].into_iter().chain(form).collect();
         let covariance = likelihood.covariance_with(&errors);
         likelihood.evidence_in(&covariance, fit, parameters).0
     });
@@ -60,21 +65,34 @@ pub(in crate::learn) fn log_evidence(
     log_mean_exp(&[log_mean_exp(&each), common])
 }
 
-/// Discrepancies of each curve's own.
-fn curves() -> Vec<ModelError> {
+/// Discrepancies of each curve's own, with their sizes at each row: as large as the curve is, or `even` where a measuring machine makes
+/// them, a new one at every checkpoint.
+fn curves<'a>(size: &'a [f64], even: &'a [f64]) -> Vec<(&'a [f64], ModelError)> {
     let mut grid = Vec::new();
     for relative in SIZES {
+        let error = |along, over_cycles| ModelError {
+            relative,
+            along,
+            over_cycles,
+        };
         for along in [0.08, 0.25] {
-            for over_cycles in [0.7, 3.0] {
-                grid.push(ModelError {
-                    relative,
-                    along,
-                    over_cycles,
-                });
-            }
+            grid.push((size, error(along, 0.7)));
+            grid.push((size, error(along, 3.0)));
         }
+        grid.push((even, error(0.5, 0.1)));
     }
     grid
+}
+
+/// The mean of the sizes over all rows of a quantity, at each row.
+fn even_sizes(observations: &[&Observation], size: &[f64]) -> Vec<f64> {
+    let mut sums: BTreeMap<Quantity, (f64, f64)> = BTreeMap::new();
+    for (o, size) in observations.iter().zip(size) {
+        let sum = sums.entry(o.quantity).or_default();
+        *sum = (sum.0 + size, sum.1 + 1.0);
+    }
+    let mean = |o: &&Observation| sums[&o.quantity].0 / sums[&o.quantity].1;
+    observations.iter().map(mean).collect()
 }
 
 /// The most probable discrepancy beside a model, of each curve's own or common to all tests.
@@ -87,10 +105,11 @@ pub(in crate::learn) fn most_probable(
         .map(|i| likelihood.observation(i))
         .collect();
     let size = amplitudes(&observations);
-    let each = curves().into_par_iter().map(|error| {
-        let covariance = likelihood.covariance_with(&[(&size, error)]);
+    let even = even_sizes(&observations, &size);
+    let each = curves(&size, &even).into_par_iter().map(|(size, error)| {
+        let covariance = likelihood.covariance_with(&[(size, error)]);
         let evidence = likelihood.evidence_in(&covariance, fit, parameters).0;
-        (evidence, Discrepancy::EachCurve(size.clone(), error))
+        (evidence, Discrepancy::EachCurve(size.to_vec(), error))
     });
     let mut all: Vec<(f64, Discrepancy)> = each.collect();
     let covariance = likelihood.covariance_with(&[]);
@@ -99,7 +118,7 @@ pub(in crate::learn) fn most_probable(
     for (functions, weights) in shared(likelihood, &fit.model, &observations, &size) {
         let seen = SharedFunctions::new(&left, &functions);
         for weight in &weights {
-            let best = (SIZES.into_iter().zip(seen.gains(weight)))
+            let best = (COMMON_SIZES.into_iter().zip(seen.gains(weight)))
                 .max_by(|a, b| a.1.total_cmp(&b.1))
                 .expect("there are sizes");
             let roots = seen.deviations(weight, best.0);
@@ -172,16 +191,16 @@ fn shared<'a>(
     let quantities: Vec<(usize, usize)> =
         observations().map(|o| (0, o.quantity as usize)).collect();
     let of_place = waves(&kinds, &places, ALONG);
+    let by_length = |length: f64| -> Weight {
+        Box::new(move |p| (-0.5 * (PI * length * p as f64).powi(2)).exp())
+    };
     let along = |g: &'a [f64]| {
-        let weight = |length: f64| -> Weight {
-            Box::new(move |p| (-0.5 * (PI * length * p as f64).powi(2)).exp())
-        };
         let functions = Functions {
             g,
             groups: members.clone(),
             functions: of_place.clone(),
         };
-        (functions, LENGTHS.map(weight).into())
+        (functions, LENGTHS.map(by_length).into())
     };
     let over_cycles = |scale: fn(f64) -> f64| {
         let cycles: Vec<f64> = observations().map(|o| scale(o.cycles)).collect();
@@ -193,11 +212,21 @@ fn shared<'a>(
         };
         (functions, RATIOS.map(weight).into())
     };
+    let rate_over_cycles = || {
+        let cycles: Vec<f64> = observations().map(|o| o.cycles).collect();
+        let functions = Functions {
+            g: model,
+            groups: quantities.clone(),
+            functions: mean_waves(&cycles, ALONG),
+        };
+        (functions, LENGTHS.map(by_length).into())
+    };
     vec![
         along(model),
         along(size),
         over_cycles(f64::ln_1p),
         over_cycles(|n| n),
+        rate_over_cycles(),
     ]
 }
 
@@ -297,7 +326,7 @@ impl SharedFunctions {
             log_gain(&self.normal, &self.right, &roots)
         };
         let unmissed = of_size(self.error);
-        SIZES.map(|size| of_size(size) - unmissed).to_vec()
+        COMMON_SIZES.map(|size| of_size(size) - unmissed).to_vec()
     }
 }
 

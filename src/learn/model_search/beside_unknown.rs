@@ -110,11 +110,12 @@ impl Context<'_> {
     /// The base model fitted beside the discrepancy of this context.
     fn base_beside(&self, base: &BaseFit) -> Option<BaseFit> {
         let fitted = &base.fitted;
-        let bench = match fitted.fidelity {
-            Fidelity::Screening => self.hertz,
-            Fidelity::Middle | Fidelity::Full => self.middle,
+        // by the model that the effects are fitted by, or its error would be taken for what they bring
+        let (bench, offset) = match self.fidelity {
+            Fidelity::Screening => (self.hertz, &base.hertz_offset),
+            Fidelity::Middle | Fidelity::Full => (self.middle, &fitted.offset),
         };
-        let predictor = Anchored::new(model(bench, &fitted.candidate), fitted.offset.clone());
+        let predictor = Anchored::new(model(bench, &fitted.candidate), offset.clone());
         let parameters = &fitted.candidate.parameters;
         let start = fitted.found.state.clone();
         let found = self.likelihood.fit(&predictor, parameters, start, &SCREEN);
