@@ -93,6 +93,7 @@ fn wear_data(tests: &[(&str, f64)], points: usize, traces: bool) -> Dataset {
         observations: Vec::new(),
         traces: Vec::new(),
         reading: String::new(),
+        outliers: Vec::new(),
     };
     for (test, (id, cycles)) in tests.iter().enumerate() {
         for (member, low) in [(Subject::Pinion, 26.0), (Subject::Gear, 52.0)] {

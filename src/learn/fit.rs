@@ -271,13 +271,10 @@ impl Problem<'_> {
     ) {
         let selection = search.selection;
         let residual = selection.residual(&found.model);
-        let found_datums = selection.covariance.datums(&residual);
+        let (errors, found_datums) = selection.covariance.trace_errors(&residual);
         for (i, &row) in selection.numbers.iter().enumerate() {
             let observation = &self.data.observations[row];
-            let datum = observation
-                .trace
-                .and_then(|trace| found_datums.iter().find(|d| d.trace == trace));
-            let datum = datum.map_or(0.0, |datum| datum.value);
+            let datum = errors[i];
             let off = found.model[i] + datum - observation.value;
             rows[row] = RowFit {
                 model: found.model[i],

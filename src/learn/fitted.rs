@@ -83,7 +83,7 @@ impl Jacobian {
 pub struct RowFit {
     /// What the model says.
     pub model: f64,
-    /// The most probable datum of its trace, 0 without one.
+    /// What the most probable datum, tilt and shift of its trace make here, 0 without one.
     pub datum: f64,
     /// Model minus (measured minus datum).
     pub residual: f64,

@@ -247,16 +247,12 @@ impl<'a> Likelihood<'a> {
         off.iter().map(|z| z * z).sum::<f64>() / self.len() as f64
     }
 
-    /// (measured − model − datum)/sigma with each trace's most probable datum.
+    /// (measured − model − m)/sigma, m: each trace's most probable datum, tilt and shift.
     pub(super) fn standardised(&self, model: &[f64]) -> Vec<f64> {
         let residual = self.residual(model);
-        let datums = self.covariance.datums(&residual);
+        let (errors, _) = self.covariance.trace_errors(&residual);
         (0..self.len())
-            .map(|row| {
-                let o = self.observation(row);
-                let datum = datums.iter().find(|d| Some(d.trace) == o.trace);
-                (residual[row] - datum.map_or(0.0, |d| d.value)) / o.sigma
-            })
+            .map(|row| (residual[row] - errors[row]) / self.observation(row).sigma)
             .collect()
     }
 }

@@ -114,14 +114,47 @@ impl Synthetic {
                 self.datums[trace] = study.noise.datum_um * draw.normal();
                 self.datums[trace]
             });
-            for i in start..end {
+            let of_machine = if first.quantity == Quantity::WearDepth {
+                let places: Vec<f64> = (rows[start..end].iter())
+                    .map(|&i| all[i].position.unwrap_or(0.0))
+                    .collect();
+                let tilt = study.noise.tilt_um * draw.normal();
+                let shift = study.noise.shift_mm * draw.normal();
+                tilted_and_shifted(&places, &exact[start..end], tilt, shift)
+            } else {
+                exact[start..end].to_vec()
+            };
+            for (i, value) in (start..end).zip(of_machine) {
                 let o = &mut self.data.observations[rows[i]];
                 o.sigma = sigma;
-                o.value = exact[i] + datum + sigma * draw.normal();
+                o.value = value + datum + sigma * draw.normal();
             }
             start = end;
         }
     }
+}
+
+/// A curve as a machine sees it that tilts it by `tilt` from end to end and takes every radius for one larger by `shift`.
+fn tilted_and_shifted(places: &[f64], values: &[f64], tilt: f64, shift: f64) -> Vec<f64> {
+    let low = places.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
+    let at = |place: f64| {
+        let after = order.partition_point(|&i| places[i] < place);
+        let last = order.len() - 1;
+        let [a, b] = [order[after.saturating_sub(1)], order[after.min(last)]];
+        let width = places[b] - places[a];
+        if width > 0.0 {
+            values[a] + (values[b] - values[a]) * (place - places[a]) / width
+        } else {
+            values[a]
+        }
+    };
+    let width = if high > low { high - low } else { 1.0 };
+    (places.iter())
+        .map(|&place| at(place - shift) + tilt * ((place - low) / width - 0.5))
+        .collect()
 }
 
 /// [`FLOOR_UM`] in the unit of an observation's quantity.
@@ -152,6 +185,7 @@ fn places(study: &Study) -> Result<Dataset, CompareError> {
         observations: Vec::new(),
         traces: Vec::new(),
         reading: String::new(),
+        outliers: Vec::new(),
     };
     for (number, test) in study.tests.iter().enumerate() {
         let pair = pair(study, test)?;

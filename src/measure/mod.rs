@@ -12,7 +12,9 @@ mod dialect;
 mod header;
 pub mod import;
 mod known;
+pub mod neighbours;
 mod observation;
+pub mod outliers;
 mod quantity;
 mod table;
 mod units;
@@ -24,6 +26,7 @@ use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted};
 pub use header::COLUMNS;
 pub use known::{Known, KnownTest};
 pub use observation::Observation;
+pub use outliers::Outlier;
 pub use quantity::{Place, Quantity, Subject};
 
 use dialect::Dialect;
@@ -44,6 +47,8 @@ pub struct Dataset {
     pub traces: Vec<Trace>,
     /// How the file was read where it is not written in the format's own way, in one line; empty otherwise.
     pub reading: String,
+    /// Rows that stand apart from their neighbours, in their order.
+    pub outliers: Vec<Outlier>,
 }
 
 /// Points that share one unknown constant datum offset.
@@ -134,6 +139,7 @@ impl Dataset {
             observations,
             traces: reader.into_traces(),
             reading: reading(dialect, &columns, blank),
+            outliers: Vec::new(),
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The measurements that belong to a study.
 
-use super::{Role, Study};
+use super::{Outliers, Role, Study};
 use crate::measure::{Dataset, Known, Observation};
 use crate::source_text::{Diagnostic, Fault, TextError, list};
 
@@ -47,7 +47,9 @@ impl Study {
                 "each test states under which conditions its measurements were made",
             );
         }
-        Dataset::load(path, &self.known())
+        let mut data = Dataset::load(path, &self.known())?;
+        data.find_outliers(self.noise.outliers == Outliers::Robust);
+        Ok(data)
     }
 
     /// Whether there is any wear to measure or to fit.

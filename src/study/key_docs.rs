@@ -118,6 +118,7 @@ const fn number(
     doc(table, key, Value::Number(quantity), without, meaning)
 }
 
+const OUTLIERS: &[&str] = &["report", "robust"];
 const CONTACTS: &[&str] = &[
     ContactKind::Fem.name(),
     ContactKind::Hertz.name(),
@@ -176,6 +177,9 @@ pub static KEY_DOCS: &[KeyDoc] = &[
 
     doc("noise", "coefficient_scatter", Value::WordOr("estimate", &q::SCATTER), Default("\"estimate\""), "relative scatter of k between tests"),
     number("noise", "datum", &q::DATUM, Default("0.5"), "prior standard deviation of a trace's unknown constant datum"),
+    number("noise", "trace_tilt", &q::TILT, Default("0.0"), "prior standard deviation of a wear trace's unknown tilt, from end to end"),
+    number("noise", "trace_shift", &q::SHIFT, Default("0.0"), "prior standard deviation of the unknown shift of a wear trace's radii on the measuring machine"),
+    doc("noise", "outliers", Value::Word(OUTLIERS), Default("\"report\""), "rows that stand apart from their neighbours: reported as they count, or counted with a sigma as large as they stand apart"),
 
     doc("effect", "kind", Value::Text, Refused, "an effect of the catalogue, whose parameters are then keys of this table, or `\"formula\"`"),
     doc("effect", "name", Value::Text, Refused, "formula only: what results call it"),

@@ -46,7 +46,7 @@ pub use key_docs::{KEY_DOCS, KeyDoc, Without, unit_of};
 pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
 pub use operation::{Operation, Role, Test};
-pub use settings::{ContactKind, Noise, Scatter, Wear};
+pub use settings::{ContactKind, Noise, Outliers, Scatter, Wear};
 
 use reader::{Spans, Table, shown};
 

@@ -331,6 +331,18 @@ pub(super) const DATUM: Quantity = quantity(
     1000.0,
     "prior standard deviation of a trace's unknown constant",
 );
+pub(super) const TILT: Quantity = quantity(
+    "um",
+    From(0.0),
+    1000.0,
+    "prior standard deviation of a trace's unknown tilt from end to end",
+);
+pub(super) const SHIFT: Quantity = quantity(
+    "mm",
+    From(0.0),
+    1.0,
+    "prior standard deviation of the unknown shift of a trace's radii",
+);
 pub(super) const STEP_TOLERANCE: Quantity =
     quantity("-", From(1e-7), 0.1, "relative error of one wear step");
 /// A parameter of an effect, before the catalogue is asked: any finite number.

@@ -17,7 +17,13 @@ pub(super) const MEMBER_WEAR_KEYS: &[&str] = &["coefficient"];
 const WEAR_TABLE_KEYS: &[&str] = &["coefficient", "cycles", "pinion", "gear"];
 pub(super) const MODEL_KEYS: &[&str] = &["contact"];
 pub(super) const FIT_KEYS: &[&str] = &["free"];
-pub(super) const NOISE_KEYS: &[&str] = &["coefficient_scatter", "datum"];
+pub(super) const NOISE_KEYS: &[&str] = &[
+    "coefficient_scatter",
+    "datum",
+    "trace_tilt",
+    "trace_shift",
+    "outliers",
+];
 pub(super) const MEASUREMENTS_KEYS: &[&str] = &["file"];
 
 /// `[wear]`.
@@ -61,6 +67,21 @@ pub struct Noise {
     pub coefficient_scatter: Scatter,
     /// Prior standard deviation of a trace's unknown constant datum, µm.
     pub datum_um: f64,
+    /// Prior standard deviation of a trace's unknown tilt from end to end, µm.
+    pub tilt_um: f64,
+    /// Prior standard deviation of the unknown shift of a trace's radii, mm.
+    pub shift_mm: f64,
+    /// What becomes of rows that stand apart from their neighbours.
+    pub outliers: Outliers,
+}
+
+/// What becomes of measured rows that stand apart from their neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outliers {
+    /// They are reported and count as they are.
+    Report,
+    /// They are reported and count with a σ as large as they stand apart.
+    Robust,
 }
 
 /// Scatter of the wear coefficient between tests.
@@ -164,6 +185,9 @@ pub(super) fn read_noise(root: &Table<'_>) -> Result<Noise> {
     let mut noise = Noise {
         coefficient_scatter: Scatter::Estimate,
         datum_um: 0.5,
+        tilt_um: 0.0,
+        shift_mm: 0.0,
+        outliers: Outliers::Report,
     };
     let Some(table) = root.table("noise", NOISE_KEYS)? else {
         return Ok(noise);
@@ -193,6 +217,12 @@ pub(super) fn read_noise(root: &Table<'_>) -> Result<Noise> {
         }
     }
     noise.datum_um = table.number("datum", &q::DATUM)?.unwrap_or(noise.datum_um);
+    noise.tilt_um = table
+        .number("trace_tilt", &q::TILT)?
+        .unwrap_or(noise.tilt_um);
+    noise.shift_mm = (table.number("trace_shift", &q::SHIFT)?).unwrap_or(noise.shift_mm);
+    let outliers = [("report", Outliers::Report), ("robust", Outliers::Robust)];
+    noise.outliers = (table.choice("outliers", &outliers)?).unwrap_or(noise.outliers);
     Ok(noise)
 }
 

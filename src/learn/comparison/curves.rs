@@ -36,7 +36,7 @@ pub struct CurvePoint {
     pub position: f64,
     /// Distance along the path of contact from the pitch point, mm, of points on a flank.
     pub path: Option<f64>,
-    /// Measured value minus the datum.
+    /// Measured value minus what datum, tilt and shift of the trace make here.
     pub measured: f64,
     /// Its standard deviation.
     pub sigma: f64,
@@ -44,6 +44,12 @@ pub struct CurvePoint {
     pub model: f64,
     /// Model minus measured.
     pub residual: f64,
+}
+
+/// The most probable datum of a trace.
+fn datum(fit: &Fit, trace: usize) -> f64 {
+    let own = fit.datums.iter().find(|datum| datum.trace == trace);
+    own.map_or(0.0, |datum| datum.value)
 }
 
 /// All curves, by test, member, quantity, cycles and trace.
@@ -59,7 +65,7 @@ pub fn curves(study: &Study, data: &Dataset, fit: &Fit) -> Vec<Curve> {
             quantity: o.quantity,
             cycles: o.cycles,
             trace: o.trace.map(|trace| data.traces[trace].name.clone()),
-            datum: row.datum,
+            datum: o.trace.map_or(0.0, |trace| datum(fit, trace)),
             points: Vec::new(),
         });
         curve.points.push(CurvePoint {

@@ -34,6 +34,7 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
     warnings.extend(together(&fit.parameters, &correlation(fit)));
     warnings.extend(wide_traces(data));
     warnings.extend(repeated(data));
+    warnings.extend(data.outliers_in_words());
     warnings
 }
 
@@ -195,6 +196,7 @@ mod tests {
                 observations,
                 traces: vec![trace("1", 2), trace("2", 5)],
                 reading: String::new(),
+                outliers: Vec::new(),
             })
         };
         let (pinion, gear) = (Subject::Pinion, Subject::Gear);
@@ -243,6 +245,7 @@ mod tests {
                 observations,
                 traces: Vec::new(),
                 reading: String::new(),
+                outliers: Vec::new(),
             })
         };
         let (a, b) = (row(2, Some(26.0), 1.0), row(3, Some(26.0), 1.1));

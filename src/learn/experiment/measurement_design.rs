@@ -171,6 +171,7 @@ impl MeasurementDesign {
             observations,
             traces: self.traces.clone(),
             reading: String::new(),
+            outliers: Vec::new(),
         }
     }
 

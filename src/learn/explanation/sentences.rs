@@ -278,7 +278,7 @@ fn depends_on(driver: &Driver) -> Vec<String> {
         percent(driver.variance_share)
     )];
     if driver.name == "trace" {
-        reasons.push("Traces are shifted or tilted each by itself, as wear of the same teeth is not: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth.".to_owned());
+        reasons.push("Traces are shifted or tilted each by itself, as wear of the same teeth is not: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth. [noise] trace_tilt and trace_shift allow for it.".to_owned());
     }
     reasons
 }

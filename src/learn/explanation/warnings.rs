@@ -37,6 +37,7 @@ pub(in crate::learn) fn warnings(
             "neighbouring points of a trace scatter only {smooth:.2} times their stated sigma: if the traces were filtered their points are not independent and every probability here is too bold; if sigma is overstated, weak effects stay hidden"
         ));
     }
+    warnings.extend(likelihood.measured.data.outliers_in_words());
     let alone = measured_once(likelihood);
     if alone.len() == likelihood.tests.len() {
         warnings.push(

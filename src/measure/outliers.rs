@@ -1,0 +1,172 @@
+//! Rows that stand apart from their neighbours along a curve: dust, burrs, slipped decimal points.
+//!
+//! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). A place
+//! where several curves of a member do alike is a feature of the flank and no outlier.
+
+use super::neighbours::{around, curves, points};
+use super::{Dataset, Observation};
+
+/// Standard deviations from what the neighbours say from which a row stands apart: none of 20 000 Gaussian ones in the mean.
+const APART: f64 = 6.0;
+/// Standard deviations from which another curve does alike at the same place, and share of the curves there that must.
+const ALIKE: f64 = 2.5;
+const FEATURE: f64 = 0.3;
+/// Median of |x| of a standard normal number.
+const MEDIAN: f64 = 0.674_490;
+
+/// A row that stands apart from its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outlier {
+    /// Its place in [`Dataset::observations`].
+    pub row: usize,
+    /// The value that its neighbours lead one to expect.
+    pub expected: f64,
+    /// Standard deviations that it stands apart.
+    pub apart: f64,
+    /// σ as the file states it.
+    pub stated_sigma: f64,
+}
+
+/// What is known of one curve.
+struct Curve {
+    rows: Vec<usize>,
+    points: Vec<[f64; 3]>,
+    passed_over: Vec<bool>,
+    /// Scatter of the points about their neighbours over the stated one, at least 1.
+    scale: f64,
+}
+
+impl Curve {
+    /// Standard deviations that a point stands apart, and the value expected.
+    fn apart(&self, at: usize) -> Option<(f64, f64)> {
+        let found = around(&self.points, at, &self.passed_over)?;
+        let apart = (self.points[at][1] - found.expected) / (found.sigma * self.scale);
+        Some((apart, found.expected))
+    }
+
+    /// Standard deviations at the point nearest to a place, if the curve has one within half the distance of its points.
+    fn near(&self, place: f64) -> Option<f64> {
+        let distance = |at: &usize| (self.points[*at][0] - place).abs();
+        let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let [first, last] = [self.points.first()?[0], self.points.last()?[0]];
+        let reach = 0.75 * (last - first) / (self.points.len() - 1) as f64;
+        (distance(&nearest) <= reach).then(|| self.apart(nearest).map(|found| found.0))?
+    }
+}
+
+/// All rows that stand apart from their neighbours.
+pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
+    let rows: Vec<&Observation> = observations.iter().collect();
+    let mut all: Vec<Curve> = (curves(&rows).into_iter())
+        .map(|own| {
+            let points = points(&rows, &own);
+            let mut curve = Curve {
+                passed_over: vec![false; points.len()],
+                rows: own,
+                points,
+                scale: 1.0,
+            };
+            let mut apart: Vec<f64> = (0..curve.points.len())
+                .filter_map(|at| Some(curve.apart(at)?.0.abs()))
+                .collect();
+            apart.sort_by(f64::total_cmp);
+            let middle = apart.get(apart.len() / 2).copied().unwrap_or(0.0);
+            curve.scale = (middle / MEDIAN).max(1.0);
+            curve
+        })
+        .collect();
+    let mut found = Vec::new();
+    for number in 0..all.len() {
+        let mut kept = vec![false; all[number].points.len()];
+        loop {
+            let curve = &all[number];
+            let worst = (0..curve.points.len())
+                .filter(|&at| !curve.passed_over[at] && !kept[at])
+                .filter_map(|at| {
+                    curve
+                        .apart(at)
+                        .map(|(apart, expected)| (at, apart, expected))
+                })
+                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            let Some((at, apart, expected)) = worst.filter(|worst| worst.1.abs() > APART) else {
+                break;
+            };
+            let o = rows[curve.rows[at]];
+            let alike = |other: &Curve| {
+                let like = rows[other.rows[0]];
+                ((like.member, like.quantity) == (o.member, o.quantity))
+                    .then(|| other.near(curve.points[at][0]))?
+            };
+            let others: Vec<f64> = (all.iter().enumerate())
+                .filter(|(i, _)| *i != number)
+                .filter_map(|(_, other)| alike(other))
+                .collect();
+            let same = others
+                .iter()
+                .filter(|z| **z * apart.signum() > ALIKE)
+                .count();
+            if same > 0 && same as f64 >= FEATURE * others.len() as f64 {
+                kept[at] = true;
+                continue;
+            }
+            found.push(Outlier {
+                row: curve.rows[at],
+                expected,
+                apart: apart.abs(),
+                stated_sigma: o.sigma,
+            });
+            all[number].passed_over[at] = true;
+        }
+    }
+    found.sort_by_key(|outlier| outlier.row);
+    found
+}
+
+/// Rows that are named one by one in a message.
+const NAMED: usize = 5;
+
+impl Dataset {
+    /// The rows that stand apart from their neighbours, in a sentence; None where none does.
+    pub fn outliers_in_words(&self) -> Option<String> {
+        let first = self.outliers.first()?;
+        let one = |outlier: &Outlier| {
+            let o = &self.observations[outlier.row];
+            let (value, expected) = (o.value, outlier.expected);
+            let unit = o.quantity.unit();
+            format!(
+                "{} ({value:.4} {unit} where {expected:.4} is expected, {:.0} standard deviations)",
+                self.place(o),
+                outlier.apart
+            )
+        };
+        let named: Vec<String> = self.outliers.iter().take(NAMED).map(one).collect();
+        let more = match self.outliers.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let rows = match self.outliers.len() {
+            1 => "1 row stands".to_owned(),
+            n => format!("{n} rows stand"),
+        };
+        let counted = if self.observations[first.row].sigma > first.stated_sigma {
+            "they count with a sigma as large as they stand apart"
+        } else {
+            "they count as they are; correct them, or state [noise] outliers = \"robust\""
+        };
+        Some(format!(
+            "{rows} apart from the neighbours along the trace: {}{more}; {counted}",
+            named.join(", ")
+        ))
+    }
+
+    /// Finds the rows that stand apart from their neighbours; if `robust`, they count with a σ as large as they stand apart.
+    pub(crate) fn find_outliers(&mut self, robust: bool) {
+        self.outliers = outliers(&self.observations);
+        if robust {
+            for outlier in &self.outliers {
+                let o = &mut self.observations[outlier.row];
+                o.sigma = o.sigma.hypot(o.value - outlier.expected);
+            }
+        }
+    }
+}
