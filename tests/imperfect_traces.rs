@@ -131,7 +131,6 @@ fn tilts_and_shifts_that_are_allowed_for_are_no_discrepancy() {
     assert!(text.contains(stated), "{text}");
     std::fs::write(made.join("without.toml"), text.replace(stated, "")).unwrap();
     let without = chi2("without");
-    eprintln!("{with} {without}");
     assert!((0.85..1.1).contains(&with), "{with}");
     assert!(without > 1.5 * with, "{without} {with}");
 }

@@ -179,6 +179,8 @@ fn running_in_parameters() -> Vec<Parameter> {
 fn noise(scatter: Scatter) -> NoiseModel {
     NoiseModel {
         datum_um: 0.5,
+        tilt_um: 0.0,
+        shift_mm: 0.0,
         sigma_factor: 1.0,
         scatter,
         model_error: None,

@@ -21,7 +21,7 @@ pub(in crate::learn) struct Covariance {
 }
 
 #[derive(Debug, Clone)]
-pub(super) enum Block {
+enum Block {
     Trace(TraceErrors),
     Dense(Vec<usize>, Box<Cholesky<f64, Dyn>>),
 }
@@ -52,7 +52,11 @@ impl Covariance {
         let blocks = if errors.is_empty() {
             traces.iter().cloned().map(Block::Trace).collect()
         } else {
-            dense_blocks(&picked, &sigma, &traces, &errors)
+            let dense = dense_blocks(&picked, &sigma, &traces, &errors);
+            dense
+                .into_iter()
+                .map(|(rows, factor)| Block::Dense(rows, factor))
+                .collect()
         };
         Self {
             sigma,

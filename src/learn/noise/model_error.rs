@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
-use super::covariance::Block;
 use super::trace::TraceErrors;
 use crate::measure::Observation;
 
@@ -34,13 +33,16 @@ impl Default for ModelError {
     }
 }
 
+/// Rows with the factor of their covariance.
+pub(super) type Dense = (Vec<usize>, Box<Cholesky<f64, Dyn>>);
+
 /// One block per test, member and quantity; traces that reach over several tie them together.
 pub(super) fn dense_blocks(
     picked: &[&Observation],
     sigma: &[f64],
     traces: &[TraceErrors],
     errors: &[(Vec<f64>, ModelError)],
-) -> Vec<Block> {
+) -> Vec<Dense> {
     let mut groups = BTreeMap::new();
     for (i, o) in picked.iter().enumerate() {
         let rows: &mut Vec<usize> = groups.entry((o.test, o.member, o.quantity)).or_default();
@@ -100,7 +102,7 @@ pub(super) fn dense_blocks(
                 }
             }
         }
-        Block::Dense(rows, Box::new(factor(matrix)))
+        (rows, Box::new(factor(matrix)))
     };
     blocks.into_values().map(block).collect()
 }
