@@ -506,3 +506,60 @@ fn check(text: &str) -> Result<(), TestCaseError> {
     }
     Ok(())
 }
+
+/// Standard normal numbers: splitmix64 (Steele, Lea and Flood 2014) and Box and Muller's transform.
+fn normal(state: &mut u64) -> f64 {
+    let mut uniform = || {
+        *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = *state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    };
+    let (u, v) = (1.0 - uniform(), uniform());
+    (-2.0 * u.ln()).sqrt() * (2.0 * std::f64::consts::PI * v).cos()
+}
+
+/// Traces of noise of a known size on a smooth curve: its σ is found within the error of such an estimate, and that is said.
+#[test]
+fn a_sigma_that_is_not_stated_is_estimated_from_the_neighbours() {
+    let mut text = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
+    let truth = 0.17;
+    let mut random = 5;
+    for trace in 1..=6 {
+        for point in 0..60 {
+            let radius = 25.7 + 0.05 * f64::from(point);
+            let wear = 5.0 + 2.0 * (1.7 * radius).sin() + truth * normal(&mut random);
+            text += &format!("A,pinion,{trace}00000,wear_depth,{radius},{wear},,A-p-{trace}\n");
+        }
+    }
+    let data = parse(&text).unwrap();
+    for o in &data.observations {
+        assert!((o.sigma / truth - 1.0).abs() < 0.35, "{}", o.sigma);
+    }
+    let mean = data.observations.iter().map(|o| o.sigma).sum::<f64>() / 360.0;
+    assert!((mean / truth - 1.0).abs() < 0.12, "{mean}");
+    assert!(
+        data.reading.contains("sigma of 360 rows estimated"),
+        "{}",
+        data.reading
+    );
+}
+
+#[test]
+fn a_sigma_that_is_not_stated_is_that_of_repeats_or_of_other_rows() {
+    let rows = |values: &[(f64, &str)]| {
+        let row =
+            |(value, sigma): &(f64, &str)| format!("A,pinion,500000,mass_loss,,{value},{sigma}\n");
+        let rows: String = values.iter().map(row).collect();
+        parse(&format!(
+            "test,member,cycles,quantity,position,value,sigma\n{rows}"
+        ))
+    };
+    // of 10, 12, 13 and 9: standard deviation √(10/3)
+    let repeated = rows(&[(10.0, ""), (12.0, ""), (13.0, ""), (9.0, "")]).unwrap();
+    let expected = (10.0_f64 / 3.0).sqrt();
+    assert!((repeated.observations[0].sigma - expected).abs() < 1e-12);
+    let beside = rows(&[(10.0, "0.4"), (12.0, "")]).unwrap();
+    assert_eq!(beside.observations[1].sigma, 0.4);
+}

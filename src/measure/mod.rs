@@ -16,6 +16,7 @@ pub mod neighbours;
 mod observation;
 pub mod outliers;
 mod quantity;
+mod sigma;
 mod table;
 mod units;
 
@@ -31,7 +32,7 @@ pub use quantity::{Place, Quantity, Subject};
 
 use dialect::Dialect;
 use header::Columns;
-use observation::Reader;
+use observation::{LEAST_SIGMA, Reader};
 use table::Table;
 
 /// Every measurement of a file, in its order.
@@ -132,20 +133,27 @@ impl Dataset {
                     .with_span(end..end),
             ));
         }
+        let estimated = match sigma::estimate(&mut observations) {
+            Ok(estimated) => estimated,
+            Err(row) => {
+                let o = &observations[row];
+                return Err(Box::new(without_sigma(source, dialect, &columns, o)?));
+            }
+        };
         units::check(source, (&columns, dialect.separator), &observations)?;
         Ok(Self {
             name: source.name.clone(),
             tests: known.tests.iter().map(|test| test.id.clone()).collect(),
             observations,
             traces: reader.into_traces(),
-            reading: reading(dialect, &columns, blank),
+            reading: reading(dialect, &columns, blank, estimated.said()),
             outliers: Vec::new(),
         })
     }
 }
 
 /// How a file was read that is not written in the format's own way.
-fn reading(dialect: Dialect, columns: &Columns, blank: usize) -> String {
+fn reading(dialect: Dialect, columns: &Columns, blank: usize, estimated: Option<String>) -> String {
     let mut said: Vec<String> = dialect.said().into_iter().collect();
     let mut passed_over: Vec<String> = Vec::new();
     match columns.passed_over.as_slice() {
@@ -163,5 +171,28 @@ fn reading(dialect: Dialect, columns: &Columns, blank: usize) -> String {
     if !passed_over.is_empty() {
         said.push(format!("passed over: {}", passed_over.join(", ")));
     }
+    said.extend(estimated);
     said.join("; ")
+}
+
+/// What is to be said of a row of whose sigma nothing tells.
+fn without_sigma(
+    source: &Source,
+    dialect: Dialect,
+    columns: &Columns,
+    observation: &Observation,
+) -> Result<Diagnostic, Box<Diagnostic>> {
+    let mut table = Table::new(source, dialect);
+    while let Some(row) = table.next()? {
+        if row.line == observation.line {
+            let cell = row.cell("sigma", columns.of("sigma"));
+            let unit = observation.quantity.unit();
+            let allowed = format!("one standard deviation, at least {LEAST_SIGMA:e}, {unit}");
+            let fault = cell.fault(Fault::MissingKey, "sigma is missing", &allowed);
+            return Ok(fault.with_hint(
+                "it is estimated where points along a trace, repeated measurements or other rows of the quantity tell it; here none does",
+            ));
+        }
+    }
+    unreachable!("the row was read from this text")
 }

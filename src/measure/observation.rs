@@ -389,9 +389,13 @@ fn no_position(cell: Cell<'_, '_>, quantity: Quantity) -> Result<Option<f64>> {
 }
 
 /// Least standard deviation that is believed, in the unit of any quantity.
-const LEAST_SIGMA: f64 = 1e-9;
+pub(super) const LEAST_SIGMA: f64 = 1e-9;
 
+/// Not a number where the row states none.
 fn sigma(cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
+    if cell.is_empty() {
+        return Ok(f64::NAN);
+    }
     let allowed = format!(
         "one standard deviation, at least {LEAST_SIGMA:e}, {}",
         quantity.unit()

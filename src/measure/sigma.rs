@@ -1,0 +1,184 @@
+//! The σ of rows that state none, from what the measurements themselves tell of their noise.
+//!
+//! In this order: the scatter of a curve's points about what their neighbours lead one to expect ([`super::neighbours`]; of a value that has
+//! no position, about those before and after it in the test's life); values of the same quantity measured again at the same place and time;
+//! the σ that other rows of the quantity state. If none of these tells it, the row is refused.
+
+use std::collections::BTreeMap;
+
+use super::Observation;
+use super::neighbours::{around, curves, points};
+use super::quantity::Quantity;
+
+/// Median of |x| of a standard normal number.
+const MEDIAN: f64 = 0.674_490;
+/// Points of a curve that give a scatter of their own; of shorter ones the middle of all curves of the quantity is taken.
+const ENOUGH: usize = 15;
+/// Values measured again that give a scatter.
+const REPEATS: usize = 3;
+/// Least σ over a curve's largest value: smoother ones have been filtered.
+const LEAST: f64 = 1e-3;
+
+/// How many rows got their σ from what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Estimated {
+    neighbours: usize,
+    repeats: usize,
+    stated: usize,
+}
+
+impl Estimated {
+    /// In words; None if every row stated its own.
+    pub(super) fn said(self) -> Option<String> {
+        let of = |rows: usize, from: &str| match rows {
+            0 => None,
+            1 => Some(format!("1 from {from}")),
+            n => Some(format!("{n} from {from}")),
+        };
+        let parts: Vec<String> = [
+            of(self.neighbours, "the scatter about their neighbours"),
+            of(self.repeats, "repeated measurements"),
+            of(self.stated, "the sigma of other rows"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let rows = self.neighbours + self.repeats + self.stated;
+        let rows = if rows == 1 {
+            "1 row".to_owned()
+        } else {
+            format!("{rows} rows")
+        };
+        (!parts.is_empty()).then(|| format!("sigma of {rows} estimated: {}", parts.join(", ")))
+    }
+}
+
+/// Gives every row that states no σ (it is not a number) one.
+///
+/// # Errors
+/// The first row of which nothing tells it.
+pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, usize> {
+    let mut estimated = Estimated::default();
+    let unknown: Vec<usize> = (0..observations.len())
+        .filter(|&row| observations[row].sigma.is_nan())
+        .collect();
+    if unknown.is_empty() {
+        return Ok(estimated);
+    }
+    let neighbours = of_neighbours(observations);
+    let repeats = of_repeats(observations);
+    let stated = of_stated(observations);
+    for row in unknown {
+        let o = &observations[row];
+        let (count, sigma) = if let Some(sigma) = neighbours[row] {
+            (&mut estimated.neighbours, sigma)
+        } else if let Some(sigma) = repeats.get(&o.quantity) {
+            (&mut estimated.repeats, *sigma)
+        } else if let Some(sigma) = stated.get(&o.quantity) {
+            (&mut estimated.stated, *sigma)
+        } else {
+            return Err(row);
+        };
+        *count += 1;
+        observations[row].sigma = sigma;
+    }
+    Ok(estimated)
+}
+
+/// Of each row by the scatter of its curve, or of the quantity's middle curve.
+fn of_neighbours(observations: &[Observation]) -> Vec<Option<f64>> {
+    let rows: Vec<&Observation> = observations.iter().collect();
+    let along = (curves(&rows).into_iter()).map(|curve| (points(&rows, &curve), curve));
+    let in_time = (series(&rows).into_iter()).map(|own| {
+        let point = |&i: &usize| [rows[i].cycles, rows[i].value, 1.0];
+        (own.iter().map(point).collect(), own)
+    });
+    let mut found = vec![None; rows.len()];
+    let mut middle: BTreeMap<Quantity, Vec<f64>> = BTreeMap::new();
+    let all: Vec<(Vec<[f64; 3]>, Vec<usize>)> = along.chain(in_time).collect();
+    for (points, own) in &all {
+        let Some(scatter) = scatter(points) else {
+            continue;
+        };
+        let quantity = rows[own[0]].quantity;
+        middle.entry(quantity).or_default().push(scatter);
+        if own.len() >= ENOUGH {
+            own.iter().for_each(|&row| found[row] = Some(scatter));
+        }
+    }
+    for (row, found) in found.iter_mut().enumerate() {
+        if let Some(all) = middle.get_mut(&rows[row].quantity) {
+            *found = found.or_else(|| Some(median(all)));
+        }
+    }
+    found
+}
+
+/// Rows without a position by test, member and quantity, in the order of their cycles.
+fn series(rows: &[&Observation]) -> Vec<Vec<usize>> {
+    let mut series: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    for (i, o) in rows.iter().enumerate() {
+        if o.position.is_none() {
+            let key = (o.test, o.member, o.quantity, o.trace);
+            series.entry(key).or_default().push(i);
+        }
+    }
+    let mut series: Vec<Vec<usize>> = series.into_values().collect();
+    for own in &mut series {
+        own.sort_by(|&a, &b| rows[a].cycles.total_cmp(&rows[b].cycles));
+    }
+    series
+}
+
+/// Scatter of a curve's points about what their neighbours lead one to expect: no less than a thousandth of its largest value.
+fn scatter(points: &[[f64; 3]]) -> Option<f64> {
+    let even: Vec<[f64; 3]> = points.iter().map(|[x, y, _]| [*x, *y, 1.0]).collect();
+    let none = vec![false; even.len()];
+    let mut apart: Vec<f64> = (0..even.len())
+        .filter_map(|at| {
+            let found = around(&even, at, &none)?;
+            Some((even[at][1] - found.expected).abs() / found.sigma)
+        })
+        .collect();
+    let largest = even.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+    let found = (!apart.is_empty()).then(|| median(&mut apart) / MEDIAN)?;
+    (largest > 0.0).then(|| found.max(LEAST * largest))
+}
+
+/// Of each quantity by values of the same place and time.
+fn of_repeats(observations: &[Observation]) -> BTreeMap<Quantity, f64> {
+    let mut places: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+    for o in observations {
+        let at = (o.cycles.to_bits(), o.position.map(f64::to_bits));
+        let place = (o.quantity, o.test, o.member, at);
+        places.entry(place).or_default().push(o.value);
+    }
+    let mut sums: BTreeMap<Quantity, (f64, usize)> = BTreeMap::new();
+    for ((quantity, ..), values) in places {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let sum = sums.entry(quantity).or_default();
+        sum.0 += values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        sum.1 += values.len() - 1;
+    }
+    let told = |(sum, freedom): &(f64, usize)| *freedom >= REPEATS && *sum > 0.0;
+    (sums.into_iter())
+        .filter(|(_, sum)| told(sum))
+        .map(|(quantity, (sum, freedom))| (quantity, (sum / freedom as f64).sqrt()))
+        .collect()
+}
+
+/// The middle of what the rows of each quantity state.
+fn of_stated(observations: &[Observation]) -> BTreeMap<Quantity, f64> {
+    let mut stated: BTreeMap<Quantity, Vec<f64>> = BTreeMap::new();
+    for o in observations.iter().filter(|o| !o.sigma.is_nan()) {
+        stated.entry(o.quantity).or_default().push(o.sigma);
+    }
+    (stated.into_iter())
+        .map(|(quantity, mut all)| (quantity, median(&mut all)))
+        .collect()
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
