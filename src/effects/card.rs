@@ -65,6 +65,8 @@ pub enum ParamRole {
     WavePhase,
     /// A power of the local pressure, or one at which the effect sets in: the rate is sharp in what the analytic contact knows least.
     PressureSharpness,
+    /// One part of a smooth function, of many: it has no valleys of its own that a fit had to look for.
+    SmoothPart,
     /// A speed that the effect is known by: measurements that do not determine it show a pattern that another cause could make
     /// as well.
     IdentifyingSpeed,

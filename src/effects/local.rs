@@ -65,6 +65,20 @@ impl Local {
         (self.rolling[0] - self.rolling[1]).abs()
     }
 
+    /// Distance that the mate has slid over this point so far, m, were all its contacts like this one: each lets it slide by the contact's
+    /// width times the sliding over the point's own rolling speed, 2 a |u1 − u2|/u.
+    pub fn slid_distance(&self) -> f64 {
+        let own = match self.member {
+            Member::Pinion => self.rolling[0],
+            Member::Gear => self.rolling[1],
+        };
+        if own > 0.0 {
+            2e-3 * self.contacts * self.half_width * self.sliding_speed() / own
+        } else {
+            0.0
+        }
+    }
+
     /// Mean rolling (entraining) speed (u1 + u2)/2, m/s.
     pub fn entraining_speed(&self) -> f64 {
         0.5 * (self.rolling[0] + self.rolling[1])

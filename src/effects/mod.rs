@@ -1,8 +1,10 @@
-//! Floor 3: physical effects that the base model lacks: one file each in `laws`, and a user's own by formula.
+//! Floor 3: physical effects that the base model lacks: one file each in `laws`, a user's own by formula, and laws learned from
+//! measurements.
 //!
 //! ```text
 //! CATALOGUE -> Card { formula, source, parameters with ranges and priors } -> build -> Box<dyn Effect> -> hooks
 //! study's expression -> formula::Formula -------------------------------------------^
+//! knots and values   -> Learned ----------------------------------------------------^
 //! ```
 //! The base model is dry Archard wear with one constant coefficient for both members; frictionless, quasi-static contact;
 //! perfect involutes at the nominal centre distance, all teeth alike. An effect is a pure function of what its hook is
@@ -18,6 +20,7 @@ mod error;
 mod expression;
 pub mod formula;
 mod laws;
+mod learned;
 mod local;
 mod prior;
 mod surroundings;
@@ -28,6 +31,7 @@ pub use combined::Combined;
 pub use effect::{Effect, Hook, OperationChange, OperationState};
 pub use error::EffectError;
 pub use laws::CATALOGUE;
+pub use learned::{LARGEST_LOGARITHM, Learned, LearnedError};
 pub use local::{Local, ProfileAt, SLIDING_FLOOR};
 pub use prior::Prior;
 pub use surroundings::{LineContact, OilAndHeat, REFERENCE_TEMPERATURE, Surroundings};

@@ -113,6 +113,7 @@ pub static VARIABLES: &[Variable] = &[
     Variable::new("hours", "h", "hours run so far").early(|at| at.hours),
     Variable::new("contact_hours", "h", "time from one contact of this member to its next").local(|at| at.contact_hours),
     Variable::new("depth", "um", "depth worn at this point so far").local(|at| at.depth),
+    Variable::new("slid_distance", "m", "distance that the mate has slid over this point so far, were all contacts like this one").local(Local::slid_distance),
     Variable::new("worn_volume", "mm3", "volume worn off both members since the last oil change").early(|at| at.worn_volume),
     Variable::new("radius", "mm", "radius on this member's flank (the pinion's in a load factor)").early(|at| at.radius).profile(|at| at.radius),
     Variable::new("s", "mm", "signed distance from the pitch point along the path of contact, positive towards the pinion's tip").early(|at| at.path).profile(|at| at.path),

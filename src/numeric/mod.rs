@@ -3,6 +3,7 @@
 pub mod halton;
 pub mod logarithm;
 pub mod quadrature;
+pub mod smooth_functions;
 pub mod sparse;
 
 /// A point or vector in the plane, mm unless said otherwise.

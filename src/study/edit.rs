@@ -6,11 +6,13 @@
 //! A replaced value stands exactly where the old one stood; a new effect and a new `[fit]` stand at the end of the file, or
 //! inside the list if the study writes its effects as one.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
 
-use super::{EffectSpec, Law, Study, relative};
+use super::learned::{LearnedLaw, numbers};
+use super::{EffectSpec, FreeParameter, Law, Study, relative};
 use crate::source_text::TextError;
 
 /// Changes of one study's text, made by [`Edit::finish`].
@@ -18,6 +20,8 @@ use crate::source_text::TextError;
 pub struct Edit<'a> {
     study: &'a Study,
     changes: Vec<(Range<usize>, String)>,
+    /// Coefficients of learned laws, by the place of the effect: made into values at the end.
+    coefficients: BTreeMap<usize, Vec<f64>>,
     /// Added at the end, each a table with its lines.
     tables: Vec<Vec<String>>,
 }
@@ -28,6 +32,7 @@ impl Study {
         Edit {
             study: self,
             changes: Vec::new(),
+            coefficients: BTreeMap::new(),
             tables: Vec::new(),
         }
     }
@@ -49,6 +54,25 @@ impl Edit<'_> {
     /// # Errors
     /// A [`TextError`] if the study has it already.
     pub fn add_effect(&mut self, kind: &str, values: &[(String, f64)]) -> Result<(), TextError> {
+        let mut keys = vec![format!("kind = {}", quoted(kind))];
+        keys.extend(
+            values
+                .iter()
+                .map(|(name, value)| format!("{name} = {}", number(*value))),
+        );
+        self.add_entry(kind, keys)
+    }
+
+    /// Adds a learned law.
+    ///
+    /// # Errors
+    /// As [`Edit::add_effect`].
+    pub fn add_learned(&mut self, learned: &LearnedLaw) -> Result<(), TextError> {
+        self.add_entry(&learned.law.name(), learned.lines())
+    }
+
+    /// Adds an effect of this name with its keys.
+    fn add_entry(&mut self, kind: &str, mut keys: Vec<String>) -> Result<(), TextError> {
         let study = self.study;
         if let Some(place) = study.effects().iter().position(|spec| spec.name == kind) {
             let key = format!("effect[{place}].kind");
@@ -59,12 +83,6 @@ impl Edit<'_> {
                 "its parameters are fitted again if they stand in [fit] free",
             ));
         }
-        let mut keys = vec![format!("kind = {}", quoted(kind))];
-        keys.extend(
-            values
-                .iter()
-                .map(|(name, value)| format!("{name} = {}", number(*value))),
-        );
         match self.span("effect") {
             Some(span) if !self.text(&span).starts_with("[[") => {
                 let entry = format!("{{ {} }}", keys.join(", "));
@@ -98,10 +116,17 @@ impl Edit<'_> {
         }
         let effects = self.study.effects().iter().enumerate();
         for (place, spec) in effects {
-            if let Some(parameter) = spec.parameters.iter().find(|p| p.name == name) {
-                self.set_in(place, spec, parameter.short(), number);
-                return;
+            let Some(n) = spec.parameters.iter().position(|p| p.name == name) else {
+                continue;
+            };
+            if matches!(spec.law, Law::Learned(_)) {
+                let stated = spec.parameters.iter().map(|p| p.value);
+                let all = self.coefficients.entry(place);
+                all.or_insert_with(|| stated.collect())[n] = value;
+            } else {
+                self.set_in(place, spec, spec.parameters[n].short(), number);
             }
+            return;
         }
     }
 
@@ -142,7 +167,7 @@ impl Edit<'_> {
 
     fn set_in(&mut self, place: usize, spec: &EffectSpec, short: &str, number: String) {
         let inside = match spec.law {
-            Law::Card(_) => "",
+            Law::Card(_) | Law::Learned(_) => "",
             Law::Formula { .. } => ".parameters",
         };
         let path = format!("effect[{place}]{inside}.{short}");
@@ -167,7 +192,12 @@ impl Edit<'_> {
         let there = self.study.free();
         let new: Vec<String> = names
             .iter()
-            .filter(|name| !there.iter().any(|free| free.name == **name))
+            .filter(|name| {
+                let own = format!("{name}.");
+                let is_there =
+                    |free: &FreeParameter| free.name == **name || free.name.starts_with(&own);
+                !there.iter().any(is_there)
+            })
             .map(|name| quoted(name))
             .collect();
         if new.is_empty() {
@@ -175,8 +205,9 @@ impl Edit<'_> {
         }
         let new = new.join(", ");
         if let Some(span) = self.span("fit.free") {
-            let last = there.len().checked_sub(1);
-            let last = last.and_then(|n| self.span(&format!("fit.free[{n}]")));
+            // a learned law is one name and many parameters
+            let last = (0..there.len()).map_while(|n| self.span(&format!("fit.free[{n}]")));
+            let last = last.last();
             self.append(span, last, new);
             return;
         }
@@ -250,6 +281,13 @@ impl Edit<'_> {
     /// # Errors
     /// A [`TextError`] if what was set makes the study invalid.
     pub fn finish(mut self, name: &str) -> Result<Study, TextError> {
+        for (place, coefficients) in std::mem::take(&mut self.coefficients) {
+            let span = self.span(&format!("effect[{place}].values"));
+            if let (Law::Learned(learned), Some(span)) = (&self.study.effects()[place].law, span) {
+                let values = numbers(&learned.values_at(&coefficients));
+                self.changes.push((span, values));
+            }
+        }
         self.changes.sort_by_key(|(span, _)| span.start);
         let mut text = self.study.text().to_owned();
         for (span, new) in self.changes.iter().rev() {

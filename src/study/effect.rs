@@ -2,6 +2,7 @@
 
 use super::effect_model::{EffectModel, EffectSpec, Law, Parameter};
 use super::formula;
+use super::learned;
 use super::materials::{Lubricant, Thermal};
 use super::quantity::{self as q, Short};
 use super::reader::Table;
@@ -22,11 +23,15 @@ pub(super) fn read(
     for table in root.tables("effect", None)? {
         let spec = entry(&table)?;
         if specs.iter().any(|above| above.name == spec.name) {
-            let key = if table.has("name") { "name" } else { "kind" };
+            let (key, hint) = match spec.kind.as_str() {
+                formula::KIND => ("name", "formulas may stand together under different names"),
+                learned::KIND => ("driver", "one learned law for each driver and member"),
+                _ => ("kind", "formulas may stand together under different names"),
+            };
             return Err(Box::new(
                 table
                     .refuse(key, "stands there twice", "each effect once")
-                    .with_hint("formulas may stand together under different names"),
+                    .with_hint(hint),
             ));
         }
         check_needs(&table, &spec, lubricant, thermal)?;
@@ -36,7 +41,7 @@ pub(super) fn read(
 }
 
 fn entry(table: &Table<'_>) -> Result<EffectSpec> {
-    let what = "the effect's name in the catalogue, or \"formula\"";
+    let what = "the effect's name in the catalogue, \"formula\" or \"learned\"";
     let Some(kind) = table.name("kind", what)? else {
         return Err(Box::new(
             table
@@ -47,17 +52,21 @@ fn entry(table: &Table<'_>) -> Result<EffectSpec> {
     if kind == formula::KIND {
         return formula::read(table);
     }
+    if kind == learned::KIND {
+        return learned::read(table);
+    }
     match CATALOGUE.iter().find(|card| card.name == kind) {
         Some(card) => of_card(card, table),
         None => {
             let names = CATALOGUE.iter().map(|card| card.name);
-            let near = nearest(kind, names.chain([formula::KIND])).unwrap_or_default();
+            let near =
+                nearest(kind, names.chain([formula::KIND, learned::KIND])).unwrap_or_default();
             Err(Box::new(
                 table
                     .refuse(
                         "kind",
                         "is not in the catalogue",
-                        "an effect of the catalogue, or \"formula\"",
+                        "an effect of the catalogue, \"formula\" or \"learned\"",
                     )
                     .with_hint(format!("the nearest is \"{near}\""))
                     .with_hint("`gearwear effects` lists the catalogue"),

@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::Range;
 
 use super::free::FreeParameter;
+use super::learned::LearnedLaw;
 use crate::effects::formula::Formula;
 use crate::effects::{self, Card, Combined, EffectError, Form, Hook, Param, Prior};
 
@@ -17,9 +18,9 @@ pub struct EffectModel {
 /// One effect of a study: a card of the catalogue or the user's formula, with all its parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EffectSpec {
-    /// Name in the catalogue, or `formula`.
+    /// Name in the catalogue, `formula` or `learned`.
     pub kind: String,
-    /// The name before the point in parameters' names: the kind, or a formula's own name.
+    /// The name before the point in parameters' names: the kind, a formula's own name, or `learned:DRIVER` (with `:MEMBER`).
     pub name: String,
     /// What it computes.
     pub law: Law,
@@ -45,6 +46,8 @@ pub enum Law {
         /// As written.
         expression: String,
     },
+    /// A curve through knots.
+    Learned(LearnedLaw),
 }
 
 /// One parameter of an effect in a study.
@@ -63,7 +66,13 @@ pub struct Parameter {
 }
 
 /// Variables that tell the time.
-const CLOCKS: &[&str] = &["cycles", "contacts", "hours", "contact_hours"];
+const CLOCKS: &[&str] = &[
+    "cycles",
+    "contacts",
+    "hours",
+    "contact_hours",
+    "slid_distance",
+];
 
 /// Variables that oil and heat fill in.
 const SURROUNDINGS: &[&str] = &[
@@ -116,6 +125,10 @@ impl EffectModel {
                 Law::Formula { formula, .. } => {
                     combined.push(formula.hook(), formula.build(&numbers));
                 }
+                Law::Learned(learned) => {
+                    let values = learned.values_at(&numbers);
+                    combined.push(learned.law.hook(), learned.law.build(values));
+                }
             }
         }
         if !self.specs.iter().any(|spec| speaks_of(spec, SURROUNDINGS)) {
@@ -135,9 +148,19 @@ impl EffectModel {
             let hook = match &spec.law {
                 Law::Card(card) => card.hook,
                 Law::Formula { formula, .. } => formula.hook(),
+                Law::Learned(learned) => learned.law.hook(),
             };
             hook != Hook::AddedDepth && !speaks_of(spec, CLOCKS)
         })
+    }
+
+    /// The learned law of this name (`learned:cycles`).
+    pub fn learned(&self, name: &str) -> Option<&EffectSpec> {
+        let learned = |spec: &&EffectSpec| matches!(spec.law, Law::Learned(_));
+        self.specs
+            .iter()
+            .filter(learned)
+            .find(|spec| spec.name == name)
     }
 
     /// The parameter of this name (`running_in.amplitude`).
@@ -169,6 +192,9 @@ impl EffectModel {
 /// `running_in(amplitude = 3, decay_cycles = 200000)`, with the parameters that the study states.
 impl fmt::Display for EffectSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Law::Learned(learned) = &self.law {
+            return write!(f, "{}({} knots)", self.name, learned.values.len());
+        }
         let stated = self.parameters.iter().filter(|p| p.stated);
         let values: Vec<String> = stated
             .map(|p| format!("{} = {}", p.short(), p.value))
@@ -182,6 +208,7 @@ fn speaks_of(spec: &EffectSpec, variables: &[&str]) -> bool {
     let expression = match &spec.law {
         Law::Card(card) => card.expression(),
         Law::Formula { expression, .. } => expression.as_str(),
+        Law::Learned(learned) => learned.law.driver().name,
     };
     let mut words = expression.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
     words.any(|word| variables.contains(&word))
@@ -256,6 +283,7 @@ impl EffectSpec {
     pub fn needs(&self) -> Vec<&'static str> {
         match &self.law {
             Law::Formula { formula, .. } => formula.needs(),
+            Law::Learned(learned) => learned.law.driver().needs.to_vec(),
             Law::Card(card) => {
                 let mut needs = card.needs.to_vec();
                 // the film matters below a finite limit only
@@ -314,6 +342,7 @@ impl PartialEq for Law {
                     expression: other,
                 },
             ) => a.hook() == b.hook() && text == other,
+            (Law::Learned(a), Law::Learned(b)) => a == b,
             _ => false,
         }
     }

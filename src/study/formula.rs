@@ -101,14 +101,14 @@ fn name<'a>(table: &Table<'a>) -> Result<&'a str> {
                 .with_hint(what),
         ));
     };
-    let reserved = ["wear", KIND].contains(&name) || find(name).is_ok();
-    if reserved || name.contains(['.', '+', ',', '"']) {
+    let reserved = ["wear", KIND, super::learned::KIND].contains(&name) || find(name).is_ok();
+    if reserved || name.contains(['.', '+', ',', '"', ':']) {
         return Err(Box::new(
             table
                 .refuse(
                     "name",
                     "cannot be a formula's name",
-                    "a text without . + , and \", other than \"wear\", \"formula\" and the catalogue's effects",
+                    "a text without . + , : and \", other than \"wear\", \"formula\", \"learned\" and the catalogue's effects",
                 )
                 .with_hint(what),
         ));

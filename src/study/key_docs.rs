@@ -36,6 +36,7 @@ enum Value {
     Flag,
     Text,
     Texts,
+    Numbers,
     Word(&'static [&'static str]),
     /// A word or a number.
     WordOr(&'static str, &'static Quantity),
@@ -80,6 +81,7 @@ impl KeyDoc {
             Value::Flag => "true or false".to_owned(),
             Value::Text => "a text in quotes".to_owned(),
             Value::Texts => "a list of texts, [\"...\"]".to_owned(),
+            Value::Numbers => "a list of numbers, [...]".to_owned(),
             Value::Word(words) => {
                 let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
                 quoted.join(" or ")
@@ -181,13 +183,21 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("noise", "trace_shift", &q::SHIFT, Default("0.0"), "prior standard deviation of the unknown shift of a wear trace's radii on the measuring machine"),
     doc("noise", "outliers", Value::Word(OUTLIERS), Default("\"report\""), "rows that stand apart from their neighbours: reported as they count, or counted with a sigma as large as they stand apart"),
 
-    doc("effect", "kind", Value::Text, Refused, "an effect of the catalogue, whose parameters are then keys of this table, or `\"formula\"`"),
-    doc("effect", "name", Value::Text, Refused, "formula only: what results call it"),
+    doc("effect", "kind", Value::Text, Refused, "an effect of the catalogue, whose parameters are then keys of this table, `\"formula\"` or `\"learned\"`"),
+    doc("effect", "name", Value::Text, Refused, "a formula: what results call it; a learned law: a title of your own"),
     doc("effect", "wear_factor", Value::Text, Words("one of the four is stated"), "formula only: factor on the wear coefficient"),
     doc("effect", "added_depth", Value::Text, Words("one of the four is stated"), "formula only: depth besides sliding wear, um per contact of that member"),
     doc("effect", "load_factor", Value::Text, Words("one of the four is stated"), "formula only: factor on the load of a tooth pair"),
     doc("effect", "profile", Value::Text, Words("one of the four is stated"), "formula only: material removed before the start, um"),
     doc("effect", "parameters", Value::Table, Words("no parameters"), "formula only: its own parameters, numbers or `{ value, lower, upper }`"),
+
+    doc("effect", "acts", Value::Word(&["wear_factor", "added_depth", "profile"]), Refused, "learned law only: what its values are"),
+    doc("effect", "driver", Value::Text, Refused, "learned law only: the variable of formulas that it follows"),
+    doc("effect", "member", Value::Word(&["both", "pinion", "gear"]), Default("\"both\""), "learned law only: whose flanks it acts on"),
+    doc("effect", "knots", Value::Numbers, Refused, "learned law only: values of the driver, ascending, in its unit"),
+    doc("effect", "values", Value::Numbers, Refused, "learned law only, one for each knot: natural logarithm of the factor, um for a profile, um per contact for added depth; linear between knots, constant beyond"),
+    doc("effect", "size", Value::Number(&q::ANY), Words("1, a profile 5"), "learned law only: what its values are thought to be before any measurement, one standard deviation, in their unit; used when it is fitted"),
+    doc("effect", "length", Value::Number(&q::ANY), Words("a quarter of the knots' span"), "learned law only: over which distance of the driver it changes; used when it is fitted"),
 
     doc("test", "id", Value::Text, Refused, "its name in the measurement file, different in each test"),
     doc("test", "role", Value::Word(&["fit", "holdout"]), Default("\"fit\""), "a held-out test is never fitted, only judged"),
@@ -218,7 +228,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
 mod tests {
     use std::collections::BTreeSet;
 
-    use super::super::{KEYS, Study, formula};
+    use super::super::{KEYS, Study, formula, learned};
     use super::*;
     use crate::source_text::Fault;
 
@@ -295,7 +305,7 @@ mod tests {
         let members = |key: &str| ["pinion", "gear"].contains(&key);
         let known: BTreeSet<_> = KEYS
             .iter()
-            .chain(&[("effect", formula::KEYS)])
+            .chain(&[("effect", formula::KEYS), ("effect", learned::KEYS)])
             .flat_map(|(table, keys)| keys.iter().map(move |key| (*table, *key)))
             .filter(|(_, key)| !members(key))
             .collect();

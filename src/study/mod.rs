@@ -16,6 +16,7 @@ mod formula;
 mod free;
 mod gears;
 mod key_docs;
+mod learned;
 mod materials;
 mod numerics;
 mod operation;
@@ -43,6 +44,7 @@ pub use free::{
 };
 pub use gears::Gears;
 pub use key_docs::{KEY_DOCS, KeyDoc, Without, unit_of};
+pub use learned::LearnedLaw;
 pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
 pub use operation::{Operation, Role, Test};

@@ -265,7 +265,12 @@ impl<'a> Table<'a> {
 
     /// Refuses the first key, in the order of the file, that the table does not have.
     fn check_keys(&self) -> Result<()> {
-        let unknown = |key: &&str| !self.keys.contains(key);
+        self.check_known(self.keys)
+    }
+
+    /// The same for these keys.
+    pub(super) fn check_known(&self, keys: &[&str]) -> Result<()> {
+        let unknown = |key: &&str| !keys.contains(key);
         let Some(key) = self.present().into_iter().find(unknown) else {
             return Ok(());
         };
@@ -279,11 +284,11 @@ impl<'a> Table<'a> {
             path.clone(),
             format!("unknown key `{path}`"),
         )
-        .with_values(format!("`{key}`"), list(self.keys.iter().copied()))
+        .with_values(format!("`{key}`"), list(keys.iter().copied()))
         .with_span(span);
         if let Some((_, why)) = NOT_MODELLED.iter().find(|(name, _)| *name == key) {
             diagnostic = diagnostic.with_hint(*why);
-        } else if let Some(near) = nearest(key, self.keys.iter().copied()) {
+        } else if let Some(near) = nearest(key, keys.iter().copied()) {
             diagnostic = diagnostic.with_hint(format!("the nearest valid key is `{near}`"));
         }
         if let Some((home, _)) = self.elsewhere.iter().find(|(_, keys)| keys.contains(&key)) {

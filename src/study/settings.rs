@@ -162,6 +162,21 @@ pub(super) fn read_fit(
         if free.iter().any(|parameter| parameter.name == name) {
             return Err(refusal("stands there twice"));
         }
+        if let Some(law) = effects.learned(name) {
+            let all = law.fitted();
+            let prefix = format!("{name}.");
+            if free
+                .iter()
+                .any(|parameter| parameter.name.starts_with(&prefix))
+            {
+                return Err(refusal("stands there twice"));
+            }
+            if all.is_empty() {
+                return Err(refusal("is a learned depth, which no fit adjusts"));
+            }
+            free.extend(all);
+            continue;
+        }
         free.push(match effects.parameter(name) {
             Some(parameter) => {
                 let parameter = parameter.free();

@@ -13,6 +13,17 @@ use crate::source_text::{Diagnostic, Fault, nearest};
 /// A text and where it stands.
 type Placed<'a> = (&'a str, Range<usize>);
 
+/// A number that is written as one.
+pub(super) fn plain_number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
+            .ok()
+            .map(|i| i as f64),
+        _ => None,
+    }
+}
+
 impl<'a> Table<'a> {
     /// A number that may be absent.
     pub(super) fn number(&self, key: &str, quantity: &Quantity) -> Result<Option<f64>> {
@@ -20,10 +31,7 @@ impl<'a> Table<'a> {
             return Ok(None);
         };
         let number = match value {
-            DeValue::Float(float) => float.as_str().parse::<f64>().ok(),
-            DeValue::Integer(integer) => i128::from_str_radix(integer.as_str(), integer.radix())
-                .ok()
-                .map(|i| i as f64),
+            DeValue::Float(_) | DeValue::Integer(_) => plain_number(value),
             DeValue::String(text) if text.trim().parse::<f64>().is_err() => {
                 match units::value(text, quantity) {
                     Ok(number) => Some(number),
