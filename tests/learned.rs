@@ -370,7 +370,8 @@ fn largest_difference(a: &WearState, b: &WearState) -> f64 {
 fn a_law_with_a_formulas_values_gives_the_formulas_wear_as_its_knots_are_refined() {
     let set = set();
     let k = [5e-10; 2];
-    let cases: [(&str, [f64; 2], &str, fn(f64) -> f64); 2] = [
+    type Logarithm = fn(f64) -> f64;
+    let cases: [(&str, [f64; 2], &str, Logarithm); 2] = [
         ("cycles", [0.0, 1e5], "exp(0.8*sin(2*pi*cycles/6e4))", |n| {
             0.8 * (TAU * n / 6e4).sin()
         }),

@@ -6,6 +6,7 @@
 //! ```
 
 pub(super) mod drafts;
+mod learned;
 mod target;
 #[cfg(test)]
 mod tests;
@@ -26,13 +27,14 @@ use crate::study::{Study, WEAR_COEFFICIENT, rounded};
 /// Arguments of `add`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10\n  gearwear add study.toml running_in --form hyperbolic"
+    after_help = "Examples:\n  gearwear add study.toml running_in\n  gearwear add study.toml tip_relief -o relieved.toml --set length=2.5\n  gearwear add study.toml running_in --set amplitude=3 --set decay_cycles=2e5 --set wear.coefficient=5e-10\n  gearwear add study.toml running_in --form hyperbolic\n  gearwear add study.toml learned:cycles\n  gearwear add study.toml learned:radius:pinion --form profile"
 )]
 pub struct AddArgs {
     /// Study file (TOML); it stays as it is
     #[arg(value_name = "STUDY")]
     study: PathBuf,
-    /// Name of the effect; `gearwear effects` lists them
+    /// Name of the effect; `gearwear effects` lists them. Or a law to be learned as a curve, learned:DRIVER or learned:DRIVER:MEMBER, of any
+    /// variable of formulas
     #[arg(value_name = "EFFECT")]
     effect: String,
     /// More settings behind one --set
@@ -44,7 +46,7 @@ pub struct AddArgs {
     /// Give a parameter of the effect, or wear.coefficient, this value instead of fitting it; may be repeated
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, f64)>,
-    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists [default: its own, and the others too if that
+    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists; of a learned law `wear_factor` or `profile` [default: its own, and the others too if that
     /// leaves more than noise and no parameter of the effect is set]
     #[arg(long, value_name = "FORM")]
     form: Option<String>,
@@ -55,6 +57,9 @@ pub struct AddArgs {
 
 /// Adds the effect, fits what is free, writes the new study.
 pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliError> {
+    if args.effect.starts_with(learned::PREFIX) {
+        return learned::execute(args, context);
+    }
     add(args, |drafts, data| fit(drafts, data, context))
 }
 

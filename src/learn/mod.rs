@@ -32,6 +32,7 @@ mod fitted_candidate;
 mod gaussian;
 mod gear_model;
 mod hypothesis;
+mod learned_law;
 mod likelihood;
 mod measured;
 mod model_search;
@@ -51,15 +52,17 @@ mod trajectory;
 
 pub use bench::{Bench, MeasuredTest, Workshop};
 pub use comparison::{
-    AddedForm, Addition, Cell, CompareError, Compared, Comparison, Curve, CurvePoint, Doing, Group,
-    Improvement, Item, LadderStep, LeftOut, Outlier, ParameterRecord, Prospects, Ratio, Share,
-    TestRecord, Tried, Validation, Version, Watch, add, compare, compare_all, contact_of, curves,
-    differences, ladder, left_out, prospects,
+    AddLearnedError, AddedForm, Addition, Cell, CompareError, Compared, Comparison, Curve,
+    CurvePoint, Doing, Group, Improvement, Item, LadderStep, LearnedAddition, LeftOut, Outlier,
+    ParameterRecord, Prospects, Ratio, Share, TestRecord, Tried, Validation, Version, Watch, add,
+    add_learned, compare, compare_all, contact_of, curves, differences, ladder, left_out,
+    prospects,
 };
 pub use fit::{Coefficient, FitError, Problem};
 pub use fitted::{Fit, Jacobian, RowFit, TestFit};
 pub use gear_model::{EffectsOf, GearModel};
 pub use hypothesis::version::ModelVersion;
+pub use learned_law::{LearnError, LearnedFit, TriedProcess, WantedLaw};
 pub use measured::Measured;
 pub use noise::{Datum, ModelError, NoiseModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};

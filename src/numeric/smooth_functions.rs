@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn no_part_holds_a_constant_where_the_mean_is_taken_out() {
-        let parts = leading(&places(), 1.0, 4.0, true, 10);
+        let parts = leading(&places(), 1.0, 3.0, true, 10);
         assert_eq!(parts.ncols(), 10);
         for part in parts.column_iter() {
             assert!(part.sum().abs() < 1e-10);

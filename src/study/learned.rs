@@ -86,6 +86,18 @@ impl LearnedLaw {
         }
     }
 
+    /// The law nearest to these values that such a process can make.
+    ///
+    /// # Panics
+    /// As [`LearnedLaw::new`].
+    pub fn within(law: Learned, values: &[f64], size: f64, length: f64) -> Self {
+        let near = Self::new(law.clone(), values.to_vec(), size, length);
+        let bounded = near.start.iter().map(|z| z.clamp(-REACH, REACH));
+        let start = DVector::from_iterator(near.start.len(), bounded);
+        let made = near.parts.as_ref() * start;
+        Self::new(law, made.as_slice().to_vec(), size, length)
+    }
+
     /// Size of the process where nothing states it: a factor e, or 5 µm.
     pub fn usual_size(hook: Hook) -> f64 {
         match hook {

@@ -5,6 +5,7 @@
 //! ```
 
 mod add;
+mod add_learned;
 mod compare;
 mod curves;
 mod fit_warnings;
@@ -20,6 +21,7 @@ mod uncertainty;
 mod versions;
 
 pub use add::{AddedForm, Addition, Tried, add};
+pub use add_learned::{AddLearnedError, LearnedAddition, add_learned};
 pub use compare::{CompareError, Compared, Doing, Watch, compare, contact_of};
 pub use curves::{Curve, CurvePoint, curves};
 pub use ladder::{Improvement, LadderStep, Version, ladder};

@@ -1,0 +1,174 @@
+//! `add STUDY learned:DRIVER`: a law as a curve, learned from the measurements.
+
+use std::fmt::Write as _;
+
+use serde_json::json;
+
+use super::target::{folder, target, writable, write_whole};
+use super::{AddArgs, CliError, Context, Outcome};
+use crate::effects::Hook;
+use crate::learn::{AddLearnedError, LearnError, LearnedAddition, Share, WantedLaw, add_learned};
+use crate::study::{Study, WEAR_COEFFICIENT, rounded};
+
+/// What the name of a law to be learned begins with.
+pub(super) const PREFIX: &str = "learned:";
+
+/// Learns the law, writes the new study.
+pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliError> {
+    let wanted = wanted(args)?;
+    let study = Study::load(&args.study)?;
+    let target = target(args, &study)?;
+    let io = |source| CliError::Io {
+        doing: "write",
+        path: target.clone(),
+        source,
+    };
+    writable(&target).map_err(io)?;
+    refuse_what_it_lacks(&study, &wanted)?;
+    let data = study.dataset_to_fit()?;
+    context.tell_reading(&data);
+    let progress = context.progress("add");
+    let found = add_learned(&study, &data, &wanted, &|doing| {
+        crate::cli::fitting::show(&progress, doing);
+    });
+    drop(progress);
+    let found = found.map_err(|error| match error {
+        AddLearnedError::Compare(error) => error.into(),
+        AddLearnedError::Learn(LearnError::Fit(error)) => CliError::Fit(error),
+        AddLearnedError::Learn(error) => CliError::Unusable(error.to_string()),
+    })?;
+    let mut edit = study.edit();
+    let own = format!("{}.", wanted.name());
+    for parameter in &found.compared.fit.parameters {
+        if !parameter.name.starts_with(&own) {
+            edit.set(&parameter.name, rounded(parameter.value));
+        }
+    }
+    edit.add_learned(&found.law)?;
+    edit.free(&[wanted.name()]);
+    edit.move_between(folder(&args.study), folder(&target))?;
+    let new = edit.finish(&target.display().to_string())?;
+    write_whole(&target, new.text()).map_err(io)?;
+    Ok(told(&found, &wanted, &target.display().to_string()))
+}
+
+/// What is asked for.
+fn wanted(args: &AddArgs) -> Result<WantedLaw, CliError> {
+    if let Some((name, _)) = args.set.first() {
+        return Err(CliError::Unusable(format!(
+            "--set {name}: a learned law has no parameters to set; write knots and values into the study by hand"
+        )));
+    }
+    let hooks = [Hook::WearFactor, Hook::Profile];
+    let hook = match args.form.as_deref() {
+        None => Hook::WearFactor,
+        Some(form) => hooks
+            .into_iter()
+            .find(|hook| hook.name() == form)
+            .ok_or_else(|| {
+                CliError::Unusable(format!(
+                    "a learned law has no form `{form}`, allowed: \"wear_factor\" (a factor on k), \"profile\" (um of material removed before the start)"
+                ))
+            })?,
+    };
+    WantedLaw::of_name(&args.effect, hook).map_err(|error| CliError::Unusable(error.to_string()))
+}
+
+/// A law is not learned twice, nor of what the study does not state.
+fn refuse_what_it_lacks(study: &Study, wanted: &WantedLaw) -> Result<(), CliError> {
+    let name = wanted.name();
+    if study.effect_model().has(&name) {
+        return Err(CliError::Unusable(format!(
+            "the study has {name} already; `gearwear compare` adjusts it where [fit] free names it"
+        )));
+    }
+    match wanted.driver.needs.iter().find(|key| !study.states(key)) {
+        Some(key) => Err(CliError::Unusable(format!(
+            "{name} needs {key}, which the study does not state"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// What was learned, in words and in the command's document.
+fn told(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome {
+    let (law, name) = (&found.law, wanted.name());
+    let knots = law.law.knots();
+    let (first, last) = (knots[0], knots[knots.len() - 1]);
+    let least = law.values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = law.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [least, most, unit] = match wanted.hook {
+        Hook::WearFactor => [
+            format!("{:.3}", least.exp()),
+            format!("{:.3}", most.exp()),
+            "times k".to_owned(),
+        ],
+        _ => [format!("{least:.2}"), format!("{most:.2}"), "um".to_owned()],
+    };
+    let (before, after) = (&found.without.comparison, &found.compared.comparison);
+    let mut text = format!("wrote {shown}\n");
+    let _ = writeln!(
+        text,
+        "  {WEAR_COEFFICIENT} = {:?}",
+        rounded(found.compared.fit.coefficient)
+    );
+    let _ = writeln!(
+        text,
+        "  {name}: {least} to {most} {unit}, at {} knots from {first} to {last}; size {}, length {}",
+        knots.len(),
+        law.size,
+        law.length
+    );
+    let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
+    for (what, before, after) in [
+        ("fit", &before.fit, &after.fit),
+        ("held-out", &before.holdout, &after.holdout),
+    ] {
+        if let (Some(before), Some(after)) = (chi2(before), chi2(after)) {
+            let _ = writeln!(
+                text,
+                "  chi2 per point of the {what} tests: {after} (without it {before})"
+            );
+        }
+    }
+    if !after.converged {
+        text.push_str("  the fit came to no end: these are the values where it stopped\n");
+    }
+    for warning in &after.warnings {
+        let _ = writeln!(text, "  warning: {warning}");
+    }
+    let _ = writeln!(text, "next: gearwear compare {shown}");
+    let tried: Vec<_> = (found.tried.iter())
+        .map(|t| json!({"size": t.size, "length": t.length, "log_evidence": t.log_evidence}))
+        .collect();
+    let json = json!({
+        "written": [shown],
+        "parameters": [{"name": WEAR_COEFFICIENT, "value": found.compared.fit.coefficient}],
+        "fit": {
+            "learned": {
+                "name": name,
+                "acts": wanted.hook.name(),
+                "driver": wanted.driver.name,
+                "member": wanted.member.map_or("both", crate::gear::Member::name),
+                "knots": knots,
+                "values": law.values,
+                "sigma": found.sigma,
+                "size": law.size,
+                "length": law.length,
+                "tried": tried,
+            },
+            "log_evidence_gain": found.compared.fit.log_evidence - found.without.fit.log_evidence,
+            "without": {"fit": before.fit, "holdout": before.holdout},
+            "parameters": after.parameters,
+            "fit": after.fit,
+            "holdout": after.holdout,
+            "converged": after.converged,
+            "warnings": after.warnings,
+        },
+    });
+    Outcome {
+        json,
+        text,
+        success: true,
+    }
+}
