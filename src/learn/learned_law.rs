@@ -49,6 +49,7 @@ const LOOK: Effort = Effort {
     carry: 0.3,
     settle: 0,
     share: 3e-4,
+    gain: 0.1,
 };
 
 /// A law to be learned.

@@ -40,7 +40,12 @@ pub struct Effort {
     /// Part of the misfit beyond noise by which the promise and the loss above may be larger: where a model is far from its measurements
     /// its last decimals say nothing, and the rounding of its predictions weighs more.
     pub share: f64,
+    /// Part of what it promises that a step must gain to be taken.
+    pub gain: f64,
 }
+
+/// [`Effort::gain`] of all fits but those of smooth functions.
+const GAIN: f64 = 1e-3;
 
 impl Default for Effort {
     fn default() -> Self {
@@ -51,6 +56,7 @@ impl Default for Effort {
             carry: 0.1,
             settle: 0,
             share: 0.0,
+            gain: GAIN,
         }
     }
 }
@@ -64,6 +70,7 @@ impl Effort {
         carry: 0.0,
         settle: 0,
         share: 0.0,
+        gain: GAIN,
     };
 
     /// For predictions that are simulations: costly, and with a rounding of their own from step control (about 1e-4 of the
@@ -76,6 +83,20 @@ impl Effort {
             carry: 0.3,
             settle: 3,
             share: 3e-4,
+            gain: GAIN,
+        }
+    }
+
+    /// The same for a version of a model in which nothing is free but k and the parts of smooth functions: many parameters, of which the
+    /// last ones hardly matter, so that what derivatives promise is their own error. A step that gains little of it is none, and known to
+    /// half of ln posterior is known enough.
+    pub fn for_smooth_functions() -> Self {
+        Self {
+            tolerance: 0.1,
+            floor: 0.5,
+            settle: 2,
+            gain: 0.1,
+            ..Self::for_simulations()
         }
     }
 }
@@ -190,7 +211,13 @@ impl Search<'_> {
                 break (false, scatter, normal);
             }
             iterations += 1;
-            let tried = self.improve(evaluator, &quadratic, &state, scatter, &mut damping);
+            let tried = self.improve(
+                evaluator,
+                &quadratic,
+                &state,
+                scatter,
+                (&mut damping, effort.gain),
+            );
             let Some((next, next_values)) = tried else {
                 if !settled {
                     jacobian = self.central(evaluator, &state, &values, &quadratic)?;
@@ -250,7 +277,7 @@ impl Search<'_> {
         quadratic: &Quadratic,
         state: &State,
         scatter: f64,
-        damping: &mut f64,
+        (damping, gain): (&mut f64, f64),
     ) -> Option<(State, Values)> {
         for _ in 0..8 {
             let step = quadratic.step(*damping);
@@ -258,7 +285,7 @@ impl Search<'_> {
             if let Ok(values) = self.predict(evaluator, &next) {
                 let square = self.square(&values);
                 let gained = quadratic.value - self.layout.objective(square, &next, scatter);
-                if gained > 1e-3 * step.decrease {
+                if gained > gain * step.decrease {
                     let good = gained > 0.75 * step.decrease;
                     *damping = if good { *damping * 0.1 } else { *damping };
                     *damping = damping.max(1e-6);

@@ -5,6 +5,7 @@
 //! ```
 
 use super::record::Comparison;
+use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
 use crate::learn::bench::Bench;
 use crate::learn::fit::FitError;
@@ -140,7 +141,14 @@ impl Measured<'_> {
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
         let noise = NoiseModel::of(&self.study().noise);
-        let effort = Effort::for_simulations();
+        // a smooth function has no valleys of its own: another start ends in the same one
+        let mut effects = (version.free.iter()).filter(|free| free.name != WEAR_COEFFICIENT);
+        let one_valley = effects.all(|free| free.role == ParamRole::SmoothPart);
+        let effort = if one_valley && version.free.len() > 1 {
+            Effort::for_smooth_functions()
+        } else {
+            Effort::for_simulations()
+        };
         let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
         let told = |histories| {
             watch(Doing::Fitting {
@@ -176,7 +184,7 @@ impl Measured<'_> {
             }
         };
         let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
-        let fit = if settled || version.effects.is_empty() {
+        let fit = if settled || version.effects.is_empty() || one_valley {
             first
         } else {
             let medians = [medians(version)];
