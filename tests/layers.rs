@@ -37,6 +37,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "fitted",
             "fitted_candidate",
             "gear_model",
+            "learned_knots",
             "learned_law",
             "likelihood",
             "measured",

@@ -10,37 +10,21 @@
 use super::bench::Bench;
 use super::fit::FitError;
 use super::fitted::Fit;
-use super::gear_model::GearModel;
 use super::hypothesis::version::ModelVersion;
 use super::measured::Measured;
 use super::noise::NoiseModel;
 use super::search::Effort;
 use crate::effects::variables::Variable;
-use crate::effects::{Hook, Learned, LearnedError, Local};
+use crate::effects::{Hook, Learned, LearnedError};
 use crate::gear::Member;
-use crate::study::{LearnedLaw, Role, WEAR_COEFFICIENT, rounded};
+use crate::study::{LearnedLaw, WEAR_COEFFICIENT, rounded};
 
-/// Knots of a driver that takes many values.
-const KNOTS: usize = 25;
-/// A driver with no more values than this has a knot at each.
-const FEW: usize = 8;
 /// Lengths that are tried, as shares of the knots' span, and where the walk begins.
 const LENGTHS: [f64; 5] = [0.5, 0.3, 0.2, 0.12, 0.08];
 const FIRST_LENGTH: usize = 2;
 /// Sizes that are tried, as shares of the usual one, and where the walk begins.
 const SIZES: [f64; 3] = [0.25, 0.7, 2.0];
 const FIRST_SIZE: usize = 1;
-/// Share of a driver's values, at each end, that lie beyond the outermost knots.
-const BEYOND: f64 = 0.005;
-/// Drivers that grow from nothing in every test.
-const FROM_ZERO: &[&str] = &[
-    "cycles",
-    "contacts",
-    "hours",
-    "depth",
-    "worn_volume",
-    "slid_distance",
-];
 /// How a law is fitted while its size and length are looked for.
 const LOOK: Effort = Effort {
     iterations: 12,
@@ -171,10 +155,23 @@ impl Measured<'_> {
         noise: NoiseModel,
         watch: &(dyn Fn(usize) + Sync),
     ) -> Result<LearnedFit, LearnError> {
+        self.walk(bench, version, without, wanted, noise, watch)?
+            .along()
+    }
+
+    fn walk<'w>(
+        &'w self,
+        bench: &'w Bench<'w>,
+        version: &ModelVersion,
+        without: &Fit,
+        wanted: &WantedLaw,
+        noise: NoiseModel,
+        watch: &'w (dyn Fn(usize) + Sync),
+    ) -> Result<Walk<'w>, LearnError> {
         let knots = self.knots(bench, version, without, wanted)?;
         let law = Learned::new(wanted.hook, wanted.driver.name, wanted.member, &knots)
             .map_err(|error| LearnError::Driver(error.to_string()))?;
-        let mut walk = Walk {
+        Ok(Walk {
             measured: self,
             bench,
             version: starting_at(version, without),
@@ -183,120 +180,8 @@ impl Measured<'_> {
             span: knots[knots.len() - 1] - knots[0],
             law,
             tried: Vec::new(),
-        };
-        walk.along()
+        })
     }
-
-    /// Where the law's values are to stand.
-    fn knots(
-        &self,
-        bench: &Bench<'_>,
-        version: &ModelVersion,
-        without: &Fit,
-        wanted: &WantedLaw,
-    ) -> Result<Vec<f64>, LearnError> {
-        if let Some([from, to]) = self.along_the_path(bench, wanted) {
-            return Ok(even(from, to));
-        }
-        let mut values = self.driver_values(bench, version, without, wanted);
-        values.sort_by(f64::total_cmp);
-        let name = wanted.driver.name;
-        let mut different = values.clone();
-        different.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * b.abs());
-        if FROM_ZERO.contains(&name)
-            && let Some(&most) = values.last().filter(|most| **most > 0.0)
-        {
-            return Ok(even(0.0, most));
-        }
-        match different.len() {
-            0 => Err(LearnError::Driver(format!(
-                "{}: no measured point has a value of {name}; wear depths along a flank are needed",
-                wanted.name()
-            ))),
-            1 => Err(LearnError::Driver(format!(
-                "{}: {name} has one value only in these tests ({})",
-                wanted.name(),
-                rounded(different[0])
-            ))),
-            n if n <= FEW => Ok(different),
-            _ => {
-                let at = |share: f64| values[(share * (values.len() - 1) as f64).round() as usize];
-                let (from, to) = (at(BEYOND), at(1.0 - BEYOND));
-                let apart = values.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
-                if wanted.member.is_none() && name == "radius" && apart > 0.2 * (to - from) {
-                    return Err(LearnError::Driver(format!(
-                        "{}: pinion and gear have no radius in common; name one of them (learned:radius:pinion), or follow the path of \
-                         contact (learned:s)",
-                        wanted.name()
-                    )));
-                }
-                Ok(even(from, to))
-            }
-        }
-    }
-
-    /// The range of a driver that only a flank as made has.
-    fn along_the_path(&self, bench: &Bench<'_>, wanted: &WantedLaw) -> Option<[f64; 2]> {
-        let pair = bench
-            .set()
-            .mount(bench.tests.first()?.conditions.misalignment)
-            .ok()?;
-        let [start, .., end] = pair.path_points();
-        match wanted.driver.name {
-            "along" => Some([0.0, 1.0]),
-            "from_tip" => Some([0.0, end - start]),
-            _ => None,
-        }
-    }
-
-    /// Values of the driver at the measured places and times of the fit tests.
-    fn driver_values(
-        &self,
-        bench: &Bench<'_>,
-        version: &ModelVersion,
-        without: &Fit,
-        wanted: &WantedLaw,
-    ) -> Vec<f64> {
-        let fitted = |name: &str| {
-            let parameter = without.parameters.iter().find(|p| p.name == name);
-            parameter.map(|p| p.value)
-        };
-        let model = GearModel::new(bench, Box::new(|_| version.effects.build(&fitted)));
-        let concerned = |local: &Local| {
-            local.pressure > 0.0 && wanted.member.is_none_or(|only| only == local.member)
-        };
-        let mut values = Vec::new();
-        for test in without.tests.iter().filter(|test| test.role == Role::Fit) {
-            let locals = model
-                .locals(test.test, test.coefficient, &[])
-                .unwrap_or_default();
-            values.extend(
-                locals
-                    .into_iter()
-                    .flatten()
-                    .filter(concerned)
-                    .map(|local| wanted.driver.at(&local)),
-            );
-            if values.is_empty() {
-                // mass and transmission error stand nowhere on a flank, but they have a time
-                let observed = bench.tests[test.test].observations.iter();
-                match wanted.driver.name {
-                    "cycles" => values.extend(observed.map(|o| o.cycles)),
-                    _ => {}
-                }
-            }
-        }
-        values.retain(|value| value.is_finite());
-        values
-    }
-}
-
-/// Evenly spaced knots; round numbers as far as six digits go.
-fn even(from: f64, to: f64) -> Vec<f64> {
-    let step = (to - from) / (KNOTS - 1) as f64;
-    (0..KNOTS)
-        .map(|i| rounded(from + step * i as f64))
-        .collect()
 }
 
 /// A version whose free parameters start where `fit` ended.
@@ -311,8 +196,8 @@ fn starting_at(version: &ModelVersion, fit: &Fit) -> ModelVersion {
 }
 
 /// A walk over the grid of sizes and lengths.
-struct Walk<'w, 'm> {
-    measured: &'w Measured<'m>,
+struct Walk<'w> {
+    measured: &'w Measured<'w>,
     bench: &'w Bench<'w>,
     version: ModelVersion,
     noise: NoiseModel,
@@ -322,7 +207,7 @@ struct Walk<'w, 'm> {
     tried: Vec<([usize; 2], LearnedFit)>,
 }
 
-impl Walk<'_, '_> {
+impl Walk<'_> {
     /// From the middle to the greatest evidence: longer or shorter, then larger or smaller, until no neighbour is better.
     fn along(&mut self) -> Result<LearnedFit, LearnError> {
         let zero = vec![0.0; self.law.knots().len()];

@@ -32,6 +32,7 @@ mod fitted_candidate;
 mod gaussian;
 mod gear_model;
 mod hypothesis;
+mod learned_knots;
 mod learned_law;
 mod likelihood;
 mod measured;

@@ -86,19 +86,6 @@ impl Effort {
             gain: GAIN,
         }
     }
-
-    /// The same for a version of a model in which nothing is free but k and the parts of smooth functions: many parameters, of which the
-    /// last ones hardly matter, so that what derivatives promise is their own error. A step that gains little of it is none, and known to
-    /// half of ln posterior is known enough.
-    pub fn for_smooth_functions() -> Self {
-        Self {
-            tolerance: 0.1,
-            floor: 0.5,
-            settle: 2,
-            gain: 0.1,
-            ..Self::for_simulations()
-        }
-    }
 }
 
 /// One problem of some tests.

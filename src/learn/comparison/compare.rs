@@ -16,7 +16,7 @@ use crate::learn::noise::NoiseModel;
 use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
-use crate::study::{ContactKind, Role, Study, StudyError, WEAR_COEFFICIENT};
+use crate::study::{ContactKind, FreeParameter, Role, Study, StudyError, WEAR_COEFFICIENT};
 
 /// A fit and what it says of the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,11 +141,9 @@ impl Measured<'_> {
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
         let noise = NoiseModel::of(&self.study().noise);
-        // a smooth function has no valleys of its own: another start ends in the same one
-        let mut effects = (version.free.iter()).filter(|free| free.name != WEAR_COEFFICIENT);
-        let one_valley = effects.all(|free| free.role == ParamRole::SmoothPart);
-        let effort = if one_valley && version.free.len() > 1 {
-            Effort::for_smooth_functions()
+        let one_valley = smooth(version);
+        let effort = if one_valley {
+            SMOOTH
         } else {
             Effort::for_simulations()
         };
@@ -275,6 +273,25 @@ impl Measured<'_> {
         fit
     }
 }
+
+/// Whether nothing is free but k and the parts of smooth functions: these have no valleys of their own, so that another start ends in the same one.
+fn smooth(version: &ModelVersion) -> bool {
+    let mut effects = (version.free.iter()).filter(|free| free.name != WEAR_COEFFICIENT);
+    let is_part = |free: &FreeParameter| free.role == ParamRole::SmoothPart;
+    version.free.len() > 1 && effects.all(is_part)
+}
+
+/// Fits of smooth functions: many parameters, of which the last hardly matter, so that what derivatives promise is their own error. A step
+/// that gains little of it is none, and known to half of ln posterior is known enough.
+const SMOOTH: Effort = Effort {
+    iterations: 15,
+    tolerance: 0.1,
+    floor: 0.5,
+    carry: 0.3,
+    settle: 2,
+    share: 3e-4,
+    gain: 0.1,
+};
 
 /// Steps after which it is looked at whether a fit is hopeless.
 const LOOK_STEPS: usize = 6;
