@@ -251,6 +251,7 @@ fn debris_that_levels_off_is_named_though_its_law_is_of_another_form() {
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"hidden\"\nwear_factor = \"1 + 2.5*(1 - exp(-worn_volume/12))\"\n";
     let found = diagnosed(hidden, 0.1, 0.03, 4);
     assert!(names(&found, "debris_abrasion"), "{}", says(&found));
+    assert!(found.learned.is_none(), "the catalogue holds it");
 }
 
 #[test]
@@ -259,6 +260,17 @@ fn what_the_catalogue_lacks_is_called_unknown() {
     let found = diagnosed(hidden, 0.1, 0.02, 5);
     assert_eq!(found.verdict, Verdict::Unknown, "{}", says(&found));
     follows(&found, &["position"]);
+    // but it is learned as what it is: a band of 0.2 mm on the pinion (no radius of the gear is near it)
+    let learned = found.learned.as_ref().expect("a law");
+    assert_eq!(learned.name, "learned:radius:pinion", "{learned:?}");
+    let values = learned.knots.iter().zip(&learned.values);
+    let (top, largest) = values.max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+    assert!((top - 27.9).abs() < 0.15, "{learned:?}");
+    assert!((0.6..1.3).contains(largest), "{learned:?}");
+    let [before, after] = learned.fit_chi2_per_point;
+    assert!(after < 1.2 && after < 0.5 * before, "{learned:?}");
+    let step = "gearwear add STUDY learned:radius:pinion";
+    assert!(found.next_step.contains(step), "{}", found.next_step);
 }
 
 #[test]

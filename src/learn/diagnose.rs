@@ -31,6 +31,7 @@ pub use super::fidelity::Fidelity;
 pub use super::hypothesis::candidate::NotJudged;
 pub use super::hypothesis::{EffectSet, Hypothesis};
 pub use super::model_search::context::{DiagnoseError, Watch};
+pub use super::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
 
 use super::bench::Workshop;
 use super::checks::noise_level;
@@ -44,7 +45,7 @@ use super::likelihood::Likelihood;
 use super::measured::Measured;
 use super::model_search::context::Context;
 use super::model_search::high_fidelity::decide_leaders;
-use super::model_search::{matching_pursuit, nested_forms, pairs};
+use super::model_search::{learned_drivers, matching_pursuit, nested_forms, pairs};
 use super::noise::{ModelError, NoiseModel};
 use crate::simulate::forward::ContactKind;
 use crate::study::{ContactKind as StudiedContact, Role};
@@ -187,8 +188,24 @@ fn search(
         not_judged,
         not_fitted,
     });
+    let learned = beside_what(&posterior, base).and_then(|known| {
+        watch(
+            0.97,
+            "laws of one driver for what the catalogue does not explain".to_owned(),
+        );
+        learned_drivers::learned_driver(context, known)
+    });
     watch(1.0, "done".to_owned());
-    diagnosis
+    diagnosis.with_learned(learned)
+}
+
+/// The model beside which something is missing that the catalogue does not hold; none unless that is the verdict.
+fn beside_what<'p>(posterior: &'p Posterior, base: &'p BaseFit) -> Option<&'p FittedCandidate> {
+    match posterior.decision.verdict {
+        Verdict::Unknown => Some(&base.fitted),
+        Verdict::Partial => posterior.leader(),
+        Verdict::NothingMissing | Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => None,
+    }
 }
 
 /// The effects of which no form could be fitted.

@@ -159,6 +159,23 @@ impl Measured<'_> {
             .along()
     }
 
+    /// The same with one size and length of the process, to see what a driver is worth.
+    ///
+    /// # Errors
+    /// [`LearnError`]
+    pub(super) fn glance(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        without: &Fit,
+        wanted: &WantedLaw,
+        noise: NoiseModel,
+    ) -> Result<LearnedFit, LearnError> {
+        let mut walk = self.walk(bench, version, without, wanted, noise, &|_| {})?;
+        let zero = vec![0.0; walk.law.knots().len()];
+        walk.at([FIRST_LENGTH, FIRST_SIZE], &zero)
+    }
+
     fn walk<'w>(
         &'w self,
         bench: &'w Bench<'w>,

@@ -7,6 +7,7 @@ use super::comparison::with_unit;
 use super::drivers;
 use super::format::{count, plain, probability, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
+use super::learned;
 use super::measured_curves;
 use crate::learn::diagnose::{Diagnosis, NextExperiment, NextTest, Ranked, Screened};
 
@@ -131,6 +132,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     );
     let mut sections = vec![why];
     sections.extend(measured_curves::section(&diagnosis.residual_drivers));
+    sections.extend(diagnosis.learned.as_ref().map(learned::section));
     sections.push(ranking);
     sections.extend(fitted(diagnosis));
     sections.extend(drivers::sections(diagnosis));

@@ -20,6 +20,7 @@ pub mod guide;
 pub mod html;
 pub mod json;
 pub mod ladder;
+mod learned;
 mod measured_curves;
 pub mod models;
 pub mod plan;

@@ -20,6 +20,7 @@ use crate::learn::experiment::next::{NextExperiment, separating};
 use crate::learn::hypothesis::Hypothesis;
 use crate::learn::hypothesis::candidate::NotJudged;
 use crate::learn::model_search::context::Context;
+use crate::learn::model_search::learned_drivers::LearnedAnswer;
 
 /// One effect, or several.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,6 +53,9 @@ pub struct Diagnosis {
     pub ranking: Vec<Ranked>,
     /// What remains beside the effect; None unless the verdict is `partial`.
     pub remainder: Option<Remainder>,
+    /// What nothing of the catalogue explains, as a law of one driver; None unless the verdict is `unknown` or `partial` and one is worth it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub learned: Option<LearnedAnswer>,
     /// Groups that the data cannot tell apart.
     pub indistinguishable: Vec<Vec<String>>,
     /// What the discrepancy depends on most; None without a discrepancy.
@@ -154,6 +158,7 @@ impl Diagnosis {
                 .collect(),
             ranking: ranked(context, base, posterior),
             remainder: remainder(&findings),
+            learned: None,
             indistinguishable: if alone { Vec::new() } else { vec![group] },
             driver: drivers.first().cloned(),
             drivers,

@@ -2,6 +2,7 @@
 
 mod diagnosis;
 pub(in crate::learn) mod findings;
+mod learned;
 mod ranked;
 mod remainder;
 mod sentences;

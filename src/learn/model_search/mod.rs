@@ -8,6 +8,7 @@ mod base_fit;
 pub(in crate::learn) mod beside_unknown;
 pub(in crate::learn) mod context;
 pub(in crate::learn) mod high_fidelity;
+pub(in crate::learn) mod learned_drivers;
 pub(in crate::learn) mod matching_pursuit;
 mod medium_fidelity;
 pub(in crate::learn) mod nested_forms;
