@@ -105,7 +105,7 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     }
     let next_step = match &group[..] {
         [effects] => format!(
-            "gearwear add STUDY {effects}, then diagnose the new study: what remains is judged with the effect in"
+            "gearwear add STUDY {effects}, then diagnose the new study: what remains is judged with the effect in; `gearwear climb STUDY` goes on so step by step"
         ),
         _ => "make the proposed test, or add each in turn and see which lowers the held-out error; then diagnose the new study".to_owned(),
     };

@@ -165,6 +165,7 @@ fn grid() {
             outlier: false,
             missing: 0.0,
             understate: 1.0,
+            messy: false,
             rivals: false,
         };
         let set = make::make(&wish);

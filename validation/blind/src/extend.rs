@@ -74,6 +74,7 @@ fn wish(folder: &Path) -> Result<Wish, Box<dyn Error>> {
         outlier: false,
         missing: 0.0,
         understate: 1.0,
+        messy: false,
         rivals: false,
     })
 }

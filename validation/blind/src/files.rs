@@ -8,6 +8,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use crate::make::DataSet;
+use crate::messy;
 use crate::rig::{Plan, Row};
 
 pub fn name(set: &DataSet) -> String {
@@ -66,6 +67,13 @@ fn study(set: &DataSet) -> String {
     for p in &rig.tests {
         put(test(p, "role = \"fit\"\n"));
         put("\n".into());
+    }
+    if set.wish.messy {
+        put(format!(
+            "[noise]\ntrace_tilt = {:?}\ntrace_shift = {:?}\noutliers = \"robust\"\n\n",
+            messy::TILT,
+            messy::SHIFT
+        ));
     }
     put("[measurements]\nfile = \"measurements.csv\"\n".into());
     s
@@ -147,6 +155,7 @@ fn truth(set: &DataSet) -> Value {
         "coefficient_scatter": set.scatter,
         "datum_sd_um": set.datum,
         "datums_um": datums,
+        "messy": set.wish.messy,
         "outlier": set.wish.outlier,
         "missing": set.wish.missing,
         "sigma_understated_by": set.wish.understate,

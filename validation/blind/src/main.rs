@@ -13,6 +13,7 @@ mod hidden;
 mod involute;
 mod laws;
 mod make;
+mod messy;
 mod passage;
 mod records;
 mod rig;
@@ -75,6 +76,9 @@ enum Command {
         /// Divide the written sigma by this.
         #[arg(long, default_value_t = 1.0)]
         understate: f64,
+        /// Tilt and shift traces, dirty and misjudge points, leave out checkpoints: the twin of the clean set.
+        #[arg(long)]
+        messy: bool,
         /// Also look which known causes of other names could explain the data (in truth.json; some seconds more).
         #[arg(long)]
         rivals: bool,
@@ -129,6 +133,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             outlier,
             missing,
             understate,
+            messy,
             rivals,
         } => {
             let law = law.map(|l| match l.split_once(':') {
@@ -151,6 +156,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     outlier,
                     missing,
                     understate,
+                    messy,
                     rivals,
                 };
                 let set = make::make(&wish);

@@ -8,6 +8,7 @@ use crate::dice::Dice;
 use crate::draw::{self, CATALOGUE, OUTSIDE};
 use crate::involute::Mating;
 use crate::laws::{Class, Law};
+use crate::messy;
 use crate::rig::{Rig, Row};
 use crate::wear::{History, Run};
 
@@ -46,6 +47,8 @@ pub struct Wish {
     pub outlier: bool,
     pub missing: f64,
     pub understate: f64,
+    /// As a real measuring room hands them over.
+    pub messy: bool,
     /// Also find the catalogue's causes that explain most of the difference.
     pub rivals: bool,
 }
@@ -233,6 +236,9 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     }
     for r in &mut rows {
         r.sigma /= wish.understate;
+    }
+    if wish.messy {
+        messy::spoil(&mut rows, &mut root.branch(53));
     }
     found.iter_mut().for_each(|l| l.limit = 0.0);
     let wrong = d.uniform(0.5f64.ln(), 1.5f64.ln()).exp();
