@@ -75,7 +75,7 @@ fn no_row_of_clean_measurements_stands_apart() {
 
 #[test]
 fn rows_that_stand_apart_are_found_and_count_little_if_wanted() {
-    let (reported, spoilt) = with_outliers("", 12.0);
+    let (reported, spoilt) = with_outliers("", 8.0);
     let found: Vec<usize> = reported.outliers.iter().map(|o| o.row).collect();
     let missed = spoilt.iter().filter(|row| !found.contains(row)).count();
     let wrong = found.iter().filter(|row| !spoilt.contains(row)).count();
@@ -88,7 +88,7 @@ fn rows_that_stand_apart_are_found_and_count_little_if_wanted() {
     let said = reported.outliers_in_words().unwrap();
     assert!(said.contains("measurements.csv:"), "{said}");
     assert!(said.contains("robust"), "{said}");
-    let (robust, _) = with_outliers("outliers = \"robust\"", 12.0);
+    let (robust, _) = with_outliers("outliers = \"robust\"", 8.0);
     for outlier in &robust.outliers {
         let o = &robust.observations[outlier.row];
         let stated = reported.observations[outlier.row].sigma;

@@ -3,14 +3,19 @@
 //! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). A place
 //! where several curves of a member do alike is a feature of the flank and no outlier.
 
+use std::collections::BTreeMap;
+
 use super::neighbours::{around, curves, points};
+use super::quantity::Quantity;
 use super::{Dataset, Observation};
 
-/// Standard deviations from what the neighbours say from which a row stands apart: none of 20 000 Gaussian ones in the mean.
-const APART: f64 = 6.0;
+/// Standard deviations from what the neighbours say from which a row stands apart: one of 150 000 Gaussian ones.
+const APART: f64 = 4.5;
 /// Standard deviations from which another curve does alike at the same place, and share of the curves there that must.
 const ALIKE: f64 = 2.5;
 const FEATURE: f64 = 0.3;
+/// A curve's own scatter counts for so much of it beside that of all curves: of few points it is uncertain.
+const OWN: f64 = 0.8;
 /// Median of |x| of a standard normal number.
 const MEDIAN: f64 = 0.674_490;
 
@@ -32,7 +37,7 @@ struct Curve {
     rows: Vec<usize>,
     points: Vec<[f64; 3]>,
     passed_over: Vec<bool>,
-    /// Scatter of the points about their neighbours over the stated one, at least 1.
+    /// Scatter of the points about their neighbours over the stated one.
     scale: f64,
 }
 
@@ -44,6 +49,12 @@ impl Curve {
         Some((apart, found.expected))
     }
 
+    /// How far all points stand apart, without sign.
+    fn all_apart(&self) -> Vec<f64> {
+        let each = (0..self.points.len()).filter_map(|at| self.apart(at));
+        each.map(|(apart, _)| apart.abs()).collect()
+    }
+
     /// Standard deviations at the point nearest to a place, if the curve has one within half the distance of its points.
     fn near(&self, place: f64) -> Option<f64> {
         let distance = |at: &usize| (self.points[*at][0] - place).abs();
@@ -52,6 +63,13 @@ impl Curve {
         let reach = 0.75 * (last - first) / (self.points.len() - 1) as f64;
         (distance(&nearest) <= reach).then(|| self.apart(nearest).map(|found| found.0))?
     }
+}
+
+/// Standard deviation of numbers about 0 by the median of their magnitudes, in which a few large ones do not show.
+fn scatter(mut magnitudes: Vec<f64>) -> f64 {
+    magnitudes.sort_by(f64::total_cmp);
+    let middle = magnitudes.get(magnitudes.len() / 2).copied();
+    middle.map_or(1.0, |middle| (middle / MEDIAN).max(f64::MIN_POSITIVE))
 }
 
 /// All rows that stand apart from their neighbours.
@@ -66,15 +84,25 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
                 points,
                 scale: 1.0,
             };
-            let mut apart: Vec<f64> = (0..curve.points.len())
-                .filter_map(|at| Some(curve.apart(at)?.0.abs()))
-                .collect();
-            apart.sort_by(f64::total_cmp);
-            let middle = apart.get(apart.len() / 2).copied().unwrap_or(0.0);
-            curve.scale = (middle / MEDIAN).max(1.0);
+            let apart = curve.all_apart();
+            curve.scale = scatter(apart);
             curve
         })
         .collect();
+    // σ may be misjudged, by all curves of a quantity alike
+    let mut together: BTreeMap<Quantity, Vec<f64>> = BTreeMap::new();
+    for curve in &all {
+        let quantity = rows[curve.rows[0]].quantity;
+        let apart = curve.all_apart().into_iter().map(|z| z * curve.scale);
+        together.entry(quantity).or_default().extend(apart);
+    }
+    let together: BTreeMap<Quantity, f64> = (together.into_iter())
+        .map(|(quantity, apart)| (quantity, scatter(apart)))
+        .collect();
+    for curve in &mut all {
+        let common = together[&rows[curve.rows[0]].quantity];
+        curve.scale = common.max(OWN * curve.scale);
+    }
     let mut found = Vec::new();
     for number in 0..all.len() {
         let mut kept = vec![false; all[number].points.len()];
