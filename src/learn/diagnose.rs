@@ -188,24 +188,18 @@ fn search(
         not_judged,
         not_fitted,
     });
-    let learned = beside_what(&posterior, base).and_then(|known| {
+    // beside an established effect that comes first: with it in, the next diagnosis learns what is left
+    let learned = if posterior.decision.verdict == Verdict::Unknown {
         watch(
             0.97,
             "laws of one driver for what the catalogue does not explain".to_owned(),
         );
-        learned_drivers::learned_driver(context, known)
-    });
+        learned_drivers::learned_driver(context, &base.fitted)
+    } else {
+        None
+    };
     watch(1.0, "done".to_owned());
     diagnosis.with_learned(learned)
-}
-
-/// The model beside which something is missing that the catalogue does not hold; none unless that is the verdict.
-fn beside_what<'p>(posterior: &'p Posterior, base: &'p BaseFit) -> Option<&'p FittedCandidate> {
-    match posterior.decision.verdict {
-        Verdict::Unknown => Some(&base.fitted),
-        Verdict::Partial => posterior.leader(),
-        Verdict::NothingMissing | Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => None,
-    }
 }
 
 /// The effects of which no form could be fitted.
