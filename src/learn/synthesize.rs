@@ -118,8 +118,15 @@ impl Synthetic {
                 let places: Vec<f64> = (rows[start..end].iter())
                     .map(|&i| all[i].position.unwrap_or(0.0))
                     .collect();
-                let tilt = study.noise.tilt_um * draw.normal();
-                let shift = study.noise.shift_mm * draw.normal();
+                // nothing is drawn for what is not there, or the same seed would make other noise than before
+                let mut of_size = |size: f64| {
+                    if size > 0.0 {
+                        size * draw.normal()
+                    } else {
+                        0.0
+                    }
+                };
+                let (tilt, shift) = (of_size(study.noise.tilt_um), of_size(study.noise.shift_mm));
                 tilted_and_shifted(&places, &exact[start..end], tilt, shift)
             } else {
                 exact[start..end].to_vec()

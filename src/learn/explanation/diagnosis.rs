@@ -53,7 +53,7 @@ pub struct Diagnosis {
     pub ranking: Vec<Ranked>,
     /// What remains beside the effect; None unless the verdict is `partial`.
     pub remainder: Option<Remainder>,
-    /// What nothing of the catalogue explains, as a law of one driver; None unless the verdict is `unknown` or `partial` and one is worth it.
+    /// What nothing of the catalogue explains, as a law of one driver; None unless the verdict is `unknown` and one is worth it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub learned: Option<LearnedAnswer>,
     /// Groups that the data cannot tell apart.
