@@ -16,6 +16,8 @@ const ALIKE: f64 = 2.5;
 const FEATURE: f64 = 0.3;
 /// A curve's own scatter counts for so much of it beside that of all curves: of few points it is uncertain.
 const OWN: f64 = 0.8;
+/// Least scatter over the stated one that is believed: values without noise have corners that no sigma stands for.
+const LEAST: f64 = 0.5;
 /// Median of |x| of a standard normal number.
 const MEDIAN: f64 = 0.674_490;
 
@@ -101,7 +103,7 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
         .collect();
     for curve in &mut all {
         let common = together[&rows[curve.rows[0]].quantity];
-        curve.scale = common.max(OWN * curve.scale);
+        curve.scale = common.max(OWN * curve.scale).max(LEAST);
     }
     let mut found = Vec::new();
     for number in 0..all.len() {

@@ -31,8 +31,8 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
         "factor on k",
     )
     .curve("learned", Style::Kind(0), curve(0.0))
-    .curve("two standard deviations", Style::Line(4), curve(BAND))
-    .curve("", Style::Line(4), curve(-BAND))
+    .curve("two standard deviations above", Style::Line(4), curve(BAND))
+    .curve("and below", Style::Line(4), curve(-BAND))
     .logarithmic();
     let mut table = Table::new("", ["law", "ln evidence over the model without it"]).row([
         Cell::text(learned.name.clone()),
