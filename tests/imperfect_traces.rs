@@ -134,3 +134,19 @@ fn tilts_and_shifts_that_are_allowed_for_are_no_discrepancy() {
     assert!((0.85..1.1).contains(&with), "{with}");
     assert!(without > 1.5 * with, "{without} {with}");
 }
+
+/// Values without noise whose curves have corners, each elsewhere, far below the stated σ: nothing stands apart.
+#[test]
+fn corners_of_values_without_noise_are_no_outliers() {
+    let mut data = study("").dataset().unwrap();
+    for o in &mut data.observations {
+        if let (Quantity::WearDepth, Some(radius)) = (o.quantity, o.position) {
+            let corner = 26.3 + (1e-5 * o.cycles + o.test as f64).sin();
+            let corner = if radius > 40.0 { corner + 26.5 } else { corner };
+            o.value = 0.02 * (radius - corner).abs();
+            o.sigma = 0.1;
+        }
+    }
+    let found = gearwear::measure::outliers::outliers(&data.observations);
+    assert!(found.is_empty(), "{found:?}");
+}
