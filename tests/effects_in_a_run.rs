@@ -206,6 +206,41 @@ fn every_effect_acts_by_both_models() {
     }
 }
 
+/// Where one pair carries the torque alone, its load is T/(r_b ± µ ρ1), − in approach: 3.6 % up and down at the pitch point for µ = 0.1. A
+/// reversed drive slides the other way. Tolerance: a contact of some width has its middle a little off the path's point.
+#[test]
+fn friction_moves_the_lever_of_each_load_by_both_models() {
+    let set = set();
+    let members = members(&set);
+    let card = find("friction_load").unwrap();
+    let values = card.values(&[("coefficient", 0.1)]).unwrap();
+    for (reversed, sense) in [(false, 1.0), (true, -1.0)] {
+        let acting = Acting {
+            reversed,
+            ..acting(card, &values)
+        };
+        for model in [None, Some(&members)] {
+            let state = worn(&set, model, conditions(0.0), Some(&acting));
+            let fresh = Forward::new(&set, model, conditions(0.0), numerics()).unwrap();
+            let cycle = fresh.cycle();
+            let mut single = 0;
+            for (position, contact) in cycle.positions.iter().zip(&state.contacts) {
+                let loads = (position.pairs.iter())
+                    .map(|pair| (pair, PairLoad::of(pair, contact).line_load))
+                    .filter(|(_, load)| *load > 0.0);
+                if let [(pair, load)] = loads.collect::<Vec<_>>()[..] {
+                    let base = cycle.pair.pinion.base_radius;
+                    let arm = base + sense * pair.path.signum() * 0.1 * pair.frame.rho[0];
+                    let expected = 1e5 / set.face_width / arm;
+                    assert!((load / expected - 1.0).abs() < 2e-3, "{load}, {expected}");
+                    single += 1;
+                }
+            }
+            assert!(single > 5);
+        }
+    }
+}
+
 #[test]
 fn running_in_is_the_base_model_later() {
     let set = set();

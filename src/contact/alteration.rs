@@ -1,6 +1,7 @@
 //! What physical effects change about the contact itself: plain numbers on the grid of a mesh cycle.
 
 use crate::contact::cycle::{Cycle, PairContact, Position};
+use crate::tribology::friction::force_arm;
 
 /// Changes of the contact over a mesh cycle; the default changes nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -9,6 +10,9 @@ pub struct Alteration {
     pub profile: Option<[Vec<f64>; 2]>,
     /// Factor on the load of each tooth pair, by position and pair: its lever in the torque balance is divided by it.
     pub load_factor: Option<Vec<Vec<f64>>>,
+    /// Coefficient of friction that each tooth pair has besides the study's, by position and pair; negative where the pair slides the
+    /// other way than the pinion's drive has it.
+    pub friction: Option<Vec<Vec<f64>>>,
     /// Deflection added to each tooth pair per line load, mm per N/mm.
     pub flexibility: f64,
     /// How far pinion teeth −2 to 2 stand back along the path of contact, mm; tooth 0 is the measured one.
@@ -26,6 +30,34 @@ impl Alteration {
         self.load_factor
             .as_ref()
             .map_or(1.0, |factors| factors[q][index])
+    }
+
+    /// Coefficient of friction that pair number `index` of position `q` has besides the study's; a derivative likewise.
+    pub fn friction(&self, q: usize, index: usize) -> f64 {
+        self.friction.as_ref().map_or(0.0, |all| all[q][index])
+    }
+
+    /// The same where friction moves nothing but the lever of each pair's load, as the analytic contact has it.
+    ///
+    /// ```text
+    /// f → f r_b1/(r_b1 ± µ ρ1)        the lever is kept above a twentieth of the base radius
+    /// ```
+    pub fn with_friction_in_levers(mut self, cycle: &Cycle) -> Self {
+        let Some(friction) = self.friction.take() else {
+            return self;
+        };
+        let base_radius = cycle.pair.pinion.base_radius;
+        let factors = cycle.positions.iter().enumerate().map(|(q, position)| {
+            let pairs = position.pairs.iter().enumerate();
+            let factor = |(index, pair): (usize, &PairContact)| {
+                let rho = pair.frame.rho[0];
+                let arm = force_arm(base_radius, pair.path, rho, friction[q][index]);
+                self.factor(q, index) * base_radius / arm.max(base_radius / 20.0)
+            };
+            pairs.map(factor).collect()
+        });
+        self.load_factor = Some(factors.collect());
+        self
     }
 
     /// How far tooth pair `index` stands back where pair `measured` of the same position is that of the measured tooth, mm.

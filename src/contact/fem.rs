@@ -76,7 +76,7 @@ impl<'a> FemContact<'a> {
             arm: &self.cycle.positions[q].arm,
             lever: &elastic.lever,
             drive: Drive::Load(self.torque),
-            symmetric: self.compliance.friction == 0.0,
+            symmetric: self.compliance.symmetric,
         }
     }
 

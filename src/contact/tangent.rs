@@ -57,10 +57,15 @@ impl Alteration {
         };
         let profile = self.profile.as_ref().zip(after.profile.as_ref());
         let factors = self.load_factor.as_ref().zip(after.load_factor.as_ref());
+        let friction = self.friction.as_ref().zip(after.friction.as_ref());
+        let by_pair = |a: &[Vec<f64>], b: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            a.iter().zip(b).map(|(a, b)| slopes(a, b)).collect()
+        };
         let offsets = self.tooth_offset.as_ref().zip(after.tooth_offset.as_ref());
         Self {
             profile: profile.map(|(a, b)| [0, 1].map(|side| slopes(&a[side], &b[side]))),
-            load_factor: factors.map(|(a, b)| a.iter().zip(b).map(|(a, b)| slopes(a, b)).collect()),
+            load_factor: factors.map(|(a, b)| by_pair(a, b)),
+            friction: friction.map(|(a, b)| by_pair(a, b)),
             flexibility: slope(self.flexibility, after.flexibility),
             tooth_offset: offsets.map(|(a, b)| std::array::from_fn(|i| slope(a[i], b[i]))),
         }
@@ -71,6 +76,7 @@ impl Alteration {
         let zero = |x: &f64| *x == 0.0;
         self.profile.iter().flatten().flatten().all(zero)
             && self.load_factor.iter().flatten().flatten().all(zero)
+            && self.friction.iter().flatten().flatten().all(zero)
             && self.flexibility == 0.0
             && self.tooth_offset.iter().flatten().all(zero)
     }

@@ -67,8 +67,8 @@ pub enum ParamRole {
     PressureSharpness,
     /// One part of a smooth function, of many: it has no valleys of its own that a fit had to look for.
     SmoothPart,
-    /// A speed that the effect is known by: measurements that do not determine it show a pattern that another cause could make
-    /// as well.
+    /// What the effect's dependence on speed is known by: measurements that determine none of these show a pattern that another cause
+    /// could make as well.
     IdentifyingSpeed,
 }
 

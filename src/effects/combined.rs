@@ -83,6 +83,11 @@ impl Effect for Combined {
             .fold(1.0, |f, effect| f * effect.load_factor(at))
     }
 
+    fn friction(&self, at: &Local) -> f64 {
+        self.of(Hook::Friction)
+            .fold(0.0, |sum, effect| sum + effect.friction(at))
+    }
+
     fn profile(&self, at: &ProfileAt) -> f64 {
         self.of(Hook::Profile)
             .fold(0.0, |sum, effect| sum + effect.profile(at))

@@ -19,11 +19,13 @@ pub enum Hook {
     Operation,
     /// [`Effect::compliance`]
     Compliance,
+    /// [`Effect::friction`]
+    Friction,
 }
 
 impl Hook {
     /// All hooks.
-    pub const ALL: [Hook; 7] = [
+    pub const ALL: [Hook; 8] = [
         Hook::WearFactor,
         Hook::AddedDepth,
         Hook::LoadFactor,
@@ -31,6 +33,7 @@ impl Hook {
         Hook::ToothOffset,
         Hook::Operation,
         Hook::Compliance,
+        Hook::Friction,
     ];
 
     /// The left-hand side of a card's formula; for the first four also the key of a formula effect in the study.
@@ -43,6 +46,7 @@ impl Hook {
             Hook::ToothOffset => "tooth_offset",
             Hook::Operation => "added_centre_distance",
             Hook::Compliance => "compliance",
+            Hook::Friction => "added_friction",
         }
     }
 
@@ -56,6 +60,7 @@ impl Hook {
             Hook::ToothOffset => "um that the measured tooth stands back from its neighbours",
             Hook::Operation => "mm added to the centre distance",
             Hook::Compliance => "mm um/N added to the flexibility of each tooth pair",
+            Hook::Friction => "coefficient of friction between the flanks, added to the study's",
         }
     }
 
@@ -97,6 +102,14 @@ pub trait Effect: Send + Sync {
     /// Asked before the contact is solved: pressures, half width and line load of `at` are 0.
     fn load_factor(&self, _at: &Local) -> f64 {
         1.0
+    }
+
+    /// Coefficient of Coulomb friction between the flanks of a tooth pair, added to that of the study; 0 or more.
+    ///
+    /// The pair slips as a whole: by finite elements the traction turns by it from the normal, which moves the lever of the
+    /// torque and bends the teeth; analytically the lever alone moves. Asked before the contact is solved, as the load factor.
+    fn friction(&self, _at: &Local) -> f64 {
+        0.0
     }
 
     /// Material removed from a flank before the start, µm along the normal; negative where the flank stands proud.

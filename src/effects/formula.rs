@@ -83,7 +83,7 @@ impl Formula {
         Self::of_card(hook, text, parameters)
     }
 
-    /// As [`Formula::new`], also for the hook of the operation, whose formulas stand on cards only.
+    /// As [`Formula::new`], also for the hooks of operation and friction, whose formulas stand on cards only.
     pub(super) fn of_card(
         hook: Hook,
         text: &str,
@@ -214,7 +214,9 @@ fn known(name: &str, hook: Hook, parameters: &[&str]) -> Result<(), String> {
     let hook_name = hook.name();
     if variable.is_some() {
         let why = match hook {
-            Hook::LoadFactor => "it is asked before the contact is solved, for both flanks at once",
+            Hook::LoadFactor | Hook::Friction => {
+                "it is asked before the contact is solved, for both flanks at once"
+            }
             _ => "it is asked once, where no such thing exists",
         };
         return Err(format!("{hook_name} cannot use `{name}`: {why}"));
@@ -253,7 +255,7 @@ impl Bound {
         let value = self.inner.expression.evaluate(&values[..count]);
         let allowed = value.is_finite()
             && match hook {
-                Hook::WearFactor | Hook::AddedDepth => value >= 0.0,
+                Hook::WearFactor | Hook::AddedDepth | Hook::Friction => value >= 0.0,
                 Hook::LoadFactor => value > 0.0,
                 _ => true,
             };
@@ -267,7 +269,9 @@ impl Bound {
                 .map(|(name, value)| format!("{name} = {value}"))
                 .collect();
             let allowed = match hook {
-                Hook::WearFactor | Hook::AddedDepth => "allowed: a number from 0 on",
+                Hook::WearFactor | Hook::AddedDepth | Hook::Friction => {
+                    "allowed: a number from 0 on"
+                }
                 Hook::LoadFactor => "allowed: a number above 0",
                 _ => "allowed: a finite number",
             };
@@ -294,6 +298,10 @@ impl Effect for Bound {
 
     fn load_factor(&self, at: &Local) -> f64 {
         self.value(Hook::LoadFactor, |variable| variable.at(at))
+    }
+
+    fn friction(&self, at: &Local) -> f64 {
+        self.value(Hook::Friction, |variable| variable.at(at))
     }
 
     fn profile(&self, at: &ProfileAt) -> f64 {

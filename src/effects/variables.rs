@@ -26,7 +26,7 @@ impl Variable {
     pub fn available(&self, hook: Hook) -> bool {
         match hook {
             Hook::WearFactor | Hook::AddedDepth => self.local.is_some(),
-            Hook::LoadFactor => self.local.is_some() && self.before_contact,
+            Hook::LoadFactor | Hook::Friction => self.local.is_some() && self.before_contact,
             Hook::Profile => self.profile.is_some(),
             Hook::Operation => self.operation.is_some(),
             Hook::ToothOffset | Hook::Compliance => false,

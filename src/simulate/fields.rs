@@ -1,6 +1,6 @@
 //! Displacement, stress and flank loads of both members at one mesh position, for drawing and for root stresses.
 
-use crate::contact::cycle::Position;
+use crate::contact::cycle::Cycle;
 use crate::contact::fem::{CycleCompliance, member_tooth, member_turns};
 use crate::contact::model::PositionContact;
 use crate::fem::{FemError, Stress};
@@ -61,7 +61,15 @@ impl Forward<'_> {
         let fields = |side: usize| -> Result<MemberFields, FemError> {
             let member = &members.members[side];
             let mut loads = Loads::new(points[side]);
-            loads.add(position, compliance, q, contact, side, turns[side], member);
+            loads.add(
+                self.cycle(),
+                compliance,
+                q,
+                contact,
+                side,
+                turns[side],
+                member,
+            );
             loads.solve(member, turns[side])
         };
         let (pinion, gear) = rayon::join(|| fields(0), || fields(1));
@@ -102,7 +110,7 @@ impl<'a> Loads<'a> {
     )]
     fn add(
         &mut self,
-        position: &Position,
+        cycle: &Cycle,
         compliance: &CycleCompliance,
         q: usize,
         contact: &PositionContact,
@@ -110,8 +118,10 @@ impl<'a> Loads<'a> {
         turn: f64,
         member: &Member,
     ) {
+        let position = &cycle.positions[q];
         let outline = boundary_edges(&member.mesh);
-        for (pair, coupling) in position.pairs.iter().zip(compliance.couplings(q)) {
+        let couplings = position.pairs.iter().zip(compliance.couplings(q));
+        for (index, (pair, coupling)) in couplings.enumerate() {
             let tooth = member_tooth(pair, side);
             let Some(chain) = member.mesh.flanks.iter().find(|f| f.tooth == tooth) else {
                 continue;
@@ -121,7 +131,7 @@ impl<'a> Loads<'a> {
                 coupling.traces[side].scatter(k, contact.pressure[pair.offset + k], &mut amount);
             }
             let sign = if side == 0 { -1.0 } else { 1.0 };
-            let traction = rotate(compliance.traction(pair), -turn) * sign;
+            let traction = rotate(compliance.traction(cycle, q, index), -turn) * sign;
             for (&node, amount) in chain.nodes.iter().zip(&amount) {
                 self.force[node as usize] += traction * *amount;
             }

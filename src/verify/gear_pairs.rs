@@ -357,7 +357,8 @@ impl Solved {
         let turn = member_turns(&self.cycle, position.theta)[side];
         let sign = if side == 0 { -1.0 } else { 1.0 };
         let mut out = Vec::new();
-        for (pair, coupling) in position.pairs.iter().zip(self.compliance.couplings(q)) {
+        let couplings = position.pairs.iter().zip(self.compliance.couplings(q));
+        for (index, (pair, coupling)) in couplings.enumerate() {
             let tooth = member_tooth(pair, side);
             let flanks = &bench.members.members[side].mesh.flanks;
             let Some(chain) = flanks.iter().find(|f| f.tooth == tooth) else {
@@ -368,7 +369,7 @@ impl Solved {
                 let p = self.contacts[q].pressure[pair.offset + k];
                 coupling.traces[side].scatter(k, p, &mut amount);
             }
-            let traction = rotate(self.compliance.traction(pair), -turn) * sign;
+            let traction = rotate(self.compliance.traction(&self.cycle, q, index), -turn) * sign;
             let loaded = chain.nodes.iter().zip(&amount).filter(|(_, a)| **a != 0.0);
             out.extend(loaded.map(|(&node, a)| (node, traction * *a)));
         }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::analytic::hertz_line;
 use crate::contact::alteration::Alteration;
-use crate::contact::cycle::{Cycle, PairContact};
+use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::deposit::tributary;
 use crate::contact::model::PositionContact;
 use crate::effects::{
@@ -107,6 +107,7 @@ impl Acting {
         Alteration {
             profile: acts(Hook::Profile).map(|()| Member::BOTH.map(|m| self.profile(cycle, m))),
             load_factor: acts(Hook::LoadFactor).map(|()| self.load_factors(cycle)),
+            friction: acts(Hook::Friction).map(|()| self.friction(cycle)),
             // µm per N/mm
             flexibility: 1e-3 * self.effects.compliance(),
             tooth_offset: acts(Hook::ToothOffset)
@@ -138,17 +139,25 @@ impl Acting {
     }
 
     fn load_factors(&self, cycle: &Cycle) -> Vec<Vec<f64>> {
+        self.before_contact(cycle, |local| self.effects.load_factor(local))
+    }
+
+    /// With the drive reversed all sliding is.
+    fn friction(&self, cycle: &Cycle) -> Vec<Vec<f64>> {
+        let sense = if self.reversed { -1.0 } else { 1.0 };
+        self.before_contact(cycle, |local| sense * self.effects.friction(local))
+    }
+
+    /// `value` of every tooth pair, by position: what is known of it before the contact is solved.
+    fn before_contact(&self, cycle: &Cycle, value: impl Fn(&Local) -> f64) -> Vec<Vec<f64>> {
         let fresh = Age {
             cycles: 0.0,
             worn_volume: 0.0,
         };
-        let factor = |pair: &PairContact| {
-            let local = self.at_pair(cycle, pair, PairLoad::default(), fresh);
-            self.effects.load_factor(&local)
-        };
-        let of_position = |position: &crate::contact::cycle::Position| {
-            position.pairs.iter().map(factor).collect()
-        };
+        let of_pair =
+            |pair: &PairContact| value(&self.at_pair(cycle, pair, PairLoad::default(), fresh));
+        let of_position =
+            |position: &Position| position.pairs.iter().map(of_pair).collect::<Vec<_>>();
         cycle.positions.iter().map(of_position).collect()
     }
 

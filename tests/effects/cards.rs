@@ -222,6 +222,7 @@ fn bits(effect: &dyn Effect, at: &Local, on: &ProfileAt, of: &OperationState) ->
         effect.profile(on),
         effect.operation(of).centre_distance,
         effect.compliance(),
+        effect.friction(at),
     ];
     values.extend((-3..=3).map(|tooth| effect.tooth_offset(tooth)));
     values.into_iter().map(f64::to_bits).collect()
@@ -242,8 +243,12 @@ fn hook_value(
         Hook::ToothOffset => effect.tooth_offset(0),
         Hook::Operation => effect.operation(of).centre_distance,
         Hook::Compliance => effect.compliance(),
+        Hook::Friction => effect.friction(at),
     }
 }
+
+/// Of any card.
+const MOST_PARAMETERS: usize = 12;
 
 struct Nothing;
 impl Effect for Nothing {}
@@ -254,7 +259,7 @@ proptest! {
     #[test]
     fn neutral_values_change_no_bit(at in anywhere(), on in any_profile(), of in any_operation()) {
         let base = bits(&Nothing, &at, &on, &of);
-        prop_assert_eq!(&base[..6], &[1f64, 0.0, 1.0, 0.0, 0.0, 0.0].map(f64::to_bits)[..]);
+        prop_assert_eq!(&base[..7], &[1f64, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0].map(f64::to_bits)[..]);
         for card in CATALOGUE {
             let neutral = (card.build)(&card.neutral());
             prop_assert_eq!(bits(neutral.as_ref(), &at, &on, &of), base.clone(), "{}", card.name);
@@ -279,9 +284,10 @@ proptest! {
     #[test]
     fn hooks_are_finite(
         at in anywhere(), on in any_profile(), of in any_operation(),
-        shares in proptest::collection::vec(prop_oneof![2 => 0.0..=1.0f64, 1 => Just(0.0), 1 => Just(1.0)], 8),
+        shares in proptest::collection::vec(prop_oneof![2 => 0.0..=1.0f64, 1 => Just(0.0), 1 => Just(1.0)], MOST_PARAMETERS),
     ) {
         for card in CATALOGUE {
+            prop_assert!(card.params.len() <= MOST_PARAMETERS);
             let values: Vec<f64> = card.params.iter().zip(&shares).map(|(param, share)| {
                 let (least, most) = param.range;
                 if most.is_infinite() {
@@ -293,7 +299,7 @@ proptest! {
             let value = hook_value(effect.as_ref(), card.hook, &at, &on, &of);
             prop_assert!(value.is_finite(), "{} {:?} gives {}", card.name, values, value);
             match card.hook {
-                Hook::WearFactor | Hook::AddedDepth => prop_assert!(value >= 0.0, "{} {:?} gives {}", card.name, values, value),
+                Hook::WearFactor | Hook::AddedDepth | Hook::Friction => prop_assert!(value >= 0.0, "{} {:?} gives {}", card.name, values, value),
                 Hook::LoadFactor => prop_assert!(value > 0.0, "{} {:?} gives {}", card.name, values, value),
                 _ => {}
             }
@@ -333,6 +339,7 @@ fn hook_scale(card: &Card) -> f64 {
         Hook::Profile | Hook::ToothOffset => 10.0,
         Hook::Operation => 0.1,
         Hook::AddedDepth | Hook::Compliance => 1e-9,
+        Hook::Friction => 0.01,
     }
 }
 

@@ -465,40 +465,39 @@ fn roughness_polish_and_plastic_deformation() {
     }
 }
 
-/// The reference pair: +1.6 % at A rising to +3.8 % before the pitch point, −3.5 % after it to −5.2 % at E, for µ 0.1.
+/// One coefficient; another in recess, which a reversed drive swaps; and the power law of load over speed and radius by hand.
 #[test]
 fn friction_load() {
-    let law = effect("friction_load", &[("coefficient", 0.1)]);
-    let at = |rho: f64, path: f64| Local {
-        path,
-        approach: path < 0.0,
-        curvature: [rho, 27.4 - rho],
-        base_radius: 25.371_700,
+    let recess = Local {
+        approach: false,
         ..ordinary()
     };
-    same(
-        law.load_factor(&at(4.0251, -5.2094)),
-        1.016_120_266_616_578_3,
-    );
-    same(law.load_factor(&at(9.2345, -1e-9)), 1.037_771_619_645_578);
-    same(law.load_factor(&at(9.2345, 1e-9)), 0.964_881_356_447_862_1);
-    same(
-        law.load_factor(&at(14.0455, 4.811)),
-        0.947_544_932_542_831_8,
-    );
-    assert_eq!(law.load_factor(&at(9.2345, 0.0)), 1.0);
-    // reversed drive swaps the halves
-    let reversed = Local {
+    let approach = Local {
         approach: true,
-        ..at(14.0455, 4.811)
+        ..ordinary()
     };
-    assert!(law.load_factor(&reversed) > 1.0);
-    // a lever never vanishes: far outside any gear
-    let far = Local {
-        base_radius: 1.0,
-        ..at(400.0, -1.0)
+    let one = effect("friction_load", &[("coefficient", 0.1)]);
+    assert_eq!(one.friction(&approach), 0.1);
+    assert_eq!(one.friction(&recess), 0.1);
+    assert_eq!(one.load_factor(&recess), 1.0);
+    let two = effect(
+        "friction_load",
+        &[("coefficient", 0.1), ("recess_ratio", 0.7)],
+    );
+    assert_eq!(two.friction(&approach), 0.1);
+    same(two.friction(&recess), 0.07);
+    let power = effect(
+        "friction_load",
+        &[("coefficient", 0.05), ("load_exponent", 0.2)],
+    );
+    // w = 192 N/mm, v_Σ = 2 m/s, ρ = 3 mm: 32^0.2 = 2
+    let loaded = Local {
+        normal_load: 192.0,
+        rolling: [1.2, 0.8],
+        curvature: [4.0, 12.0],
+        ..ordinary()
     };
-    same(law.load_factor(&far), 20.0);
+    same(power.friction(&loaded), 0.1);
 }
 
 #[test]
@@ -540,6 +539,24 @@ fn dynamic_load() {
         };
         same(second.load_factor(&at), 1.0 + sign * 0.05 / 0.14);
     }
+    // mean and ripple apart: at half the reference speed a quarter of the rise, an eighth of a ripple of the third power
+    let apart = effect(
+        "dynamic_load",
+        &[
+            ("amplitude", 0.4),
+            ("resonance_speed", 1e6),
+            ("mean_rise", 0.2),
+            ("speed_exponent", 3.0),
+            ("reference_speed", 4000.0),
+        ],
+    );
+    let slow = Local {
+        speed: 2000.0,
+        path: 0.0,
+        ..at
+    };
+    let gain = 1.0 / (1.0f64 - 4e-6).hypot(0.14 * 2e-3);
+    same(apart.load_factor(&slow), 1.0 + 0.05 + 0.05 * gain);
 }
 
 /// 6 µm at 119 N/mm and 20 N/(mm µm) give K_Hβ = 1.5.

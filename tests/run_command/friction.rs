@@ -46,3 +46,32 @@ fn friction_changes_the_loads_and_keeps_the_torque() {
         |folder: &super::home::Folder| number(&folder.summary(), "/contact/te_peak_to_peak_urad");
     assert!((te(&with) / te(&without) - 1.0).abs() > 1e-3);
 }
+
+/// The catalogue's effect with one coefficient is the contact's own friction: the same loads, pressures and wear. Tolerance: rounding, since
+/// the compliance is summed in another order.
+#[test]
+fn the_effect_is_the_friction_of_the_contact() {
+    let values = [("order", "1"), ("friction", "true")];
+    let own = Home::with(&values);
+    let by_effect = Home::with(&values[..1]);
+    let mut study = std::fs::read_to_string(by_effect.path("study.toml")).unwrap();
+    study.push_str("[[effect]]\nkind = \"friction_load\"\ncoefficient = 0.06\n");
+    by_effect.write("study.toml", &study);
+    for home in [&own, &by_effect] {
+        home.succeed("run study.toml -o run");
+    }
+    let (own, by_effect) = (own.result("run"), by_effect.result("run"));
+    for (file, column) in [
+        ("contact.csv", "line_load"),
+        ("contact.csv", "peak_pressure"),
+        ("wear.csv", "depth"),
+    ] {
+        let (a, b) = (own.table(file), by_effect.table(file));
+        let (a, b) = (a.numbers(column), b.numbers(column));
+        assert_eq!(a.len(), b.len());
+        let largest = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        for (a, b) in a.iter().zip(&b) {
+            assert!((a - b).abs() < 1e-7 * largest, "{file}: {a}, {b}");
+        }
+    }
+}

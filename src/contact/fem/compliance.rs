@@ -1,4 +1,12 @@
 //! The members' condensed compliance as the contact grids of all positions see it.
+//!
+//! Under Coulomb friction with full slip the traction on the gear is p (n − µ sgn(v) t), so compliance and lever are straight in µ:
+//!
+//! ```text
+//! W = W₀ + µ W_t          lever = arm + µ lever_t
+//! ```
+
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -22,7 +30,21 @@ pub struct FlankCoupling {
 #[derive(Debug, Clone)]
 pub struct CycleCompliance {
     pub(super) positions: Vec<PositionCompliance>,
-    pub(super) friction: f64,
+    /// Whether no pair has friction: then the compliance is symmetric.
+    pub(super) symmetric: bool,
+    /// The coefficient of all pairs.
+    friction: f64,
+    /// What effects add to it, by position and pair.
+    added_friction: Option<Vec<Vec<f64>>>,
+    /// Made when an effect first asks for it.
+    per_friction: Arc<OnceLock<Vec<PerFriction>>>,
+}
+
+/// Change of a position's compliance and levers per unit coefficient of friction; columns and levers of a pair follow its own.
+#[derive(Debug, Clone)]
+pub(super) struct PerFriction {
+    pub(super) weighted: DMatrix<f64>,
+    pub(super) lever: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -52,17 +74,28 @@ impl CycleCompliance {
             .collect::<Result<_, _>>()?;
         Ok(Self {
             positions,
+            symmetric: friction == 0.0,
             friction,
+            added_friction: None,
+            per_friction: Arc::default(),
         })
     }
 
-    /// The same with what effects change about load and flexibility.
+    /// The same with what effects change about load, flexibility and friction; `members` are those that it was made of.
     ///
     /// ```text
     /// lever_k → lever_k/f of its pair          W → W + q l lᵀ on each pair (l_k = ∫ N_k)
     /// ```
-    pub fn altered(&self, cycle: &Cycle, alteration: &Alteration) -> Self {
+    pub fn altered(
+        &self,
+        cycle: &Cycle,
+        alteration: &Alteration,
+        members: [&ElasticFlanks; 2],
+    ) -> Self {
         let mut out = self.clone();
+        if alteration.friction.is_some() {
+            out.rub(cycle, alteration, members);
+        }
         for (q, (elastic, position)) in out.positions.iter_mut().zip(&cycle.positions).enumerate() {
             for (index, pair) in position.pairs.iter().enumerate() {
                 let own = pair.offset..pair.offset + pair.xi.len();
@@ -83,9 +116,55 @@ impl CycleCompliance {
         out
     }
 
-    /// Traction on the gear per unit pressure, friction included, fixed frame (the pinion's is the opposite).
-    pub fn traction(&self, pair: &PairContact) -> Vec2 {
-        pair.frame.normal + friction_direction(pair, self.friction)
+    /// Adds the friction of effects.
+    fn rub(&mut self, cycle: &Cycle, alteration: &Alteration, members: [&ElasticFlanks; 2]) {
+        let basis = Arc::clone(&self.per_friction);
+        let per_friction = basis.get_or_init(|| {
+            let positions = cycle.positions.par_iter().zip(&self.positions);
+            positions
+                .map(|(position, own)| PerFriction::new(cycle, position, members, &own.couplings))
+                .collect()
+        });
+        for (q, (elastic, per)) in self.positions.iter_mut().zip(per_friction).enumerate() {
+            for (index, pair) in cycle.positions[q].pairs.iter().enumerate() {
+                let friction = alteration.friction(q, index);
+                for k in pair.offset..pair.offset + pair.xi.len() {
+                    let column = per.weighted.column(k);
+                    elastic.weighted.column_mut(k).axpy(friction, &column, 1.0);
+                    elastic.lever[k] += friction * per.lever[k];
+                }
+            }
+        }
+        self.symmetric &= alteration
+            .friction
+            .iter()
+            .flatten()
+            .flatten()
+            .all(|f| *f == 0.0);
+        self.added_friction.clone_from(&alteration.friction);
+    }
+
+    /// Change with the coefficient of friction, where an effect adds friction.
+    pub(super) fn per_friction(&self, q: usize) -> Option<&PerFriction> {
+        self.per_friction.get().map(|positions| &positions[q])
+    }
+
+    /// Traction on the gear per unit pressure at pair number `index` of position `q`, friction included, fixed frame (the pinion's is the
+    /// opposite).
+    pub fn traction(&self, cycle: &Cycle, q: usize, index: usize) -> Vec2 {
+        let pair = &cycle.positions[q].pairs[index];
+        let added = (self.added_friction.as_ref()).map_or(0.0, |added| added[q][index]);
+        pair.frame.normal + (self.friction + added) * friction_direction(pair)
+    }
+
+    /// Torque per face width of `pair` of position `q` per unit of the friction that an effect adds, N·mm/mm, at the position's pressures;
+    /// 0 where none does.
+    pub fn moment_per_friction(&self, q: usize, pair: &PairContact, pressure: &[f64]) -> f64 {
+        let own = pair.offset..pair.offset + pair.xi.len();
+        self.per_friction(q).map_or(0.0, |per| {
+            let products = pressure[own.clone()].iter().zip(&per.lever[own.clone()]);
+            products.map(|(p, l)| p * l).sum()
+        })
     }
 
     /// Lever of the torque for each unknown of position `q`, friction included, mm·mm.
@@ -106,7 +185,6 @@ impl PositionCompliance {
         members: [&ElasticFlanks; 2],
         friction: f64,
     ) -> Result<Self, ContactError> {
-        let turns = member_turns(cycle, position.theta);
         let n = position.gap.len();
         let mut couplings = Vec::new();
         for pair in &position.pairs {
@@ -128,36 +206,22 @@ impl PositionCompliance {
             });
         }
         let mut weighted = DMatrix::zeros(n, n);
-        for side in 0..2 {
-            let flanks: Vec<SideView> = position
-                .pairs
-                .iter()
-                .zip(&couplings)
-                .map(|(pair, coupling)| {
-                    SideView::new(
-                        pair,
-                        &coupling.traces[side],
-                        members[side],
-                        side,
-                        turns[side],
-                        friction,
-                    )
-                })
-                .collect::<Result<_, _>>()?;
-            add_weighted(&mut weighted, &flanks, members[side]);
-        }
+        let traction = |pair: &PairContact| pair.frame.normal + friction * friction_direction(pair);
+        project(
+            &mut weighted,
+            cycle,
+            position,
+            members,
+            &couplings,
+            traction,
+        )?;
         if friction == 0.0 {
             // both halves are the same sums in another order; make them the same bits
             weighted.fill_lower_triangle_with_upper_triangle();
         }
         let mut lever = position.arm.clone();
-        for pair in &position.pairs {
-            let force = friction_direction(pair, friction);
-            let (origin, tangent) = (pair.frame.origin, pair.frame.tangent);
-            for k in 0..pair.xi.len() {
-                lever[pair.offset + k] +=
-                    cross(origin * pair.length[k] + tangent * pair.moment[k], force);
-            }
+        for (lever, per) in lever.iter_mut().zip(levers_of_friction(position)) {
+            *lever += friction * per;
         }
         Ok(Self {
             weighted,
@@ -165,6 +229,67 @@ impl PositionCompliance {
             couplings,
         })
     }
+}
+
+impl PerFriction {
+    /// At a position whose flanks `couplings` tie to the elements.
+    fn new(
+        cycle: &Cycle,
+        position: &Position,
+        members: [&ElasticFlanks; 2],
+        couplings: &[FlankCoupling],
+    ) -> Self {
+        let n = position.gap.len();
+        let mut weighted = DMatrix::zeros(n, n);
+        project(
+            &mut weighted,
+            cycle,
+            position,
+            members,
+            couplings,
+            friction_direction,
+        )
+        .expect("the flanks were found when the compliance was made");
+        Self {
+            weighted,
+            lever: levers_of_friction(position),
+        }
+    }
+}
+
+/// Closing of the weighted gaps, taken as opening, by unit pressures with the `traction` on the gear of each pair, added to `weighted`.
+fn project(
+    weighted: &mut DMatrix<f64>,
+    cycle: &Cycle,
+    position: &Position,
+    members: [&ElasticFlanks; 2],
+    couplings: &[FlankCoupling],
+    traction: impl Fn(&PairContact) -> Vec2,
+) -> Result<(), ContactError> {
+    let turns = member_turns(cycle, position.theta);
+    for side in 0..2 {
+        let views: Vec<SideView> = (position.pairs.iter().zip(couplings))
+            .map(|(pair, coupling)| {
+                let rows = &coupling.traces[side];
+                let traction = traction(pair);
+                SideView::new(pair, rows, members[side], side, turns[side], traction)
+            })
+            .collect::<Result<_, _>>()?;
+        add_weighted(weighted, &views, members[side]);
+    }
+    Ok(())
+}
+
+/// Lever of the torque that friction adds to each unknown per unit coefficient, mm·mm.
+fn levers_of_friction(position: &Position) -> Vec<f64> {
+    let mut levers = Vec::with_capacity(position.gap.len());
+    for pair in &position.pairs {
+        let force = friction_direction(pair);
+        let (origin, tangent) = (pair.frame.origin, pair.frame.tangent);
+        let weighted = pair.length.iter().zip(&pair.moment);
+        levers.extend(weighted.map(|(l, m)| cross(origin * *l + tangent * *m, force)));
+    }
+    levers
 }
 
 /// Tooth of member `side` (0 pinion, 1 gear) in tooth pair j: j and −j.
@@ -178,11 +303,11 @@ pub fn member_turns(cycle: &Cycle, theta: f64) -> [f64; 2] {
     [cycle.pair.pinion_angle(path), cycle.pair.gear_angle(path)]
 }
 
-/// Traction on the gear per unit pressure that friction adds to n: against the sliding of the gear on the pinion.
+/// Traction on the gear per unit pressure and coefficient that friction adds to n: against the sliding of the gear on the pinion.
 ///
 /// In recess (slip > 0) the pinion's surface slides towards its root and drags the gear with it, along −t.
-fn friction_direction(pair: &PairContact, friction: f64) -> Vec2 {
-    pair.frame.tangent * (-friction * pair.slip.signum() * f64::from(u8::from(pair.slip != 0.0)))
+fn friction_direction(pair: &PairContact) -> Vec2 {
+    pair.frame.tangent * (-pair.slip.signum() * f64::from(u8::from(pair.slip != 0.0)))
 }
 
 /// One tooth pair as one member sees it.
@@ -205,7 +330,7 @@ impl<'a> SideView<'a> {
         member: &ElasticFlanks,
         side: usize,
         turn: f64,
-        friction: f64,
+        traction: Vec2,
     ) -> Result<Self, ContactError> {
         let columns = (0..rows.len()).flat_map(|k| rows.row(k).0.iter().copied());
         let (low, high) = columns.fold((u32::MAX, 0), |(low, high), c| (low.min(c), high.max(c)));
@@ -220,10 +345,7 @@ impl<'a> SideView<'a> {
             first_column: low as usize,
             count: (high - low) as usize + 1,
             normal: rotate(pair.frame.normal, -turn),
-            traction: rotate(
-                pair.frame.normal + friction_direction(pair, friction),
-                -turn,
-            ),
+            traction: rotate(traction, -turn),
         })
     }
 }

@@ -93,6 +93,19 @@ impl<'m> FemLinear<'m> {
                     .sum();
                 load += carried * slope / factor;
             }
+            let per_friction = change.friction(self.q, index);
+            let rubbed = self.model.compliance.per_friction(self.q);
+            if let Some(per) = rubbed.filter(|_| per_friction != 0.0) {
+                let factor = (self.model.alteration).map_or(1.0, |a| a.factor(self.q, index));
+                for j in first..last {
+                    let column = on.active[j];
+                    let by = per_friction * values[j];
+                    load -= by * per.lever[column] / factor;
+                    for (right, &k) in right.iter_mut().zip(&on.active) {
+                        *right -= by * per.weighted[(k, column)];
+                    }
+                }
+            }
             if change.flexibility != 0.0 {
                 let length = |i: usize| pair.length[on.active[i] - pair.offset];
                 let line_load: f64 = (first..last).map(|i| length(i) * values[i]).sum();
@@ -190,7 +203,8 @@ impl LinearContact for FemLinear<'_> {
 
     fn response_tangent(&self, response: &[f64], change: &AlterationChange) -> Option<Vec<f64>> {
         let alteration = &change.alteration;
-        if alteration.load_factor.is_none() && alteration.flexibility == 0.0 {
+        let stiffness = alteration.friction.is_some() || alteration.flexibility != 0.0;
+        if alteration.load_factor.is_none() && !stiffness {
             return None;
         }
         let (right, load) = self.altered(&self.joint, response, alteration);

@@ -15,7 +15,7 @@ const KEPT: f64 = 0.4;
 /// Largest over smallest speed of the tests from which a dependence on speed can be seen at all.
 const SPEEDS: f64 = 1.1;
 
-/// The card of a single effect, and the parameter that it is known by, where the data do not determine that.
+/// The card of a single effect, and the first parameter that it is known by, where the data determine none of those.
 pub(in crate::learn) fn unidentified(
     likelihood: &Likelihood<'_>,
     fitted: &FittedCandidate,
@@ -23,20 +23,24 @@ pub(in crate::learn) fn unidentified(
     let candidate = &fitted.candidate;
     let card = candidate.effects.single()?;
     let speed = |p: &&Param| p.role == ParamRole::IdentifyingSpeed;
-    let told = card.params.iter().find(speed)?;
-    let own = |name: &str| {
-        name.split_once('.')
-            .is_some_and(|(_, own)| own == told.name)
-    };
-    let place = (candidate.inherited..candidate.parameters.len())
-        .find(|&i| own(&candidate.parameters[i].name))?;
+    let places: Vec<(usize, &'static str)> = (candidate.inherited..candidate.parameters.len())
+        .filter_map(|place| {
+            let (_, own) = candidate.parameters[place].name.split_once('.')?;
+            let mut identifying = card.params.iter().filter(speed);
+            Some((place, identifying.find(|p| p.name == own)?.name))
+        })
+        .collect();
+    let &(_, name) = places.first()?;
     let first = fitted.covariance.nrows() - candidate.parameters.len();
-    let variance = fitted.covariance[(first + place, first + place)].max(0.0);
-    let prior = candidate.parameters[place].natural_prior();
+    let undetermined = |&(place, _): &(usize, &str)| {
+        let variance = fitted.covariance[(first + place, first + place)].max(0.0);
+        let prior = candidate.parameters[place].natural_prior();
+        variance.sqrt() > KEPT * prior.scale()
+    };
     let tests = &likelihood.measured.study().tests;
     let speeds = (likelihood.tests.iter()).map(|&test| tests[test].conditions.speed_rpm);
-    let nothing = vary_too_little(speeds) || variance.sqrt() > KEPT * prior.scale();
-    nothing.then_some((card, told.name))
+    let nothing = vary_too_little(speeds) || places.iter().all(undetermined);
+    nothing.then_some((card, name))
 }
 
 fn vary_too_little(speeds: impl Iterator<Item = f64>) -> bool {

@@ -175,6 +175,15 @@ impl Candidate {
         self.effects.cards().iter().any(|card| !wears(card.hook))
     }
 
+    /// Whether both are single effects of which one card or the other says that they are mistaken for one another.
+    pub(in crate::learn) fn is_look_alike_of(&self, other: &Self) -> bool {
+        let names = |a: &Card, b: &Card| a.confounded_with.contains(&b.name);
+        match (self.effects.single(), other.effects.single()) {
+            (Some(a), Some(b)) => a.name != b.name && (names(a, b) || names(b, a)),
+            _ => false,
+        }
+    }
+
     /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
     /// corners with which a tooth's neighbours touch where it stands back.
     pub(in crate::learn) fn may_be_unseen(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The fits that decide: coarse finite elements say how predictions change, exact ones where they stand.
 
 use super::context::Context;
+use super::medium_fidelity::look_alikes_left;
 use crate::learn::candidate_model::{AnchoredOn, model, offset, predictions};
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
@@ -159,20 +160,26 @@ pub(in crate::learn) fn decide_leaders(
             *i == 0 || *i < DECIDED[1] && near && j.log_evidence > before + GAIN
         })
         .count();
-    let rest = screened.split_off(chosen);
-    let mut judged: Vec<FittedCandidate> = Vec::with_capacity(screened.len() + rest.len());
     let mut least = base.fitted.found.objective;
-    for (i, candidate) in screened.into_iter().enumerate() {
-        watch(
-            i as f64 / chosen as f64,
-            format!("deciding: {}", candidate.candidate.effects),
-        );
+    let mut decided = |candidate: FittedCandidate, share: f64| {
+        watch(share, format!("deciding: {}", candidate.candidate.effects));
         let start = candidate.found.state.clone();
         let decided = context.decide(&candidate.candidate, start, Some(base), least);
         let decided = decided.unwrap_or(candidate);
         least = least.min(decided.found.objective);
-        judged.push(decided);
+        decided
+    };
+    let rest = screened.split_off(chosen);
+    let mut judged: Vec<FittedCandidate> = Vec::with_capacity(screened.len() + rest.len());
+    for (i, candidate) in screened.into_iter().enumerate() {
+        judged.push(decided(candidate, i as f64 / chosen as f64));
     }
+    judged.extend(rest);
+    let alike = look_alikes_left(&judged, before + GAIN);
+    let mut judged: Vec<FittedCandidate> = (judged.into_iter().zip(alike))
+        .map(|(j, alike)| if alike { decided(j, 1.0) } else { j })
+        .collect();
+    let rest = judged.split_off(chosen);
     judged.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     if let Some(leader) = judged.first_mut().filter(|j| !j.converged) {
         watch(1.0, format!("polishing: {}", leader.candidate.effects));

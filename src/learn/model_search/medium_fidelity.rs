@@ -65,9 +65,26 @@ impl Context<'_> {
             };
             judged.log_evidence - before >= bar || contact_missed && candidate.changes_contact()
         };
+        let wanted: Vec<bool> = screened.iter().map(wanted).collect();
+        let refined = self.by_coarse_elements(base, screened, &wanted);
+        // what the leader is mistaken for is held against it by the same means
+        let alike = look_alikes_left(&refined, before + MEANT);
+        self.by_coarse_elements(base, refined, &alike)
+    }
+
+    /// Fits by coarse finite elements those that are wanted; the others stay as they are.
+    fn by_coarse_elements(
+        &self,
+        base: &BaseFit,
+        screened: Vec<FittedCandidate>,
+        wanted: &[bool],
+    ) -> Vec<FittedCandidate> {
+        if !wanted.contains(&true) {
+            return screened;
+        }
         // one model for all fits of a candidate: it keeps its histories
-        let models: Vec<Option<GearModel<'_>>> = (screened.iter())
-            .map(|judged| wanted(judged).then(|| model(self.middle, &judged.candidate)))
+        let models: Vec<Option<GearModel<'_>>> = (screened.iter().zip(wanted))
+            .map(|(judged, wanted)| wanted.then(|| model(self.middle, &judged.candidate)))
             .collect();
         let fit = |place: usize, start: State, effort: &Effort| -> Option<Found> {
             let predictor = AnchoredOn::new(models[place].as_ref()?, base.fitted.offset.clone());
@@ -146,6 +163,26 @@ impl Context<'_> {
             Fidelity::Middle,
         )
     }
+}
+
+/// Which candidates are the best form of an effect that the leader is mistaken for, promise more than `bar` and were not fitted by what the
+/// leader was.
+pub(super) fn look_alikes_left(fitted: &[FittedCandidate], bar: f64) -> Vec<bool> {
+    let best = |of: &dyn Fn(&FittedCandidate) -> bool| {
+        let all = fitted.iter().filter(|&j| of(j));
+        all.max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence))
+    };
+    let leader = best(&|_| true).filter(|leader| leader.log_evidence > bar);
+    let left = |judged: &FittedCandidate| {
+        let Some(leader) = leader else { return false };
+        let own = &judged.candidate.effects;
+        judged.candidate.is_look_alike_of(&leader.candidate)
+            && judged.fidelity != leader.fidelity
+            && judged.log_evidence > bar
+            && best(&|other| other.candidate.effects == *own)
+                .is_some_and(|best| std::ptr::eq(best, judged))
+    };
+    fitted.iter().map(left).collect()
 }
 
 /// A look at a candidate fitted on if it is in play.

@@ -76,8 +76,8 @@ impl Forward<'_> {
     }
 
     fn alteration_change(&self, shifted: &Acting, step: f64) -> Option<AlterationChange> {
-        let before = self.acting?.alteration(&self.cycle);
-        let after = shifted.alteration(&self.cycle);
+        let before = self.alteration(self.acting?);
+        let after = self.alteration(shifted);
         let slope = before.slope_to(&after, step);
         if slope.is_zero() {
             return None;
@@ -151,6 +151,15 @@ impl Forward<'_> {
         let slope =
             (direction.altered.as_ref()).map_or(0.0, |a| a.alteration.factor_slope(q, index));
         let factor = (self.altered.as_ref()).map_or(1.0, |a| a.alteration.factor(q, index));
-        own - slope / factor * self.moment(q, index, contact)
+        let friction =
+            (direction.altered.as_ref()).map_or(0.0, |a| a.alteration.friction(q, index));
+        let rubbed = match self.compliance() {
+            Some(compliance) if friction != 0.0 => {
+                let pair = &self.cycle.positions[q].pairs[index];
+                friction / factor * compliance.moment_per_friction(q, pair, &contact.pressure)
+            }
+            _ => 0.0,
+        };
+        own + rubbed - slope / factor * self.moment(q, index, contact)
     }
 }

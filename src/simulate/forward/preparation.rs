@@ -14,6 +14,7 @@ use crate::effects::Effect;
 use crate::simulate::blanks::Blanks;
 use crate::simulate::history::Progress;
 use crate::simulate::members::{MemberError, Members};
+use crate::wear::acting::Acting;
 
 /// How a [`Forward`] has prepared its contact: what a resumed run must restore before it goes on.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -363,17 +364,27 @@ impl Forward<'_> {
         self.alter()
     }
 
+    /// What effects change about the contact of this run's kind.
+    pub(super) fn alteration(&self, acting: &Acting) -> Alteration {
+        let alteration = acting.alteration(&self.cycle);
+        match self.kind {
+            ContactKind::Fem => alteration,
+            ContactKind::Hertz => alteration.with_friction_in_levers(&self.cycle),
+        }
+    }
+
     /// Lets the effects change the contact.
     pub(super) fn alter(&mut self) -> Result<(), ForwardError> {
         self.altered = None;
         if let Some(acting) = self.acting {
-            let alteration = acting.alteration(&self.cycle);
+            let alteration = self.alteration(acting);
             if let Some(fault) = acting.effects.fault() {
                 return Err(ForwardError::Effect(fault));
             }
             self.altered = (!alteration.is_none()).then(|| Altered {
                 opened: (self.compliance.as_ref()).and_then(|_| alteration.gaps(&self.cycle)),
-                compliance: (self.compliance.as_ref()).map(|c| c.altered(&self.cycle, &alteration)),
+                compliance: (self.compliance.as_ref().zip(self.condensed()))
+                    .map(|(c, members)| c.altered(&self.cycle, &alteration, members.flanks())),
                 alteration,
             });
         }
