@@ -78,6 +78,7 @@ fn document(card: &Card) -> Value {
         "signature": card.signature,
         "confounded_with": card.confounded_with,
         "separated_by": card.separated_by,
+        "left_out": card.left_out,
         "needs": card.needs,
         "forms": forms,
     })
@@ -137,6 +138,7 @@ fn details(card: &Card) -> String {
         ("signature", card.signature),
         ("confounded with", &confounded),
         ("separated by", card.separated_by),
+        ("left out", card.left_out),
         ("source", card.source),
     ] {
         let _ = writeln!(text, "\n{title}");

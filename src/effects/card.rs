@@ -22,6 +22,8 @@ pub struct Card {
     pub confounded_with: &'static [&'static str],
     /// What tells it from those.
     pub separated_by: &'static str,
+    /// What a full treatment would have and this one leaves out: where it acts by a shortcut.
+    pub left_out: &'static str,
     /// Keys of the study's optional tables without which it cannot act.
     pub needs: &'static [&'static str],
     /// Parameters, in the order in which [`Card::build`] takes their values.

@@ -181,6 +181,7 @@ fn effect(text: &mut String, card: &Card) {
     let _ = writeln!(text, "- *signature*: {}", cell(card.signature));
     let _ = writeln!(text, "- *confounded with*: {confounded}");
     let _ = writeln!(text, "- *separated by*: {}", cell(card.separated_by));
+    let _ = writeln!(text, "- *left out*: {}", cell(card.left_out));
     let _ = writeln!(text, "- *source*: {}", cell(card.source));
 }
 

@@ -99,7 +99,13 @@ fn names_that_outside_files_use() {
 fn cards_are_complete() {
     for card in CATALOGUE {
         let name = card.name;
-        for text in [card.source, card.signature, card.separated_by, card.formula] {
+        for text in [
+            card.source,
+            card.signature,
+            card.separated_by,
+            card.left_out,
+            card.formula,
+        ] {
             assert!(text.len() > 10 && !text.contains('\n'), "{name}: {text:?}");
         }
         let first = card.signature.split(';').next().unwrap();

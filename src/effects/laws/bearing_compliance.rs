@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "a radial misalignment that grows with torque; at one torque it is a radial misalignment",
     confounded_with: &["radial_misalignment", "thermal_expansion"],
     separated_by: "two torques at the same temperature",
+    left_out: "shafts that tilt (the face stays evenly loaded) and the ripple of the load over a mesh cycle: the mean normal force alone moves the axes",
     needs: &[],
     params: &[
         Param::new(

@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "depth stalls, then breaks through at the root first; a map of two levels",
     confounded_with: &["surface_layer", "running_in"],
     separated_by: "depth over cycles at points with different rates; friction rising between inspections",
+    left_out: "a stiffness of its own, blistering and flaking: the coating only wears",
     needs: &[],
     params: &[
         Param::new(

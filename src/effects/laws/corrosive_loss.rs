@@ -20,6 +20,7 @@ pub(super) const CARD: Card = Card {
     signature: "depth everywhere, also at the pitch point and on the unloaded flank; per cycle as 1/n; no dependence on torque; more mass than profile lost",
     confounded_with: &["roughness_polish", "micropitting", "oxidative"],
     separated_by: "the unloaded flank and the root as a datum; weighing; two checkpoints. A trace whose level is unknown hides it altogether",
+    left_out: "attack at standstill, and oil chemistry: the rate is given",
     needs: &[],
     params: &[
         Param::new(

@@ -18,6 +18,7 @@ pub(super) const CARD: Card = Card {
     signature: "depth over cycles bends upwards on both members alike; in an unchanged shape; falls back after an oil change",
     confounded_with: &["lubricant_ageing", "surface_layer", "running_in"],
     separated_by: "an oil change or a filter: a break in the slope; a particle count",
+    left_out: "where the particles go: their number follows the volume worn, alike at every place of both flanks",
     needs: &[],
     params: &[
         Param::new(

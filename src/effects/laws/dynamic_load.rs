@@ -24,6 +24,7 @@ pub(super) const CARD: Card = Card {
         "profile_form",
     ],
     separated_by: "tests at several speeds, one near the resonance and one below a tenth of it; an accelerometer",
+    left_out: "the equation of motion: the ripple is given, follows no transmission error and is not fed by wear; teeth never part",
     needs: &[],
     params: &[
         Param::new(

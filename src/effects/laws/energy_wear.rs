@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "less wear where speed and radius are large, a mild change of shape; nothing at the pitch point",
     confounded_with: &["film_thickness", "approach_recess", "flash_temperature"],
     separated_by: "measured torque loss; speeds far apart",
+    left_out: "heat: the work of friction acts through the coefficient alone",
     needs: &["lubricant.viscosity", "lubricant.roughness"],
     params: &[
         Param::new(

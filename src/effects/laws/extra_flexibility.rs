@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "load shared more evenly, more wear at both ends of the path; the single contact zone unchanged",
     confounded_with: &["tip_relief", "pitch_error"],
     separated_by: "several torques, since a relief acts as its height times stiffness over torque; the transmission error over torque",
+    left_out: "the coupling between pairs and the shape of rim and web: each pair has a spring of its own in series",
     needs: &[],
     params: &[Param::new(
         "flexibility",

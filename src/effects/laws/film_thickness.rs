@@ -16,6 +16,7 @@ pub(super) const CARD: Card = Card {
     signature: "wear falls with speed and viscosity, more at the pinion's tip than its root; hardly any dependence on torque",
     confounded_with: &["sliding_speed_exponent", "oxidative", "running_in"],
     separated_by: "speeds five times apart, or another viscosity at equal speed; not identifiable where the film ratio stays far below lambda0",
+    left_out: "starvation, thermal thinning at the inlet and surfaces that run in: a smooth steady isothermal film over the stated roughness",
     needs: &[
         "lubricant.viscosity",
         "lubricant.pressure_viscosity",

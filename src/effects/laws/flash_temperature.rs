@@ -22,6 +22,7 @@ pub(super) const CARD: Card = Card {
         "oxidative",
     ],
     separated_by: "the same sliding at another oil temperature; high speed with high torque",
+    left_out: "the heat balance of the gears: the bulk temperature is the stated one, and friction heats by one coefficient",
     needs: &[
         "lubricant.friction_coefficient",
         "thermal.bulk_temperature",

@@ -19,6 +19,7 @@ pub(super) const CARD: Card = Card {
     signature: "a small step of the load at the pitch point; of 2 mu rho1/r_b1, in the transmission error too; teeth bend less in approach, more in recess",
     confounded_with: &["approach_recess"],
     separated_by: "measured torque loss; reversed drive",
+    left_out: "sticking: flanks slip everywhere, so the force turns over in a jump at the pitch point; the friction coefficient does not follow wear",
     needs: &[],
     params: &[
         Param::new(

@@ -17,6 +17,7 @@ pub(super) const CARD: Card = Card {
     signature: "in one plane only a load factor, larger at low torque; two face sections show it at once",
     confounded_with: &["pressure_exponent", "film_thickness"],
     separated_by: "traces at two or more places of the face; nothing else if the wear coefficient scatters",
+    left_out: "the gap that wear closes, and the stiffness across the face: one slice with a factor on its load",
     needs: &[],
     params: &[
         Param::new("slope", "um", "gap between the ends of the face, unloaded", 6.0, (0.0, 200.0), Prior::HalfNormal { sd: 8.0 }).neutral(0.0),

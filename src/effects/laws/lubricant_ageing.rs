@@ -15,6 +15,7 @@ pub(super) const CARD: Card = Card {
     signature: "depth bends upwards in hours run, not in cycles or depth; unchanged shape along the flank",
     confounded_with: &["debris_abrasion", "surface_layer", "running_in"],
     separated_by: "two speeds at equal cycles; fresh oil",
+    left_out: "temperature: hours alone use up the additives",
     needs: &[],
     params: &[
         Param::new(

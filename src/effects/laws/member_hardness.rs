@@ -15,6 +15,7 @@ pub(super) const CARD: Card = Card {
     signature: "the ratio of pinion to gear wear is off, both shapes are right",
     confounded_with: &[],
     separated_by: "measuring both members; exchanging the materials. A mistaken tooth ratio or biased weighing looks the same",
+    left_out: "nothing: it is one ratio of two coefficients",
     needs: &[],
     params: &[Param::new(
         "log_ratio",

@@ -18,6 +18,7 @@ pub(super) const CARD: Card = Card {
     signature: "loss at and just below the pitch line; dedendum of both members; a high power of the load; base wear gives none there",
     confounded_with: &["roughness_polish", "plastic_deformation", "corrosive_loss", "pressure_exponent"],
     separated_by: "the depth at the pitch line over cycles; the unloaded flank; pictures of the flank",
+    left_out: "cracks and their growth: a mean rate of loss by pressure and film ratio",
     needs: &[],
     params: &[
         Param::new("rate", "um per 1e6 contacts", "depth at the reference pressure without a film", 3.0, (0.0, 1000.0), Prior::LogNormal { median: 5.0, spread: 3.0 }).neutral(0.0),

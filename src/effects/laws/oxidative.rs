@@ -26,6 +26,7 @@ pub(super) const CARD: Card = Card {
         "flash_temperature",
     ],
     separated_by: "oil temperature 20 K up and down",
+    left_out: "the oxide's own balance: its steady rate by speed and temperature",
     needs: &[
         "lubricant.friction_coefficient",
         "thermal.bulk_temperature",

@@ -15,6 +15,7 @@ pub(super) const CARD: Card = Card {
     signature: "the measured tooth carries less or more in both double contact zones; teeth differ; once per turn in the transmission error",
     confounded_with: &["profile_slope", "extra_flexibility", "tip_relief"],
     separated_by: "measuring four teeth or more",
+    left_out: "the wear of the neighbours: they wear as the measured tooth does",
     needs: &[],
     params: &[Param::new(
         "deviation",

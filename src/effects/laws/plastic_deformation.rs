@@ -22,6 +22,7 @@ pub(super) const CARD: Card = Card {
         "roughness_polish",
     ],
     separated_by: "an early checkpoint; weighing; an overload",
+    left_out: "raised rims and residual stress: a dent of given depth where the pressure passes the limit",
     needs: &[],
     params: &[
         Param::new(

@@ -27,6 +27,7 @@ pub(super) const CARD: Card = Card {
         "micropitting",
     ],
     separated_by: "three torques on one flank shape, with replicates",
+    left_out: "a cause: an empirical power of the pressure",
     needs: &[],
     params: &[
         Param::new(

@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "the pitch point's dip and the start edge shift outwards on the pinion; the zones of double contact shrink",
     confounded_with: &["bearing_compliance", "thermal_expansion", "approach_recess"],
     separated_by: "the place of the dip and of the start edge give it directly; other torques and temperatures tell it from its look-alikes",
+    left_out: "nothing: the gears are mounted at the other centre distance",
     needs: &[],
     params: &[Param::new(
         "amount",

@@ -19,6 +19,7 @@ pub(super) const CARD: Card = Card {
         "plastic_deformation",
     ],
     separated_by: "early checkpoints; the inactive flank as a datum; the roughness itself. A single final trace of unknown level hides it",
+    left_out: "asperities one by one, and the film: a loss that dies out with the contacts",
     needs: &[],
     params: &[
         Param::new(

@@ -23,6 +23,7 @@ pub(super) const CARD: Card = Card {
         "debris_abrasion",
     ],
     separated_by: "checkpoints before half a decay time and after three; two torques (counted in cycles or in depth); the depth at the pitch point",
+    left_out: "surfaces: the excess dies out with cycles or depth, whatever the load",
     needs: &[],
     params: &[
         Param::new(

@@ -16,6 +16,7 @@ pub(super) const CARD: Card = Card {
     signature: "a band with sharp edges where pressure is highest, above some torque; with a speed exponent at the pinion's root; may end as wear lowers the pressure",
     confounded_with: &["pressure_exponent", "plastic_deformation", "tip_relief"],
     separated_by: "torques just below and just above the jump",
+    left_out: "what makes the change: the coefficient passes from one level to another at a limit",
     needs: &[],
     params: &[
         Param::new(

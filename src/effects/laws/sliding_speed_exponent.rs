@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "wear near the pitch point off against the ends of the flank; below 0 more, above 0 less; scales with the speed of the test",
     confounded_with: &["film_thickness", "oxidative", "flash_temperature"],
     separated_by: "the shape along the flank within one test",
+    left_out: "a cause: an empirical power of the sliding speed",
     needs: &[],
     params: &[
         Param::new(

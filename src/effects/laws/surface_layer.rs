@@ -14,6 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "a kink at the same depth everywhere, the pinion's root first; so at other cycles for each point, member and torque",
     confounded_with: &["running_in", "coating", "debris_abrasion"],
     separated_by: "depth over cycles at points that wear three to ten times apart; two torques",
+    left_out: "a hardness profile: the coefficient alone changes with depth",
     needs: &[],
     params: &[
         Param::new(

@@ -16,6 +16,7 @@ pub(super) const CARD: Card = Card {
     signature: "a radial misalignment that changes with power or oil temperature; of either sign",
     confounded_with: &["radial_misalignment", "bearing_compliance"],
     separated_by: "hot and cold at the same torque; three times the speed",
+    left_out: "unequal warmth within the gears and the growth of the flanks: the centre distance alone changes",
     needs: &[],
     params: &[
         Param::new(

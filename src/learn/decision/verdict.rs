@@ -34,8 +34,8 @@
 //! ```text
 //! nothing_missing   p(0) ≥ p(u) and p(0) ≥ Σ,  or  p(0) ≥ doubt and p(u) < Σ and p(0) > p₁
 //! effect, effects   p(0) < doubt and p₁ ≥ claim
-//! partial           p(0) < doubt, and what holds the most probable effect (alone, or beside something unknown) ≥ claim, or all those beside
-//!                   something unknown together: then they are a group
+//! partial           p(0) < doubt, and what holds the most probable effect beside something unknown (that, the effect alone, and every set
+//!                   with it) ≥ claim, unless it is alike no more; or all those beside something unknown together: then they are a group
 //! unknown           p(u) ≥ Σ and p(u) ≥ p(0)                  p(u): with all that stands beside something unknown
 //! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone)
 //! ```
@@ -92,6 +92,11 @@ impl Decision {
         self.probability(&Hypothesis::Effects(effects.clone()))
     }
 
+    /// The probability that `effects` are missing, alone, beside others of the catalogue or beside something unknown.
+    pub fn probability_in_all(&self, effects: &EffectSet) -> f64 {
+        held(&self.log_probabilities, effects)
+    }
+
     /// The most probable effect or set.
     pub fn leader(&self) -> Option<&EffectSet> {
         self.effects.first()
@@ -124,8 +129,7 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
         Verdict::Partial => {
             // as with effects alone, one that is probable enough has no look-alikes
             let (leader, most) = remainders[0];
-            let alone = log_probabilities.get(&Hypothesis::Effects(leader.clone()));
-            let least = if most + alone.map_or(0.0, |log| log.exp()) >= rule.claim {
+            let least = if held(&log_probabilities, leader) >= rule.claim {
                 most
             } else {
                 rule.alike * most
@@ -185,8 +189,9 @@ fn verdict(
     }
     if let Some((effect, p)) = remainders.first() {
         let alone = logs.get(&Hypothesis::Effects((*effect).clone()));
-        let established = p + alone.map_or(0.0, |log| log.exp());
-        let is_partial = *p >= established - p && established >= rule.claim * all;
+        let is_partial = *p >= alone.map_or(0.0, |log| log.exp())
+            && *p > rule.alike * leading
+            && held(logs, effect) >= rule.claim * all;
         if nothing < rule.doubt && (is_partial || partial >= rule.claim * all) {
             return Verdict::Partial;
         }
@@ -230,6 +235,16 @@ fn look_alikes(
         }
     }
     group
+}
+
+/// The probability of all hypotheses that hold `effects`.
+fn held(logs: &BTreeMap<Hypothesis, f64>, effects: &EffectSet) -> f64 {
+    let holds = |hypothesis: &Hypothesis| match hypothesis {
+        Hypothesis::Effects(own) | Hypothesis::EffectsAndUnknown(own) => own.contains(effects),
+        Hypothesis::NothingMissing | Hypothesis::Unknown => false,
+    };
+    let all = logs.iter().filter(|(hypothesis, _)| holds(hypothesis));
+    all.map(|(_, log)| log.exp()).sum()
 }
 
 /// Effects beside something unknown with their probability, the most probable first.

@@ -49,6 +49,23 @@ pub(super) fn remainder(findings: &Findings<'_>) -> Option<Remainder> {
     })
 }
 
+/// What of the catalogue may be the second cause, where a set with the established effect is nearly as probable as something unknown.
+fn second_cause(findings: &Findings<'_>, established: &EffectSet) -> Option<String> {
+    let decision = &findings.posterior.decision;
+    let sets = decision.effects.iter().filter(|set| set.len() > 1);
+    let set = sets.into_iter().find(|set| set.contains(established))?;
+    let probability = decision.probability_of(set);
+    let unknown = Hypothesis::EffectsAndUnknown(established.clone());
+    (probability >= findings.posterior.rule.doubt).then(|| {
+        format!(
+            "The second cause is not established: {} has probability {}, {established} beside something unknown {}.",
+            set.in_words(),
+            percent(probability),
+            percent(decision.probability(&unknown))
+        )
+    })
+}
+
 /// The verdict `partial` in words.
 pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let posterior = findings.posterior;
@@ -60,7 +77,6 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     };
     let sentence = match &group[..] {
         [effects] => {
-            let alone = posterior.decision.probability_of(effects);
             let fitted = posterior.best_form(effects);
             let with = fitted.map_or(String::new(), |fitted| {
                 format!(
@@ -73,7 +89,7 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
             format!(
                 "Established: {} is missing (probability {}), but it is not all that is.{with}",
                 effects.in_words(),
-                percent(alone + beside(effects))
+                percent(posterior.decision.probability_in_all(effects))
             )
         }
         _ => {
@@ -87,7 +103,10 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
             )
         }
     };
-    let mut reasons = Vec::new();
+    let mut reasons: Vec<String> = match &group[..] {
+        [effects] => second_cause(findings, effects).into_iter().collect(),
+        _ => Vec::new(),
+    };
     if let Some(remainder) = remainder(findings) {
         reasons.push(format!(
             "What remains beside {} is {} of the attainable reduction of χ² (χ² {:.2} per point is left).",
