@@ -97,9 +97,8 @@ impl<'m> FemLinear<'m> {
             let rubbed = self.model.compliance.per_friction(self.q);
             if let Some(per) = rubbed.filter(|_| per_friction != 0.0) {
                 let factor = (self.model.alteration).map_or(1.0, |a| a.factor(self.q, index));
-                for j in first..last {
-                    let column = on.active[j];
-                    let by = per_friction * values[j];
+                for (&column, value) in (on.active.iter().zip(values)).take(last).skip(first) {
+                    let by = per_friction * value;
                     load -= by * per.lever[column] / factor;
                     for (right, &k) in right.iter_mut().zip(&on.active) {
                         *right -= by * per.weighted[(k, column)];
