@@ -69,6 +69,7 @@ pub mod mesh;
 pub mod numeric;
 pub mod paper;
 pub mod report;
+pub mod serve;
 pub mod simulate;
 pub mod source_text;
 pub mod study;

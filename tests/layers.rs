@@ -17,7 +17,7 @@ const FLOORS: &[&[&str]] = &[
     &["simulate", "measure"],
     &["study"],
     &["verify", "learn"],
-    &["report"],
+    &["report", "serve"],
     &["cli"],
 ];
 
@@ -43,12 +43,14 @@ const STAGES: &[(&str, &[&str])] = &[
             "measured",
             "noise",
             "observe",
+            "posterior",
             "predictor",
             "quadratic",
             "region",
             "scatter",
             "search",
             "selection",
+            "simulator",
             "starts",
             "strength_prior",
             "trajectory",

@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::{
     CliError, Context, Outcome, add, check, climb, compare, completions, diagnose, effects, export,
-    import, init, ladder, mesh, models, plan, run, sweep, synthesize, validate,
+    import, init, ladder, mesh, models, plan, run, serve, sweep, synthesize, validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -86,6 +86,8 @@ pub enum Command {
     Climb(climb::ClimbArgs),
     /// Put versions of a model side by side: the error of each on fitted and on held-out tests
     Ladder(ladder::LadderArgs),
+    /// Answer samplers and other programs over HTTP (UM-Bridge): measured rows, likelihood, posterior, with exact gradients
+    Serve(serve::ServeArgs),
     /// Make up measurements of the study's own model, with noise, to plan and to try
     Synthesize(synthesize::SynthesizeArgs),
     /// List the catalogue of physical effects, or tell all about one: formula, parameters, source, signature
@@ -107,6 +109,7 @@ impl Command {
             Command::Export(args) => export::execute(args, context),
             Command::Check(args) => check::execute(args, context),
             Command::Import(args) => import::execute(args, context),
+            Command::Serve(args) => serve::execute(args, context),
             Command::Sweep(args) => sweep::execute(args, context),
             Command::Compare(args) => compare::execute(args, context),
             Command::Diagnose(args) => diagnose::execute(args, context),

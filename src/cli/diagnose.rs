@@ -1,11 +1,13 @@
 //! `gearwear diagnose`: which physical effect the model lacks.
 
+use std::path::Path;
+
 use clap::Args;
 use serde_json::json;
 
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome};
-use super::{folder, inputs};
+use super::{each, folder, inputs};
 use crate::learn::Measured;
 use crate::learn::diagnose::{Fidelity, diagnose};
 use crate::report;
@@ -14,7 +16,7 @@ use crate::study::{self, Study};
 /// Arguments of `diagnose`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples:\n  gearwear diagnose study.toml\n  gearwear diagnose study.toml --fidelity middle\n  gearwear diagnose study.toml -o results/diagnosis --json"
+    after_help = "Examples:\n  gearwear diagnose study.toml\n  gearwear diagnose study.toml --fidelity middle\n  gearwear diagnose study.toml -o results/diagnosis --json\n  gearwear diagnose --each archive --fidelity middle"
 )]
 pub struct DiagnoseArgs {
     #[command(flatten)]
@@ -26,7 +28,24 @@ pub struct DiagnoseArgs {
     /// decided by its own model
     #[arg(long, value_enum, value_name = "MODEL")]
     fidelity: Option<Deciding>,
+    /// STUDY is a folder: diagnose every study in it (NAME.toml, NAME/study.toml), one table of all
+    #[arg(long)]
+    each: bool,
 }
+
+/// What the table of many studies says of each.
+const COLUMNS: [each::Column; 6] = [
+    ("verdict", |d| d["verdict"].clone()),
+    ("effect", |d| each::joined(&d["effect"])),
+    ("leader", |d| d["ranking"][0]["effect"].clone()),
+    ("probability", |d| d["ranking"][0]["probability"].clone()),
+    ("parameters", |d| {
+        each::parameters(&d["ranking"][0]["parameters"])
+    }),
+    ("fit_chi2_per_point", |d| {
+        d["ranking"][0]["fit_chi2_per_point"].clone()
+    }),
+];
 
 /// Models to decide by.
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -41,15 +60,34 @@ enum Deciding {
 
 /// Checks the input and the folder, diagnoses, writes.
 pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome, CliError> {
-    let study = Study::load(&args.paths.study)?;
+    let path = &args.paths.study;
+    if args.each {
+        let output = args.paths.output.as_deref();
+        return each::each(
+            path,
+            output,
+            "diagnose",
+            &COLUMNS,
+            context,
+            |study, target| one(args, study, target, context),
+        );
+    }
+    let target =
+        (args.paths.output.clone()).unwrap_or_else(|| folder::default_path(path, "diagnose"));
+    one(args, path, &target, context)
+}
+
+/// Diagnoses one study.
+fn one(
+    args: &DiagnoseArgs,
+    path: &Path,
+    target: &Path,
+    context: &Context,
+) -> Result<Outcome, CliError> {
+    let study = Study::load(path)?;
     let data = study.dataset_to_fit()?;
     context.tell_reading(&data);
-    let target = args
-        .paths
-        .output
-        .clone()
-        .unwrap_or_else(|| folder::default_path(&args.paths.study, "diagnose"));
-    folder::check(&target, &args.paths.study, &study)?;
+    folder::check(target, path, &study)?;
     let fidelity = match args.fidelity {
         _ if args.fast || study.contact == study::ContactKind::Hertz => Fidelity::Screening,
         Some(Deciding::Screening) => Fidelity::Screening,
@@ -62,7 +100,7 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
     drop(progress);
     let mut document = json!(diagnosis);
     document[inputs::KEY] = json!(inputs::identity(&study)?);
-    let study_name = args.paths.study.display().to_string();
+    let study_name = path.display().to_string();
     let page = report::diagnosis::page(&study.title, &diagnosis, &study_name);
     let map = report::discrepancy::csv(&diagnosis.discrepancy)?;
     let left = &diagnosis.residual_drivers;
@@ -71,7 +109,7 @@ pub(super) fn execute(args: &DiagnoseArgs, context: &Context) -> Result<Outcome,
         ("residual_drivers.csv", report::drivers::bins(left)?),
         ("residual_rows.csv", report::drivers::rows(left)?),
     ];
-    let written = report::write_page_with(&page, "diagnosis.json", &document, &further, &target)?;
+    let written = report::write_page_with(&page, "diagnosis.json", &document, &further, target)?;
     Ok(Outcome {
         json: document,
         text: report::diagnosis::summary(&study.title, &diagnosis, &study_name, &written.folder),

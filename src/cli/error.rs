@@ -57,6 +57,9 @@ pub enum CliError {
     /// Arguments that cannot be used, and why.
     #[error("{0}")]
     Unusable(String),
+    /// Points of a sweep that no part has computed.
+    #[error("{0}")]
+    Missing(String),
     /// Reading or writing failed.
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io {
@@ -70,6 +73,12 @@ pub enum CliError {
     /// Standard output does not take the result.
     #[error("cannot print the result: {0}")]
     Print(io::Error),
+    /// The server cannot go on.
+    #[error("the server cannot go on: {source}")]
+    Serve {
+        /// The system's answer.
+        source: io::Error,
+    },
     /// The threads cannot be started.
     #[error("cannot start {threads} threads: {source}")]
     Threads {
@@ -87,7 +96,7 @@ impl From<ForwardError> for CliError {
 }
 
 impl CliError {
-    /// 2 for unusable input (nothing was written), 1 for any other failure.
+    /// 2 for unusable input (nothing was written), 3 for parts of a sweep that are missing, 1 for any other failure.
     pub(super) fn exit_code(&self) -> u8 {
         match self {
             CliError::Study(_)
@@ -95,6 +104,7 @@ impl CliError {
             | CliError::Unusable(_)
             | CliError::Exists { .. }
             | CliError::NotAFolder { .. } => 2,
+            CliError::Missing(_) => 3,
             CliError::Output(
                 OutputError::Foreign { .. }
                 | OutputError::NotAFolder { .. }
@@ -110,6 +120,7 @@ impl CliError {
             | CliError::Diagnose(_)
             | CliError::Io { .. }
             | CliError::Print(_)
+            | CliError::Serve { .. }
             | CliError::Threads { .. } => 1,
         }
     }

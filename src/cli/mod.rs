@@ -15,6 +15,7 @@ mod climb;
 mod compare;
 mod completions;
 mod diagnose;
+mod each;
 mod effects;
 mod error;
 mod export;
@@ -30,6 +31,7 @@ mod models;
 mod plan;
 mod progress;
 mod run;
+mod serve;
 mod sweep;
 mod synthesize;
 mod validate;
@@ -65,6 +67,13 @@ impl Context {
     pub(crate) fn tell_reading(&self, data: &Dataset) {
         if !self.quiet && !data.reading.is_empty() {
             let _ = writeln!(io::stderr(), "note: {}: {}", data.name, data.reading);
+        }
+    }
+
+    /// Says something at once, on standard error; silent with `--quiet`.
+    pub(crate) fn tell(&self, text: &str) {
+        if !self.quiet {
+            let _ = writeln!(io::stderr(), "{text}");
         }
     }
 

@@ -1,9 +1,17 @@
-//! `gearwear sweep`: the same study over a grid of values, every point a whole run, one table and one picture.
+//! `gearwear sweep`: the same study at many points, every point a whole run, one table and one picture; whole or in parts for other machines.
 
+mod compute;
+mod design;
 mod figures;
 mod grid;
 mod kept;
+mod parts;
+mod picture;
 mod points;
+mod tables;
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
@@ -12,63 +20,187 @@ use super::args::StudyAndOutput;
 use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
-use crate::report::Staging;
-use crate::report::format::{plain, significant};
-use crate::report::plots::sweep_picture;
+use crate::report::{Staging, atomic};
 use crate::study::Study;
-use figures::COLUMNS;
+use design::{Design, Filling};
 use grid::Axis;
 use kept::Kept;
+use parts::Shard;
 use points::{Point, Result};
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Values are a list, 0,0.5,1, or a range with its number of points, 50..200:4 (50..200:4:log for equal ratios).\nSeveral --vary give every combination. A swept key may be any of the study's tables, or an effect's parameter\n(running_in.amplitude). Keys that shape the teeth (tip_relief_amount, profile_shift)\nor their material mesh both gears anew at every value; effects such as tip_relief do not.\nAn interrupted sweep goes on with --resume; points that are done are not computed again,\nalso when values were added.\n\nExamples:\n  gearwear sweep study.toml --vary operation.misalignment=0,0.25,0.5,1 --vary operation.torque=50..200:4\n  gearwear sweep study.toml --vary gears.pinion.profile_shift=-0.2..0.4:7 --resume\n  gearwear sweep study.toml --vary model.contact=fem,hertz --json"
+    after_help = "Values are a list, 0,0.5,1, or a range with its number of points, 50..200:4 (50..200:4:log for equal ratios).\nSeveral --vary give every combination; with --design lhs:N or sobol:N they give ranges, 50..200 or 1e-10..1e-9:log, and N points fill them.\nA swept key may be any of the study's tables, or an effect's parameter\n(running_in.amplitude). Keys that shape the teeth (tip_relief_amount, profile_shift)\nor their material mesh both gears anew at every value; effects such as tip_relief do not.\nAn interrupted sweep goes on with --resume; points that are done are not computed again,\nalso when values were added.\nParts: the same arguments with --shard, or --emit and --point, on any number of machines; each point is a file in the part's folder, and a part\nthat is started again goes on. --merge makes the sweep of them, to the byte as one machine makes it; exit code 3 if points are missing.\n\nExamples:\n  gearwear sweep study.toml --vary operation.misalignment=0,0.25,0.5,1 --vary operation.torque=50..200:4\n  gearwear sweep study.toml --vary gears.pinion.profile_shift=-0.2..0.4:7 --resume\n  gearwear sweep study.toml --vary model.contact=fem,hertz --json\n  gearwear sweep study.toml --design sobol:256 --vary operation.torque=50..200 --vary wear.coefficient=1e-10..1e-9:log\n  gearwear sweep study.toml --points points.csv --shard 3/7 -o parts\n  gearwear sweep study.toml --points points.csv --merge parts -o whole"
 )]
 pub struct SweepArgs {
     #[command(flatten)]
     paths: StudyAndOutput,
     /// A key and its values; may be given several times
-    #[arg(long, value_name = "KEY=VALUES", required = true, value_parser = grid::axis)]
+    #[arg(long, value_name = "KEY=VALUES", required_unless_present = "points", value_parser = grid::axis)]
     vary: Vec<Axis>,
+    /// Fill the ranges of --vary by N points: Latin hypercube or scrambled Sobol sequence
+    #[arg(long, value_name = "lhs:N|sobol:N", value_parser = design::filling, conflicts_with = "points")]
+    design: Option<Filling>,
+    /// Seed of --design; the same seed gives the same points
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "design")]
+    seed: u64,
+    /// The points of a table (CSV): keys in its first line, a point in every other
+    #[arg(long, value_name = "CSV", conflicts_with = "vary")]
+    points: Option<PathBuf>,
     /// Keep the points that an interrupted or finished sweep into the same folder has done
     #[arg(long)]
     resume: bool,
+    /// Compute part i of n only; -o is the folder of the points' files, which parts may share [default: STUDYSTEM.out/sweep-points]
+    #[arg(long, value_name = "i/n", value_parser = parts::shard, conflicts_with_all = ["emit", "point", "merge", "resume"])]
+    shard: Option<Shard>,
+    /// Compute nothing, write a line for --point for each point
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["point", "merge", "resume", "output"])]
+    emit: Option<PathBuf>,
+    /// Points in each line of --emit
+    #[arg(long, value_name = "N", default_value = "1", requires = "emit")]
+    per_line: NonZeroUsize,
+    /// Compute the points of a line of --emit only; - takes it from HQ_ENTRY or standard input; -o as with --shard
+    #[arg(long, value_name = "JSON|-", conflicts_with_all = ["merge", "resume"])]
+    point: Option<String>,
+    /// Compute nothing, make the sweep of what parts have left in these folders
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "resume")]
+    merge: Vec<PathBuf>,
 }
 
-/// Checks every point before any is computed, computes what is not kept, writes.
+/// Where parts put their points.
+const PARTS: &str = "sweep-points";
+
+/// Checks every point before any is computed, computes what is asked for and not kept, writes.
 pub(super) fn execute(
     args: &SweepArgs,
     context: &Context,
 ) -> std::result::Result<Outcome, CliError> {
-    let study = Study::load(&args.paths.study)?;
-    let points = points::prepare(&study, &args.vary)?;
-    let target = args
-        .paths
-        .output
-        .clone()
-        .unwrap_or_else(|| folder::default_path(&args.paths.study, "sweep"));
-    folder::check(&target, &args.paths.study, &study)?;
+    let file = &args.paths.study;
+    let study = Study::load(file)?;
+    let design = match (&args.points, args.design) {
+        (Some(table), _) => Design::table(table)?,
+        (None, Some(filling)) => Design::filled(&args.vary, filling, args.seed),
+        (None, None) => Design::grid(&args.vary)?,
+    };
+    let points = points::prepare(&study, &design)?;
+    if let Some(emit) = &args.emit {
+        return emitted(emit, &points, args.per_line);
+    }
+    let output = |command: &str| {
+        let own = args.paths.output.clone();
+        own.unwrap_or_else(|| folder::default_path(file, command))
+    };
+    if let Some(shard) = args.shard {
+        let mine = |point| shard.holds(point);
+        return part(&output(PARTS), &points, &mine, context);
+    }
+    if let Some(line) = &args.point {
+        let named = parts::named(line, &points)?;
+        let mine = |point| named.contains(&point);
+        return part(&output(PARTS), &points, &mine, context);
+    }
+    let target = output("sweep");
+    folder::check(&target, file, &study)?;
+    if !args.merge.is_empty() {
+        let (results, others) = parts::merged(&design, &points, &args.merge)?;
+        let mut outcome = whole(&study, &design, &points, &results, &target, 0)?;
+        if others > 0 {
+            outcome.text +=
+                &format!("{others} files of the parts belong to no point of this sweep\n");
+        }
+        return Ok(outcome);
+    }
     let kept = Kept::open(&target, args.resume)?;
     let progress = context.progress("sweep");
-    let (results, reused) = points::compute(&points, &kept, &progress)?;
+    let (results, reused) = compute::compute(&points, &|_| true, &kept, &progress)?;
+    let results: Vec<Result> = (results.into_iter())
+        .map(|result| result.unwrap_or_else(|| Err("not computed".to_owned())))
+        .collect();
+    drop(progress);
+    let outcome = whole(&study, &design, &points, &results, &target, reused)?;
+    kept.discard();
+    Ok(outcome)
+}
+
+/// Writes the lines of all points.
+fn emitted(
+    file: &Path,
+    points: &[Point],
+    each: NonZeroUsize,
+) -> std::result::Result<Outcome, CliError> {
+    let (text, count) = parts::lines(points, each);
+    atomic::write_file(file, text.as_bytes())?;
+    Ok(Outcome {
+        json: json!({"written": [file], "lines": count, "points": points.len()}),
+        text: format!(
+            "wrote {}: {} points in {count} lines\nnext: the same arguments with --point LINE instead of --emit, then with --merge\n",
+            file.display(),
+            points.len()
+        ),
+        success: true,
+    })
+}
+
+/// Computes the points for which `mine` holds into a folder of files.
+fn part(
+    folder: &Path,
+    points: &[Point],
+    mine: &dyn Fn(usize) -> bool,
+    context: &Context,
+) -> std::result::Result<Outcome, CliError> {
+    let kept = Kept::part(folder)?;
+    let progress = context.progress("sweep");
+    let (results, reused) = compute::compute(points, mine, &kept, &progress)?;
+    drop(progress);
+    let own = || {
+        results
+            .iter()
+            .zip(points)
+            .filter(|(result, _)| result.is_some())
+    };
+    let failed = |(result, point): &(&Option<Result>, &Point)| {
+        point.is_possible() && matches!(result, Some(Err(_)))
+    };
+    let (count, failures) = (own().count(), own().filter(failed).count());
+    let mut text = format!("{count} of {} points are done", points.len());
+    if reused > 0 {
+        text += &format!(", {reused} were before");
+    }
+    if failures > 0 {
+        text += &format!(", {failures} failed");
+    }
+    text += &format!("; their files stand in {}\n", folder.display());
+    Ok(Outcome {
+        json: json!({"folder": folder, "points": count, "of": points.len(), "reused": reused, "failed": failures}),
+        text,
+        success: failures == 0,
+    })
+}
+
+/// Writes the sweep of all points.
+fn whole(
+    study: &Study,
+    design: &Design,
+    points: &[Point],
+    results: &[Result],
+    target: &Path,
+    reused: usize,
+) -> std::result::Result<Outcome, CliError> {
     let impossible = points.iter().filter(|point| !point.is_possible()).count();
     let failures = results.iter().filter(|result| result.is_err()).count() - impossible;
-    let document = document(&study.title, &args.vary, &points, &results);
-    let mut staging = Staging::begin(&target)?;
-    staging.write("sweep.csv", csv(&args.vary, &points, &results).as_bytes())?;
+    let document = tables::document(&study.title, design, points, results);
+    let mut staging = Staging::begin(target)?;
+    staging.write("sweep.csv", tables::csv(design, points, results).as_bytes())?;
     staging.write(
         "sweep.json",
         &crate::report::json::text("sweep.json", &document)?,
     )?;
-    let drawn = drawn(&args.vary, &points, &results);
-    if let Some(svg) = sweep_picture(&study.title, &with_unit(&args.vary[0].key), &drawn)? {
+    if let Some(svg) = picture::picture(&study.title, design, points, results)? {
         staging.write("sweep.svg", svg.as_bytes())?;
     }
     let folder = staging.commit()?;
-    kept.discard();
-    let mut text = table(&args.vary, &points, &results);
+    let mut text = tables::table(design, points, results);
     if reused > 0 {
         text += &format!("{reused} of {} points were done already\n", points.len());
     }
@@ -91,159 +223,3 @@ pub(super) fn execute(
         success: failures == 0,
     })
 }
-
-fn document(title: &str, axes: &[Axis], points: &[Point], results: &[Result]) -> serde_json::Value {
-    let rows = points.iter().zip(results).map(|(point, result)| {
-        let varied: serde_json::Map<String, serde_json::Value> = axes
-            .iter()
-            .zip(&point.values)
-            .map(|(axis, value)| (axis.key.clone(), grid::json(value)))
-            .collect();
-        let mut row = json!({"key": point.key, "values": varied});
-        match result {
-            Ok(figures) => row["figures"] = json!(figures),
-            Err(error) => row["error"] = json!(error),
-        }
-        row
-    });
-    json!({
-        "title": title,
-        "vary": axes.iter().map(|axis| json!({
-            "key": axis.key, "values": axis.values.iter().map(|v| grid::json(v)).collect::<Vec<_>>(),
-        })).collect::<Vec<_>>(),
-        "points": rows.collect::<Vec<_>>(),
-    })
-}
-
-fn csv(axes: &[Axis], points: &[Point], results: &[Result]) -> String {
-    let quoted = |text: &str| {
-        if text.contains([',', '"', '\n']) {
-            format!("\"{}\"", text.replace('"', "\"\"").replace('\n', " "))
-        } else {
-            text.to_owned()
-        }
-    };
-    let reason = |text: &str| quoted(text.lines().next().unwrap_or_default());
-    let heads = axes.iter().map(|axis| quoted(&axis.key));
-    let figures = COLUMNS.iter().map(|column| column.name.to_owned());
-    let head: Vec<String> = heads.chain(figures).chain(["error".to_owned()]).collect();
-    let mut out = head.join(",") + "\n";
-    for (point, result) in points.iter().zip(results) {
-        let mut row: Vec<String> = point.values.iter().map(|value| quoted(value)).collect();
-        row.extend(COLUMNS.iter().map(|column| {
-            let value = result.as_ref().ok().and_then(column.of);
-            value.map_or(String::new(), |value| value.to_string())
-        }));
-        row.push(result.as_ref().err().map_or(String::new(), |e| reason(e)));
-        out += &(row.join(",") + "\n");
-    }
-    out
-}
-
-fn table(axes: &[Axis], points: &[Point], results: &[Result]) -> String {
-    let heads = axes.iter().map(|axis| with_unit(&axis.key));
-    let mut lines: Vec<Vec<String>> = vec![
-        heads
-            .chain(COLUMNS.iter().map(|column| column.head.to_owned()))
-            .collect(),
-    ];
-    for (point, result) in points.iter().zip(results) {
-        let mut line: Vec<String> = point.values.iter().map(|value| readable(value)).collect();
-        match result {
-            Ok(figures) => line.extend(COLUMNS.iter().map(|column| {
-                (column.of)(figures).map_or("-".to_owned(), |value| significant(value, 4))
-            })),
-            Err(error) => line.push(reason(error)),
-        }
-        lines.push(line);
-    }
-    let columns = lines[0].len();
-    let width = |column: usize| {
-        // a failure's words may stand out of their column
-        let cells = lines
-            .iter()
-            .filter(|line| line.len() == columns || column < axes.len());
-        let widths = cells.filter_map(|line| line.get(column));
-        widths.map(|cell| cell.chars().count()).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    lines
-        .iter()
-        .map(|line| {
-            let cells = line.iter().zip(&widths);
-            let padded: Vec<String> = cells.map(|(cell, w)| format!("{cell:>w$}")).collect();
-            format!("  {}\n", padded.join("  "))
-        })
-        .collect()
-}
-
-/// The end of a key with its unit: `torque, N m`.
-fn with_unit(key: &str) -> String {
-    let name = key.rsplit('.').next().unwrap_or(key);
-    match crate::study::unit_of(key) {
-        None | Some("" | "-" | "1") => name.to_owned(),
-        Some(unit) => format!("{name}, {unit}"),
-    }
-}
-
-/// A value as people read it: 1.0·10⁻¹⁰ rather than nine zeros.
-fn readable(value: &str) -> String {
-    match value.parse::<f64>() {
-        Ok(number) if number != 0.0 && !(1e-4..1e7).contains(&number.abs()) => plain(number),
-        _ => value.to_owned(),
-    }
-}
-
-/// Why there are no figures, without the values that stand beside it.
-fn reason(error: &str) -> String {
-    let first = error.lines().next().unwrap_or_default();
-    match first
-        .strip_prefix("--vary ")
-        .and_then(|rest| rest.split_once(": "))
-    {
-        Some((_, why)) => format!("none: {why}"),
-        None => format!("failed: {first}"),
-    }
-}
-
-/// Curves over the first axis: for every combination of the others, the points that are numbers.
-fn drawn(
-    axes: &[Axis],
-    points: &[Point],
-    results: &[Result],
-) -> Vec<(String, Vec<(f64, Figures4)>)> {
-    let mut curves: Vec<(String, Vec<(f64, Figures4)>)> = Vec::new();
-    for (point, result) in points.iter().zip(results) {
-        let Ok(figures) = result else { continue };
-        let first = &point.values[0];
-        let place = axes[0].values.iter().position(|value| value == first);
-        let x = grid::leading_number(first)
-            .filter(|_| axes[0].numbers())
-            .unwrap_or(place.unwrap_or(0) as f64 + 1.0);
-        let others = axes.iter().zip(&point.values).skip(1);
-        let label: Vec<String> = others
-            .map(|(axis, value)| {
-                let key = axis.key.rsplit('.').next().unwrap_or(&axis.key);
-                format!("{key} {value}")
-            })
-            .collect();
-        let label = label.join(", ");
-        let shown = [
-            figures.peak_pressure,
-            figures.te_peak_to_peak_urad,
-            Some(figures.max_depth_pinion_um),
-            Some(figures.max_depth_gear_um),
-        ];
-        match curves.iter_mut().find(|(known, _)| *known == label) {
-            Some((_, curve)) => curve.push((x, shown)),
-            None => curves.push((label, vec![(x, shown)])),
-        }
-    }
-    for (_, curve) in &mut curves {
-        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-    }
-    curves
-}
-
-/// What the picture's four panels show.
-type Figures4 = [Option<f64>; 4];

@@ -2,16 +2,18 @@
 //!
 //! Histories are kept, so that a wear coefficient more costs nothing where it only stretches time ([`super::trajectory`]).
 
+mod derivatives;
+
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::effects::{Combined, Hook, Local};
 use crate::learn::bench::Bench;
 use crate::learn::observe::Reading;
-use crate::learn::predictor::{PredictError, Predictor};
+use crate::learn::predictor::{Linearised, Move, PredictError, Predictor};
 use crate::learn::trajectory::Trajectory;
 use crate::measure::Observation;
-use crate::simulate::forward::{Forward, ForwardError, Mounting};
+use crate::simulate::forward::{Forward, ForwardError, Mounting, Variation};
 use crate::wear::acting::Acting;
 
 /// Builds the effects of a model from the values of its free parameters.
@@ -22,7 +24,8 @@ pub struct GearModel<'a> {
     bench: &'a Bench<'a>,
     effects: EffectsOf<'a>,
     stretches: bool,
-    histories: Mutex<HashMap<Key, Arc<Trajectory>>>,
+    /// Each with its derivatives, without, or both.
+    histories: Mutex<HashMap<Key, Vec<Arc<Trajectory>>>>,
     mountings: Mutex<HashMap<usize, Vec<Mounted>>>,
 }
 
@@ -54,7 +57,7 @@ impl<'a> GearModel<'a> {
         self
     }
 
-    /// The history of a test up to `cycles` at least.
+    /// The history of a test up to `cycles` at least, with its derivatives by `variations` if there are any.
     ///
     /// No lock is held while it wears: whoever else wants the same one meanwhile makes the same steps.
     fn history(
@@ -62,20 +65,32 @@ impl<'a> GearModel<'a> {
         forward: &mut Forward,
         key: Key,
         cycles: f64,
+        variations: &[Variation],
     ) -> Result<Arc<Trajectory>, ForwardError> {
         let kept = || {
             self.histories
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
         };
-        let known = kept().get(&key).cloned().unwrap_or_default();
-        if known.reaches(cycles) {
-            return Ok(known);
-        }
-        let mut longer = Trajectory::clone(&known);
-        longer.reach(forward, cycles)?;
+        let same = |history: &Arc<Trajectory>| history.parameters() == variations.len();
+        let serves = |history: &&Arc<Trajectory>| {
+            history.reaches(cycles) && (variations.is_empty() || same(history))
+        };
+        let known = {
+            let kept = kept();
+            let known = kept.get(&key).map_or(&[][..], Vec::as_slice);
+            if let Some(known) = known.iter().find(serves) {
+                return Ok(Arc::clone(known));
+            }
+            known.iter().find(|known| same(known)).cloned()
+        };
+        let mut longer = known.map_or_else(Trajectory::default, |known| (*known).clone());
+        longer.reach(forward, cycles, variations)?;
         let longer = Arc::new(longer);
-        kept().insert(key, Arc::clone(&longer));
+        let mut kept = kept();
+        let all = kept.entry(key).or_default();
+        all.retain(|known| !same(known));
+        all.push(Arc::clone(&longer));
         Ok(longer)
     }
 
@@ -116,6 +131,56 @@ impl<'a> GearModel<'a> {
         Ok(forward)
     }
 
+    /// A test at some parameters, ready to be worn.
+    fn run(&self, test: usize, coefficient: f64, parameters: &[f64]) -> Run {
+        let measured = &self.bench.tests[test];
+        let effects = (self.effects)(parameters);
+        // one history in a coefficient of the test's own serves all others
+        let worn_with = if self.stretches {
+            measured.wear.0
+        } else {
+            coefficient
+        };
+        let stretch = coefficient / worn_with;
+        let observed = |row: &usize| stretch * measured.observations[*row].cycles;
+        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
+        order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
+        Run {
+            test,
+            acting: (!effects.is_empty()).then(|| self.bench.acting(test, effects)),
+            worn_with,
+            stretch,
+            bits: parameters.iter().map(|p| p.to_bits()).collect(),
+            order,
+        }
+    }
+
+    /// What `of` reads of every observation of a test in a history of it.
+    fn read_off<T>(
+        &self,
+        run: &Run,
+        forward: &mut Forward<'_>,
+        history: &Trajectory,
+        variations: &[Variation],
+        of: &dyn Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
+    ) -> Result<Vec<T>, ForwardError> {
+        let measured = &self.bench.tests[run.test];
+        let observed = |row: &usize| run.stretch * measured.observations[*row].cycles;
+        let mut values: Vec<(usize, T)> = Vec::with_capacity(run.order.len());
+        for rows in run.order.chunk_by(|a, b| observed(a) == observed(b)) {
+            let mut state = history.at(observed(&rows[0]));
+            if self.stretches && !variations.is_empty() {
+                self.stretched(history, &mut state);
+            }
+            let mut reading = Reading::new(forward, &state, self.bench.set(), variations);
+            for &row in rows {
+                values.push((row, of(&mut reading, &measured.observations[row])?));
+            }
+        }
+        values.sort_by_key(|(row, _)| *row);
+        Ok(values.into_iter().map(|(_, value)| value).collect())
+    }
+
     /// What `of` reads of every observation of a test.
     fn read<T>(
         &self,
@@ -124,36 +189,21 @@ impl<'a> GearModel<'a> {
         parameters: &[f64],
         of: impl Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
     ) -> Result<Vec<T>, ForwardError> {
-        let measured = &self.bench.tests[test];
-        let effects = (self.effects)(parameters);
-        let acting = (!effects.is_empty()).then(|| self.bench.acting(test, effects));
-        // one history in a coefficient of the test's own serves all others
-        let worn_with = if self.stretches {
-            measured.wear.0
-        } else {
-            coefficient
-        };
-        let stretch = coefficient / worn_with;
-        let bits: Vec<u64> = parameters.iter().map(|p| p.to_bits()).collect();
-        let mut forward = self.forward(test, worn_with, &bits, acting.as_ref())?;
-        let observed = |row: &usize| stretch * measured.observations[*row].cycles;
-        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
-        order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
-        let Some(last) = order.last() else {
+        let run = self.run(test, coefficient, parameters);
+        let Some(last) = self.last(&run) else {
             return Ok(Vec::new());
         };
-        let key = (test, bits, worn_with.to_bits());
-        let history = self.history(&mut forward, key, observed(last))?;
-        let mut values: Vec<(usize, T)> = Vec::with_capacity(order.len());
-        for rows in order.chunk_by(|a, b| observed(a) == observed(b)) {
-            let state = history.at(observed(&rows[0]));
-            let mut reading = Reading::new(&mut forward, &state, self.bench.set());
-            for &row in rows {
-                values.push((row, of(&mut reading, &measured.observations[row])?));
-            }
-        }
-        values.sort_by_key(|(row, _)| *row);
-        Ok(values.into_iter().map(|(_, value)| value).collect())
+        let mut forward = self.forward(test, run.worn_with, &run.bits, run.acting.as_ref())?;
+        let history = self.history(&mut forward, run.key(), last, &[])?;
+        self.read_off(&run, &mut forward, &history, &[], &of)
+    }
+
+    /// Cycles of the history at the last observation; None without any.
+    fn last(&self, run: &Run) -> Option<f64> {
+        let observations = &self.bench.tests[run.test].observations;
+        run.order
+            .last()
+            .map(|&row| run.stretch * observations[row].cycles)
     }
 
     /// What every observation of a test feels where and when it was made; none for what stands nowhere on a flank.
@@ -193,4 +243,37 @@ impl Predictor for GearModel<'_> {
         })
         .map_err(|error| self.failed(test, &error))
     }
+    fn linearise(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let found = self.linearised(test, coefficient, parameters, moves);
+        found.map_err(|error| self.failed(test, &error)).transpose()
+    }
 }
+
+/// One test at some parameters.
+struct Run {
+    test: usize,
+    acting: Option<Acting>,
+    /// Wear coefficient of the history, mm²/N.
+    worn_with: f64,
+    /// Cycles of the history per cycle of the test.
+    stretch: f64,
+    /// The parameters.
+    bits: Vec<u64>,
+    /// The observations by ascending cycles.
+    order: Vec<usize>,
+}
+
+impl Run {
+    fn key(&self) -> Key {
+        (self.test, self.bits.clone(), self.worn_with.to_bits())
+    }
+}
+
+#[cfg(test)]
+mod tests;

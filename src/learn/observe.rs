@@ -1,12 +1,13 @@
 //! What an instrument reads off the model: each quantity of the measurement file, in its unit.
 
 use crate::contact::model::PositionContact;
+use crate::contact::tangent::ContactTangent;
 use crate::effects::Local;
 use crate::gear::Member;
 use crate::learn::trajectory::Node;
 use crate::measure::{Observation, Place, Quantity, Subject};
 use crate::numeric::interpolate;
-use crate::simulate::forward::{Forward, ForwardError, GearSet};
+use crate::simulate::forward::{Forward, ForwardError, GearSet, Variation};
 use crate::simulate::history::worn_area;
 use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::{Moment, Passage};
@@ -16,6 +17,8 @@ pub(super) struct Reading<'r, 'f> {
     forward: &'r mut Forward<'f>,
     worn: &'r Node,
     set: &'r GearSet,
+    /// What the state's derivatives are with respect to.
+    variations: &'r [Variation],
     meshing: Option<Meshing>,
 }
 
@@ -29,40 +32,97 @@ struct Meshing {
     turns: (Vec<f64>, Vec<f64>),
     /// Mean approach over the base pitch, rad.
     mean: f64,
+    /// Derivatives by parameter.
+    tangents: Vec<MeshingTangent>,
+}
+
+/// The derivative of a [`Meshing`] by one parameter, per unit.
+struct MeshingTangent {
+    contacts: Vec<ContactTangent>,
+    /// Of the largest pressures on both flanks, MPa.
+    largest: [Vec<f64>; 2],
+    /// Of the approach at the rotations of [`Meshing::turns`], rad, and of its mean.
+    approach: Vec<f64>,
+    mean: f64,
 }
 
 impl Meshing {
-    /// Of a run worn by `u` (mm at the stations of pinion and gear).
-    fn new(forward: &mut Forward<'_>, u: &[f64]) -> Result<Self, ForwardError> {
-        let contacts = forward.contacts_at(u)?;
+    /// Of a run in the state `worn`.
+    fn new(
+        forward: &mut Forward<'_>,
+        worn: &Node,
+        variations: &[Variation],
+    ) -> Result<Self, ForwardError> {
+        let (contacts, tangents) = if variations.is_empty() {
+            (forward.contacts_at(&worn.u)?, Vec::new())
+        } else {
+            forward.contacts_with_tangents(&worn.u, &worn.tangents.depth, variations)?
+        };
         let cycle = forward.cycle();
         let passage = Passage::new(cycle);
         let moments = [0, 1].map(|side| passage.moments(cycle, &contacts, side));
-        let mut turns: Vec<(f64, f64)> = (cycle.positions.iter().zip(&contacts))
-            .map(|(position, contact)| (position.phase(), contact.approach))
-            .collect();
-        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mean = turns.iter().map(|t| t.1).sum::<f64>() / turns.len() as f64;
-        let (first, last) = (turns[0], turns[turns.len() - 1]);
-        turns.insert(0, (last.0 - 1.0, last.1));
-        turns.push((first.0 + 1.0, first.1));
+        let mut order: Vec<usize> = (0..contacts.len()).collect();
+        let phase = |q: usize| cycle.positions[q].phase();
+        order.sort_by(|a, b| phase(*a).total_cmp(&phase(*b)));
+        let (first, last) = (order[0], order[order.len() - 1]);
+        // closed around the base pitch
+        let around = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let ends = |q: usize| std::iter::once(of(q));
+            let inner = order.iter().map(|&q| of(q));
+            ends(last).chain(inner).chain(ends(first)).collect()
+        };
+        let mean = |of: &dyn Fn(usize) -> f64| -> f64 {
+            order.iter().map(|&q| of(q)).sum::<f64>() / order.len() as f64
+        };
+        let mut rotations = around(&phase);
+        let closing = rotations.len() - 1;
+        rotations[0] -= 1.0;
+        rotations[closing] += 1.0;
+        let approach = |q: usize| contacts[q].approach;
+        let turns = (rotations, around(&approach));
+        let reads = (!tangents.is_empty())
+            .then(|| [0, 1].map(|side| passage.reads(cycle, &contacts, side, &moments[side])));
+        let tangent = |contacts: Vec<ContactTangent>| {
+            let largest = [0, 1].map(|side| {
+                let stations = reads.as_ref().map_or(&[][..], |reads| &reads[side]);
+                let read = |&(q, k, weight): &(u32, u32, f64)| {
+                    weight * contacts[q as usize].pressure[k as usize]
+                };
+                let each = stations.iter().map(|reads| reads.iter().map(read).sum());
+                each.collect()
+            });
+            let approach = |q: usize| contacts[q].approach;
+            MeshingTangent {
+                largest,
+                approach: around(&approach),
+                mean: mean(&approach),
+                contacts,
+            }
+        };
         Ok(Self {
+            tangents: tangents.into_iter().map(tangent).collect(),
+            mean: mean(&approach),
+            turns,
             contacts,
             passage,
             moments,
-            turns: turns.into_iter().unzip(),
-            mean,
         })
     }
 }
 
 impl<'r, 'f> Reading<'r, 'f> {
-    /// Reads a worn state.
-    pub(super) fn new(forward: &'r mut Forward<'f>, worn: &'r Node, set: &'r GearSet) -> Self {
+    /// Reads a worn state, with the derivatives that it has by `variations`.
+    pub(super) fn new(
+        forward: &'r mut Forward<'f>,
+        worn: &'r Node,
+        set: &'r GearSet,
+        variations: &'r [Variation],
+    ) -> Self {
         Self {
             forward,
             worn,
             set,
+            variations,
             meshing: None,
         }
     }
@@ -85,6 +145,84 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::ContactPressure => self.pressure(pinion_for_pair, at),
             Quantity::MeshStiffness => self.stiffness(at),
         }
+    }
+
+    /// The derivatives of what `observation` should be, by parameter.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a contact cannot be solved.
+    pub(super) fn tangents_of(
+        &mut self,
+        observation: &Observation,
+    ) -> Result<Vec<f64>, ForwardError> {
+        let at = observation.position.unwrap_or(0.0);
+        let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
+        match observation.quantity {
+            Quantity::WearDepth => {
+                let arc = self.arc(pinion_for_pair, at);
+                Ok(self.each_depth(pinion_for_pair, |stations, depths, _| {
+                    1e3 * interpolate(stations, depths, arc)
+                }))
+            }
+            Quantity::MassLoss => {
+                let of = |member: Member| {
+                    self.each_depth(member, |stations, depths, displaced| {
+                        self.mass_of(member, worn_area(stations, depths) - displaced)
+                    })
+                };
+                Ok(match observation.member {
+                    Subject::Pair => {
+                        let [pinion, gear] = Member::BOTH.map(of);
+                        pinion.iter().zip(&gear).map(|(p, g)| p + g).collect()
+                    }
+                    _ => of(pinion_for_pair),
+                })
+            }
+            Quantity::TransmissionError => {
+                let ratio = self.forward.cycle().pair.speed_ratio;
+                let (meshing, _) = self.meshing()?;
+                let of = |tangent: &MeshingTangent| {
+                    let approach =
+                        interpolate(&meshing.turns.0, &tangent.approach, at.rem_euclid(1.0));
+                    -1e6 * (approach - tangent.mean) / ratio
+                };
+                Ok(meshing.tangents.iter().map(of).collect())
+            }
+            Quantity::MeshStiffness => {
+                let stiffness = self.stiffness(at)?;
+                let (approach, _) = self.approach(at)?;
+                let (meshing, _) = self.meshing()?;
+                let of = |tangent: &MeshingTangent| {
+                    let change =
+                        interpolate(&meshing.turns.0, &tangent.approach, at.rem_euclid(1.0));
+                    -stiffness * change / approach
+                };
+                Ok(meshing.tangents.iter().map(of).collect())
+            }
+            Quantity::ContactPressure => {
+                let arc = self.arc(pinion_for_pair, at);
+                let stations = self.stations(pinion_for_pair).to_vec();
+                let (meshing, _) = self.meshing()?;
+                let of = |tangent: &MeshingTangent| {
+                    interpolate(&stations, &tangent.largest[side(pinion_for_pair)], arc)
+                };
+                Ok(meshing.tangents.iter().map(of).collect())
+            }
+            Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
+        }
+    }
+
+    /// What `of` makes of the stations of one flank, of the derivative of its depths and of that of its displaced area, by parameter.
+    fn each_depth(&self, member: Member, of: impl Fn(&[f64], &[f64], f64) -> f64) -> Vec<f64> {
+        let first = self.forward.cycle().stations.arc[0].len();
+        let tangents = &self.worn.tangents;
+        let each = tangents.depth.iter().zip(&tangents.displaced);
+        each.map(|(depth, displaced)| {
+            let (pinion, gear) = depth.split_at(first);
+            let side = side(member);
+            of(self.stations(member), [pinion, gear][side], displaced[side])
+        })
+        .collect()
     }
 
     /// What an observed flank point feels: the contact at the moment at which it presses the point most, and the depth worn by
@@ -161,16 +299,21 @@ impl<'r, 'f> Reading<'r, 'f> {
         let side = side(member);
         let lost =
             worn_area(self.stations(member), self.depths(member)) - self.worn.displaced[side];
+        self.mass_of(member, lost)
+    }
+
+    /// mg of the whole member for the area (mm²) lost on each of its flanks.
+    fn mass_of(&self, member: Member, lost: f64) -> f64 {
         let teeth = self.forward.cycle().pair.member(member).spec.teeth;
         // mm³ · kg/m³ = µg
-        1e-3 * lost * self.set.face_width * f64::from(teeth) * self.set.densities[side]
+        1e-3 * lost * self.set.face_width * f64::from(teeth) * self.set.densities[side(member)]
     }
 
     /// What follows from the contacts, and the run as it was prepared for them.
     fn meshing(&mut self) -> Result<(&Meshing, &Forward<'f>), ForwardError> {
         let meshing = match self.meshing.take() {
             Some(known) => known,
-            None => Meshing::new(self.forward, &self.worn.u)?,
+            None => Meshing::new(self.forward, self.worn, self.variations)?,
         };
         Ok((self.meshing.insert(meshing), self.forward))
     }
@@ -224,5 +367,29 @@ impl<'r, 'f> Reading<'r, 'f> {
             &shares,
             cycle.pair.path_at_rho(member, rho),
         ))
+    }
+    fn load_share_tangents(
+        &mut self,
+        member: Member,
+        radius: f64,
+    ) -> Result<Vec<f64>, ForwardError> {
+        let variations = self.variations;
+        let (meshing, forward) = self.meshing()?;
+        let cycle = forward.cycle();
+        let gear = cycle.pair.member(member);
+        let path = cycle.pair.path_at_rho(member, gear.rho_at_radius(radius));
+        let order = &meshing.passage.order;
+        let path_of = |&(q, index): &(usize, usize)| cycle.positions[q].pairs[index].path;
+        let paths: Vec<f64> = order.iter().map(path_of).collect();
+        let directions = forward.directions(variations);
+        let of = |(tangent, direction): (&MeshingTangent, _)| {
+            let share = |&(q, index): &(usize, usize)| {
+                let (contact, change) = (&meshing.contacts[q], &tangent.contacts[q]);
+                forward.moment_tangent(q, index, contact, change, direction) / forward.torque()
+            };
+            let shares: Vec<f64> = order.iter().map(share).collect();
+            interpolate(&paths, &shares, path)
+        };
+        Ok(meshing.tangents.iter().zip(&directions).map(of).collect())
     }
 }

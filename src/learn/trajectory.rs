@@ -9,11 +9,11 @@
 //! du/dn = k F(u)   ⇒   u(n; k) = U(k n)
 //! ```
 
-use crate::simulate::forward::{Forward, ForwardError};
-use crate::simulate::history::Progress;
+use crate::simulate::forward::{Forward, ForwardError, Variation};
+use crate::simulate::history::{HistoryTangents, Progress};
 
 /// Depths after some cycles.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Node {
     /// Pinion revolutions.
     pub(super) cycles: f64,
@@ -21,6 +21,8 @@ pub(super) struct Node {
     pub(super) u: Vec<f64>,
     /// Area that effects only displaced, mm².
     pub(super) displaced: [f64; 2],
+    /// Derivatives of both by parameter; none if none were asked for.
+    pub(super) tangents: HistoryTangents,
 }
 
 /// The steps of a history so far.
@@ -28,6 +30,7 @@ pub(super) struct Node {
 pub(super) struct Trajectory {
     nodes: Vec<Node>,
     progress: Option<Progress>,
+    tangents: HistoryTangents,
 }
 
 impl Trajectory {
@@ -36,23 +39,41 @@ impl Trajectory {
         enough(&self.nodes, cycles)
     }
 
-    /// Wears on until `cycles` lie between two steps with a further one behind.
+    /// By how many parameters it is differentiated.
+    pub(super) fn parameters(&self) -> usize {
+        self.tangents.depth.len()
+    }
+
+    /// Wears on until `cycles` lie between two steps with a further one behind, with the derivatives by `variations`: the same ones
+    /// every time.
     ///
     /// # Errors
     /// [`ForwardError`] if a step before `cycles` fails.
-    pub(super) fn reach(&mut self, forward: &mut Forward, cycles: f64) -> Result<(), ForwardError> {
-        if self.nodes.is_empty() {
-            forward.wear_to(&mut self.progress, 0.0, &mut |_, _| true)?;
-            self.nodes.extend(self.progress.as_ref().map(node));
-        } else if let Some(progress) = &mut self.progress {
+    pub(super) fn reach(
+        &mut self,
+        forward: &mut Forward,
+        cycles: f64,
+        variations: &[Variation],
+    ) -> Result<(), ForwardError> {
+        let Self {
+            nodes,
+            progress,
+            tangents,
+        } = self;
+        if nodes.is_empty() {
+            let with = (variations, &mut *tangents);
+            forward.wear_with_tangents(progress, 0.0, with, &mut |_, _, _| true)?;
+            nodes.extend(progress.as_ref().map(|progress| node(progress, tangents)));
+        } else if let Some(progress) = progress {
             // another preparation of the contact may number its unknowns otherwise
             progress.forget_sets();
         }
-        let nodes = &mut self.nodes;
-        let outcome = forward.wear_to(&mut self.progress, f64::MAX, &mut |_, progress| {
-            nodes.push(node(progress));
-            !enough(nodes, cycles)
-        });
+        let with = (variations, &mut *tangents);
+        let outcome =
+            forward.wear_with_tangents(progress, f64::MAX, with, &mut |_, progress, tangents| {
+                nodes.push(node(progress, tangents));
+                !enough(nodes, cycles)
+            });
         match outcome {
             // the step beyond is a help only
             Err(_) if nodes.len() >= 3 && nodes.iter().any(|n| n.cycles >= cycles) => Ok(()),
@@ -60,31 +81,95 @@ impl Trajectory {
         }
     }
 
+    /// The history of `forward` along the steps of this one.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a step fails.
+    pub(super) fn along(&self, forward: &mut Forward) -> Result<Self, ForwardError> {
+        let steps: Vec<f64> = self.nodes[1..].iter().map(|node| node.cycles).collect();
+        let mut nodes = Vec::new();
+        let mut progress = None;
+        forward.wear_along(&mut progress, &steps, &mut |progress| {
+            nodes.push(node(progress, &HistoryTangents::default()));
+        })?;
+        Ok(Self {
+            nodes,
+            progress,
+            tangents: HistoryTangents::default(),
+        })
+    }
+
     /// The state after `cycles`, which [`Trajectory::reach`] has reached.
     pub(super) fn at(&self, cycles: f64) -> Node {
-        let last = self.nodes.len() - 1;
-        let next = self.nodes.partition_point(|node| node.cycles < cycles);
-        let next = next.clamp(1, last);
-        let (from, to) = (&self.nodes[next - 1], &self.nodes[next]);
-        let width = to.cycles - from.cycles;
-        let t = (cycles - from.cycles) / width;
+        let (next, t, width) = self.place(cycles);
         // Hermite's cubic
         let (a, b) = (t * (1.0 - t) * (1.0 - t) * width, t * t * (t - 1.0) * width);
         let h = t * t * (3.0 - 2.0 * t);
-        let [left, right] = [next - 1, next].map(|i| self.slope_weights(i));
-        let slope = |weights: &[(usize, f64); 3], i: usize| -> f64 {
-            weights.iter().map(|&(at, w)| w * self.nodes[at].u[i]).sum()
+        let depth = self.weights(next, [1.0 - h, h], [a, b]);
+        let between = [(next - 1, 1.0 - t), (next, t)];
+        let pairs = |of: &dyn Fn(&Node) -> [f64; 2]| -> [f64; 2] {
+            [0, 1].map(|side| {
+                between
+                    .iter()
+                    .map(|&(i, w)| w * of(&self.nodes[i])[side])
+                    .sum()
+            })
         };
+        let parameters = self.nodes[next].tangents.depth.len();
+        let tangents = HistoryTangents::read(
+            (0..parameters)
+                .map(|j| self.sum(&depth, &|node| &node.tangents.depth[j]))
+                .collect(),
+            (0..parameters)
+                .map(|j| pairs(&|node| node.tangents.displaced[j]))
+                .collect(),
+        );
         Node {
             cycles,
-            u: (0..from.u.len())
-                .map(|i| {
-                    (1.0 - h) * from.u[i] + h * to.u[i] + a * slope(&left, i) + b * slope(&right, i)
-                })
-                .collect(),
-            displaced: [0, 1]
-                .map(|side| from.displaced[side] + t * (to.displaced[side] - from.displaced[side])),
+            u: self.sum(&depth, &|node| &node.u),
+            displaced: pairs(&|node| node.displaced),
+            tangents,
         }
+    }
+
+    /// By how much the depths of [`Trajectory::at`] grow per cycle there, mm.
+    pub(super) fn growth(&self, cycles: f64) -> Vec<f64> {
+        let (next, t, width) = self.place(cycles);
+        let h = 6.0 * t * (1.0 - t) / width;
+        let ends = [1.0 - 4.0 * t + 3.0 * t * t, 3.0 * t * t - 2.0 * t];
+        self.sum(&self.weights(next, [-h, h], ends), &|node| &node.u)
+    }
+
+    /// The node behind `cycles`, the share of the way there from the one before, and that way's length.
+    fn place(&self, cycles: f64) -> (usize, f64, f64) {
+        let last = self.nodes.len() - 1;
+        let next = self.nodes.partition_point(|node| node.cycles < cycles);
+        let next = next.clamp(1, last);
+        let from = self.nodes[next - 1].cycles;
+        let width = self.nodes[next].cycles - from;
+        (next, (cycles - from) / width, width)
+    }
+
+    /// Weights of the nodes in a sum of the values and of the slopes at node `next` and the one before it.
+    fn weights(&self, next: usize, values: [f64; 2], slopes: [f64; 2]) -> Vec<(usize, f64)> {
+        let mut weights = vec![(next - 1, values[0]), (next, values[1])];
+        for (i, slope) in [next - 1, next].into_iter().zip(slopes) {
+            weights.extend(
+                self.slope_weights(i)
+                    .map(|(at, weight)| (at, slope * weight)),
+            );
+        }
+        weights
+    }
+
+    fn sum<'n>(&'n self, weights: &[(usize, f64)], of: &dyn Fn(&'n Node) -> &'n [f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; of(&self.nodes[0]).len()];
+        for &(i, weight) in weights {
+            for (sum, value) in sum.iter_mut().zip(of(&self.nodes[i])) {
+                *sum += weight * value;
+            }
+        }
+        sum
     }
 
     /// Weights of the slope at node `i` of the parabola through it and its neighbours.
@@ -106,11 +191,12 @@ fn enough(nodes: &[Node], cycles: f64) -> bool {
     nodes.len() >= 3 && behind >= 2
 }
 
-fn node(progress: &Progress) -> Node {
+fn node(progress: &Progress, tangents: &HistoryTangents) -> Node {
     Node {
         cycles: progress.stand.n,
         u: progress.stand.u.clone(),
         displaced: progress.displaced(),
+        tangents: tangents.clone(),
     }
 }
 
@@ -120,27 +206,31 @@ mod tests {
 
     #[test]
     fn reads_a_parabola_exactly_and_a_smooth_curve_to_the_fourth_order() {
-        let read = |count: usize, curve: fn(f64) -> f64, at: f64| {
+        let trajectory = |count: usize, curve: fn(f64) -> f64| {
             let nodes = (0..=count).map(|i| {
                 let cycles = i as f64 / count as f64;
                 Node {
                     cycles,
                     u: vec![curve(cycles)],
-                    displaced: [0.0; 2],
+                    ..Node::default()
                 }
             });
-            let trajectory = Trajectory {
+            Trajectory {
                 nodes: nodes.collect(),
-                progress: None,
-            };
-            trajectory.at(at).u[0]
+                ..Trajectory::default()
+            }
         };
+        let read = |count, curve, at| trajectory(count, curve).at(at).u[0];
         for at in [0.0, 0.07, 0.5, 0.93, 1.0] {
             assert!(
                 (read(5, |x| 1.0 + 2.0 * x - 3.0 * x * x, at) - (1.0 + 2.0 * at - 3.0 * at * at))
                     .abs()
                     < 1e-13
             );
+        }
+        for at in [0.0, 0.07, 0.5, 0.93, 1.0] {
+            let growth = trajectory(5, |x| 1.0 + 2.0 * x - 3.0 * x * x).growth(at)[0];
+            assert!((growth - (2.0 - 6.0 * at)).abs() < 1e-12, "{growth}");
         }
         let error = |count| (read(count, f64::exp, 0.5125) - f64::exp(0.5125)).abs();
         let order = (error(10) / error(20)).log2();

@@ -258,8 +258,19 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
         }
     };
     let progress = progress.as_mut().expect("filled above");
+    let displaces = law.acting.is_some_and(|a| a.effects.displaces());
     if tangents.depth.is_empty() {
         *tangents = HistoryTangents::fresh(directions.len(), progress.stand.u.len());
+        if displaces && !directions.is_empty() {
+            let mut differentiated = Differentiated {
+                system: &mut system,
+                directions,
+            };
+            let (n, u) = (progress.stand.n, &progress.stand.u);
+            tangents.displaced_rate = differentiated
+                .displaced_tangents(n, u, &tangents.depth)
+                .map_err(|source| StepError::System { n, source })?;
+        }
     }
     let solves_before = progress.solves;
     system.start_from(&progress.warm);
@@ -288,7 +299,9 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
             let helps = refused.is_none_or(|before| off <= IN_VAIN * before.off);
             let in_vain = refused.map_or(0, |before| before.in_vain + usize::from(!helps));
             let longest = refused.map_or(step, |before| before.longest);
-            if off > 1.0 && grown && in_vain < MOST_IN_VAIN {
+            // along given steps no error is too large
+            let refuses = law.tolerance.is_finite();
+            if refuses && off > 1.0 && grown && in_vain < MOST_IN_VAIN {
                 progress.stand.step = step * (0.85 / off.sqrt()).clamp(0.2, 0.7);
                 progress.stand.rejected += 1;
                 refused = Some(Refused {
@@ -312,7 +325,6 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
                 system: &mut system,
                 directions,
             };
-            let displaces = law.acting.is_some_and(|a| a.effects.displaces());
             tangents
                 .follow(&mut differentiated, &taken, (stand.n, &stand.u), displaces)
                 .map_err(|source| StepError::System { n: stand.n, source })?;

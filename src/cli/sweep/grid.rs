@@ -8,8 +8,39 @@ const MOST: usize = 10_000;
 pub(super) struct Axis {
     /// Path of the key in the study: `operation.torque`.
     pub key: String,
-    /// Its values, as the study would state them (texts without quotes).
+    /// Its values, as the study would state them (texts without quotes); none for a range that a design is to fill.
     pub values: Vec<String>,
+    /// The range that a design is to fill.
+    pub range: Option<Range>,
+}
+
+/// A range of numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Range {
+    /// Where it begins.
+    pub from: f64,
+    /// Where it ends.
+    pub to: f64,
+    /// Whether equal shares are equal ratios.
+    pub log: bool,
+}
+
+impl Range {
+    /// The number at a share of the way, as a person would write it: 0.3, not 0.30000000000000004.
+    fn at(self, share: f64) -> String {
+        let value = match self.log {
+            true => self.from * (self.to / self.from).powf(share),
+            false => self.from + (self.to - self.from) * share,
+        };
+        written(value)
+    }
+}
+
+fn written(value: f64) -> String {
+    format!("{value:.12e}")
+        .parse::<f64>()
+        .unwrap_or(value)
+        .to_string()
 }
 
 impl Axis {
@@ -17,9 +48,20 @@ impl Axis {
     pub(super) fn numbers(&self) -> bool {
         self.values.iter().all(|v| leading_number(v).is_some())
     }
+
+    /// The value at a share of the axis, from 0 to 1.
+    pub(super) fn at(&self, share: f64) -> String {
+        match self.range {
+            Some(range) => range.at(share),
+            None => {
+                let count = self.values.len();
+                self.values[((share * count as f64) as usize).min(count - 1)].clone()
+            }
+        }
+    }
 }
 
-/// Reads `KEY=V1,V2,...` or `KEY=FROM..TO:COUNT[:log]`.
+/// Reads `KEY=V1,V2,...` or `KEY=FROM..TO:COUNT[:log]`, for designs also `KEY=FROM..TO[:log]`.
 pub(super) fn axis(text: &str) -> Result<Axis, String> {
     let form = "KEY=VALUE,VALUE,... or KEY=FROM..TO:COUNT";
     let (key, values) = text
@@ -28,6 +70,13 @@ pub(super) fn axis(text: &str) -> Result<Axis, String> {
     let key = key.trim();
     if key.is_empty() {
         return Err(format!("no key before the =; write {form}"));
+    }
+    if let Some(range) = open_range(values.trim()) {
+        return Ok(Axis {
+            key: key.to_owned(),
+            values: Vec::new(),
+            range: Some(range),
+        });
     }
     let mut all = Vec::new();
     for part in values.split(',').map(str::trim) {
@@ -51,7 +100,21 @@ pub(super) fn axis(text: &str) -> Result<Axis, String> {
     Ok(Axis {
         key: key.to_owned(),
         values: all,
+        range: None,
     })
+}
+
+/// `FROM..TO` or `FROM..TO:log`.
+fn open_range(text: &str) -> Option<Range> {
+    let (from, to) = text.split_once("..")?;
+    let (to, log) = match to.split_once(':') {
+        Some((to, "log")) => (to, true),
+        Some(_) => return None,
+        None => (to, false),
+    };
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let (from, to) = (number(from)?, number(to)?);
+    (from != to && (!log || from > 0.0 && to > 0.0)).then_some(Range { from, to, log })
 }
 
 fn range(text: &str) -> Result<Vec<String>, String> {
@@ -71,19 +134,15 @@ fn range(text: &str) -> Result<Vec<String>, String> {
         (Some("log"), None) if from > 0.0 && to > 0.0 => true,
         _ => return Err(wrong()),
     };
-    let value = |i: usize| {
-        let t = i as f64 / (count - 1) as f64;
-        let value = match i {
-            0 => from,
-            i if i == count - 1 => to,
-            _ if logarithmic => from * (to / from).powf(t),
-            _ => from + (to - from) * t,
-        };
-        // what a person would write: 0.3, not 0.30000000000000004
-        format!("{value:.12e}")
-            .parse::<f64>()
-            .unwrap_or(value)
-            .to_string()
+    let range = Range {
+        from,
+        to,
+        log: logarithmic,
+    };
+    let value = |i: usize| match i {
+        0 => written(from),
+        i if i == count - 1 => written(to),
+        _ => range.at(i as f64 / (count - 1) as f64),
     };
     Ok((0..count).map(value).collect())
 }
@@ -132,7 +191,8 @@ mod tests {
             "=1",
             "a=",
             "a=1,,2",
-            "a=1..2",
+            "a=1..1",
+            "a=0..2:log",
             "a=1..2:1",
             "a=1..x:3",
             "a=0..2:3:log",

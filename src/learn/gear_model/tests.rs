@@ -1,0 +1,149 @@
+//! Everything that is measured, differentiated: against central differences of histories along the same steps.
+
+use std::path::Path;
+
+use super::*;
+use crate::effects::{CATALOGUE, find};
+use crate::learn::measured::Measured;
+use crate::measure::Dataset;
+use crate::simulate::forward::ContactKind;
+use crate::study::{EffectModel, EffectSpec, Study};
+
+const ROWS: &str = "test,member,cycles,quantity,position,value,sigma\n\
+    A,pinion,2e5,wear_depth,25.9,1,1\n\
+    A,pinion,4e5,wear_depth,27.3,1,1\n\
+    A,gear,4e5,wear_depth,52.4,1,1\n\
+    A,pinion,4e5,mass_loss,,1,1\n\
+    A,gear,4e5,mass_loss,,1,1\n\
+    A,pair,4e5,transmission_error,0.1,1,1\n\
+    A,pair,4e5,transmission_error,0.6,1,1\n\
+    A,pinion,4e5,load_share,25.9,1,1\n\
+    A,pinion,4e5,load_share,27.9,1,1\n\
+    A,pinion,4e5,contact_pressure,27.0,1,1\n\
+    A,pair,4e5,mesh_stiffness,0.3,1,1\n";
+
+fn study() -> Study {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("validation/challenges/running_in_L1/study.toml");
+    let text = std::fs::read_to_string(file).unwrap();
+    let coarse = "[numerics]\nelements_per_half_width = 3\npositions = 40\n";
+    Study::parse(&format!("{text}\n{coarse}"), "study.toml").unwrap()
+}
+
+/// How far apart the compared histories lie, relative: the first is too far for a history that is bent or has a kink there, the second too near
+/// for steep laws. A wrong derivative misses both.
+const APART: [f64; 2] = [3e-7, 1e-8];
+/// Rounding of a value, relative.
+const ROUNDING: f64 = 1e-13;
+
+/// Tolerance: 1e-4 of each kind's largest derivative. What moves the axes is differentiated by differences itself, and not looked at.
+fn check(kind: ContactKind, names: &[&str]) {
+    let study = study();
+    let data = Dataset::parse(ROWS, "m.csv", &study.known()).unwrap();
+    let measured = Measured::new(&study, data);
+    let workshop = measured.workshop(kind).unwrap();
+    let bench = measured.bench(&workshop).unwrap();
+    let k = 3.0 * study.wear.coefficient;
+    let mut missed = Vec::new();
+    for name in names {
+        let card = find(name).unwrap();
+        let effects = EffectModel::new(vec![EffectSpec::of_card(card, &[]).unwrap()]);
+        let fitted: Vec<_> = (effects.parameters())
+            .filter(|p| p.card.is_some_and(|card| card.fitted))
+            .collect();
+        let known: Vec<String> = fitted.iter().map(|p| p.name.clone()).collect();
+        let values: Vec<f64> = fitted.iter().map(|p| p.value).collect();
+        let build = |values: &[f64]| {
+            effects.build(&|name| {
+                let place = known.iter().position(|known| known == name)?;
+                values.get(place).copied()
+            })
+        };
+        let model = GearModel::new(&bench, Box::new(build)).stretching(effects.stretches_time());
+        let moved = |place: usize, by: f64| {
+            let mut values = values.clone();
+            values[place] += by;
+            values
+        };
+        let size = |place: usize| values[place].abs().max(1e-3);
+        let moves: Vec<Move> = (0..values.len())
+            .map(|place| Move {
+                parameters: moved(place, 1e-7 * size(place)),
+                step: 1e-7 * size(place),
+            })
+            .collect();
+        let found = model.linearise(0, k, &values, &moves);
+        let found = found.unwrap_or_else(|| panic!("{name}: no trend")).unwrap();
+        assert_eq!(found.values, model.predict(0, k, &values).unwrap());
+        let first = if card.hook == Hook::Operation {
+            values.len()
+        } else {
+            0
+        };
+        for column in first..=values.len() {
+            // apart by how much, and both ends
+            let differences = APART.map(|apart| {
+                let at = |sign: f64| {
+                    let (to, moved) = if column == values.len() {
+                        (k * (sign * apart).exp(), values.clone())
+                    } else {
+                        (k, moved(column, sign * apart * size(column)))
+                    };
+                    model.predict_along(0, (k, &values), (to, &moved)).unwrap()
+                };
+                let unit = if column == values.len() {
+                    1.0
+                } else {
+                    size(column)
+                };
+                (2.0 * apart * unit, at(-1.0), at(1.0))
+            });
+            // depths, masses, transmission errors, shares, the others
+            for kind in [0..3, 3..5, 5..7, 7..9, 9..10, 10..11] {
+                for row in kind.clone() {
+                    let exact = found.derivatives[(row, column)];
+                    let agrees = differences.iter().any(|(apart, low, high)| {
+                        let slope = |row: usize| (high[row] - low[row]) / apart;
+                        let largest = kind.clone().map(|row| slope(row).abs()).fold(0.0, f64::max);
+                        let rounding = ROUNDING * found.values[row].abs() / apart;
+                        (exact - slope(row)).abs() <= 1e-4 * largest + rounding
+                    });
+                    if !agrees {
+                        missed.push(format!(
+                            "{name} {column} row {row}: {exact} against {:?}",
+                            differences
+                                .each_ref()
+                                .map(|(apart, low, high)| (high[row] - low[row]) / apart),
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
+
+/// One law of every kind: with a clock and without, local and of the pair's load, added, displaced, of load, flexibility, profile, pitch, axes.
+const KINDS: [&str; 10] = [
+    "running_in",
+    "pressure_exponent",
+    "film_thickness",
+    "debris_abrasion",
+    "plastic_deformation",
+    "dynamic_load",
+    "extra_flexibility",
+    "tip_relief",
+    "pitch_error",
+    "bearing_compliance",
+];
+
+#[test]
+fn what_is_measured_is_differentiated_by_finite_elements() {
+    check(ContactKind::Fem, &KINDS);
+}
+
+#[test]
+fn what_is_measured_is_differentiated_by_the_analytic_model() {
+    let all: Vec<&str> = CATALOGUE.iter().map(|card| card.name).collect();
+    check(ContactKind::Hertz, &all);
+}
