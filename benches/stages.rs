@@ -57,6 +57,7 @@ static SET: LazyLock<GearSet> = LazyLock::new(|| {
         densities: [7850.0; 2],
         centre_distance: 80.0,
         face_width: 33.0,
+        face: gearwear::gear::Face::default(),
     }
 });
 

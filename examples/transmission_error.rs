@@ -48,6 +48,7 @@ fn gears(relief: f64) -> Result<GearSet, Box<dyn Error>> {
         densities: [7850.0; 2],
         centre_distance: 80.0,
         face_width: 33.0,
+        face: gearwear::gear::Face::default(),
     })
 }
 

@@ -45,6 +45,7 @@ fn gears(teeth: [u32; 2], rack: BasicRack, bore: [f64; 2], centre_distance: f64)
         densities: [7850.0; 2],
         centre_distance,
         face_width: 33.0,
+        face: gearwear::gear::Face::default(),
     }
 }
 

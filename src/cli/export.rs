@@ -40,6 +40,7 @@ fn position(text: &str) -> Result<f64, String> {
 /// Meshes, solves the position, writes the deck and what is expected of it.
 pub(super) fn execute(args: &ExportArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
+    study.one_section("export")?;
     let operation = study.conditions(args.test.as_deref())?;
     check(&study, operation)?;
     let target = args

@@ -27,6 +27,7 @@ pub struct ModelsArgs {
 /// Checks the input and the folder, runs all three models, writes.
 pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
+    study.one_section("models")?;
     let target = args
         .paths
         .output

@@ -233,6 +233,9 @@ impl Keeper {
                 parts.push(format!("{:?}", gear.profile).into_bytes());
             }
         }
+        if study.leads.iter().any(Option::is_some) {
+            parts.push(format!("{:?}", study.face).into_bytes());
+        }
         let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
         let identity = fingerprint(&parts);
         Ok(Self {

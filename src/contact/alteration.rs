@@ -17,12 +17,19 @@ pub struct Alteration {
     pub flexibility: f64,
     /// How far pinion teeth −2 to 2 stand back along the path of contact, mm; tooth 0 is the measured one.
     pub tooth_offset: Option<[f64; 5]>,
+    /// Material missing in each slice of the face, mm along the path of contact.
+    pub lead: Option<Vec<f64>>,
 }
 
 impl Alteration {
     /// Whether nothing is changed.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// Whether levers and compliance stay as they are.
+    pub fn keeps_stiffness(&self) -> bool {
+        self.load_factor.is_none() && self.friction.is_none() && self.flexibility == 0.0
     }
 
     /// Load factor of pair number `index` of position `q`.

@@ -333,6 +333,17 @@ impl Position {
         }
     }
 
+    /// As [`Position::open`], with depths of each pair's own.
+    pub fn open_each(&self, depths: &[[&[f64]; 2]], gap: &mut [f64]) {
+        for (pair, depth) in self.pairs.iter().zip(depths) {
+            for k in 0..pair.xi.len() {
+                for (opening, depth) in pair.opening.iter().zip(depth) {
+                    gap[pair.offset + k] += opening.dot(k, depth);
+                }
+            }
+        }
+    }
+
     /// The rotation between 0 and 1, base pitches.
     pub fn phase(&self) -> f64 {
         self.theta.rem_euclid(1.0)

@@ -1,6 +1,7 @@
 //! Contact of the elastic members: the condensed flank compliance of both, seen by the contact grid of each position.
 
 mod compliance;
+mod face;
 mod flanks;
 mod tangent;
 
@@ -10,7 +11,8 @@ use nalgebra::DMatrix;
 
 use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::cycle::{Cycle, Position};
-use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::model::{ContactError, ContactModel, PositionContact, SlicedContact};
+use crate::contact::slices::Slices;
 use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
 pub use compliance::{CycleCompliance, FlankCoupling, member_tooth, member_turns};
@@ -34,6 +36,8 @@ pub struct FemContact<'a> {
     /// Weighted gaps of a profile that effects give the flanks.
     opened: Option<&'a [Vec<f64>]>,
     alteration: Option<&'a Alteration>,
+    /// More than one slice of the face.
+    slices: Option<&'a Slices>,
 }
 
 impl<'a> FemContact<'a> {
@@ -45,7 +49,14 @@ impl<'a> FemContact<'a> {
             torque,
             opened: None,
             alteration: None,
+            slices: None,
         }
+    }
+
+    /// The same with the face in slices; none: one section.
+    pub fn across(mut self, slices: Option<&'a Slices>) -> Self {
+        self.slices = slices;
+        self
     }
 
     /// The same with what effects change: `opened` are the alteration's own [`Alteration::gaps`]; load and flexibility stand in
@@ -93,8 +104,36 @@ impl<'a> FemContact<'a> {
                 theta: position.theta,
                 source,
             })?;
+        self.within_limits(
+            position,
+            gap,
+            &solution.pressure,
+            solution.approach,
+            corners,
+        )?;
+        let levers = &self.compliance.positions[q].lever;
+        let products = solution.pressure.iter().zip(levers).map(|(p, l)| p * l);
+        Ok(PositionContact {
+            torque_error: (products.sum::<f64>() / self.torque - 1.0).abs(),
+            pressure: solution.pressure,
+            approach: solution.approach,
+            active: solution.active,
+            iterations: solution.iterations,
+            penetration: solution.penetration,
+        })
+    }
+
+    /// Whether a solution is one that the model was prepared for.
+    fn within_limits(
+        &self,
+        position: &Position,
+        gap: &[f64],
+        pressure: &[f64],
+        approach: f64,
+        corners: [f64; 2],
+    ) -> Result<(), ContactError> {
         // a rigid turn closes a corner by r_b times it, less what the corner itself has lost
-        let closing = solution.approach * self.cycle.pair.pinion.base_radius;
+        let closing = approach * self.cycle.pair.pinion.base_radius;
         for (apart, lost) in position.left_out.iter().zip(corners) {
             if closing > apart + lost {
                 return Err(ContactError::OutOfReach {
@@ -104,8 +143,10 @@ impl<'a> FemContact<'a> {
             }
         }
         let limit = MOST_GIVING * self.cycle.pair.pinion.rack.module;
-        let giving = closing - mean_gap(position, gap, &solution.pressure);
-        if giving > limit {
+        let giving = closing - mean_gap(position, gap, pressure);
+        // an open slice of the face does not give way at all
+        let loaded = self.slices.is_none() || pressure.iter().any(|p| *p > 0.0);
+        if loaded && giving > limit {
             return Err(ContactError::TooSoft {
                 theta: position.theta,
                 closing: giving,
@@ -121,7 +162,7 @@ impl<'a> FemContact<'a> {
                     pair.xi[pair.xi.len() - 1] >= window - self.cycle.spec.spacing,
                 ),
             ] {
-                if at_end && solution.pressure[pair.offset + k] > 0.0 {
+                if at_end && pressure[pair.offset + k] > 0.0 {
                     return Err(ContactError::WindowTooNarrow {
                         theta: position.theta,
                         window,
@@ -129,16 +170,7 @@ impl<'a> FemContact<'a> {
                 }
             }
         }
-        let levers = &self.compliance.positions[q].lever;
-        let products = solution.pressure.iter().zip(levers).map(|(p, l)| p * l);
-        Ok(PositionContact {
-            torque_error: (products.sum::<f64>() / self.torque - 1.0).abs(),
-            pressure: solution.pressure,
-            approach: solution.approach,
-            active: solution.active,
-            iterations: solution.iterations,
-            penetration: solution.penetration,
-        })
+        Ok(())
     }
 
     /// Teeth differ: each tooth pair in turn is that of the measured tooth, and its pressures are taken from that solution.
@@ -261,5 +293,9 @@ impl ContactModel for FemContact<'_> {
         depth: [&[f64]; 2],
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
         Ok(Box::new(tangent::FemLinear::new(self, q, contact, depth)?))
+    }
+
+    fn sliced(&self) -> Option<&dyn SlicedContact> {
+        self.slices.map(|_| self as &dyn SlicedContact)
     }
 }

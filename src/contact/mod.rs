@@ -9,6 +9,7 @@ pub mod frame;
 pub mod hertz;
 pub mod model;
 pub mod mortar;
+pub mod slices;
 pub mod strips;
 pub mod tangent;
 pub mod unilateral;

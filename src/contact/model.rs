@@ -1,10 +1,13 @@
 //! The interface that the wear floor sees: pressures on the contact grid of each mesh position.
 
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 
 use crate::contact::cycle::Cycle;
-use crate::contact::tangent::LinearContact;
-use crate::contact::unilateral::UnilateralError;
+use crate::contact::slices::{Flanks, Slices};
+use crate::contact::tangent::{LinearContact, LinearSlices};
+use crate::contact::unilateral::{SliceSensitivity, UnilateralError};
 
 /// Contact of all tooth pairs at one mesh position.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +64,49 @@ pub trait ContactModel: Sync {
         contact: &PositionContact,
         depth: [&[f64]; 2],
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError>;
+
+    /// The model of all slices, where the face has more than one; what is said of one section then holds of none.
+    fn sliced(&self) -> Option<&dyn SlicedContact> {
+        None
+    }
+}
+
+/// Contact of several slices of the face that close by one approach.
+pub trait SlicedContact: Sync {
+    /// The slices.
+    fn slices(&self) -> &Slices;
+
+    /// Contact of every slice at position `q`, started from the sets `start` by slice.
+    ///
+    /// # Errors
+    /// [`ContactError`]; an iterate that did not converge is never returned.
+    fn solve_all(
+        &self,
+        q: usize,
+        flanks: &Flanks<'_>,
+        start: &[Vec<usize>],
+    ) -> Result<Vec<PositionContact>, ContactError>;
+
+    /// How the pressures of each slice follow its gaps and the common approach.
+    ///
+    /// # Errors
+    /// [`ContactError`] if an active set's compliance cannot be inverted.
+    fn sensitivities(
+        &self,
+        q: usize,
+        contacts: &[&PositionContact],
+    ) -> Result<Vec<Arc<SliceSensitivity>>, ContactError>;
+
+    /// The contacts that were solved for `flanks`, linearised.
+    ///
+    /// # Errors
+    /// As [`SlicedContact::sensitivities`].
+    fn linearised_all<'m>(
+        &'m self,
+        q: usize,
+        contacts: &[&PositionContact],
+        flanks: &Flanks<'_>,
+    ) -> Result<Box<dyn LinearSlices + 'm>, ContactError>;
 }
 
 /// Why contact could not be solved.

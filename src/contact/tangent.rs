@@ -5,6 +5,7 @@
 
 use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
+use crate::contact::slices::Flanks;
 
 /// Derivative of the contact of one position.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,6 +49,31 @@ pub trait LinearContact {
     fn response_tangent(&self, response: &[f64], change: &AlterationChange) -> Option<Vec<f64>>;
 }
 
+/// What a parameter changes about the contact of all slices, each per unit of the parameter.
+#[derive(Debug, Clone, Copy)]
+pub struct SliceChange<'a> {
+    /// Depths, and how far pairs stand back.
+    pub flanks: &'a Flanks<'a>,
+    /// What effects alter.
+    pub altered: Option<&'a AlterationChange>,
+}
+
+/// The contacts of one position's slices, linearised about their solution.
+pub trait LinearSlices {
+    /// Derivative of pressures and approach, by slice.
+    fn tangents(&self, change: &SliceChange<'_>) -> Vec<ContactTangent>;
+
+    /// As [`LinearContact::response`], by slice: the approach is free to follow.
+    fn responses(&self, flanks: &Flanks<'_>) -> Vec<Vec<f64>>;
+
+    /// As [`LinearContact::response_tangent`], by slice.
+    fn response_tangents(
+        &self,
+        responses: &[Vec<f64>],
+        change: &AlterationChange,
+    ) -> Option<Vec<Vec<f64>>>;
+}
+
 impl Alteration {
     /// (`after` − self)/`step`, number by number.
     pub fn slope_to(&self, after: &Self, step: f64) -> Self {
@@ -68,6 +94,7 @@ impl Alteration {
             friction: friction.map(|(a, b)| by_pair(a, b)),
             flexibility: slope(self.flexibility, after.flexibility),
             tooth_offset: offsets.map(|(a, b)| std::array::from_fn(|i| slope(a[i], b[i]))),
+            lead: (self.lead.as_ref().zip(after.lead.as_ref())).map(|(a, b)| slopes(a, b)),
         }
     }
 
@@ -79,6 +106,7 @@ impl Alteration {
             && self.friction.iter().flatten().flatten().all(zero)
             && self.flexibility == 0.0
             && self.tooth_offset.iter().flatten().all(zero)
+            && self.lead.iter().flatten().all(zero)
     }
 
     /// As [`Alteration::factor`], 0 where nothing is said: for a derivative.

@@ -17,6 +17,7 @@
 
 mod by_approach;
 mod factor;
+mod joint;
 mod one_by_one;
 mod sensitivity;
 mod trial;
@@ -25,6 +26,7 @@ use nalgebra::DMatrix;
 
 use by_approach::by_approach;
 use factor::ridged;
+pub use joint::{JointLinearised, JointProblem, JointSolution, SliceSensitivity, solve_joint};
 use one_by_one::one_by_one;
 pub use sensitivity::{Linearised, sensitivity};
 use trial::Trial;

@@ -50,6 +50,20 @@ impl Combined {
         depths
     }
 
+    /// Whether material is missing somewhere across the face.
+    pub fn has_lead(&self) -> bool {
+        let asked = [-1.0, -0.5, 0.0, 0.5, 1.0];
+        asked
+            .iter()
+            .any(|face| self.lead(*face).is_some_and(|lead| lead != 0.0))
+    }
+
+    /// The load factor of the effects that know nothing of the face.
+    pub fn load_factor_of_sections(&self, at: &Local) -> f64 {
+        let of_sections = self.of(Hook::LoadFactor).filter(|e| e.lead(0.0).is_none());
+        of_sections.fold(1.0, |f, effect| f * effect.load_factor(at))
+    }
+
     /// Whether an effect displaces material without removing it.
     pub fn displaces(&self) -> bool {
         self.of(Hook::AddedDepth).any(Effect::keeps_mass)
@@ -96,6 +110,20 @@ impl Effect for Combined {
     fn tooth_offset(&self, tooth: i32) -> f64 {
         self.of(Hook::ToothOffset)
             .fold(0.0, |sum, effect| sum + effect.tooth_offset(tooth))
+    }
+
+    fn lead(&self, face: f64) -> Option<f64> {
+        let leads = self
+            .entries
+            .iter()
+            .filter_map(|(_, effect)| effect.lead(face));
+        leads.reduce(|sum, lead| sum + lead)
+    }
+
+    fn trace_face(&self) -> Option<f64> {
+        self.entries
+            .iter()
+            .find_map(|(_, effect)| effect.trace_face())
     }
 
     /// Every effect sees the state as it is without the others.

@@ -124,6 +124,20 @@ pub trait Effect: Send + Sync {
         0.0
     }
 
+    /// Material missing across the face, µm along the path of contact on both flanks together, at the place `face` from −1 to 1 (half face
+    /// widths from its middle). None: the effect knows nothing of the face.
+    ///
+    /// Where contacts are solved an effect that does acts through slices of the face ([`crate::contact::slices`]), and its load factor is
+    /// not asked.
+    fn lead(&self, _face: f64) -> Option<f64> {
+        None
+    }
+
+    /// Where on the face, from −1 to 1, a trace was taken that does not say; none: at mid-face.
+    fn trace_face(&self) -> Option<f64> {
+        None
+    }
+
     /// What load, speed and temperature do to the mounting.
     fn operation(&self, _state: &OperationState) -> OperationChange {
         OperationChange::default()

@@ -2,13 +2,13 @@
 
 use crate::contact::model::PositionContact;
 use crate::contact::tangent::ContactTangent;
-use crate::effects::Local;
+use crate::effects::{Effect, Local};
 use crate::gear::Member;
 use crate::learn::trajectory::Node;
 use crate::measure::{Observation, Place, Quantity, Subject};
 use crate::numeric::interpolate;
 use crate::simulate::forward::{Forward, ForwardError, GearSet, Variation};
-use crate::simulate::history::worn_area;
+use crate::simulate::history::{mean_contacts, worn_area};
 use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::{Moment, Passage};
 
@@ -24,10 +24,13 @@ pub(super) struct Reading<'r, 'f> {
 
 /// What follows from the contacts of a worn state.
 struct Meshing {
+    /// The mean over the face.
     contacts: Vec<PositionContact>,
     /// Order of a passage, and the largest pressures on both flanks.
     passage: Passage,
     moments: [Vec<Moment>; 2],
+    /// Largest pressures on both flanks by slice.
+    by_slice: Vec<[Vec<Moment>; 2]>,
     /// Rotation (base pitches, ascending from 0 to 1) and approach (rad), closed around.
     turns: (Vec<f64>, Vec<f64>),
     /// Mean approach over the base pitch, rad.
@@ -39,8 +42,8 @@ struct Meshing {
 /// The derivative of a [`Meshing`] by one parameter, per unit.
 struct MeshingTangent {
     contacts: Vec<ContactTangent>,
-    /// Of the largest pressures on both flanks, MPa.
-    largest: [Vec<f64>; 2],
+    /// Of the largest pressures on both flanks by slice, MPa.
+    largest: Vec<[Vec<f64>; 2]>,
     /// Of the approach at the rotations of [`Meshing::turns`], rad, and of its mean.
     approach: Vec<f64>,
     mean: f64,
@@ -53,14 +56,32 @@ impl Meshing {
         worn: &Node,
         variations: &[Variation],
     ) -> Result<Self, ForwardError> {
-        let (contacts, tangents) = if variations.is_empty() {
-            (forward.contacts_at(&worn.u)?, Vec::new())
+        let (all, tangents) = if variations.is_empty() {
+            (forward.all_contacts_at(&worn.u)?, Vec::new())
         } else {
             forward.contacts_with_tangents(&worn.u, &worn.tangents.depth, variations)?
         };
         let cycle = forward.cycle();
         let passage = Passage::new(cycle);
-        let moments = [0, 1].map(|side| passage.moments(cycle, &contacts, side));
+        let by_slice: Vec<[Vec<Moment>; 2]> = (all.iter())
+            .map(|contacts| [0, 1].map(|side| passage.moments(cycle, contacts, side)))
+            .collect();
+        let reads = |i: usize| {
+            [0, 1].map(|side| passage.reads(cycle, &all[i], side, &by_slice[i][side]))
+        };
+        let reads: Vec<_> = match tangents.is_empty() {
+            true => Vec::new(),
+            false => (0..all.len()).map(reads).collect(),
+        };
+        let weights = match forward.slices() {
+            Some(slices) => slices.weight.clone(),
+            None => vec![1.0],
+        };
+        let contacts = mean_contacts(forward.slices(), all);
+        let moments = match by_slice.as_slice() {
+            [one] => one.clone(),
+            _ => [0, 1].map(|side| passage.moments(cycle, &contacts, side)),
+        };
         let mut order: Vec<usize> = (0..contacts.len()).collect();
         let phase = |q: usize| cycle.positions[q].phase();
         order.sort_by(|a, b| phase(*a).total_cmp(&phase(*b)));
@@ -80,32 +101,47 @@ impl Meshing {
         rotations[closing] += 1.0;
         let approach = |q: usize| contacts[q].approach;
         let turns = (rotations, around(&approach));
-        let reads = (!tangents.is_empty())
-            .then(|| [0, 1].map(|side| passage.reads(cycle, &contacts, side, &moments[side])));
-        let tangent = |contacts: Vec<ContactTangent>| {
-            let largest = [0, 1].map(|side| {
-                let stations = reads.as_ref().map_or(&[][..], |reads| &reads[side]);
-                let read = |&(q, k, weight): &(u32, u32, f64)| {
-                    weight * contacts[q as usize].pressure[k as usize]
+        let tangent = |parameter: usize| {
+            let of_slice = |i: usize| &tangents[i][parameter];
+            let largest = |i: usize| {
+                [0, 1].map(|side| {
+                    let read = |&(q, k, weight): &(u32, u32, f64)| {
+                        weight * of_slice(i)[q as usize].pressure[k as usize]
+                    };
+                    let each = reads[i][side].iter();
+                    each.map(|reads| reads.iter().map(read).sum()).collect()
+                })
+            };
+            let mean_tangent = |q: usize| {
+                let sum = |of: &dyn Fn(&ContactTangent) -> f64| -> f64 {
+                    let all = weights.iter().enumerate();
+                    all.map(|(i, w)| w * of(&of_slice(i)[q])).sum()
                 };
-                let each = stations.iter().map(|reads| reads.iter().map(read).sum());
-                each.collect()
-            });
+                ContactTangent {
+                    pressure: (0..contacts[q].pressure.len())
+                        .map(|k| sum(&|tangent| tangent.pressure[k]))
+                        .collect(),
+                    approach: sum(&|tangent| tangent.approach),
+                }
+            };
+            let contacts: Vec<ContactTangent> = (0..contacts.len()).map(mean_tangent).collect();
             let approach = |q: usize| contacts[q].approach;
             MeshingTangent {
-                largest,
+                largest: (0..weights.len()).map(largest).collect(),
                 approach: around(&approach),
                 mean: mean(&approach),
                 contacts,
             }
         };
+        let parameters = tangents.first().map_or(0, Vec::len);
         Ok(Self {
-            tangents: tangents.into_iter().map(tangent).collect(),
+            tangents: (0..parameters).map(tangent).collect(),
             mean: mean(&approach),
             turns,
             contacts,
             passage,
             moments,
+            by_slice,
         })
     }
 }
@@ -135,14 +171,14 @@ impl<'r, 'f> Reading<'r, 'f> {
         let at = observation.position.unwrap_or(0.0);
         let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
         match observation.quantity {
-            Quantity::WearDepth => Ok(self.depth(pinion_for_pair, at)),
+            Quantity::WearDepth => Ok(self.depth(pinion_for_pair, at, observation.face)),
             Quantity::MassLoss => Ok(match observation.member {
                 Subject::Pair => Member::BOTH.into_iter().map(|m| self.mass(m)).sum(),
                 _ => self.mass(pinion_for_pair),
             }),
             Quantity::TransmissionError => self.transmission_error(at),
             Quantity::LoadShare => self.load_share(pinion_for_pair, at),
-            Quantity::ContactPressure => self.pressure(pinion_for_pair, at),
+            Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation.face),
             Quantity::MeshStiffness => self.stiffness(at),
         }
     }
@@ -160,13 +196,18 @@ impl<'r, 'f> Reading<'r, 'f> {
         match observation.quantity {
             Quantity::WearDepth => {
                 let arc = self.arc(pinion_for_pair, at);
-                Ok(self.each_depth(pinion_for_pair, |stations, depths, _| {
+                let slices = self.slices_at(observation.face);
+                Ok(self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                     1e3 * interpolate(stations, depths, arc)
                 }))
             }
             Quantity::MassLoss => {
+                let slices: Vec<(usize, f64)> = match self.forward.slices() {
+                    Some(slices) => slices.weight.iter().copied().enumerate().collect(),
+                    None => vec![(0, 1.0)],
+                };
                 let of = |member: Member| {
-                    self.each_depth(member, |stations, depths, displaced| {
+                    self.each_depth(member, &slices, |stations, depths, displaced| {
                         self.mass_of(member, worn_area(stations, depths) - displaced)
                     })
                 };
@@ -202,9 +243,14 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::ContactPressure => {
                 let arc = self.arc(pinion_for_pair, at);
                 let stations = self.stations(pinion_for_pair).to_vec();
+                let slices = self.slices_at(observation.face);
                 let (meshing, _) = self.meshing()?;
                 let of = |tangent: &MeshingTangent| {
-                    interpolate(&stations, &tangent.largest[side(pinion_for_pair)], arc)
+                    let at = |&(i, weight): &(usize, f64)| {
+                        let largest = &tangent.largest[i][side(pinion_for_pair)];
+                        weight * interpolate(&stations, largest, arc)
+                    };
+                    slices.iter().map(at).sum()
                 };
                 Ok(meshing.tangents.iter().map(of).collect())
             }
@@ -212,15 +258,24 @@ impl<'r, 'f> Reading<'r, 'f> {
         }
     }
 
-    /// What `of` makes of the stations of one flank, of the derivative of its depths and of that of its displaced area, by parameter.
-    fn each_depth(&self, member: Member, of: impl Fn(&[f64], &[f64], f64) -> f64) -> Vec<f64> {
-        let first = self.forward.cycle().stations.arc[0].len();
+    /// What `of` makes of the stations of one flank, of the derivative of its depths (the weighted sum of the `slices`) and of that of its
+    /// displaced area, by parameter.
+    fn each_depth(
+        &self,
+        member: Member,
+        slices: &[(usize, f64)],
+        of: impl Fn(&[f64], &[f64], f64) -> f64,
+    ) -> Vec<f64> {
+        let stations = self.stations(member);
         let tangents = &self.worn.tangents;
         let each = tangents.depth.iter().zip(&tangents.displaced);
         each.map(|(depth, displaced)| {
-            let (pinion, gear) = depth.split_at(first);
-            let side = side(member);
-            of(self.stations(member), [pinion, gear][side], displaced[side])
+            let mut sum = vec![0.0; stations.len()];
+            for &(slice, weight) in slices {
+                let own = self.of_slice(depth, slice, member);
+                sum.iter_mut().zip(own).for_each(|(sum, d)| *sum += weight * d);
+            }
+            of(stations, &sum, displaced[side(member)])
         })
         .collect()
     }
@@ -246,8 +301,8 @@ impl<'r, 'f> Reading<'r, 'f> {
         let after = stations.partition_point(|s| *s < arc);
         let after = after.clamp(1, stations.len() - 1);
         let nearer = usize::from(stations[after] - arc < arc - stations[after - 1]);
-        let depth = 1e-3 * self.depth(member, radius);
-        let pressure = self.pressure(member, radius)?;
+        let depth = 1e-3 * self.depth(member, radius, observation.face);
+        let pressure = self.pressure(member, radius, observation.face)?;
         let (meshing, forward) = self.meshing()?;
         let cycle = forward.cycle();
         let moment = &meshing.moments[side(member)][after - 1 + nearer];
@@ -265,12 +320,25 @@ impl<'r, 'f> Reading<'r, 'f> {
         Ok(Some(local))
     }
 
-    fn depths(&self, member: Member) -> &[f64] {
-        let arcs = &self.forward.cycle().stations.arc;
-        let (pinion, gear) = self.worn.u.split_at(arcs[0].len());
+    /// Depths of `member` in slice `slice` of all depths `u`.
+    fn of_slice<'u>(&self, u: &'u [f64], slice: usize, member: Member) -> &'u [f64] {
+        let stations = &self.forward.cycle().stations;
+        let own = &u[slice * stations.count()..(slice + 1) * stations.count()];
+        let (pinion, gear) = own.split_at(stations.arc[0].len());
         match member {
             Member::Pinion => pinion,
             Member::Gear => gear,
+        }
+    }
+
+    /// The slices that what is measured at the place `face` (mm from mid-face; none: where the effects say that traces are taken, else there) lies between, with their weights.
+    fn slices_at(&self, face: Option<f64>) -> Vec<(usize, f64)> {
+        let effects = self.forward.acting().map(|acting| &acting.effects);
+        let usual = || effects.and_then(|e| e.trace_face()).unwrap_or(0.0);
+        let place = || face.unwrap_or_else(|| 0.5 * self.set.face_width * usual());
+        match self.forward.slices() {
+            Some(slices) => slices.weights_at(place()).to_vec(),
+            None => vec![(0, 1.0)],
         }
     }
 
@@ -288,17 +356,23 @@ impl<'r, 'f> Reading<'r, 'f> {
         )
     }
 
-    /// µm.
-    fn depth(&self, member: Member, radius: f64) -> f64 {
+    /// µm, at the place `face` across the face (mm; none: mid-face).
+    fn depth(&self, member: Member, radius: f64, face: Option<f64>) -> f64 {
         let arc = self.arc(member, radius);
-        1e3 * interpolate(self.stations(member), self.depths(member), arc)
+        let at = |slice| {
+            let depths = self.of_slice(&self.worn.u, slice, member);
+            interpolate(self.stations(member), depths, arc)
+        };
+        let weighted = |&(slice, weight): &(usize, f64)| weight * at(slice);
+        1e3 * self.slices_at(face).iter().map(weighted).sum::<f64>()
     }
 
     /// mg of the whole member.
     fn mass(&self, member: Member) -> f64 {
         let side = side(member);
-        let lost =
-            worn_area(self.stations(member), self.depths(member)) - self.worn.displaced[side];
+        let mean = self.forward.mean_depths(&self.worn.u);
+        let depths = self.of_slice(&mean, 0, member);
+        let lost = worn_area(self.stations(member), depths) - self.worn.displaced[side];
         self.mass_of(member, lost)
     }
 
@@ -342,11 +416,24 @@ impl<'r, 'f> Reading<'r, 'f> {
     }
 
     /// MPa, the largest the point sees in a passage.
-    fn pressure(&mut self, member: Member, radius: f64) -> Result<f64, ForwardError> {
-        let arc = self.arc(member, radius);
-        let moments = &self.meshing()?.0.moments[side(member)];
-        let largest: Vec<f64> = moments.iter().map(|m| m.pressure).collect();
-        Ok(interpolate(self.stations(member), &largest, arc))
+    fn pressure(
+        &mut self,
+        member: Member,
+        radius: f64,
+        face: Option<f64>,
+    ) -> Result<f64, ForwardError> {
+        let (arc, slices) = (self.arc(member, radius), self.slices_at(face));
+        let meshing = self.meshing()?.0;
+        let at = |moments: &[Vec<Moment>; 2]| -> Vec<f64> {
+            moments[side(member)].iter().map(|m| m.pressure).collect()
+        };
+        let by_slice: Vec<(f64, Vec<f64>)> = (slices.iter())
+            .map(|&(i, weight)| (weight, at(&meshing.by_slice[i])))
+            .collect();
+        let stations = self.stations(member);
+        let weighted =
+            |(weight, largest): &(f64, Vec<f64>)| weight * interpolate(stations, largest, arc);
+        Ok(by_slice.iter().map(weighted).sum())
     }
 
     /// Share of the torque that the tooth pair carries while its contact passes the point.

@@ -7,22 +7,43 @@ use crate::simulate::result::{Member, Run};
 /// `wear.csv`: every stored state, both members, in the order cycles, member, radius.
 ///
 /// Columns `cycles,member,radius,path,depth`: pinion revolutions; radius mm; signed mm along the path of contact from the
-/// pitch point; µm.
+/// pitch point; µm. Where the face has several slices there is a further column `face` (mm from mid-face), and the rows are in the order
+/// cycles, member, face, radius.
 pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
-    let mut table = Table::new("wear.csv", "cycles,member,radius,path,depth");
+    let sliced = run.states.iter().any(|state| !state.slices.is_empty());
+    let header = if sliced {
+        "cycles,member,radius,path,depth,face"
+    } else {
+        "cycles,member,radius,path,depth"
+    };
+    let mut table = Table::new("wear.csv", header);
     for state in &run.states {
         for member in Member::BOTH {
             let flank = state.profile(member);
             for (what, column) in [("path", &flank.path), ("depth", &flank.depth)] {
                 same_length("wear.csv", what, column.len(), flank.radius.len())?;
             }
-            for ((radius, path), depth) in flank.radius.iter().zip(&flank.path).zip(&flank.depth) {
-                table.number("cycles", state.cycles)?;
-                table.text(member.name());
-                table.number("radius", *radius)?;
-                table.number("path", *path)?;
-                table.number("depth", *depth)?;
-                table.end_row();
+            let side = usize::from(member == Member::Gear);
+            let slices = state.slices.iter();
+            let mut traces: Vec<(Option<f64>, &[f64])> = slices
+                .map(|slice| (Some(slice.face), slice.depth[side].as_slice()))
+                .collect();
+            if traces.is_empty() {
+                traces.push((None, &flank.depth));
+            }
+            for (face, depths) in traces {
+                same_length("wear.csv", "depth", depths.len(), flank.radius.len())?;
+                for ((radius, path), depth) in flank.radius.iter().zip(&flank.path).zip(depths) {
+                    table.number("cycles", state.cycles)?;
+                    table.text(member.name());
+                    table.number("radius", *radius)?;
+                    table.number("path", *path)?;
+                    table.number("depth", *depth)?;
+                    if let Some(face) = face {
+                        table.number("face", face)?;
+                    }
+                    table.end_row();
+                }
             }
         }
     }

@@ -53,6 +53,21 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
                 json!({"stress_mpa": root.stress, "radius_mm": root.radius, "path_mm": root.path});
         }
     }
+    if !run.last().slices.is_empty() {
+        let of = |state: &State| {
+            let slices = state.slices.iter();
+            let rows: Vec<Value> = slices
+                .map(|slice| {
+                    let deepest = (slice.depth.each_ref())
+                        .map(|depth| depth.iter().fold(0.0, |m: f64, h| m.max(*h)));
+                    json!({"face": slice.face, "load": slice.load, "peak_pressure": slice.peak_pressure,
+                           "max_depth_um": {"pinion": deepest[0], "gear": deepest[1]}})
+                })
+                .collect();
+            json!({"cycles": state.cycles, "load_factor": state.face_load_factor(), "slices": rows})
+        };
+        document["face"] = json!({"first": of(run.first()), "last": of(run.last())});
+    }
     if c.wear_coefficient[1] != c.wear_coefficient[0] {
         document["conditions"]["coefficient_gear"] = json!(c.wear_coefficient[1]);
     }

@@ -54,6 +54,15 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     }));
     let te = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad());
     lines.extend(change("transmission error", "µrad p-p", te.0, te.1));
+    if !last.slices.is_empty() {
+        let factors = (first.face_load_factor(), last.face_load_factor());
+        lines.extend(change(
+            "face load factor",
+            "-",
+            Some(factors.0),
+            Some(factors.1),
+        ));
+    }
     lines.push(format!(
         "  {:<20}{}",
         "area balance",

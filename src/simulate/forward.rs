@@ -7,6 +7,7 @@ mod fresh;
 mod preparation;
 mod running;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::analytic::iso6336;
@@ -15,6 +16,7 @@ use crate::contact::cycle::{Cycle, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactModel, PositionContact};
+use crate::contact::slices::Slices;
 use crate::effects::Hook;
 use crate::simulate::blanks::Blanks;
 pub use crate::simulate::gear_set::GearSet;
@@ -75,6 +77,8 @@ pub struct Forward<'a> {
     factorisations: usize,
     acting: Option<&'a Acting>,
     altered: Option<Altered>,
+    /// The face, where it has more than one slice.
+    slices: Option<Slices>,
 }
 
 impl<'a> Forward<'a> {
@@ -173,6 +177,7 @@ impl<'a> Forward<'a> {
             shares: false,
             acting,
             altered: None,
+            slices: None,
         };
         out.cover()?;
         out.project()?;
@@ -188,6 +193,19 @@ impl<'a> Forward<'a> {
     pub fn compliance(&self) -> Option<&CycleCompliance> {
         let altered = self.altered.as_ref();
         (altered.and_then(|a| a.compliance.as_ref())).or(self.compliance.as_deref())
+    }
+
+    /// The slices of the face; none: one section stands for all of it.
+    pub fn slices(&self) -> Option<&Slices> {
+        self.slices.as_ref()
+    }
+
+    /// The mean over the face of depths `u` of all slices (mm at the stations of pinion and gear).
+    pub fn mean_depths<'u>(&self, u: &'u [f64]) -> Cow<'u, [f64]> {
+        match &self.slices {
+            Some(slices) => Cow::Owned(slices.mean_of(u)),
+            None => Cow::Borrowed(u),
+        }
     }
 
     /// Effects that act, if any.
@@ -234,7 +252,8 @@ impl<'a> Forward<'a> {
         Ok(match (self.compliance(), self.kind) {
             (None, ContactKind::Fem) => return Err(ForwardError::Unprepared),
             (Some(compliance), ContactKind::Fem) => {
-                let model = FemContact::new(&self.cycle, compliance, self.torque());
+                let model = FemContact::new(&self.cycle, compliance, self.torque())
+                    .across(self.slices.as_ref());
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration, a.opened.as_deref())),
                     None => work(&model),

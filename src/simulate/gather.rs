@@ -8,12 +8,12 @@ use crate::numeric::{Vec2, interpolate};
 use crate::simulate::blanks::DrawnMesh;
 use crate::simulate::fields::MemberFields;
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
-use crate::simulate::history::{WearState, line_load, worn_area};
+use crate::simulate::history::{SliceState, WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
 use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
-    Conditions, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile, State,
-    WheelGeometry,
+    Conditions, FaceSlice, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile,
+    State, WheelGeometry,
 };
 use crate::simulate::run::Plan;
 
@@ -109,6 +109,31 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         pinion: profile(Member::Pinion),
         gear: profile(Member::Gear),
         cycle: by_rotation(plan, forward, state),
+        slices: (state.slices.iter())
+            .map(|slice| face_slice(forward, slice))
+            .collect(),
+    }
+}
+
+/// The section that stresses are computed in: the slice that carries most over the mesh cycle, with its share of the mean load.
+pub fn most_loaded(forward: &Forward, state: &WearState) -> Option<(WearState, f64)> {
+    let loads = (state.slices.iter()).map(|slice| face_slice(forward, slice).load);
+    let (most, load) = loads.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((state.section(most), load))
+}
+
+fn face_slice(forward: &Forward, slice: &SliceState) -> FaceSlice {
+    let carried = |(q, contact): (usize, &PositionContact)| -> f64 {
+        let pairs = 0..forward.cycle().positions[q].pairs.len();
+        pairs.map(|index| forward.moment(q, index, contact)).sum()
+    };
+    let all: f64 = slice.contacts.iter().enumerate().map(carried).sum();
+    let pressures = slice.contacts.iter().flat_map(|contact| &contact.pressure);
+    FaceSlice {
+        face: slice.face,
+        load: all / (slice.contacts.len() as f64 * forward.torque()),
+        peak_pressure: pressures.fold(0.0, |m, p| m.max(*p)),
+        depth: (slice.depth.each_ref()).map(|depth| depth.iter().map(|h| 1e3 * h).collect()),
     }
 }
 
@@ -118,7 +143,18 @@ fn by_rotation(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<Positio
         .contacts
         .iter()
         .enumerate()
-        .map(|(q, contact)| position(plan, forward, q, contact))
+        .map(|(q, contact)| {
+            let mut mean = position(plan, forward, q, contact);
+            for slice in &state.slices {
+                let own = position(plan, forward, q, &slice.contacts[q]);
+                for (mean, own) in mean.pairs.iter_mut().zip(own.pairs) {
+                    mean.peak_pressure = mean.peak_pressure.max(own.peak_pressure);
+                    mean.half_width = mean.half_width.max(own.half_width);
+                    mean.at_corner |= own.at_corner;
+                }
+            }
+            mean
+        })
         .collect();
     cycle.sort_by(|a, b| a.position.total_cmp(&b.position));
     cycle
@@ -197,13 +233,14 @@ fn half_width(xi: &[f64], pressure: &[f64]) -> f64 {
     0.5 * (high - low)
 }
 
-/// Fields of `state` at position `q`; `None` for the analytic model.
+/// Fields of `state` at position `q`, of a section with `load` times the mean load; `None` for the analytic model.
 ///
 /// # Errors
 /// [`ForwardError`] if a mesh cannot follow the wear or a solve misses its residual.
 pub fn frame(
     forward: &Forward,
     state: &WearState,
+    load: f64,
     q: usize,
 ) -> Result<Option<FieldFrame>, ForwardError> {
     let (Some(blanks), Some(condensed)) = (forward.blanks(), forward.condensed()) else {
@@ -261,7 +298,7 @@ pub fn frame(
             .iter()
             .map(|p| line_load(p, contact))
             .sum(),
-        torque_per_width: forward.torque(),
+        torque_per_width: load * forward.torque(),
         pinion: member(0, pinion),
         gear: member(1, gear),
     }))

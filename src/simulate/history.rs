@@ -1,7 +1,9 @@
 //! Wear histories: from fresh flanks to the requested cycles, with the balance of worn area at every step.
 
+use crate::contact::cycle::Cycle;
 use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::slices::Slices;
 use crate::simulate::balance::Balance;
 use crate::wear::acting::Acting;
 use crate::wear::archard::{ArchardSystem, AreaRate, WearError};
@@ -13,12 +15,39 @@ use crate::wear::tangent::{Differentiated, Direction};
 pub struct WearState {
     /// Pinion revolutions.
     pub cycles: f64,
+    /// Worn depth at the stations of pinion and gear, mm; of several slices the mean over the face.
+    pub depth: [Vec<f64>; 2],
+    /// Contact at every mesh position; of several slices with the mean pressures over the face.
+    pub contacts: Vec<PositionContact>,
+    /// Slice by slice, where the face has more than one.
+    pub slices: Vec<SliceState>,
+    /// Part of the worn area that effects only displaced, without loss of mass, per tooth of pinion and gear, mm².
+    pub displaced: [f64; 2],
+}
+
+/// One slice of worn flanks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SliceState {
+    /// Its middle from mid-face, mm.
+    pub face: f64,
     /// Worn depth at the stations of pinion and gear, mm.
     pub depth: [Vec<f64>; 2],
     /// Contact at every mesh position.
     pub contacts: Vec<PositionContact>,
-    /// Part of the worn area that effects only displaced, without loss of mass, per tooth of pinion and gear, mm².
-    pub displaced: [f64; 2],
+}
+
+impl WearState {
+    /// The slice `i` by itself.
+    pub fn section(&self, i: usize) -> Self {
+        let slice = &self.slices[i];
+        Self {
+            cycles: self.cycles,
+            depth: slice.depth.clone(),
+            contacts: slice.contacts.clone(),
+            slices: Vec::new(),
+            displaced: self.displaced,
+        }
+    }
 }
 
 /// What an observer is told after each accepted wear step.
@@ -242,7 +271,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
     let control = match progress {
         Some(_) => law.control(module, &[]),
         None => {
-            let fresh = vec![0.0; cycle.stations.count()];
+            let fresh = vec![0.0; system.slices() * cycle.stations.count()];
             let control = law.control(module, &system.rate(0.0, &fresh).map_err(fail)?);
             let rate = area_rate(&mut system, 0.0, &fresh).map_err(fail)?;
             *progress = Some(Progress {
@@ -281,12 +310,13 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
         let taken = advance(&mut system, &mut stand, end, control)?;
         let rate = area_rate(&mut system, stand.n, &stand.u)
             .map_err(|source| StepError::System { n: stand.n, source })?;
-        let (pinion, gear) = stand.u.split_at(cycle.stations.arc[0].len());
+        let flanks = split(cycle, &stand.u);
         let step = stand.n - progress.stand.n;
         let mut balance = progress.balance;
         for side in 0..2 {
             balance.law[side] += 0.5 * step * (progress.rate.law[side] + rate.law[side]);
-            balance.geometry[side] = worn_area(&cycle.stations.arc[side], [pinion, gear][side]);
+            balance.geometry[side] =
+                system.mean(|slice| worn_area(&cycle.stations.arc[side], flanks[slice][side]));
         }
         // worn areas of a mean depth of one module
         let unit =
@@ -339,7 +369,10 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
         progress.rate = rate;
         progress.solves = solves_before + solves;
         progress.warm = warm;
-        progress.max_depth = [pinion, gear].map(|d| d.iter().fold(0.0, |m: f64, h| m.max(*h)));
+        progress.max_depth = [0, 1].map(|side| {
+            let depths = flanks.iter().flat_map(|flanks| flanks[side]);
+            depths.fold(0.0, |m: f64, h| m.max(*h))
+        });
         progress.stand = stand;
         if !observe(progress, tangents) {
             return Ok(false);
@@ -356,28 +389,76 @@ pub fn state_of<M: ContactModel + ?Sized>(
     model: &M,
     progress: &Progress,
 ) -> Result<WearState, ContactError> {
-    let (pinion, gear) = progress
-        .stand
-        .u
-        .split_at(model.cycle().stations.arc[0].len());
-    let contacts = contacts_at(model, &progress.stand.u)?;
+    let cycle = model.cycle();
+    let by_slice = contacts_at(model, &progress.stand.u)?;
+    let flanks = split(cycle, &progress.stand.u);
+    let owned = |flanks: &[&[f64]; 2]| flanks.map(<[f64]>::to_vec);
+    let slices = model.sliced().map(|model| model.slices());
+    let depth = match slices {
+        None => owned(&flanks[0]),
+        Some(slices) => owned(&split(cycle, &slices.mean_of(&progress.stand.u))[0]),
+    };
+    let of_slice = |(i, slices): (usize, &Slices)| SliceState {
+        face: slices.place[i],
+        depth: owned(&flanks[i]),
+        contacts: by_slice[i].clone(),
+    };
+    let all = slices.into_iter();
     Ok(WearState {
         cycles: progress.stand.n,
-        depth: [pinion.to_vec(), gear.to_vec()],
-        contacts,
+        depth,
+        slices: all
+            .flat_map(|slices| (0..slices.count()).map(move |i| (i, slices)))
+            .map(of_slice)
+            .collect(),
+        contacts: mean_contacts(slices, by_slice),
         displaced: progress.displaced,
     })
 }
 
-/// The contact of every position at the depths `u` (mm at the stations of pinion and gear).
+/// Depths of pinion and gear, slice by slice.
+fn split<'u>(cycle: &Cycle, u: &'u [f64]) -> Vec<[&'u [f64]; 2]> {
+    u.chunks(cycle.stations.count())
+        .map(|slice| slice.split_at(cycle.stations.arc[0].len()).into())
+        .collect()
+}
+
+/// Contacts with the mean pressures over the face, of those by slice.
+pub fn mean_contacts(
+    slices: Option<&Slices>,
+    mut by_slice: Vec<Vec<PositionContact>>,
+) -> Vec<PositionContact> {
+    let Some(slices) = slices else {
+        return by_slice.swap_remove(0);
+    };
+    let mean = |q: usize| {
+        let all = || by_slice.iter().map(|contacts| &contacts[q]);
+        let count = by_slice[0][q].pressure.len();
+        let pressure: Vec<f64> = (0..count)
+            .map(|k| slices.mean(all().map(|contact| contact.pressure[k])))
+            .collect();
+        let largest = |of: fn(&PositionContact) -> f64| all().map(of).fold(0.0, f64::max);
+        PositionContact {
+            active: (0..count).filter(|&k| pressure[k] > 0.0).collect(),
+            pressure,
+            approach: slices.mean(all().map(|contact| contact.approach)),
+            iterations: all().map(|contact| contact.iterations).max().unwrap_or(0),
+            penetration: largest(|contact| contact.penetration),
+            torque_error: largest(|contact| contact.torque_error),
+        }
+    };
+    (0..by_slice[0].len()).map(mean).collect()
+}
+
+/// The contact of every position by slice at the depths `u` (mm at the stations of pinion and gear).
 ///
 /// # Errors
 /// [`ContactError`] of the first position that fails.
 pub fn contacts_at<M: ContactModel + ?Sized>(
     model: &M,
     u: &[f64],
-) -> Result<Vec<PositionContact>, ContactError> {
-    Ok(ArchardSystem::new(model, [0.0; 2]).contacts(u)?.to_vec())
+) -> Result<Vec<Vec<PositionContact>>, ContactError> {
+    ArchardSystem::new(model, [0.0; 2]).all_contacts(u)
 }
 
 /// ∫ h ds over one flank, mm².

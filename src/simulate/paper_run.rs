@@ -108,6 +108,7 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
                 },
                 gear: Profile::default(),
                 cycle,
+                slices: Vec::new(),
             }
         })
         .collect();

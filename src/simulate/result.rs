@@ -203,6 +203,22 @@ pub struct State {
     pub gear: Profile,
     /// Mesh positions over one base pitch, ascending.
     pub cycle: Vec<PositionState>,
+    /// Slices across the face, ascending; empty where one section stands for all of it. Flanks and mesh cycle are then the mean over the
+    /// face, pressures and widths of contact those of the slice where they are largest.
+    pub slices: Vec<FaceSlice>,
+}
+
+/// One slice of the face in one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FaceSlice {
+    /// Middle of the slice from mid-face, mm.
+    pub face: f64,
+    /// Load per width over the mean of the face, the mean over the mesh cycle.
+    pub load: f64,
+    /// Largest contact pressure over the mesh cycle, MPa.
+    pub peak_pressure: f64,
+    /// Depth of pinion and gear at the radii of their profiles, µm.
+    pub depth: [Vec<f64>; 2],
 }
 
 impl State {
@@ -212,6 +228,13 @@ impl State {
             Member::Pinion => &self.pinion,
             Member::Gear => &self.gear,
         }
+    }
+
+    /// Load per width of the slice that carries most over the mean of the face (K_Hβ), the mean over the mesh cycle; 1 for one section.
+    pub fn face_load_factor(&self) -> f64 {
+        (self.slices.iter().map(|slice| slice.load))
+            .reduce(f64::max)
+            .unwrap_or(1.0)
     }
 
     /// The largest contact pressure on the flanks over the mesh cycle, MPa, and the path coordinate of the pair that bears it,

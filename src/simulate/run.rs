@@ -329,7 +329,7 @@ fn wear(
 }
 
 /// Gathers the state where `progress` stands, with its fields: at the position nearest to the pitch point, and of the last
-/// state at evenly spread positions.
+/// state at evenly spread positions; of several slices that of the one which carries most.
 fn keep(
     plan: &Plan,
     forward: &Forward,
@@ -340,6 +340,11 @@ fn keep(
     let worn = forward.state(progress)?;
     let state = gather::state(plan, forward, &worn);
     stages.end("contact and wear");
+    let most_loaded = gather::most_loaded(forward, &worn);
+    let (section, load) = match &most_loaded {
+        Some((section, load)) => (section, load),
+        None => (&worn, &1.0),
+    };
     let drawn = match (plan.drawn_positions, forward.blanks()) {
         (0, _) | (_, None) => 0,
         (all, Some(_)) if worn.cycles == plan.conditions.cycles => all,
@@ -350,13 +355,14 @@ fn keep(
         .map(|i| {
             gather::frame(
                 forward,
-                &worn,
+                section,
+                *load,
                 forward.cycle().nearest(i as f64 / drawn as f64),
             )
         })
         .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()?;
     let root_stress = if plan.root_stress && worn.cycles == plan.conditions.cycles {
-        root_stress::largest(forward, &worn)?
+        root_stress::largest(forward, section)?
     } else {
         None
     };

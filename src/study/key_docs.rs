@@ -211,6 +211,14 @@ pub static KEY_DOCS: &[KeyDoc] = &[
 
     doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
 
+    doc("face", "slices", Value::Count(1, 201), Default("1"), "sections across the face that turn together, each with its own wear; 1: one section stands for all of the face"),
+    doc("face", "coupling", Value::Word(super::face::COUPLINGS), Default("\"none\""), "what ties neighbouring slices besides the common turn: nothing"),
+    number("face.pinion", "lead_slope", &q::LEAD, Default("0.0"), "from end to end of the face, positive: material missing at the end +face_width/2, standing proud at the other"),
+    number("face.pinion", "crowning", &q::LEAD, Default("0.0"), "material missing at both ends, a parabola from mid-face"),
+    number("face.pinion", "end_relief_amount", &q::LEAD, Default("0.0"), "material missing at both ends, straight"),
+    number("face.pinion", "end_relief_length", &q::END_RELIEF_LENGTH, Default("0.0"), "from each end inwards; needed with an amount"),
+    doc("face.pinion", "lead_file", Value::Text, Words("straight"), "a CSV file (face,deviation in mm from mid-face and µm) of the measured lead, relative to the study"),
+
     doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
     doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if it is not stated, as few as 1 are taken where 5 would ask for more than 3000 unknowns on the parts of a member's flanks that touch"),
     doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions on one base pitch"),
@@ -264,6 +272,8 @@ mod tests {
         ("noise", &[]),
         ("test", &[("id", "\"A\"")]),
         ("measurements", &[("file", "\"m.csv\"")]),
+        ("face", &[]),
+        ("face.pinion", &[]),
         ("numerics", &[]),
     ];
 
@@ -337,6 +347,7 @@ mod tests {
                         && stated.noise == plain.noise
                         && stated.tests == plain.tests
                         && stated.free == plain.free
+                        && stated.face == plain.face
                         && numerics(&stated) == numerics(&plain);
                     assert!(same, "{place} = {value} is not its default");
                 }

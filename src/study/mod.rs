@@ -11,6 +11,7 @@ mod data;
 mod edit;
 mod effect;
 mod effect_model;
+mod face;
 mod file;
 mod formula;
 mod free;
@@ -34,6 +35,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::DeTable;
 
+use crate::gear::Face;
 use crate::source_text;
 
 pub use crate::source_text::{Diagnostic, Fault, Source, TextError as StudyError, nearest};
@@ -67,6 +69,7 @@ const ROOT_KEYS: &[&str] = &[
     "effect",
     "test",
     "measurements",
+    "face",
     "numerics",
 ];
 
@@ -89,6 +92,8 @@ pub const KEYS: &[(&str, &[&str])] = &[
     ("noise", settings::NOISE_KEYS),
     ("test", operation::TEST_KEYS),
     ("measurements", settings::MEASUREMENTS_KEYS),
+    ("face", face::KEYS),
+    ("face.pinion", face::MEMBER_KEYS),
     ("numerics", numerics::KEYS),
 ];
 
@@ -119,8 +124,12 @@ pub struct Study {
     pub measurements: Option<PathBuf>,
     /// `[numerics]`.
     pub numerics: Numerics,
+    /// `[face]`.
+    pub face: Face,
     /// Files of the measured profiles of pinion and gear; what they hold is in `gears`.
     pub profiles: [Option<PathBuf>; 2],
+    /// Files of the measured leads of pinion and gear; what they hold is in `face`.
+    pub leads: [Option<PathBuf>; 2],
     free: Vec<FreeParameter>,
     effects: EffectModel,
     source: Source,
@@ -262,6 +271,22 @@ impl Study {
         )
     }
 
+    /// Refuses a face in slices for what works on one section.
+    ///
+    /// # Errors
+    /// A [`StudyError`] at `face.slices` if there are more than one.
+    pub fn one_section(&self, what: &str) -> std::result::Result<(), StudyError> {
+        if self.face.slices < 2 {
+            return Ok(());
+        }
+        Err(self.refuse(
+            "face.slices",
+            &format!("{what} works on one section of the face"),
+            "1",
+            "leave [face] away for it",
+        ))
+    }
+
     /// The study's text and the name under which it was read.
     pub fn source(&self) -> &Source {
         &self.source
@@ -274,7 +299,9 @@ impl Study {
                 spans,
                 ..study
             }
-            .with_profiles(),
+            .with_profiles()
+            .and_then(Study::with_leads)
+            .and_then(Study::with_slices),
             Err(diagnostic) => Err(StudyError::new(*diagnostic, source)),
         }
     }
@@ -285,6 +312,7 @@ impl Study {
         let all = meshes
             .into_iter()
             .chain(&self.profiles)
+            .chain(&self.leads)
             .chain([&self.measurements]);
         all.filter_map(Option::as_deref).collect()
     }
@@ -313,6 +341,34 @@ impl Study {
         Ok(self)
     }
 
+    /// The study, if its contact model knows slices.
+    fn with_slices(self) -> std::result::Result<Study, StudyError> {
+        if self.contact != ContactKind::Fem {
+            self.one_section(&format!("contact = \"{}\"", self.contact.name()))?;
+        }
+        Ok(self)
+    }
+
+    /// The study with the measured leads of its flanks.
+    fn with_leads(mut self) -> std::result::Result<Study, StudyError> {
+        for (side, key) in face::LEAD_KEYS.into_iter().enumerate() {
+            let Some(path) = &self.leads[side] else {
+                continue;
+            };
+            if !path.is_file() {
+                return Err(self.refuse(
+                    key,
+                    &format!("there is no file {}", path.display()),
+                    "the path of a lead file, relative to the study file",
+                    "",
+                ));
+            }
+            let rows = profile::load_lead(path, self.gears.face_width, &self.gears.pinion)?;
+            self.face.lead[side].measured = rows;
+        }
+        Ok(self)
+    }
+
     fn sections(source: &Source, folder: &Path) -> Result<(Study, Spans)> {
         let spans = RefCell::new(Spans::new());
         let document =
@@ -332,6 +388,7 @@ impl Study {
         let operation = operation::read(&limits, wear.cycles, lubricant, thermal)?;
         let tests = operation::read_tests(&limits, operation)?;
         let effects = effect::read(&root, lubricant, thermal)?;
+        let (face, leads) = face::read(&root, folder, gears.face_width)?;
         let study = Study {
             title,
             materials,
@@ -349,6 +406,8 @@ impl Study {
             measurements: settings::read_measurements(&root, folder)?,
             numerics: numerics::read(&root, folder, lubricant)?,
             profiles: gears::profile_files(&root, folder)?,
+            face,
+            leads,
             gears,
             source: Source {
                 name: String::new(),

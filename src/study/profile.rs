@@ -5,6 +5,7 @@
 //! 27.9,0.4                  positive: material is missing, normal to the flank, against the involute
 //! 28.1,1.1
 //! ```
+//! `lead_file` of [face.pinion] and [face.gear] is the same over the place across the face (`face,deviation`, mm from mid-face).
 //! Between the rows the deviation is a straight line over the curvature radius (steps of the path of contact); beyond the
 //! first and last row it stays as there.
 
@@ -23,7 +24,37 @@ const WANTED: Wanted = Wanted {
     hint: "profile_file in [gears.pinion] or [gears.gear] names it, relative to the study file",
 };
 
-const COLUMNS: [&str; 2] = ["radius", "deviation"];
+/// The file of a measured lead, to whoever cannot read it.
+const WANTED_LEAD: Wanted = Wanted {
+    what: "lead file",
+    ending: "csv",
+    format: "CSV",
+    hint: "lead_file in [face.pinion] or [face.gear] names it, relative to the study file",
+};
+
+/// Where deviations stand.
+#[derive(Clone, Copy)]
+enum Along<'a> {
+    /// Over the radius of this gear.
+    Profile(&'a Gear),
+    /// Over the face, this wide, from its middle.
+    Face(f64, &'a Gear),
+}
+
+impl Along<'_> {
+    fn columns(self) -> [&'static str; 2] {
+        match self {
+            Self::Profile(_) => ["radius", "deviation"],
+            Self::Face(..) => ["face", "deviation"],
+        }
+    }
+
+    fn gear(&self) -> &Gear {
+        match self {
+            Self::Profile(gear) | Self::Face(_, gear) => gear,
+        }
+    }
+}
 
 /// Largest deviation over the module; as for tip relief.
 const LARGEST: f64 = 0.1;
@@ -42,25 +73,44 @@ type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 /// A [`TextError`] for the first fault of the file: unreadable, columns, numbers, order, radius off the flank, another unit.
 pub(super) fn load(path: &Path, gear: &Gear) -> std::result::Result<Vec<[f64; 2]>, TextError> {
     let source = source_text::read(path, &WANTED)?;
-    rows(&source, gear).map_err(|diagnostic| TextError::new(*diagnostic, source))
+    rows(&source, Along::Profile(gear)).map_err(|diagnostic| TextError::new(*diagnostic, source))
 }
 
-fn rows(source: &Source, gear: &Gear) -> Result<Vec<[f64; 2]>> {
+/// Place from mid-face (mm) and missing material (mm) of every row of a measured lead, of a face this wide (mm).
+///
+/// # Errors
+/// As [`load`], for a place off the face.
+pub(super) fn load_lead(
+    path: &Path,
+    width: f64,
+    gear: &Gear,
+) -> std::result::Result<Vec<[f64; 2]>, TextError> {
+    let source = source_text::read(path, &WANTED_LEAD)?;
+    let rows = rows(&source, Along::Face(width, gear));
+    rows.map_err(|diagnostic| TextError::new(*diagnostic, source))
+}
+
+fn rows(source: &Source, along: Along<'_>) -> Result<Vec<[f64; 2]>> {
+    let names = along.columns();
+    let gear = along.gear();
     let mut lines = lines(&source.text);
     let end = source.text.trim_end().len();
     let Some(header) = lines.next() else {
         return Err(fault(Fault::MissingKey, "", "the file is empty", end..end)
-            .with_values("nothing", "the header radius,deviation and rows")
+            .with_values(
+                "nothing",
+                format!("the header {} and rows", names.join(",")),
+            )
             .into());
     };
-    let order = columns(&source.text, header)?;
+    let order = columns(&source.text, header, names)?;
     let mut out: Vec<[f64; 2]> = Vec::new();
     for line in lines {
         let cells = cells(&source.text, line.clone());
         if cells.len() != 2 {
             let message = format!("{} cells in a row of two", cells.len());
             return Err(fault(Fault::BadValue, "", message, line)
-                .with_values("", "radius,deviation")
+                .with_values("", names.join(","))
                 .into());
         }
         let number = |column: usize| -> Result<f64> {
@@ -69,7 +119,7 @@ fn rows(source: &Source, gear: &Gear) -> Result<Vec<[f64; 2]>> {
             match text.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(value),
                 _ => {
-                    let name = COLUMNS[column];
+                    let name = names[column];
                     let message = format!("{name} {text:?} is not a finite number");
                     let wanted = ["a number in mm", "a number in um"][column];
                     Err(fault(Fault::BadValue, name, message, span)
@@ -79,7 +129,14 @@ fn rows(source: &Source, gear: &Gear) -> Result<Vec<[f64; 2]>> {
             }
         };
         let (radius, deviation) = (number(0)?, number(1)?);
-        check_radius(radius, gear, out.last(), cells[order[0]].clone())?;
+        match along {
+            Along::Profile(gear) => {
+                check_radius(radius, gear, out.last(), cells[order[0]].clone())?
+            }
+            Along::Face(width, _) => {
+                check_face(radius, width, out.last(), cells[order[0]].clone())?
+            }
+        }
         let most = 1e3 * LARGEST * gear.rack.module;
         if deviation.abs() > most {
             let message = format!("deviation {} um is out of range", Short(deviation));
@@ -99,7 +156,7 @@ fn rows(source: &Source, gear: &Gear) -> Result<Vec<[f64; 2]>> {
         out.push([radius, 1e-3 * deviation]);
     }
     if out.len() < 2 {
-        let message = format!("a profile of {} rows", out.len());
+        let message = format!("a measured deviation of {} rows", out.len());
         return Err(fault(Fault::MissingKey, "", message, end..end)
             .with_values("", "at least two rows")
             .into());
@@ -156,16 +213,44 @@ fn check_radius(
     }
 }
 
-/// Which cell of a row holds the radius and which the deviation.
-fn columns(text: &str, header: Range<usize>) -> Result<[usize; 2]> {
+fn check_face(place: f64, width: f64, before: Option<&[f64; 2]>, span: Range<usize>) -> Result<()> {
+    let half = 0.5 * width;
+    let found = format!("{place} mm");
+    if place.abs() > half + ROUNDING {
+        let message = format!("face {place} mm is off the face");
+        let hint = match place {
+            p if p > 0.0 && p <= width + ROUNDING => {
+                "places count from mid-face: take off half of the width"
+            }
+            p if p.abs() <= 1e3 * half => "this may be in micrometres: write millimetres",
+            _ => "",
+        };
+        return Err(fault(Fault::BadValue, "face", message, span)
+            .with_values(found, format!("-{half} to {half} mm"))
+            .with_hint(hint)
+            .into());
+    }
+    match before {
+        Some([previous, _]) if place <= *previous => {
+            let message = format!("face {place} mm after {previous} mm");
+            Err(fault(Fault::BadValue, "face", message, span)
+                .with_values(found, format!("above {previous} mm: places ascend"))
+                .into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Which cell of a row holds the place and which the deviation.
+fn columns(text: &str, header: Range<usize>, names: [&'static str; 2]) -> Result<[usize; 2]> {
     let cells = cells(text, header.clone());
     for cell in &cells {
         let name = &text[cell.clone()];
-        if !COLUMNS.contains(&name) {
-            let near = nearest(name, COLUMNS).unwrap_or_default();
+        if !names.contains(&name) {
+            let near = nearest(name, names).unwrap_or_default();
             let message = format!("unknown column {name:?}");
             return Err(fault(Fault::UnknownKey, name, message, cell.clone())
-                .with_values(format!("`{name}`"), COLUMNS.join(", "))
+                .with_values(format!("`{name}`"), names.join(", "))
                 .with_hint(if near.is_empty() {
                     String::new()
                 } else {
@@ -183,12 +268,12 @@ fn columns(text: &str, header: Range<usize>) -> Result<[usize; 2]> {
                 let message = format!("the column {name} {often}");
                 Err(Box::new(
                     fault(Fault::MissingKey, name, message, header.clone())
-                        .with_values(format!("`{}`", &text[header.clone()]), COLUMNS.join(",")),
+                        .with_values(format!("`{}`", &text[header.clone()]), names.join(",")),
                 ))
             }
         }
     };
-    Ok([place(COLUMNS[0])?, place(COLUMNS[1])?])
+    Ok([place(names[0])?, place(names[1])?])
 }
 
 fn fault(fault: Fault, column: &str, message: impl Into<String>, span: Range<usize>) -> Diagnostic {

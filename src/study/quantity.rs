@@ -177,6 +177,18 @@ pub(super) const RELIEF_LENGTH: Quantity = quantity(
     1000.0,
     "measured along the path of contact, from the tip",
 );
+pub(super) const LEAD: Quantity = quantity(
+    "um",
+    From(-1000.0),
+    1000.0,
+    "material missing across the face; 5 to 30 um is usual",
+);
+pub(super) const END_RELIEF_LENGTH: Quantity = quantity(
+    "mm",
+    From(0.0),
+    1000.0,
+    "from each end of the face inwards, up to half of it",
+);
 pub(super) const TIP_ROUNDING: Quantity = quantity(
     "mm",
     From(0.0),

@@ -19,6 +19,7 @@ impl Study {
             densities: [pinion.density_kg_m3, gear.density_kg_m3],
             centre_distance: self.gears.centre_distance,
             face_width: self.gears.face_width,
+            face: self.face.clone(),
         }
     }
 

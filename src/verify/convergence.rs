@@ -132,6 +132,7 @@ fn set() -> Result<GearSet, GearError> {
         densities: [7850.0; 2],
         centre_distance: 80.0,
         face_width: 33.0,
+        face: crate::gear::Face::default(),
     })
 }
 

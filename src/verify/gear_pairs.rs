@@ -112,6 +112,7 @@ impl Data {
                 densities: [7850.0; 2],
                 centre_distance,
                 face_width: self.face_width,
+                face: crate::gear::Face::default(),
             },
             torque: self.torque,
         })

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use crate::contact::mortar::{Coupling, Facing, Trace, couple};
 use crate::contact::unilateral::{Drive, Problem, Solution, UnilateralError, sensitivity, solve};
 use crate::verify::CaseError;
-use crate::wear::integrator::{Stand, StepControl, WearSystem, advance};
+use crate::wear::integrator::{Jacobian, Stand, StepControl, WearSystem, advance};
 
 /// The default step tolerance of a simulation, relative to the largest depth.
 pub const DEFAULT_TOLERANCE: f64 = 2e-3;
@@ -138,7 +138,7 @@ impl WearSystem for SlidingContact {
         Ok(self.contact(u)?.pressure.iter().map(|p| k * p).collect())
     }
 
-    fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Mat<f64>>, UnilateralError> {
+    fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Jacobian>, UnilateralError> {
         let (active, s) = self.relaxation(u)?;
         let mut jacobian = Mat::zeros(u.len(), u.len());
         for (j, &l) in active.iter().enumerate() {
@@ -149,7 +149,7 @@ impl WearSystem for SlidingContact {
                 }
             }
         }
-        Ok(Some(jacobian))
+        Ok(Some(Jacobian::Full(jacobian)))
     }
 }
 

@@ -7,6 +7,7 @@ use crate::contact::alteration::Alteration;
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::deposit::tributary;
 use crate::contact::model::PositionContact;
+use crate::contact::slices::Slices;
 use crate::effects::{
     Combined, Effect, Hook, Local, OperationState, ProfileAt, REFERENCE_TEMPERATURE, Surroundings,
 };
@@ -101,17 +102,24 @@ impl Acting {
         self.effects.operation(&state).centre_distance
     }
 
-    /// What the effects change about the contact over `cycle`.
-    pub fn alteration(&self, cycle: &Cycle) -> Alteration {
+    /// What the effects change about the contact over `cycle`; `slices`: those of the face, if it has more than one.
+    pub fn alteration(&self, cycle: &Cycle, slices: Option<&Slices>) -> Alteration {
+        let across = slices.filter(|_| self.effects.has_lead());
         let acts = |hook| self.acts(hook).then_some(());
         Alteration {
             profile: acts(Hook::Profile).map(|()| Member::BOTH.map(|m| self.profile(cycle, m))),
-            load_factor: acts(Hook::LoadFactor).map(|()| self.load_factors(cycle)),
+            load_factor: acts(Hook::LoadFactor)
+                .map(|()| self.load_factors(cycle, across.is_some())),
             friction: acts(Hook::Friction).map(|()| self.friction(cycle)),
             // µm per N/mm
             flexibility: 1e-3 * self.effects.compliance(),
             tooth_offset: acts(Hook::ToothOffset)
                 .map(|()| [-2, -1, 0, 1, 2].map(|tooth| 1e-3 * self.effects.tooth_offset(tooth))),
+            lead: across.map(|slices| {
+                let half = 0.5 * self.face_width;
+                let lead = |y: &f64| 1e-3 * self.effects.lead(y / half).unwrap_or(0.0);
+                slices.place.iter().map(lead).collect()
+            }),
         }
     }
 
@@ -138,8 +146,14 @@ impl Acting {
         cycle.stations.arc[side(member)].iter().map(at).collect()
     }
 
-    fn load_factors(&self, cycle: &Cycle) -> Vec<Vec<f64>> {
-        self.before_contact(cycle, |local| self.effects.load_factor(local))
+    fn load_factors(&self, cycle: &Cycle, across: bool) -> Vec<Vec<f64>> {
+        self.before_contact(cycle, |local| {
+            if across {
+                self.effects.load_factor_of_sections(local)
+            } else {
+                self.effects.load_factor(local)
+            }
+        })
     }
 
     /// With the drive reversed all sliding is.

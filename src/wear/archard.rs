@@ -12,15 +12,15 @@
 //! ```
 
 use faer::Mat;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::contact::cycle::{PairContact, Position};
-use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::model::{ContactError, ContactModel, PositionContact, SlicedContact};
 use crate::effects::{Effect, Hook};
 use crate::numeric::sparse::SparseRows;
 use crate::wear::acting::Acting;
-use crate::wear::integrator::WearSystem;
+use crate::wear::integrator::{Jacobian, WearSystem};
 use crate::wear::law::{AddedReads, Factors, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
 
@@ -38,27 +38,35 @@ pub enum WearError {
     Effect(String),
 }
 
-/// The two flanks' depths as one vector: pinion stations, then gear stations, mm.
+/// The two flanks' depths as one vector: pinion stations, then gear stations, mm; where the face has several slices, slice after slice.
 pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
     pub(super) model: &'a M,
     /// Wear coefficient of pinion and gear, mm²/N.
     pub(super) coefficient: [f64; 2],
     pub(super) acting: Option<&'a Acting>,
     passage: Option<Passage>,
+    /// By slice and position.
     warm: Vec<Vec<usize>>,
     /// The last two solutions, the last one first: both stages of a step.
-    last: [Option<Solved>; 2],
+    last: [Option<Joint>; 2],
     /// The factors of every position that the Jacobian was last made with.
     factors: Option<KnownFactors>,
     /// Contact problems solved so far.
     pub solves: usize,
 }
 
-/// Factors on the wear coefficient at some cycles and depths, by position.
+/// Contacts solved for some depths, by slice.
+pub(super) struct Joint {
+    /// Depths of all slices, mm.
+    pub(super) u: Vec<f64>,
+    pub(super) slices: Vec<Solved>,
+}
+
+/// Factors on the wear coefficient at some cycles and depths, by slice and position.
 struct KnownFactors {
     n: f64,
     u: Vec<f64>,
-    factors: Vec<Factors>,
+    factors: Vec<Vec<Factors>>,
 }
 
 /// Worn area per pinion cycle and flank, pinion and gear, mm².
@@ -73,16 +81,18 @@ pub struct AreaRate {
 impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     /// Wear under `model` with the coefficients of pinion and gear, mm²/N.
     pub fn new(model: &'a M, coefficient: [f64; 2]) -> Self {
-        Self {
+        let mut out = Self {
             model,
             coefficient,
             acting: None,
             passage: None,
-            warm: vec![Vec::new(); model.cycle().positions.len()],
+            warm: Vec::new(),
             last: [None, None],
             factors: None,
             solves: 0,
-        }
+        };
+        out.warm = vec![Vec::new(); out.slices() * model.cycle().positions.len()];
+        out
     }
 
     /// The same with physical effects.
@@ -94,7 +104,20 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         self
     }
 
-    /// Goes on from the contact sets `warm` (one list of unknowns per position; others are ignored).
+    /// Number of slices of the face.
+    pub fn slices(&self) -> usize {
+        self.model.sliced().map_or(1, |m| m.slices().count())
+    }
+
+    /// The mean over the face of what `of` gives for each slice.
+    pub fn mean(&self, of: impl Fn(usize) -> f64) -> f64 {
+        match self.model.sliced() {
+            Some(model) => model.slices().mean((0..self.slices()).map(of)),
+            None => of(0),
+        }
+    }
+
+    /// Goes on from the contact sets `warm` (one list of unknowns per slice and position; others are ignored).
     pub fn start_from(&mut self, warm: &[Vec<usize>]) {
         if warm.len() == self.warm.len() {
             self.warm = warm.to_vec();
@@ -106,17 +129,26 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         &self.warm
     }
 
-    /// The contact of every position for the depths `u`.
+    /// The contact of every position for the depths `u`, of the first slice.
     ///
     /// # Errors
     /// [`ContactError`] of the first position that fails.
     pub fn contacts(&mut self, u: &[f64]) -> Result<&[PositionContact], ContactError> {
-        Ok(&self.solved(u)?.contacts)
+        Ok(&self.solved(u)?.slices[0].contacts)
+    }
+
+    /// The contact of every position for the depths `u`, by slice.
+    ///
+    /// # Errors
+    /// [`ContactError`] of the first position that fails.
+    pub fn all_contacts(&mut self, u: &[f64]) -> Result<Vec<Vec<PositionContact>>, ContactError> {
+        let slices = &self.solved(u)?.slices;
+        Ok(slices.iter().map(|slice| slice.contacts.clone()).collect())
     }
 
     /// The same, with what stations see of it where effects ask.
-    pub(super) fn solved(&mut self, u: &[f64]) -> Result<&Solved, ContactError> {
-        let is_known = |solved: &Option<Solved>| solved.as_ref().is_some_and(|s| s.u == u);
+    pub(super) fn solved(&mut self, u: &[f64]) -> Result<&Joint, ContactError> {
+        let is_known = |solved: &Option<Joint>| solved.as_ref().is_some_and(|s| s.u == u);
         let place = match self.last.iter().position(is_known) {
             Some(place) => place,
             None => {
@@ -129,14 +161,22 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         Ok(self.last[place].as_ref().expect("found or just filled"))
     }
 
-    /// Takes `contacts` for those of the depths `u`.
-    pub fn take(&mut self, u: &[f64], contacts: Vec<PositionContact>) {
-        let moments = self.moments(&contacts);
-        self.last[0] = Some(Solved {
+    /// Takes `contacts`, by slice, for those of the depths `u`.
+    pub fn take(&mut self, u: &[f64], contacts: Vec<Vec<PositionContact>>) {
+        self.last[0] = Some(self.joint(u, contacts));
+    }
+
+    fn joint(&self, u: &[f64], contacts: Vec<Vec<PositionContact>>) -> Joint {
+        let size = u.len() / contacts.len();
+        let of_slice = |(u, contacts): (&[f64], Vec<PositionContact>)| Solved {
             u: u.to_vec(),
+            moments: self.moments(&contacts),
             contacts,
-            moments,
-        });
+        };
+        Joint {
+            u: u.to_vec(),
+            slices: u.chunks(size).zip(contacts).map(of_slice).collect(),
+        }
     }
 
     fn moments(&self, contacts: &[PositionContact]) -> [Vec<Moment>; 2] {
@@ -145,39 +185,56 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         })
     }
 
-    fn solve(&mut self, u: &[f64]) -> Result<Solved, ContactError> {
-        let depth = self.law().split(u);
-        // analytic contacts are too cheap to be handed out one by one
-        let contacts: Vec<PositionContact> = self
-            .warm
-            .par_iter()
-            .with_min_len(4)
-            .enumerate()
-            .map(|(q, start)| self.model.solve(q, depth, start))
-            .collect::<Result<_, _>>()?;
-        self.solves += contacts.len();
-        for (warm, contact) in self.warm.iter_mut().zip(&contacts) {
+    fn solve(&mut self, u: &[f64]) -> Result<Joint, ContactError> {
+        let law = self.law();
+        let positions = law.cycle.positions.len();
+        let contacts: Vec<Vec<PositionContact>> = match self.model.sliced() {
+            None => {
+                let depth = law.split(u);
+                // analytic contacts are too cheap to be handed out one by one
+                let all = (self.warm.par_iter().with_min_len(4).enumerate())
+                    .map(|(q, start)| self.model.solve(q, depth, start));
+                vec![all.collect::<Result<_, _>>()?]
+            }
+            Some(model) => {
+                let depths: Vec<[&[f64]; 2]> = law.each(u);
+                let of_position = |q: usize| {
+                    let flanks = law.flanks(q, &depths);
+                    let start: Vec<Vec<usize>> = (0..depths.len())
+                        .map(|i| self.warm[i * positions + q].clone())
+                        .collect();
+                    model.solve_all(q, &flanks, &start)
+                };
+                let solved = (0..positions).into_par_iter().map(of_position);
+                by_slice(solved.collect::<Result<Vec<_>, _>>()?)
+            }
+        };
+        self.solves += self.warm.len();
+        for (warm, contact) in self.warm.iter_mut().zip(contacts.iter().flatten()) {
             warm.clone_from(&contact.active);
         }
-        let moments = self.moments(&contacts);
-        Ok(Solved {
-            u: u.to_vec(),
-            contacts,
-            moments,
-        })
+        Ok(self.joint(u, contacts))
     }
 
-    /// Worn area per pinion cycle at `n` cycles for the depths `u`, from the line loads.
+    /// Worn area per pinion cycle at `n` cycles for the depths `u`, from the line loads; the mean over the face.
     ///
     /// # Errors
     /// [`WearError`]
     pub fn area_rate(&mut self, n: f64, u: &[f64]) -> Result<AreaRate, WearError> {
         self.solved(u)?;
-        Ok(self.law().area_rate(n, self.known(u)))
+        let (law, known) = (self.law_at(u), self.known(u));
+        let rates: Vec<AreaRate> = (known.slices.iter()).map(|s| law.area_rate(n, s)).collect();
+        let mean = |of: fn(&AreaRate) -> [f64; 2]| {
+            [0, 1].map(|side| self.mean(|slice| of(&rates[slice])[side]))
+        };
+        Ok(AreaRate {
+            law: mean(|rate| rate.law),
+            displaced: mean(|rate| rate.displaced),
+        })
     }
 
     /// What a solution for `u` gave, once there has been one.
-    pub(super) fn known(&self, u: &[f64]) -> &Solved {
+    pub(super) fn known(&self, u: &[f64]) -> &Joint {
         let known = self.last.iter().flatten().find(|solved| solved.u == u);
         known.expect("the contacts for these depths were just solved")
     }
@@ -188,8 +245,103 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             coefficient: self.coefficient,
             acting: self.acting,
             passage: self.passage.as_ref(),
+            worn_volume: None,
         }
     }
+
+    /// The law in each slice where the depths are `u`: what has worn off is that of the whole face.
+    pub(super) fn law_at(&self, u: &[f64]) -> Law<'_> {
+        let law = self.law();
+        Law {
+            worn_volume: self.worn_volume(law.acting, u),
+            ..law
+        }
+    }
+
+    /// Volume worn off both members, mm³, where it is not that of one section.
+    pub(super) fn worn_volume(&self, acting: Option<&Acting>, u: &[f64]) -> Option<f64> {
+        let acting = acting.filter(|_| self.model.sliced().is_some())?;
+        let law = self.law();
+        let depths: Vec<[&[f64]; 2]> = law.each(u);
+        Some(self.mean(|slice| acting.worn_volume(law.cycle, depths[slice])))
+    }
+
+    /// The Jacobian of all slices: each by itself at a given approach, and what the common approach of each position adds.
+    fn jacobian_of_slices(
+        &self,
+        model: &dyn SlicedContact,
+        n: f64,
+        u: &[f64],
+    ) -> Result<(Jacobian, Vec<Vec<Factors>>), WearError> {
+        let (law, joint) = (self.law_at(u), self.known(u));
+        let cycle = law.cycle;
+        let positions = cycle.positions.len();
+        let size = cycle.stations.count();
+        let sensitivities = (0..positions)
+            .into_par_iter()
+            .map(|q| {
+                let contacts: Vec<&PositionContact> =
+                    (joint.slices.iter()).map(|s| &s.contacts[q]).collect();
+                model.sensitivities(q, &contacts)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let weights = &model.slices().weight;
+        let of_slice = |(i, solved): (usize, &Solved)| {
+            let view = law.view(n, &solved.u);
+            let reads = law.added_reads(&view, solved, &law.reads(solved));
+            let mut block = Mat::zeros(size, size);
+            let mut drive = Mat::zeros(size, positions);
+            let mut follow = Mat::zeros(size, positions);
+            let mut all_factors = Vec::with_capacity(positions);
+            for (q, (contact, reads)) in solved.contacts.iter().zip(reads).enumerate() {
+                let position = &cycle.positions[q];
+                let [factors, slopes] = law.factors_and_slopes(&view, position, contact);
+                all_factors.push(factors);
+                let local = Local {
+                    position,
+                    active: &contact.active,
+                    shift: [0, cycle.stations.arc[0].len()],
+                    scale: law.scale(),
+                    slopes,
+                    reads,
+                };
+                let sensitivity = &sensitivities[q][i];
+                local.add(&sensitivity.fixed, &mut block);
+                local.drives(&sensitivity.drive, drive.col_as_slice_mut(q));
+                local.follows(&sensitivity.follow, weights[i], follow.col_as_slice_mut(q));
+            }
+            (block, drive, follow, all_factors)
+        };
+        let parts: Vec<_> = (joint.slices.par_iter().enumerate())
+            .map(of_slice)
+            .collect();
+        let (mut blocks, mut drive, mut follow) = (Vec::new(), Vec::new(), Vec::new());
+        let mut factors = Vec::new();
+        for part in parts {
+            blocks.push(part.0);
+            drive.push(part.1);
+            follow.push(part.2);
+            factors.push(part.3);
+        }
+        let jacobian = Jacobian::Blocks {
+            blocks,
+            drive,
+            follow,
+        };
+        Ok((jacobian, factors))
+    }
+}
+
+/// Contacts by position and slice as contacts by slice and position.
+fn by_slice<T>(by_position: Vec<Vec<T>>) -> Vec<Vec<T>> {
+    let count = by_position.first().map_or(0, Vec::len);
+    let mut out: Vec<Vec<T>> = (0..count).map(|_| Vec::new()).collect();
+    for position in by_position {
+        for (slice, contact) in out.iter_mut().zip(position) {
+            slice.push(contact);
+        }
+    }
+    out
 }
 
 impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
@@ -198,17 +350,36 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
     fn rate(&mut self, n: f64, u: &[f64]) -> Result<Vec<f64>, WearError> {
         self.solved(u)?;
         let known = (self.factors.as_ref()).filter(|known| known.n == n && known.u == u);
-        let known = known.map(|known| known.factors.as_slice());
-        let rate = self.law().rate(n, self.known(u), known);
+        let law = self.law_at(u);
+        let of_slice = |(i, solved): (usize, &Solved)| {
+            law.rate(n, solved, known.map(|known| known.factors[i].as_slice()))
+        };
+        let slices = &self.known(u).slices;
+        let rate = match slices.as_slice() {
+            [one] => of_slice((0, one)),
+            all => {
+                let rates: Vec<Vec<f64>> = all.par_iter().enumerate().map(of_slice).collect();
+                rates.concat()
+            }
+        };
         match self.acting.and_then(|acting| acting.effects.fault()) {
             Some(fault) => Err(WearError::Effect(fault)),
             None => Ok(rate),
         }
     }
 
-    fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Mat<f64>>, WearError> {
+    fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Jacobian>, WearError> {
         self.solved(u)?;
-        let (law, solved) = (self.law(), self.known(u));
+        if let Some(model) = self.model.sliced() {
+            let (jacobian, factors) = self.jacobian_of_slices(model, n, u)?;
+            self.factors = Some(KnownFactors {
+                n,
+                u: u.to_vec(),
+                factors,
+            });
+            return Ok(Some(jacobian));
+        }
+        let (law, solved) = (self.law(), &self.known(u).slices[0]);
         let (cycle, contacts) = (law.cycle, &solved.contacts);
         let blocks: Vec<Option<DMatrix<f64>>> = contacts
             .par_iter()
@@ -239,9 +410,9 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
         self.factors = Some(KnownFactors {
             n,
             u: u.to_vec(),
-            factors: all_factors,
+            factors: vec![all_factors],
         });
-        Ok(Some(jacobian))
+        Ok(Some(Jacobian::Full(jacobian)))
     }
 }
 
@@ -279,9 +450,9 @@ impl Local<'_> {
             })
     }
 
-    fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut Mat<f64>) {
-        let deposits: Vec<Vec<(usize, f64)>> = self
-            .active
+    /// Where the pressure at each unknown of the active set wears, by its rate of depth.
+    fn deposits(&self) -> Vec<Vec<(usize, f64)>> {
+        self.active
             .iter()
             .map(|&k| {
                 let slope = |side: usize| self.slopes.as_ref().map_or(1.0, |s| s[side][k]);
@@ -291,7 +462,29 @@ impl Local<'_> {
                     .chain(read.map(|&(_, at, value)| (at, value)))
                     .collect()
             })
-            .collect();
+            .collect()
+    }
+
+    /// Rates per approach, where `pressure` is that on the active set per approach.
+    fn drives(&self, pressure: &DVector<f64>, rate: &mut [f64]) {
+        for (deposit, p) in self.deposits().iter().zip(pressure.iter()) {
+            for &(at, value) in deposit {
+                rate[at] += value * p;
+            }
+        }
+    }
+
+    /// Approach per depth, where `gap` times `share` is that per weighted gap on the active set.
+    fn follows(&self, gap: &DVector<f64>, share: f64, depth: &mut [f64]) {
+        for (&k, f) in self.active.iter().zip(gap.iter()) {
+            for (station, opening, _) in self.row(k, |pair| &pair.opening) {
+                depth[station] += share * f * opening;
+            }
+        }
+    }
+
+    fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut Mat<f64>) {
+        let deposits = self.deposits();
         let mut touched: Vec<usize> = deposits.iter().flatten().map(|e| e.0).collect();
         touched.sort_unstable();
         touched.dedup();

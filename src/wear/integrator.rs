@@ -30,7 +30,23 @@ pub trait WearSystem {
     ///
     /// # Errors
     /// Whatever makes the rates unavailable.
-    fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Mat<f64>>, Self::Error>;
+    fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Jacobian>, Self::Error>;
+}
+
+/// A matrix that stands in for ∂F/∂u.
+pub enum Jacobian {
+    /// Any.
+    Full(Mat<f64>),
+    /// Systems of one size that act on one another through few common quantities (slices of a face through the approach of each mesh
+    /// position): J = diag(blocks) + U Vᵀ with U and V by block, each with one column for each quantity.
+    Blocks {
+        /// Each system by itself.
+        blocks: Vec<Mat<f64>>,
+        /// How its rate follows the common quantities.
+        drive: Vec<Mat<f64>>,
+        /// How these follow its unknowns.
+        follow: Vec<Mat<f64>>,
+    },
 }
 
 /// A system whose rate is differentiated by some parameters.
@@ -290,9 +306,10 @@ mod tests {
         fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, Self::Error> {
             Ok(vec![1.0, -self.0 * (u[1] - u[0].sin()) + u[0].cos()])
         }
-        fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Mat<f64>>, Self::Error> {
+        fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Jacobian>, Self::Error> {
             let j = [[0.0, 0.0], [self.0 * u[0].cos() - u[0].sin(), -self.0]];
-            Ok((self.0 > 10.0).then(|| Mat::from_fn(2, 2, |i, k| j[i][k])))
+            let full = || Jacobian::Full(Mat::from_fn(2, 2, |i, k| j[i][k]));
+            Ok((self.0 > 10.0).then(full))
         }
     }
 

@@ -3,6 +3,7 @@
 use crate::contact::cycle::{Cycle, Position};
 use crate::contact::deposit::tributary;
 use crate::contact::model::PositionContact;
+use crate::contact::slices::Flanks;
 use crate::effects::{Effect, Hook, Local};
 use crate::gear::Member;
 use crate::wear::acting::{Acting, Age, PairLoad, side};
@@ -19,6 +20,8 @@ pub(super) struct Law<'a> {
     pub(super) acting: Option<&'a Acting>,
     /// Only where an effect adds depth.
     pub(super) passage: Option<&'a Passage>,
+    /// Volume worn off both members, mm³, where it does not follow from the depths at hand.
+    pub(super) worn_volume: Option<f64>,
 }
 
 /// Contacts solved for some depths.
@@ -47,6 +50,18 @@ impl Law<'_> {
         [pinion, gear]
     }
 
+    /// The same of every slice of the face.
+    pub(super) fn each<'u>(&self, u: &'u [f64]) -> Vec<[&'u [f64]; 2]> {
+        let slices = u.chunks(self.cycle.stations.count());
+        slices.map(|slice| self.split(slice)).collect()
+    }
+
+    /// The flanks at position `q` with these depths by slice.
+    pub(super) fn flanks<'u>(&self, q: usize, depths: &[[&'u [f64]; 2]]) -> Flanks<'u> {
+        let pairs = self.cycle.positions[q].pairs.len();
+        Flanks::new(depths.len(), pairs, |slice, _| depths[slice])
+    }
+
     /// Depth rate per pressure of pinion and gear: k per pinion cycle.
     pub(super) fn scale(&self) -> [f64; 2] {
         [
@@ -57,9 +72,8 @@ impl Law<'_> {
 
     pub(super) fn view<'b>(&self, n: f64, u: &'b [f64]) -> Worn<'b> {
         let depth = self.split(u);
-        let worn_volume = self
-            .acting
-            .map_or(0.0, |acting| acting.worn_volume(self.cycle, depth));
+        let own = || (self.acting).map_or(0.0, |acting| acting.worn_volume(self.cycle, depth));
+        let worn_volume = self.worn_volume.unwrap_or_else(own);
         Worn {
             depth,
             age: Age {

@@ -7,7 +7,10 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::prelude::ReborrowMut;
 use faer::sparse::linalg::solvers::Lu;
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{ColMut, Mat};
+use faer::{ColMut, Mat, MatMut};
+use rayon::prelude::*;
+
+use crate::wear::integrator::Jacobian;
 
 /// From so many unknowns on a sparse factor can be cheaper than a full one.
 const LEAST_UNKNOWNS: usize = 500;
@@ -19,11 +22,88 @@ const MOST_FILLED: f64 = 0.25;
 pub(super) enum Shifted {
     Full(PartialPivLu<f64>),
     Sparse(Box<Lu<u32, f64>>),
+    Blocks(Box<Blocks>),
+}
+
+/// diag(A_i) − f U Vᵀ with A_i = I − f J_i, by Woodbury's formula: x = A⁻¹ r + f Z s, (I − f Vᵀ Z) s = Vᵀ A⁻¹ r, Z = A⁻¹ U.
+pub(super) struct Blocks {
+    size: usize,
+    quantities: usize,
+    factor: f64,
+    blocks: Vec<Shifted>,
+    /// Z by block.
+    driven: Vec<Mat<f64>>,
+    follow: Vec<Mat<f64>>,
+    common: PartialPivLu<f64>,
+}
+
+impl Blocks {
+    fn new(blocks: &[Mat<f64>], drive: &[Mat<f64>], follow: &[Mat<f64>], factor: f64) -> Self {
+        let parts: Vec<(Shifted, Mat<f64>, Mat<f64>)> = (blocks, drive, follow)
+            .into_par_iter()
+            .map(|(block, drive, follow)| {
+                let shifted = Shifted::of(block, factor);
+                let mut driven = drive.clone();
+                shifted.solve_all(driven.as_mut());
+                let loop_gain = follow.transpose() * &driven;
+                (shifted, driven, loop_gain)
+            })
+            .collect();
+        let quantities = follow.first().map_or(0, Mat::ncols);
+        let mut common = Mat::<f64>::identity(quantities, quantities);
+        let (mut shifted, mut driven) = (Vec::new(), Vec::new());
+        // in the blocks' order, so that the sum does not depend on the threads
+        for (block, of_block, gain) in parts {
+            common -= faer::Scale(factor) * gain;
+            shifted.push(block);
+            driven.push(of_block);
+        }
+        Self {
+            size: blocks.first().map_or(0, Mat::nrows),
+            quantities,
+            factor,
+            blocks: shifted,
+            driven,
+            follow: follow.to_vec(),
+            common: common.partial_piv_lu(),
+        }
+    }
+
+    fn solve(&self, right: &mut [f64]) {
+        let mut shared = Mat::<f64>::zeros(self.quantities, 1);
+        for (i, own) in right.chunks_mut(self.size).enumerate() {
+            self.blocks[i].solve(own);
+            for (j, shared) in shared.col_as_slice_mut(0).iter_mut().enumerate() {
+                let follow = self.follow[i].col_as_slice(j);
+                *shared += follow.iter().zip(&*own).map(|(v, x)| v * x).sum::<f64>();
+            }
+        }
+        self.common.solve_in_place(shared.as_mut());
+        for (i, own) in right.chunks_mut(self.size).enumerate() {
+            for (j, shared) in shared.col_as_slice(0).iter().enumerate() {
+                let driven = self.driven[i].col_as_slice(j);
+                for (x, z) in own.iter_mut().zip(driven) {
+                    *x += self.factor * shared * z;
+                }
+            }
+        }
+    }
 }
 
 impl Shifted {
     /// I − `factor` J. (J's eigenvalues lie in the left half plane, so it is never near singular.)
-    pub(super) fn new(jacobian: &Mat<f64>, factor: f64) -> Self {
+    pub(super) fn new(jacobian: &Jacobian, factor: f64) -> Self {
+        match jacobian {
+            Jacobian::Full(jacobian) => Self::of(jacobian, factor),
+            Jacobian::Blocks {
+                blocks,
+                drive,
+                follow,
+            } => Self::Blocks(Box::new(Blocks::new(blocks, drive, follow, factor))),
+        }
+    }
+
+    fn of(jacobian: &Mat<f64>, factor: f64) -> Self {
         Self::sparse(jacobian, factor).unwrap_or_else(|| {
             let n = jacobian.nrows();
             Self::Full(Mat::from_fn(n, n, |i, j| entry(jacobian, factor, i, j)).partial_piv_lu())
@@ -58,6 +138,16 @@ impl Shifted {
         match self {
             Self::Full(lu) => lu.solve_in_place(column.rb_mut()),
             Self::Sparse(lu) => lu.solve_in_place(column.rb_mut()),
+            Self::Blocks(blocks) => blocks.solve(rhs),
+        }
+    }
+
+    /// Solves for every column in place.
+    fn solve_all(&self, mut columns: MatMut<'_, f64>) {
+        match self {
+            Self::Full(lu) => lu.solve_in_place(columns.rb_mut()),
+            Self::Sparse(lu) => lu.solve_in_place(columns.rb_mut()),
+            Self::Blocks(_) => unreachable!("blocks have no blocks"),
         }
     }
 }
@@ -85,7 +175,7 @@ mod tests {
         });
         let known: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         let factor = 0.3;
-        let sparse = Shifted::new(&jacobian, factor);
+        let sparse = Shifted::of(&jacobian, factor);
         assert!(matches!(sparse, Shifted::Sparse(_)));
         let matrix = Mat::from_fn(n, n, |i, j| entry(&jacobian, factor, i, j));
         let full = Shifted::Full(matrix.partial_piv_lu());
@@ -110,7 +200,7 @@ mod tests {
                 _ => 0.0,
             });
             let factor = 40.0;
-            let shifted = Shifted::new(&jacobian, factor);
+            let shifted = Shifted::of(&jacobian, factor);
             assert_eq!(matches!(shifted, Shifted::Sparse(_)), sparse);
             for k in [1, 7, n / 2, n] {
                 let angle = k as f64 * std::f64::consts::PI / (n as f64 + 1.0);
@@ -132,6 +222,52 @@ mod tests {
         let jacobian = Mat::from_fn(LEAST_UNKNOWNS, LEAST_UNKNOWNS, |i, j| {
             -1.0 / (1.0 + i.abs_diff(j) as f64)
         });
-        assert!(matches!(Shifted::new(&jacobian, 1.0), Shifted::Full(_)));
+        assert!(matches!(Shifted::of(&jacobian, 1.0), Shifted::Full(_)));
+    }
+
+    /// Blocks with common quantities against the same matrix written out.
+    #[test]
+    fn blocks_with_common_quantities_are_solved_as_the_whole() {
+        let (count, n, quantities) = (3, 5, 2);
+        let value =
+            |i: usize, j: usize, k: usize| ((7 * i + 13 * j + 29 * k) % 11) as f64 / 11.0 - 0.4;
+        let blocks: Vec<Mat<f64>> = (0..count)
+            .map(|b| {
+                Mat::from_fn(n, n, |i, j| {
+                    value(i, j, b) - 3.0 * f64::from(u8::from(i == j))
+                })
+            })
+            .collect();
+        let thin = |shift: usize| -> Vec<Mat<f64>> {
+            (0..count)
+                .map(|b| Mat::from_fn(n, quantities, |i, j| value(i, j, b + shift)))
+                .collect()
+        };
+        let (drive, follow) = (thin(3), thin(8));
+        let all = count * n;
+        let whole = Mat::from_fn(all, all, |i, j| {
+            let own = if i / n == j / n {
+                blocks[i / n][(i % n, j % n)]
+            } else {
+                0.0
+            };
+            let common: f64 = (0..quantities)
+                .map(|q| drive[i / n][(i % n, q)] * follow[j / n][(j % n, q)])
+                .sum();
+            own + common
+        });
+        let factor = 0.2;
+        let mut expected: Vec<f64> = (0..all).map(|i| (i as f64).cos()).collect();
+        let mut found = expected.clone();
+        Shifted::of(&whole, factor).solve(&mut expected);
+        let jacobian = Jacobian::Blocks {
+            blocks,
+            drive,
+            follow,
+        };
+        Shifted::new(&jacobian, factor).solve(&mut found);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() < 1e-12, "{found}, {expected}");
+        }
     }
 }

@@ -12,10 +12,10 @@
 
 use rayon::prelude::*;
 
-use crate::contact::model::ContactModel;
-use crate::contact::tangent::{AlterationChange, Change, ContactTangent};
+use crate::contact::model::{ContactModel, PositionContact, SlicedContact};
+use crate::contact::tangent::{AlterationChange, Change, ContactTangent, SliceChange};
 use crate::wear::acting::Acting;
-use crate::wear::archard::{ArchardSystem, WearError};
+use crate::wear::archard::{ArchardSystem, Joint, WearError};
 use crate::wear::integrator::{Differentiable, Tangents};
 use crate::wear::law::{Law, Reads, Solved};
 
@@ -49,72 +49,160 @@ struct ContactTangents {
     response_tangents: Vec<Option<Vec<Vec<Vec<f64>>>>>,
 }
 
+/// Contact tangents and responses of one position, by slice: tangents by direction, responses by vector, and their derivatives by direction
+/// and vector.
+type OfPosition = Vec<(
+    Vec<ContactTangent>,
+    Vec<Vec<f64>>,
+    Vec<Option<Vec<Vec<f64>>>>,
+)>;
+
 impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
+    /// By slice.
     fn contacts(
         &self,
-        solved: &Solved,
+        joint: &Joint,
         du: &[Vec<f64>],
         along: &[&[f64]],
-    ) -> Result<ContactTangents, WearError> {
-        let (model, law) = (self.system.model, self.system.law());
-        let depth = law.split(&solved.u);
-        let of_position = |q: usize| {
-            let linear = model.linearised(q, &solved.contacts[q], depth)?;
-            let tangents: Vec<ContactTangent> = (self.directions.iter().zip(du))
-                .map(|(direction, du)| {
-                    linear.tangent(&Change {
-                        depth: law.split(du),
-                        altered: direction.altered.as_ref(),
-                    })
-                })
-                .collect();
-            let responses: Vec<Vec<f64>> = along
-                .iter()
-                .map(|v| linear.response(law.split(v)))
-                .collect();
-            let moved: Vec<Option<Vec<Vec<f64>>>> = (self.directions.iter())
-                .map(|direction| {
-                    let altered = direction.altered.as_ref()?;
-                    let moved = responses
-                        .iter()
-                        .map(|y| linear.response_tangent(y, altered));
-                    moved.collect()
-                })
-                .collect();
-            Ok::<_, WearError>((tangents, responses, moved))
-        };
-        let positions: Vec<_> = (0..solved.contacts.len())
+    ) -> Result<Vec<ContactTangents>, WearError> {
+        let positions: Vec<OfPosition> = (0..self.system.law().cycle.positions.len())
             .into_par_iter()
             .with_min_len(4)
-            .map(of_position)
+            .map(|q| match self.system.model.sliced() {
+                Some(model) => self.of_slices(model, q, joint, du, along),
+                None => self.of_section(q, &joint.slices[0], du, along),
+            })
             .collect::<Result<_, _>>()?;
-        let mut out = ContactTangents {
-            contacts: vec![Vec::with_capacity(positions.len()); du.len()],
-            responses: vec![Vec::with_capacity(positions.len()); along.len()],
+        let count = positions.len();
+        let empty = || ContactTangents {
+            contacts: vec![Vec::with_capacity(count); du.len()],
+            responses: vec![Vec::with_capacity(count); along.len()],
             response_tangents: (self.directions.iter())
                 .map(|_| Some(vec![Vec::new(); along.len()]))
                 .collect(),
         };
-        for (tangents, responses, moved) in positions {
-            for (all, tangent) in out.contacts.iter_mut().zip(tangents) {
-                all.push(tangent);
-            }
-            for (all, response) in out.responses.iter_mut().zip(responses) {
-                all.push(response);
-            }
-            for (all, moved) in out.response_tangents.iter_mut().zip(moved) {
-                match (&mut *all, moved) {
-                    (Some(all), Some(moved)) => {
-                        all.iter_mut().zip(moved).for_each(|(all, y)| all.push(y));
+        let mut out: Vec<ContactTangents> = joint.slices.iter().map(|_| empty()).collect();
+        for position in positions {
+            for (out, (tangents, responses, moved)) in out.iter_mut().zip(position) {
+                for (all, tangent) in out.contacts.iter_mut().zip(tangents) {
+                    all.push(tangent);
+                }
+                for (all, response) in out.responses.iter_mut().zip(responses) {
+                    all.push(response);
+                }
+                for (all, moved) in out.response_tangents.iter_mut().zip(moved) {
+                    match (&mut *all, moved) {
+                        (Some(all), Some(moved)) => {
+                            all.iter_mut().zip(moved).for_each(|(all, y)| all.push(y));
+                        }
+                        _ => *all = None,
                     }
-                    _ => *all = None,
                 }
             }
         }
         Ok(out)
     }
 
-    /// Derivatives of the contacts of all positions, by direction and position, where the depths `u` change by `du`.
+    /// One position of the one section that there is.
+    fn of_section(
+        &self,
+        q: usize,
+        solved: &Solved,
+        du: &[Vec<f64>],
+        along: &[&[f64]],
+    ) -> Result<OfPosition, WearError> {
+        let (model, law) = (self.system.model, self.system.law());
+        let linear = model.linearised(q, &solved.contacts[q], law.split(&solved.u))?;
+        let tangents: Vec<ContactTangent> = (self.directions.iter().zip(du))
+            .map(|(direction, du)| {
+                linear.tangent(&Change {
+                    depth: law.split(du),
+                    altered: direction.altered.as_ref(),
+                })
+            })
+            .collect();
+        let responses: Vec<Vec<f64>> = along
+            .iter()
+            .map(|v| linear.response(law.split(v)))
+            .collect();
+        let moved: Vec<Option<Vec<Vec<f64>>>> = (self.directions.iter())
+            .map(|direction| {
+                let altered = direction.altered.as_ref()?;
+                let moved = responses
+                    .iter()
+                    .map(|y| linear.response_tangent(y, altered));
+                moved.collect()
+            })
+            .collect();
+        Ok(vec![(tangents, responses, moved)])
+    }
+
+    /// One position of all slices.
+    fn of_slices(
+        &self,
+        model: &dyn SlicedContact,
+        q: usize,
+        joint: &Joint,
+        du: &[Vec<f64>],
+        along: &[&[f64]],
+    ) -> Result<OfPosition, WearError> {
+        let law = self.system.law();
+        let contacts: Vec<&PositionContact> = joint.slices.iter().map(|s| &s.contacts[q]).collect();
+        let depths = law.each(&joint.u);
+        let linear = model.linearised_all(q, &contacts, &law.flanks(q, &depths))?;
+        let mut out: OfPosition = (joint.slices.iter())
+            .map(|_| (Vec::new(), Vec::new(), Vec::new()))
+            .collect();
+        for (direction, du) in self.directions.iter().zip(du) {
+            let depths = law.each(du);
+            let tangents = linear.tangents(&SliceChange {
+                flanks: &law.flanks(q, &depths),
+                altered: direction.altered.as_ref(),
+            });
+            for (out, tangent) in out.iter_mut().zip(tangents) {
+                out.0.push(tangent);
+            }
+        }
+        let responses: Vec<Vec<Vec<f64>>> = along
+            .iter()
+            .map(|v| linear.responses(&law.flanks(q, &law.each(v))))
+            .collect();
+        for direction in self.directions {
+            let moved: Option<Vec<Vec<Vec<f64>>>> =
+                direction.altered.as_ref().and_then(|altered| {
+                    let moved = responses.iter();
+                    moved
+                        .map(|y| linear.response_tangents(y, altered))
+                        .collect()
+                });
+            for (slice, out) in out.iter_mut().enumerate() {
+                let own = moved
+                    .as_ref()
+                    .map(|by_vector| by_vector.iter().map(|y| y[slice].clone()).collect());
+                out.2.push(own);
+            }
+        }
+        for response in responses {
+            for (out, own) in out.iter_mut().zip(response) {
+                out.1.push(own);
+            }
+        }
+        Ok(out)
+    }
+
+    /// Worn volumes a step along each direction, where they are those of the whole face.
+    fn moved_volumes(&self, law: &Law<'_>, joint: &Joint, du: &[Vec<f64>]) -> Vec<Option<f64>> {
+        let along = |(direction, du): (&Direction<'_>, &Vec<f64>)| {
+            let moved: Vec<f64> = (joint.u.iter().zip(du))
+                .map(|(u, du)| u + direction.step * du)
+                .collect();
+            self.system
+                .worn_volume(direction.shifted.or(law.acting), &moved)
+        };
+        self.directions.iter().zip(du).map(along).collect()
+    }
+
+    /// Derivatives of the contacts of all positions, by slice, direction and position, where the depths `u` change by `du`.
     ///
     /// # Errors
     /// [`WearError`]
@@ -122,12 +210,13 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
         &mut self,
         u: &[f64],
         du: &[Vec<f64>],
-    ) -> Result<Vec<Vec<ContactTangent>>, WearError> {
+    ) -> Result<Vec<Vec<Vec<ContactTangent>>>, WearError> {
         self.system.solved(u)?;
-        Ok(self.contacts(self.system.known(u), du, &[])?.contacts)
+        let tangents = self.contacts(self.system.known(u), du, &[])?;
+        Ok(tangents.into_iter().map(|slice| slice.contacts).collect())
     }
 
-    /// Derivatives of the area per pinion cycle that effects only displace, by direction, mm² per unit.
+    /// Derivatives of the area per pinion cycle that effects only displace, by direction, mm² per unit; the mean over the face.
     ///
     /// # Errors
     /// [`WearError`]
@@ -138,23 +227,30 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
         du: &[Vec<f64>],
     ) -> Result<Vec<[f64; 2]>, WearError> {
         self.system.solved(u)?;
-        let (law, solved) = (self.system.law(), self.system.known(u));
-        let tangents = self.contacts(solved, du, &[])?;
-        let reads = law.reads(solved);
-        let before = law.displaced_rate(n, solved);
-        let slope = |(i, direction): (usize, &Direction<'_>)| {
-            let (law, along) = moved(
-                &law,
-                solved,
-                &reads,
-                direction,
-                &du[i],
-                &tangents.contacts[i],
-            );
-            let after = law.displaced_rate(n, &along);
-            [0, 1].map(|side| (after[side] - before[side]) / direction.step)
+        let (law, joint) = (self.system.law_at(u), self.system.known(u));
+        let tangents = self.contacts(joint, du, &[])?;
+        let volumes = self.moved_volumes(&law, joint, du);
+        let size = law.cycle.stations.count();
+        let of_slice = |s: usize| -> Vec<[f64; 2]> {
+            let (solved, tangents) = (&joint.slices[s], &tangents[s]);
+            let reads = law.reads(solved);
+            let before = law.displaced_rate(n, solved);
+            let slope = |(i, direction): (usize, &Direction<'_>)| {
+                let du = &du[i][s * size..(s + 1) * size];
+                let (law, along) =
+                    moved(&law, solved, &reads, direction, du, &tangents.contacts[i]);
+                let law = Law {
+                    worn_volume: volumes[i],
+                    ..law
+                };
+                let after = law.displaced_rate(n, &along);
+                [0, 1].map(|side| (after[side] - before[side]) / direction.step)
+            };
+            self.directions.iter().enumerate().map(slope).collect()
         };
-        Ok(self.directions.iter().enumerate().map(slope).collect())
+        let all: Vec<Vec<[f64; 2]>> = (0..joint.slices.len()).map(of_slice).collect();
+        let mean = |i: usize| [0, 1].map(|side| self.system.mean(|s| all[s][i][side]));
+        Ok((0..self.directions.len()).map(mean).collect())
     }
 }
 
@@ -207,20 +303,57 @@ impl<M: ContactModel + ?Sized> Differentiable for Differentiated<'_, '_, M> {
         along: &[&[f64]],
     ) -> Result<Tangents, WearError> {
         self.system.solved(u)?;
-        let (law, solved) = (self.system.law(), self.system.known(u));
-        let tangents = self.contacts(solved, du, along)?;
+        let (law, joint) = (self.system.law_at(u), self.system.known(u));
+        let tangents = self.contacts(joint, du, along)?;
+        let volumes = self.moved_volumes(&law, joint, du);
+        let size = law.cycle.stations.count();
+        let of_slice = |s: usize| {
+            let du: Vec<&[f64]> = (du.iter())
+                .map(|du| &du[s * size..(s + 1) * size])
+                .collect();
+            self.of_slice(n, &law, &joint.slices[s], &tangents[s], (&du, &volumes))
+        };
+        let slices: Vec<Vec<OfDirection>> = (0..joint.slices.len())
+            .into_par_iter()
+            .map(of_slice)
+            .collect();
+        let mut out = Tangents {
+            rates: vec![Vec::with_capacity(u.len()); self.directions.len()],
+            products: vec![vec![Vec::with_capacity(u.len()); along.len()]; self.directions.len()],
+        };
+        for slice in slices {
+            for (i, (rate, products)) in slice.into_iter().enumerate() {
+                out.rates[i].extend(rate);
+                for (all, product) in out.products[i].iter_mut().zip(products) {
+                    all.extend(product);
+                }
+            }
+        }
+        Ok(out)
+    }
+}
+
+/// Derivatives of a slice's rate, and of its products, along one direction.
+type OfDirection = (Vec<f64>, Vec<Vec<f64>>);
+
+impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
+    fn of_slice(
+        &self,
+        n: f64,
+        law: &Law<'_>,
+        solved: &Solved,
+        tangents: &ContactTangents,
+        (du, volumes): (&[&[f64]], &[Option<f64>]),
+    ) -> Vec<OfDirection> {
         let reads = law.reads(solved);
         let (rate, products) = law.rate_and_products(n, solved, &reads, &tangents.responses);
         let slope = |(i, direction): (usize, &Direction<'_>)| {
             let h = direction.step;
-            let (law, along) = moved(
-                &law,
-                solved,
-                &reads,
-                direction,
-                &du[i],
-                &tangents.contacts[i],
-            );
+            let (law, along) = moved(law, solved, &reads, direction, du[i], &tangents.contacts[i]);
+            let law = Law {
+                worn_volume: volumes[i],
+                ..law
+            };
             let difference = |after: &[f64], before: &[f64]| -> Vec<f64> {
                 after.iter().zip(before).map(|(a, b)| (a - b) / h).collect()
             };
@@ -242,8 +375,6 @@ impl<M: ContactModel + ?Sized> Differentiable for Differentiated<'_, '_, M> {
                 of_products.map(|(a, b)| difference(a, b)).collect(),
             )
         };
-        let (rates, products): (Vec<Vec<f64>>, Vec<Vec<Vec<f64>>>) =
-            self.directions.par_iter().enumerate().map(slope).unzip();
-        Ok(Tangents { rates, products })
+        self.directions.par_iter().enumerate().map(slope).collect()
     }
 }

@@ -75,38 +75,56 @@ impl<'m> FemLinear<'m> {
         gap
     }
 
-    /// −dW λ and −db·λ of what is altered, for values λ on a set.
-    fn altered(&self, on: &OnSet, values: &[f64], change: &Alteration) -> (DVector<f64>, f64) {
-        let position = &self.model.cycle.positions[self.q];
-        let levers = self.model.compliance.levers(self.q);
-        let mut right = DVector::zeros(on.active.len());
+    fn on_set(&self, on: &OnSet, gap: &[f64], change: &Change<'_>) -> (DVector<f64>, f64) {
+        let (mut right, mut load) = (DVector::zeros(on.active.len()), 0.0);
+        if let Some(altered) = change.altered {
+            (right, load) =
+                (self.model).altered_on(self.q, &on.active, &on.pressure, &altered.alteration);
+        }
+        for (right, &k) in right.iter_mut().zip(&on.active) {
+            *right -= gap[k];
+        }
+        on.linear.solve(right, load)
+    }
+}
+
+impl FemContact<'_> {
+    /// −dW λ and −db·λ of what is altered, for values λ on the set `active`.
+    pub(super) fn altered_on(
+        &self,
+        q: usize,
+        active: &[usize],
+        values: &[f64],
+        change: &Alteration,
+    ) -> (DVector<f64>, f64) {
+        let position = &self.cycle.positions[q];
+        let levers = self.compliance.levers(q);
+        let mut right = DVector::zeros(active.len());
         let mut load = 0.0;
         for (index, pair) in position.pairs.iter().enumerate() {
             let own = pair.offset..pair.offset + pair.xi.len();
-            let first = on.active.partition_point(|k| *k < own.start);
-            let last = on.active.partition_point(|k| *k < own.end);
-            let slope = change.factor_slope(self.q, index);
+            let first = active.partition_point(|k| *k < own.start);
+            let last = active.partition_point(|k| *k < own.end);
+            let slope = change.factor_slope(q, index);
             if slope != 0.0 {
-                let factor = (self.model.alteration).map_or(1.0, |a| a.factor(self.q, index));
-                let carried: f64 = (first..last)
-                    .map(|i| levers[on.active[i]] * values[i])
-                    .sum();
+                let factor = self.alteration.map_or(1.0, |a| a.factor(q, index));
+                let carried: f64 = (first..last).map(|i| levers[active[i]] * values[i]).sum();
                 load += carried * slope / factor;
             }
-            let per_friction = change.friction(self.q, index);
-            let rubbed = self.model.compliance.per_friction(self.q);
+            let per_friction = change.friction(q, index);
+            let rubbed = self.compliance.per_friction(q);
             if let Some(per) = rubbed.filter(|_| per_friction != 0.0) {
-                let factor = (self.model.alteration).map_or(1.0, |a| a.factor(self.q, index));
-                for (&column, value) in (on.active.iter().zip(values)).take(last).skip(first) {
+                let factor = self.alteration.map_or(1.0, |a| a.factor(q, index));
+                for (&column, value) in (active.iter().zip(values)).take(last).skip(first) {
                     let by = per_friction * value;
                     load -= by * per.lever[column] / factor;
-                    for (right, &k) in right.iter_mut().zip(&on.active) {
+                    for (right, &k) in right.iter_mut().zip(active) {
                         *right -= by * per.weighted[(k, column)];
                     }
                 }
             }
             if change.flexibility != 0.0 {
-                let length = |i: usize| pair.length[on.active[i] - pair.offset];
+                let length = |i: usize| pair.length[active[i] - pair.offset];
                 let line_load: f64 = (first..last).map(|i| length(i) * values[i]).sum();
                 for i in first..last {
                     right[i] -= change.flexibility * line_load * length(i);
@@ -114,17 +132,6 @@ impl<'m> FemLinear<'m> {
             }
         }
         (right, load)
-    }
-
-    fn on_set(&self, on: &OnSet, gap: &[f64], change: &Change<'_>) -> (DVector<f64>, f64) {
-        let (mut right, mut load) = (DVector::zeros(on.active.len()), 0.0);
-        if let Some(altered) = change.altered {
-            (right, load) = self.altered(on, &on.pressure, &altered.alteration);
-        }
-        for (right, &k) in right.iter_mut().zip(&on.active) {
-            *right -= gap[k];
-        }
-        on.linear.solve(right, load)
     }
 }
 
@@ -202,11 +209,11 @@ impl LinearContact for FemLinear<'_> {
 
     fn response_tangent(&self, response: &[f64], change: &AlterationChange) -> Option<Vec<f64>> {
         let alteration = &change.alteration;
-        let stiffness = alteration.friction.is_some() || alteration.flexibility != 0.0;
-        if alteration.load_factor.is_none() && !stiffness {
+        if alteration.keeps_stiffness() {
             return None;
         }
-        let (right, load) = self.altered(&self.joint, response, alteration);
+        let active = &self.joint.active;
+        let (right, load) = (self.model).altered_on(self.q, active, response, alteration);
         Some(self.joint.linear.solve(right, load).0.as_slice().to_vec())
     }
 }

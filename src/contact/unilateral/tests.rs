@@ -300,3 +300,172 @@ mod any_problem {
         }
     }
 }
+
+/// One slice is the contact that it was, by the same conditions of contact.
+#[test]
+fn one_slice_is_the_contact_itself() {
+    let mut seed = 11;
+    for n in [2, 6, 20] {
+        let m = DMatrix::from_fn(n, n, |_, _| random(&mut seed) - 0.5);
+        let w = &m * m.transpose() + DMatrix::identity(n, n) * 0.05;
+        let gap: Vec<f64> = (0..n).map(|_| random(&mut seed)).collect();
+        let arm: Vec<f64> = (0..n).map(|_| 0.5 + random(&mut seed)).collect();
+        let problem = Problem {
+            w: &w,
+            gap: &gap,
+            arm: &arm,
+            lever: &arm,
+            drive: Drive::Load(2.0),
+            symmetric: true,
+        };
+        let alone = solve(&problem, &[]).unwrap();
+        let joint = JointProblem {
+            w: &w,
+            gaps: std::slice::from_ref(&gap),
+            weights: &[1.0],
+            arm: &arm,
+            lever: &arm,
+            load: 2.0,
+            symmetric: true,
+        };
+        let found = solve_joint(&joint, &[]).unwrap();
+        assert_eq!(found.active[0], alone.active);
+        for (a, b) in found.pressure[0].iter().zip(&alone.pressure) {
+            assert!((a - b).abs() < 1e-12);
+        }
+    }
+}
+
+/// Slices of unlike gaps satisfy the conditions of contact with one approach and carry the load together, some of them nothing.
+#[test]
+fn slices_share_one_approach_and_one_load() {
+    let mut seed = 5;
+    for case in 0..40 {
+        let (n, count) = (8, 5);
+        let m = DMatrix::from_fn(n, n, |_, _| random(&mut seed) - 0.5);
+        let w = &m * m.transpose() + DMatrix::identity(n, n) * 0.05;
+        let arm: Vec<f64> = (0..n).map(|_| 0.5 + random(&mut seed)).collect();
+        let gaps: Vec<Vec<f64>> = (0..count)
+            .map(|i| {
+                (0..n)
+                    .map(|_| random(&mut seed) + 0.3 * f64::from(i * (case % 4)))
+                    .collect()
+            })
+            .collect();
+        let weights = [0.1, 0.3, 0.2, 0.15, 0.25];
+        let problem = JointProblem {
+            w: &w,
+            gaps: &gaps,
+            weights: &weights,
+            arm: &arm,
+            lever: &arm,
+            load: 0.7,
+            symmetric: true,
+        };
+        let found = solve_joint(&problem, &[]).unwrap();
+        let mut carried = 0.0;
+        for (i, pressure) in found.pressure.iter().enumerate() {
+            for k in 0..n {
+                let closed: f64 = (0..n).map(|l| w[(k, l)] * pressure[l]).sum();
+                let r = gaps[i][k] + closed - found.approach * arm[k];
+                assert!(pressure[k] >= 0.0 && r > -1e-10, "{r} at {k} of {i}");
+                assert!(pressure[k] * r < 1e-10);
+            }
+            let own: f64 = pressure.iter().zip(&arm).map(|(p, a)| p * a).sum();
+            carried += weights[i] * own;
+        }
+        assert!((carried - 0.7).abs() < 1e-12, "{carried}");
+    }
+}
+
+/// A rigid wedge on Winkler springs: K_Hβ = 1 + X up to X = 1 and 2 √X beyond, X = F c/(2 w) (ISO 6336-1 and DIN 3990-1, linear bedding),
+/// at the end of the face; at the outermost of n slices, half a slice from it, the straight line of the load is 2X/(2n) or less lower.
+#[test]
+fn a_rigid_wedge_on_springs_loads_its_end_as_the_standards_say() {
+    let (stiffness, mean) = (20.0, 150.0);
+    let w = DMatrix::from_element(1, 1, 1.0 / stiffness);
+    let count = 2000;
+    for wedge in [3.0, 10.0, 15.0, 40.0, 150.0] {
+        let place = |i: usize| (i as f64 + 0.5) / count as f64 - 0.5;
+        let gaps: Vec<Vec<f64>> = (0..count).map(|i| vec![wedge * place(i)]).collect();
+        let weights = vec![1.0 / count as f64; count];
+        let problem = JointProblem {
+            w: &w,
+            gaps: &gaps,
+            weights: &weights,
+            arm: &[1.0],
+            lever: &[1.0],
+            load: mean,
+            symmetric: true,
+        };
+        let found = solve_joint(&problem, &[]).unwrap();
+        let x: f64 = wedge * stiffness / (2.0 * mean);
+        let expected = if x <= 1.0 { 1.0 + x } else { 2.0 * x.sqrt() };
+        let factor = found.pressure[0][0] / mean;
+        let off = x / count as f64;
+        assert!(
+            (factor + off - expected).abs() < 1e-3 * expected,
+            "{factor}, {expected}"
+        );
+        let carrying = found.pressure.iter().filter(|p| p[0] > 0.0).count() as f64 / count as f64;
+        let wide = if x <= 1.0 { 1.0 } else { 1.0 / x.sqrt() };
+        assert!(
+            (carrying - wide).abs() < 2.0 / count as f64,
+            "{carrying}, {wide}"
+        );
+    }
+}
+
+/// Small changes of the gaps change pressures and approach as differences do.
+#[test]
+fn joint_linearisation_is_that_of_differences() {
+    let mut seed = 23;
+    let n = 6;
+    let m = DMatrix::from_fn(n, n, |_, _| random(&mut seed) - 0.5);
+    let w = &m * m.transpose() + DMatrix::identity(n, n) * 0.1;
+    let arm = vec![1.0; n];
+    let gaps: Vec<Vec<f64>> = (0..3)
+        .map(|_| (0..n).map(|_| 0.1 * random(&mut seed)).collect())
+        .collect();
+    let at = |gaps: &[Vec<f64>]| {
+        let problem = JointProblem {
+            w: &w,
+            gaps,
+            weights: &[0.2, 0.5, 0.3],
+            arm: &arm,
+            lever: &arm,
+            load: 3.0,
+            symmetric: true,
+        };
+        let found = solve_joint(&problem, &[]).unwrap();
+        let active: Vec<&[usize]> = found.active.iter().map(Vec::as_slice).collect();
+        let linear = JointLinearised::new(&problem, &active).unwrap();
+        (found, linear)
+    };
+    let (base, linear) = at(&gaps);
+    let change: Vec<Vec<f64>> = (0..3)
+        .map(|_| (0..n).map(|_| random(&mut seed) - 0.5).collect())
+        .collect();
+    let h = 1e-7;
+    let moved: Vec<Vec<f64>> = (gaps.iter().zip(&change))
+        .map(|(g, d)| g.iter().zip(d).map(|(g, d)| g + h * d).collect())
+        .collect();
+    let (after, _) = at(&moved);
+    let right = (base.active.iter().zip(&change))
+        .map(|(active, d)| nalgebra::DVector::from_fn(active.len(), |i, _| -d[active[i]]));
+    let (x, psi) = linear.solve(right.collect(), 0.0);
+    assert!(((after.approach - base.approach) / h - psi).abs() < 1e-5 * psi.abs().max(1.0));
+    let sensitivities = linear.sensitivities();
+    for i in 0..3 {
+        // the same by the sensitivities at a fixed approach and the common approach
+        let own = &sensitivities[i];
+        let gap =
+            nalgebra::DVector::from_fn(base.active[i].len(), |j, _| change[i][base.active[i][j]]);
+        let by_parts = &own.drive * psi - &own.fixed * gap;
+        for (j, &k) in base.active[i].iter().enumerate() {
+            let difference = (after.pressure[i][k] - base.pressure[i][k]) / h;
+            assert!((difference - x[i][j]).abs() < 1e-4 * difference.abs().max(1.0));
+            assert!((by_parts[j] - x[i][j]).abs() < 1e-10 * x[i][j].abs().max(1.0));
+        }
+    }
+}

@@ -1,32 +1,44 @@
-//! The axes are not parallel: load is higher at one end of the face. The plane model carries one slice.
+//! The axes are not parallel: load is higher at one end of the face.
+//!
+//! Where contacts are solved the wedge stands between slices of the face that turn together, and wear closes it:
+//!
+//! ```text
+//! e(η) = −F_βy η/2        µm missing along the path of contact; η = 2y/b from −1 to 1, 1 is the loaded end
+//! ```
+//! The analytic model has one section, and is told the load of a rigid wedge on new flanks:
 //!
 //! ```text
 //! X = F_βy c_γ/(2w)        F_βy µm over the face, c_γ N/(mm µm), w N/mm mean normal load
 //! w(η)/w = 1 + η X − max(0, √X − 1)²        η = 2y/b from −1 to 1; X > 1: only part of the face carries
 //! η = 1, the loaded end: K_Hβ = 1 + X for X ≤ 1, 2√X beyond
 //! ```
-//! That wear closes the gap across the face is not modelled. The factor is kept above 0.05.
+//! That wear closes the gap is not in this law. The factor is kept above 0.05.
 
 use crate::effects::{Card, Effect, Form, Hook, Local, Param, Prior};
 
 pub(super) const CARD: Card = Card {
     name: "lead_misalignment",
     hook: Hook::LoadFactor,
+    // of one section; by finite elements the wedge itself acts
     formula: "load_factor = max(0.05, 1 + face_position*slope*mesh_stiffness/(2*max(normal_load, 0.001)) - max(0, sqrt(slope*mesh_stiffness/(2*max(normal_load, 0.001))) - 1)^2)",
     source: "linear bedding; at the loaded end it is K_Hbeta of ISO 6336-1 and DIN 3990-1, 1 + c F/(2 w) up to 2 and sqrt(2 c F/w) beyond, as two public codes quote them.",
-    signature: "in one plane only a load factor, larger at low torque; two face sections show it at once",
+    signature: "uneven wear across the face, most at low torque, that evens out with time; in one plane of analytic contact only a load factor; two face sections show it at once",
     confounded_with: &["pressure_exponent", "film_thickness"],
     separated_by: "traces at two or more places of the face; nothing else if the wear coefficient scatters",
     left_out: "the gap that wear closes, and the stiffness across the face: one slice with a factor on its load",
     needs: &[],
     params: &[
         Param::new("slope", "um", "gap between the ends of the face, unloaded", 6.0, (0.0, 200.0), Prior::HalfNormal { sd: 8.0 }).neutral(0.0),
-        Param::new("mesh_stiffness", "N/(mm um)", "mesh stiffness", 20.0, (0.1, 100.0), Prior::LogNormal { median: 20.0, spread: 1.2 }).fixed(),
-        Param::new("face_position", "-", "place of the slice from the middle of the face, in half face widths; 1 is the loaded end", 1.0, (-1.0, 1.0), Prior::Uniform { low: -1.0, high: 1.0 }).fixed(),
+        Param::new("mesh_stiffness", "N/(mm um)", "mesh stiffness, of the analytic model: by finite elements it follows from the teeth", 20.0, (0.1, 100.0), Prior::LogNormal { median: 20.0, spread: 1.2 }).fixed(),
+        Param::new("face_position", "-", "place of traces whose row states no `face`, from the middle of the face, in half face widths; 1 is the loaded end", 1.0, (-1.0, 1.0), Prior::Uniform { low: -1.0, high: 1.0 }).fixed(),
     ],
     forms: &[Form {
         name: "unloaded end",
         settings: &[("face_position", -1.0)],
+        ..Form::PLAIN
+    }, Form {
+        name: "mid-face",
+        settings: &[("face_position", 0.0)],
         ..Form::PLAIN
     }],
     build: |p| Box::new(LeadMisalignment { slope: p[0], mesh_stiffness: p[1], face_position: p[2] }),
@@ -47,5 +59,13 @@ impl Effect for LeadMisalignment {
         let open = (x.sqrt() - 1.0).max(0.0);
         let share = 1.0 + self.face_position * x - open * open;
         share.max(0.05)
+    }
+
+    fn lead(&self, face: f64) -> Option<f64> {
+        Some(-0.5 * self.slope * face)
+    }
+
+    fn trace_face(&self) -> Option<f64> {
+        Some(self.face_position)
     }
 }

@@ -16,6 +16,8 @@ pub fn wear_of_run(run: &Run) -> Vec<Plot> {
         wear(run, Member::Pinion),
         wear(run, Member::Gear),
         growth(run),
+        face_load(run),
+        face_depth(run),
     ];
     plots.into_iter().filter(|plot| !plot.is_empty()).collect()
 }
@@ -139,6 +141,42 @@ fn growth(run: &Run) -> Plot {
             .map(|state| (state.cycles, state.profile(member).max_depth()))
             .collect();
         plot = plot.curve(member.name(), Style::Kind(kind), points);
+    }
+    plot
+}
+
+const FACE: &str = "place across the face from its middle, mm";
+
+/// Load across the face, where it has slices.
+fn face_load(run: &Run) -> Plot {
+    let mut plot = Plot::new(
+        "face_load",
+        "Load per width across the face over its mean",
+        FACE,
+        "load over mean, -",
+    )
+    .starting_at_zero();
+    for (kind, state) in ends(run).into_iter().enumerate() {
+        let points = state.slices.iter().map(|slice| (slice.face, slice.load));
+        plot = plot.curve(&cycles_label(state), Style::Kind(kind), points.collect());
+    }
+    plot
+}
+
+/// Largest depth of every slice in the last state.
+fn face_depth(run: &Run) -> Plot {
+    let mut plot = Plot::new(
+        "face_depth",
+        "Largest worn depth across the face",
+        FACE,
+        "largest worn depth, µm",
+    )
+    .starting_at_zero();
+    for (side, member) in Member::BOTH.into_iter().enumerate() {
+        let deepest = |depth: &[f64]| depth.iter().fold(0.0, |m: f64, h| m.max(*h));
+        let slices = run.last().slices.iter();
+        let points = slices.map(|slice| (slice.face, deepest(&slice.depth[side])));
+        plot = plot.curve(member.name(), Style::Kind(side), points.collect());
     }
     plot
 }

@@ -36,6 +36,7 @@ impl<'a> Forward<'a> {
             factorisations: 0,
             acting: self.acting,
             altered: None,
+            slices: None,
         };
         out.alter()?;
         Ok(out)
@@ -112,6 +113,7 @@ impl<'a> Forward<'a> {
             factorisations: 0,
             acting,
             altered: None,
+            slices: None,
         };
         out.alter()?;
         Ok(out)

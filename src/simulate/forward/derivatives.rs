@@ -25,8 +25,8 @@ pub struct Variation {
     pub step: f64,
 }
 
-/// The contact of every position, and its derivatives by parameter and position.
-pub type DifferentiatedContacts = (Vec<PositionContact>, Vec<Vec<ContactTangent>>);
+/// The contact of every position by slice, and its derivatives by slice, parameter and position.
+pub type DifferentiatedContacts = (Vec<Vec<PositionContact>>, Vec<Vec<Vec<ContactTangent>>>);
 
 impl Forward<'_> {
     /// Wears fresh flanks along given steps (ascending cycles at their ends), whatever their error; `observe` sees the start and every
@@ -115,7 +115,7 @@ impl Forward<'_> {
         variations: &[Variation],
     ) -> Result<DifferentiatedContacts, ForwardError> {
         // looks as widely as it takes first: another grid has other directions
-        let contacts = self.contacts_at(u)?;
+        let contacts = self.all_contacts_at(u)?;
         let directions = self.directions(variations);
         let tangents = self.with_model(|model| {
             let mut system = ArchardSystem::new(model, self.conditions.coefficient);

@@ -9,6 +9,7 @@ use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, CycleSpec};
 use crate::contact::fem::CycleCompliance;
 use crate::contact::model::ContactError;
+use crate::contact::slices::Slices;
 use crate::contact::strips::Strips;
 use crate::effects::Effect;
 use crate::simulate::blanks::Blanks;
@@ -23,7 +24,7 @@ pub struct Preparation {
     pub window: f64,
     /// Tooth pairs farther apart than this are left out, mm.
     pub reach: f64,
-    /// Worn depths at which the members were last condensed, mm at all stations; none: unworn.
+    /// Worn depths at which the members were last condensed, mm at all stations, the mean over the face; none: unworn.
     pub condensed_at: Option<Vec<f64>>,
     /// Window and reach for which they were condensed then; none: those that the new members were made for.
     pub condensed_for: Option<[f64; 2]>,
@@ -57,6 +58,10 @@ pub(super) struct Prepared {
 
 /// Corners farther apart than this are never looked at, in modules: more than half of what a tooth is thick.
 const MOST_REACH: f64 = 0.8;
+
+/// Slices of a face that only an effect makes uneven. Of a wedge that half opens the face, 7 give the wear at mid-face within 1 % of what
+/// 23 give, at 5 times the time of one.
+const SLICES_OF_EFFECTS: usize = 7;
 
 /// What runs at one mounting share.
 #[derive(Clone)]
@@ -341,10 +346,11 @@ impl Forward<'_> {
         match progress {
             Some(progress)
                 if self.kind == ContactKind::Fem
-                    && preparation.is_stale(&progress.stand.u, self.condense_after()) =>
+                    && preparation
+                        .is_stale(&self.mean_depths(&progress.stand.u), self.condense_after()) =>
             {
                 self.prepare(&Preparation {
-                    condensed_at: Some(progress.stand.u.clone()),
+                    condensed_at: Some(self.mean_depths(&progress.stand.u).into_owned()),
                     condensed_for: Some([preparation.window, preparation.reach]),
                     ..preparation
                 })
@@ -366,20 +372,45 @@ impl Forward<'_> {
 
     /// What effects change about the contact of this run's kind.
     pub(super) fn alteration(&self, acting: &Acting) -> Alteration {
-        let alteration = acting.alteration(&self.cycle);
+        let alteration = acting.alteration(&self.cycle, self.slices.as_ref());
         match self.kind {
             ContactKind::Fem => alteration,
             ContactKind::Hertz => alteration.with_friction_in_levers(&self.cycle),
         }
     }
 
+    /// The slices of the face with what the gears lack in them; none where one section stands for all of it, as analytically. What effects
+    /// make missing across the face is not in them yet.
+    fn slices_of_the_face(&self) -> Option<Slices> {
+        let (face, width) = (&self.set.face, self.set.face_width);
+        let wanted = self.acting.is_some_and(|acting| acting.effects.has_lead());
+        let count = match face.slices {
+            0 | 1 if wanted => SLICES_OF_EFFECTS,
+            stated => stated,
+        };
+        if count < 2 || self.kind == ContactKind::Hertz {
+            return None;
+        }
+        let mut slices = Slices::even(count, width);
+        for (offset, y) in slices.offset.iter_mut().zip(&slices.place) {
+            *offset = face.missing(*y, width);
+        }
+        Some(slices)
+    }
+
     /// Lets the effects change the contact.
     pub(super) fn alter(&mut self) -> Result<(), ForwardError> {
         self.altered = None;
+        self.slices = self.slices_of_the_face();
         if let Some(acting) = self.acting {
             let alteration = self.alteration(acting);
             if let Some(fault) = acting.effects.fault() {
                 return Err(ForwardError::Effect(fault));
+            }
+            if let (Some(slices), Some(lead)) = (&mut self.slices, &alteration.lead) {
+                for (offset, lead) in slices.offset.iter_mut().zip(lead) {
+                    *offset += lead;
+                }
             }
             self.altered = (!alteration.is_none()).then(|| Altered {
                 opened: (self.compliance.as_ref()).and_then(|_| alteration.gaps(&self.cycle)),

@@ -3,8 +3,8 @@
 use super::{ContactKind, Forward, ForwardError, Preparation, Variation};
 use crate::contact::model::PositionContact;
 use crate::simulate::history::{
-    Balancing, HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at, state_of,
-    wear_with_tangents,
+    Balancing, HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at,
+    mean_contacts, state_of, wear_with_tangents,
 };
 use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
@@ -96,7 +96,8 @@ impl Forward<'_> {
                     with,
                     &mut |progress, tangents| {
                         go_on = observe(&preparation, progress, tangents);
-                        stale = elastic && preparation.is_stale(&progress.stand.u, condense_after);
+                        let mean = self.mean_depths(&progress.stand.u);
+                        stale = elastic && preparation.is_stale(&mean, condense_after);
                         go_on && !stale
                     },
                 )
@@ -131,11 +132,24 @@ impl Forward<'_> {
         Ok(self.with_model(|model| state_of(model, progress))??)
     }
 
-    /// The contact of every position at the depths `u` (mm at the stations of pinion and gear), looked for as widely as it takes.
+    /// The contact of every position at the depths `u` (mm at the stations of pinion and gear), looked for as widely as it takes; of several
+    /// slices the mean over the face.
     ///
     /// # Errors
     /// [`ForwardError`] if a contact cannot be solved.
     pub fn contacts_at(&mut self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
+        let by_slice = self.all_contacts_at(u)?;
+        Ok(mean_contacts(self.slices.as_ref(), by_slice))
+    }
+
+    /// The same by slice.
+    ///
+    /// # Errors
+    /// [`ForwardError`] if a contact cannot be solved.
+    pub fn all_contacts_at(
+        &mut self,
+        u: &[f64],
+    ) -> Result<Vec<Vec<PositionContact>>, ForwardError> {
         loop {
             match self.with_model(|model| contacts_at(model, u))? {
                 Ok(contacts) => return Ok(contacts),

@@ -1,0 +1,373 @@
+//! Elastic contact of all slices of the face: one compliance for all of them, one approach between them.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use nalgebra::DVector;
+
+use super::FemContact;
+use crate::contact::alteration::{Alteration, set_back};
+use crate::contact::model::{ContactError, PositionContact, SlicedContact};
+use crate::contact::slices::{Flanks, Slices};
+use crate::contact::tangent::{AlterationChange, ContactTangent, LinearSlices, SliceChange};
+use crate::contact::unilateral::{
+    JointLinearised, JointProblem, JointSolution, SliceSensitivity, UnilateralError, solve_joint,
+};
+
+impl FemContact<'_> {
+    fn joint<'b>(&'b self, q: usize, gaps: &'b [Vec<f64>]) -> JointProblem<'b> {
+        let elastic = &self.compliance.positions[q];
+        JointProblem {
+            w: &elastic.weighted,
+            gaps,
+            weights: &self.slices().weight,
+            arm: &self.cycle.positions[q].arm,
+            lever: &elastic.lever,
+            load: self.torque,
+            symmetric: self.compliance.symmetric,
+        }
+    }
+
+    /// Weighted gaps by slice.
+    fn gaps(&self, q: usize, flanks: &Flanks<'_>) -> Vec<Vec<f64>> {
+        let position = &self.cycle.positions[q];
+        let slices = self.slices();
+        let of_slice = |i: usize| {
+            let mut gap = position.gap.clone();
+            position.open_each(flanks.of(i), &mut gap);
+            if let Some(opened) = self.opened {
+                for (gap, opened) in gap.iter_mut().zip(&opened[q]) {
+                    *gap += opened;
+                }
+            }
+            for (pair, back) in position.pairs.iter().zip(&flanks.back) {
+                set_back(&mut gap, pair, slices.offset[i] + back);
+            }
+            gap
+        };
+        (0..slices.count()).map(of_slice).collect()
+    }
+
+    fn solve_gaps(
+        &self,
+        q: usize,
+        gaps: &[Vec<f64>],
+        flanks: &Flanks<'_>,
+        start: &[Vec<usize>],
+    ) -> Result<Vec<PositionContact>, ContactError> {
+        let position = &self.cycle.positions[q];
+        let failed = |source| ContactError::Unilateral {
+            theta: position.theta,
+            source,
+        };
+        let solution = solve_joint(&self.joint(q, gaps), start).map_err(failed)?;
+        for (i, (gap, pressure)) in gaps.iter().zip(&solution.pressure).enumerate() {
+            let own = self.slices().offset[i];
+            let mut corners = [f64::INFINITY; 2];
+            for (depth, back) in flanks.of(i).iter().zip(&flanks.back) {
+                let lost = self.lost_corners(*depth);
+                corners = [0, 1].map(|side| corners[side].min(lost[side] + own + back));
+            }
+            self.within_limits(position, gap, pressure, solution.approach, corners)?;
+        }
+        Ok(self.contacts(q, solution))
+    }
+
+    fn contacts(&self, q: usize, solution: JointSolution) -> Vec<PositionContact> {
+        let levers = &self.compliance.positions[q].lever;
+        let carried = |pressure: &Vec<f64>| pressure.iter().zip(levers).map(|(p, l)| p * l).sum();
+        let torque = self.slices().mean(solution.pressure.iter().map(carried));
+        let torque_error = (torque / self.torque - 1.0).abs();
+        (solution.pressure.into_iter().zip(solution.active))
+            .map(|(pressure, active)| PositionContact {
+                pressure,
+                approach: solution.approach,
+                active,
+                iterations: solution.iterations,
+                penetration: solution.penetration,
+                torque_error,
+            })
+            .collect()
+    }
+
+    fn teeth_differ(&self) -> Option<&Alteration> {
+        self.alteration.filter(|a| a.tooth_offset.is_some())
+    }
+
+    /// The contacts with pair number `measured` that of the measured tooth, and that pair's unknowns.
+    fn all_one_measured(
+        &self,
+        q: usize,
+        flanks: &Flanks<'_>,
+        start: &[Vec<usize>],
+        alteration: &Alteration,
+        measured: usize,
+    ) -> Result<(Range<usize>, Vec<PositionContact>), ContactError> {
+        let mut flanks = flanks.clone();
+        for (index, back) in flanks.back.iter_mut().enumerate() {
+            *back += alteration.offset(measured, index);
+        }
+        let own = &self.cycle.positions[q].pairs[measured];
+        let gaps = self.gaps(q, &flanks);
+        Ok((
+            own.offset..own.offset + own.xi.len(),
+            self.solve_gaps(q, &gaps, &flanks, start)?,
+        ))
+    }
+
+    fn linear_on(
+        &self,
+        q: usize,
+        contacts: &[&PositionContact],
+    ) -> Result<JointLinearised, ContactError> {
+        let active: Vec<&[usize]> = contacts.iter().map(|c| c.active.as_slice()).collect();
+        let gaps = vec![self.cycle.positions[q].gap.clone(); contacts.len()];
+        JointLinearised::new(&self.joint(q, &gaps), &active).map_err(|source: UnilateralError| {
+            ContactError::Unilateral {
+                theta: self.cycle.positions[q].theta,
+                source,
+            }
+        })
+    }
+}
+
+impl SlicedContact for FemContact<'_> {
+    fn slices(&self) -> &Slices {
+        self.slices.expect("asked only where there are slices")
+    }
+
+    fn solve_all(
+        &self,
+        q: usize,
+        flanks: &Flanks<'_>,
+        start: &[Vec<usize>],
+    ) -> Result<Vec<PositionContact>, ContactError> {
+        let Some(alteration) = self.teeth_differ() else {
+            return self.solve_gaps(q, &self.gaps(q, flanks), flanks, start);
+        };
+        // as in one section: each pair's pressures are taken from the solution in which it is that of the measured tooth
+        let position = &self.cycle.positions[q];
+        let count = position.pairs.len();
+        let mut joint: Vec<PositionContact> = (0..self.slices().count())
+            .map(|_| PositionContact {
+                pressure: vec![0.0; position.gap.len()],
+                approach: 0.0,
+                active: Vec::new(),
+                iterations: 0,
+                penetration: 0.0,
+                torque_error: 0.0,
+            })
+            .collect();
+        for measured in 0..count {
+            let (unknowns, solved) =
+                self.all_one_measured(q, flanks, start, alteration, measured)?;
+            for (joint, solved) in joint.iter_mut().zip(solved) {
+                joint.pressure[unknowns.clone()]
+                    .copy_from_slice(&solved.pressure[unknowns.clone()]);
+                let active = solved.active.iter().copied();
+                joint.active.extend(active.filter(|k| unknowns.contains(k)));
+                joint.approach += solved.approach / count as f64;
+                joint.iterations = joint.iterations.max(solved.iterations);
+                joint.penetration = joint.penetration.max(solved.penetration);
+                joint.torque_error = joint.torque_error.max(solved.torque_error);
+            }
+        }
+        Ok(joint)
+    }
+
+    fn sensitivities(
+        &self,
+        q: usize,
+        contacts: &[&PositionContact],
+    ) -> Result<Vec<Arc<SliceSensitivity>>, ContactError> {
+        Ok(self.linear_on(q, contacts)?.sensitivities())
+    }
+
+    fn linearised_all<'m>(
+        &'m self,
+        q: usize,
+        contacts: &[&PositionContact],
+        flanks: &Flanks<'_>,
+    ) -> Result<Box<dyn LinearSlices + 'm>, ContactError> {
+        let mut each = Vec::new();
+        if let Some(alteration) = self.teeth_differ() {
+            let start: Vec<Vec<usize>> = contacts.iter().map(|c| c.active.clone()).collect();
+            for index in 0..self.cycle.positions[q].pairs.len() {
+                let (own, solved) = self.all_one_measured(q, flanks, &start, alteration, index)?;
+                let solved: Vec<&PositionContact> = solved.iter().collect();
+                let on = OnSets::new(self, q, &solved)?;
+                each.push((index, own, on));
+            }
+        }
+        Ok(Box::new(FaceLinear {
+            model: self,
+            q,
+            joint: OnSets::new(self, q, contacts)?,
+            each,
+        }))
+    }
+}
+
+/// The contacts of one position's slices on their active sets.
+struct FaceLinear<'m> {
+    model: &'m FemContact<'m>,
+    q: usize,
+    joint: OnSets,
+    /// Where teeth differ, the contacts with each pair's own tooth measured, and which unknowns are read from them.
+    each: Vec<(usize, Range<usize>, OnSets)>,
+}
+
+struct OnSets {
+    active: Vec<Vec<usize>>,
+    pressure: Vec<Vec<f64>>,
+    linear: JointLinearised,
+}
+
+impl OnSets {
+    fn new(
+        model: &FemContact<'_>,
+        q: usize,
+        contacts: &[&PositionContact],
+    ) -> Result<Self, ContactError> {
+        let carried = |c: &&PositionContact| c.active.iter().map(|&k| c.pressure[k]).collect();
+        Ok(Self {
+            active: contacts.iter().map(|c| c.active.clone()).collect(),
+            pressure: contacts.iter().map(carried).collect(),
+            linear: model.linear_on(q, contacts)?,
+        })
+    }
+}
+
+impl FaceLinear<'_> {
+    /// How the weighted gaps open in each slice.
+    fn openings(&self, change: &SliceChange<'_>) -> Vec<Vec<f64>> {
+        let position = &self.model.cycle.positions[self.q];
+        let opened = change.altered.and_then(|altered| altered.opened.as_ref());
+        let lead = change.altered.and_then(|a| a.alteration.lead.as_ref());
+        let of_slice = |i: usize| {
+            let mut gap = vec![0.0; position.gap.len()];
+            position.open_each(change.flanks.of(i), &mut gap);
+            if let Some(opened) = opened {
+                for (gap, opened) in gap.iter_mut().zip(&opened[self.q]) {
+                    *gap += opened;
+                }
+            }
+            let lead = lead.map_or(0.0, |lead| lead[i]);
+            for (pair, back) in position.pairs.iter().zip(&change.flanks.back) {
+                set_back(&mut gap, pair, lead + back);
+            }
+            gap
+        };
+        (0..self.model.slices().count()).map(of_slice).collect()
+    }
+
+    /// −dW λ by slice and −d(load) of what is altered, for values λ on the sets.
+    fn altered(
+        &self,
+        on: &OnSets,
+        values: &[Vec<f64>],
+        change: &Alteration,
+    ) -> (Vec<DVector<f64>>, f64) {
+        let weights = &self.model.slices().weight;
+        let mut load = 0.0;
+        let mut all = Vec::with_capacity(values.len());
+        for ((active, values), weight) in on.active.iter().zip(values).zip(weights) {
+            let (right, own) = self.model.altered_on(self.q, active, values, change);
+            load += weight * own;
+            all.push(right);
+        }
+        (all, load)
+    }
+
+    fn on_sets(
+        &self,
+        on: &OnSets,
+        gaps: &[Vec<f64>],
+        change: &SliceChange<'_>,
+    ) -> (Vec<DVector<f64>>, f64) {
+        let (mut right, mut load) = match change.altered {
+            Some(altered) => self.altered(on, &on.pressure, &altered.alteration),
+            None => (
+                on.active.iter().map(|a| DVector::zeros(a.len())).collect(),
+                0.0,
+            ),
+        };
+        for ((right, active), gap) in right.iter_mut().zip(&on.active).zip(gaps) {
+            for (right, &k) in right.iter_mut().zip(active) {
+                *right -= gap[k];
+            }
+        }
+        if right.iter().all(|r| r.is_empty()) {
+            load = 0.0;
+        }
+        on.linear.solve(right, load)
+    }
+}
+
+impl LinearSlices for FaceLinear<'_> {
+    fn tangents(&self, change: &SliceChange<'_>) -> Vec<ContactTangent> {
+        let gaps = self.openings(change);
+        let mut out: Vec<ContactTangent> = (gaps.iter())
+            .map(|gap| ContactTangent {
+                pressure: vec![0.0; gap.len()],
+                approach: 0.0,
+            })
+            .collect();
+        if self.each.is_empty() {
+            let (pressures, approach) = self.on_sets(&self.joint, &gaps, change);
+            for ((out, active), pressure) in out.iter_mut().zip(&self.joint.active).zip(&pressures)
+            {
+                for (&k, p) in active.iter().zip(pressure.iter()) {
+                    out.pressure[k] = *p;
+                }
+                out.approach = approach;
+            }
+            return out;
+        }
+        let pairs = &self.model.cycle.positions[self.q].pairs;
+        for (measured, own, on) in &self.each {
+            let mut gaps = gaps.clone();
+            if let Some(altered) = change.altered {
+                for (index, pair) in pairs.iter().enumerate() {
+                    let offset = altered.alteration.offset(*measured, index);
+                    gaps.iter_mut().for_each(|gap| set_back(gap, pair, offset));
+                }
+            }
+            let (pressures, approach) = self.on_sets(on, &gaps, change);
+            for ((out, active), pressure) in out.iter_mut().zip(&on.active).zip(&pressures) {
+                for (&k, p) in active.iter().zip(pressure.iter()) {
+                    if own.contains(&k) {
+                        out.pressure[k] = *p;
+                    }
+                }
+                out.approach += approach / self.each.len() as f64;
+            }
+        }
+        out
+    }
+
+    fn responses(&self, flanks: &Flanks<'_>) -> Vec<Vec<f64>> {
+        let gaps = self.openings(&SliceChange {
+            flanks,
+            altered: None,
+        });
+        let right = (self.joint.active.iter().zip(&gaps))
+            .map(|(active, gap)| DVector::from_fn(active.len(), |i, _| gap[active[i]]));
+        let (x, _) = self.joint.linear.solve(right.collect(), 0.0);
+        x.iter().map(|x| x.as_slice().to_vec()).collect()
+    }
+
+    fn response_tangents(
+        &self,
+        responses: &[Vec<f64>],
+        change: &AlterationChange,
+    ) -> Option<Vec<Vec<f64>>> {
+        let alteration = &change.alteration;
+        if alteration.keeps_stiffness() {
+            return None;
+        }
+        let (right, load) = self.altered(&self.joint, responses, alteration);
+        let (x, _) = self.joint.linear.solve(right, load);
+        Some(x.iter().map(|x| x.as_slice().to_vec()).collect())
+    }
+}
