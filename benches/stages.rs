@@ -258,7 +258,7 @@ fn fields(bencher: Bencher, fineness: usize) {
     let mut forward = forward(&members, fineness);
     let progress = worn(&mut forward, 20_000.0);
     let state = forward.state(&progress).expect("mild contact is solved");
-    bencher.bench(|| gather::frame(&forward, &state, black_box(0)));
+    bencher.bench(|| gather::frame(&forward, &state, 1.0, black_box(0)));
 }
 
 mod whole {

@@ -313,10 +313,9 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
         let flanks = split(cycle, &stand.u);
         let step = stand.n - progress.stand.n;
         let mut balance = progress.balance;
-        for side in 0..2 {
+        for (side, arc) in cycle.stations.arc.iter().enumerate() {
             balance.law[side] += 0.5 * step * (progress.rate.law[side] + rate.law[side]);
-            balance.geometry[side] =
-                system.mean(|slice| worn_area(&cycle.stations.arc[side], flanks[slice][side]));
+            balance.geometry[side] = system.mean(|slice| worn_area(arc, flanks[slice][side]));
         }
         // worn areas of a mean depth of one module
         let unit =

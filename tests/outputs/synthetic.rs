@@ -160,6 +160,7 @@ fn state(cycles: f64) -> State {
         pinion,
         gear,
         cycle,
+        slices: Vec::new(),
     }
 }
 
