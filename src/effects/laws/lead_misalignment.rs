@@ -25,7 +25,7 @@ pub(super) const CARD: Card = Card {
     signature: "uneven wear across the face, most at low torque, that evens out with time; in one plane of analytic contact only a load factor; two face sections show it at once",
     confounded_with: &["pressure_exponent", "film_thickness"],
     separated_by: "traces at two or more places of the face; nothing else if the wear coefficient scatters",
-    left_out: "the gap that wear closes, and the stiffness across the face: one slice with a factor on its load",
+    left_out: "what a tooth carries over from slice to slice of the face; in the analytic model the gap that wear closes: one section with a factor on its load",
     needs: &[],
     params: &[
         Param::new("slope", "um", "gap between the ends of the face, unloaded", 6.0, (0.0, 200.0), Prior::HalfNormal { sd: 8.0 }).neutral(0.0),
