@@ -66,9 +66,8 @@ impl Meshing {
         let by_slice: Vec<[Vec<Moment>; 2]> = (all.iter())
             .map(|contacts| [0, 1].map(|side| passage.moments(cycle, contacts, side)))
             .collect();
-        let reads = |i: usize| {
-            [0, 1].map(|side| passage.reads(cycle, &all[i], side, &by_slice[i][side]))
-        };
+        let reads =
+            |i: usize| [0, 1].map(|side| passage.reads(cycle, &all[i], side, &by_slice[i][side]));
         let reads: Vec<_> = match tangents.is_empty() {
             true => Vec::new(),
             false => (0..all.len()).map(reads).collect(),
@@ -197,9 +196,11 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::WearDepth => {
                 let arc = self.arc(pinion_for_pair, at);
                 let slices = self.slices_at(observation.face);
-                Ok(self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
-                    1e3 * interpolate(stations, depths, arc)
-                }))
+                Ok(
+                    self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
+                        1e3 * interpolate(stations, depths, arc)
+                    }),
+                )
             }
             Quantity::MassLoss => {
                 let slices: Vec<(usize, f64)> = match self.forward.slices() {
@@ -273,7 +274,9 @@ impl<'r, 'f> Reading<'r, 'f> {
             let mut sum = vec![0.0; stations.len()];
             for &(slice, weight) in slices {
                 let own = self.of_slice(depth, slice, member);
-                sum.iter_mut().zip(own).for_each(|(sum, d)| *sum += weight * d);
+                sum.iter_mut()
+                    .zip(own)
+                    .for_each(|(sum, d)| *sum += weight * d);
             }
             of(stations, &sum, displaced[side(member)])
         })
