@@ -59,8 +59,8 @@ pub(super) struct Prepared {
 /// Corners farther apart than this are never looked at, in modules: more than half of what a tooth is thick.
 const MOST_REACH: f64 = 0.8;
 
-/// Slices of a face that only an effect makes uneven. Of a wedge that half opens the face, 7 give the wear at mid-face within 1 % of what
-/// 23 give, at 5 times the time of one.
+/// Slices of a face that only an effect makes uneven: a wedge that opens most of the face wears its loaded end within 1.3 % of what 23 slices
+/// give, at 3.6 times the time of one.
 const SLICES_OF_EFFECTS: usize = 7;
 
 /// What runs at one mounting share.
