@@ -3,6 +3,8 @@
 //! Sources: the plane model itself (slices without a lead deviation; each slice under the torque that it carries); equilibrium of forces; the
 //! wear law's own area; symmetry. Tolerances: rounding, where the same numbers are computed another way; stated where something converges.
 
+#![expect(clippy::print_stderr, reason = "figures that the guide cites")]
+
 use gearwear::contact::alteration::Alteration;
 use gearwear::contact::fem::FemContact;
 use gearwear::contact::model::ContactModel;
