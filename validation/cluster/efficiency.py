@@ -73,7 +73,7 @@ with tempfile.TemporaryDirectory() as home:
     found = timed(shards)
     print(f"7 shards, one after the other: {found[0]:.1f} s, {found[1]:.1f} s of processor time, same bytes: {same('of-shards')}", flush=True)
     print(f"efficiency of the shards (processor time): {plain[1] / found[1]:.2f}", flush=True)
-    gearwear("--emit", "points.jsonl", "--per-line", str(max(1, POINTS // 20)))
+    gearwear("--emit", "points.jsonl", "--per-line", str(max(1, POINTS // 8)))
     lines = Path("points.jsonl").read_text().splitlines()
     assert sum(len(json.loads(line)["points"]) for line in lines) == POINTS
     found = timed(lambda: hyperqueue(lines))
