@@ -7,7 +7,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::{
     CliError, Context, Outcome, add, check, climb, compare, completions, diagnose, effects, export,
-    import, init, ladder, mesh, models, plan, run, serve, sweep, synthesize, validate,
+    import, init, ladder, mesh, models, plan, run, schema, serve, sweep, synthesize, validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -96,6 +96,8 @@ pub enum Command {
     Validate(validate::ValidateArgs),
     /// Print the script that completes commands and options in a shell
     Completions(completions::CompletionsArgs),
+    /// Print the JSON schema of study files, by which editors complete keys and mark mistakes
+    Schema(schema::SchemaArgs),
 }
 
 impl Command {
@@ -121,6 +123,7 @@ impl Command {
             Command::Effects(args) => effects::execute(args),
             Command::Validate(args) => validate::execute(args, context),
             Command::Completions(args) => completions::execute(args),
+            Command::Schema(args) => schema::execute(args),
         }
     }
 }

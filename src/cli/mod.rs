@@ -31,6 +31,7 @@ mod models;
 mod plan;
 mod progress;
 mod run;
+mod schema;
 mod serve;
 mod sweep;
 mod synthesize;
@@ -146,7 +147,10 @@ fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
         outcome.text
     };
     // a script for the shell is a result, not a summary
-    let result = matches!(arguments.command, args::Command::Completions(_));
+    let result = matches!(
+        arguments.command,
+        args::Command::Completions(_) | args::Command::Schema(_)
+    );
     if general.quiet && !general.json && !result {
         text.clear();
     }

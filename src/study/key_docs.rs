@@ -1,7 +1,11 @@
 //! What every key of a study file is, in machine form: the guide is written from it and tests hold it against the readers.
 
+mod schema;
+
 use super::quantity::{self as q, Quantity};
 use super::settings::ContactKind;
+
+pub use schema::schema;
 
 /// One key of a study file.
 #[derive(Debug, Clone, Copy)]

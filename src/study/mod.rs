@@ -45,7 +45,7 @@ pub use free::{
     COEFFICIENT_BOUNDS, COEFFICIENT_PRIOR, FreeParameter, WEAR_COEFFICIENT, wear_coefficient_fault,
 };
 pub use gears::Gears;
-pub use key_docs::{KEY_DOCS, KeyDoc, Without, unit_of};
+pub use key_docs::{KEY_DOCS, KeyDoc, Without, schema, unit_of};
 pub use learned::LearnedLaw;
 pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
