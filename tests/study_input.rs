@@ -546,3 +546,91 @@ fn check(text: &str) -> Result<(), TestCaseError> {
     }
     Ok(())
 }
+
+/// A study with a table of tests beside it.
+fn tabled(study: &str, table: &str) -> Result<Study, gearwear::study::StudyError> {
+    let home = tempfile::tempdir().unwrap();
+    std::fs::write(home.path().join("tests.csv"), table).unwrap();
+    let path = home.path().join("study.toml");
+    std::fs::write(&path, study).unwrap();
+    Study::load(&path)
+}
+
+const TABLED: &str = concat!(
+    gears!(),
+    "\
+[operation]
+torque = 100.0
+speed = 2000.0
+[wear]
+coefficient = 6e-10
+cycles = 50000
+[measurements]
+file = \"m.csv\"
+tests = \"tests.csv\"
+[[test]]
+id = \"first\"
+torque = 50.0
+"
+);
+
+/// Each row is the `[[test]]` that states the same, whatever the spreadsheet wrote between cells; they come after those of the study.
+#[test]
+fn a_table_of_tests_is_so_many_tests() {
+    let stated = format!(
+        "{}\n[[test]]\nid = \"A\"\nrole = \"fit\"\ntorque = 60.0\nbulk_temperature = 45.5\n[[test]]\nid = \"B\"\nrole = \"holdout\"\ncycles = 1e6\nreversed = true\n",
+        TABLED.replace("tests = \"tests.csv\"\n", "")
+    );
+    let stated = Study::parse(&stated, "study.toml").unwrap();
+    assert_eq!(stated.tests.len(), 3);
+    let plain = "id,role,torque,bulk_temperature,cycles,reversed\nA,fit,60,45.5,,\n# a comment\nB,holdout,,,1e6,true\n";
+    let german = "ID;Role;Torque [N mm];Bulk_Temperature;Cycles;reversed;Notes\n\"A\";fit;60000;45,5;;;warm; \n\nB;holdout;;;1e6;TRUE;\n";
+    let tabs = plain.replace(',', "\t");
+    for table in [plain, german, tabs.as_str()] {
+        let study = tabled(TABLED, table).unwrap_or_else(|e| panic!("{table}: {e}"));
+        assert_eq!(study.tests, stated.tests, "{table}");
+        assert!(
+            study
+                .inputs()
+                .iter()
+                .any(|path| path.ends_with("tests.csv"))
+        );
+        assert_eq!(study.text(), TABLED);
+    }
+}
+
+/// A fault of a cell is told at the cell, in the table, in the words of the study's own reader; one that shows later too.
+#[test]
+fn faults_in_a_table_of_tests_name_its_line_and_column() {
+    let refusal = |table: &str| {
+        let error = tabled(TABLED, table).expect_err(table);
+        let place = error.to_string();
+        assert!(place.contains("tests.csv:"), "{place}");
+        (error.position(), error.diagnostic().key.clone(), place)
+    };
+    for (table, position, key, says) in [
+        ("id,torque\nA,60\nB,-6\n", (3, 3), "test.torque", "-6"),
+        ("id,torque\nA,much\n", (2, 3), "test.torque", "much"),
+        ("id,torque\nfirst,60\n", (2, 1), "test.id", "taken"),
+        ("id,torque\n,60\n", (2, 1), "test.id", "missing"),
+        ("id,role\nA,hold-out\n", (2, 3), "test.role", "hold-out"),
+        ("id,torqe\nA,60\n", (1, 4), "torqe", "no test has"),
+        ("id,torque,torque\nA,6,7\n", (1, 11), "torque", "twice"),
+        ("id,torque\nA,60,7\n", (2, 6), "", "3 cells"),
+        ("id,torque\n", (1, 10), "", "no rows"),
+        ("# nothing\n", (1, 10), "", "empty"),
+    ] {
+        let (at, found, message) = refusal(table);
+        assert_eq!(at, Some(position), "{table}: {message}");
+        assert_eq!(found, key, "{message}");
+        assert!(message.contains(says), "{message}");
+    }
+    let study = tabled(TABLED, "id,torque\nA,60\n").unwrap();
+    let later = study.refuse("test[1].torque", "is too much", "less", "");
+    assert_eq!(later.position(), Some((2, 3)));
+    assert!(later.to_string().contains("tests.csv:2:3"), "{later}");
+    let here = study.refuse("test[0].torque", "is too much", "less", "");
+    assert!(here.to_string().contains("study.toml:"), "{here}");
+    let missing = Study::parse(TABLED, "nowhere/study.toml").expect_err("no such table");
+    assert_eq!(missing.diagnostic().fault, Fault::Unreadable);
+}

@@ -255,6 +255,7 @@ impl Edit<'_> {
             (super::PROFILE_KEYS[0], &study.profiles[0]),
             (super::PROFILE_KEYS[1], &study.profiles[1]),
             ("measurements.file", &study.measurements),
+            ("measurements.tests", &study.tests_file),
             ("numerics.mesh_pinion", &numerics.mesh_pinion),
             ("numerics.mesh_gear", &numerics.mesh_gear),
         ];
@@ -316,7 +317,8 @@ impl Edit<'_> {
     }
 
     fn span(&self, path: &str) -> Option<Range<usize>> {
-        self.study.spans.get(path).cloned()
+        let own = |span: &&Range<usize>| span.end <= self.study.text().len();
+        self.study.spans.get(path).filter(own).cloned()
     }
 
     fn text(&self, span: &Range<usize>) -> &str {
@@ -341,7 +343,7 @@ impl Edit<'_> {
 }
 
 /// A text as TOML writes it.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

@@ -214,6 +214,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("test", "reversed", Value::Flag, Default("false"), "the other drive direction"),
 
     doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
+    doc("measurements", "tests", Value::Text, Words("`[[test]]` alone"), "a CSV file with a row for each test and the keys of `[[test]]` as columns, relative to the study; its tests come after those of `[[test]]`"),
 
     doc("face", "slices", Value::Count(1, 201), Default("1"), "sections across the face that turn together, each with its own wear; 1: one section stands for all of the face"),
     doc("face", "coupling", Value::Word(super::face::COUPLINGS), Default("\"none\""), "what ties neighbouring slices besides the common turn: nothing"),

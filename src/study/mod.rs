@@ -27,10 +27,12 @@ mod reader;
 mod relative;
 mod settings;
 mod setup;
+mod tests_table;
 mod units;
 mod values;
 
 use std::cell::RefCell;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use toml::de::DeTable;
@@ -53,6 +55,7 @@ pub use operation::{Operation, Role, Test};
 pub use settings::{ContactKind, Noise, Outliers, Scatter, Wear};
 
 use reader::{Spans, Table, shown};
+use tests_table::TestsTable;
 
 /// Keys before the first table and the tables' names.
 const ROOT_KEYS: &[&str] = &[
@@ -118,10 +121,12 @@ pub struct Study {
     pub contact: ContactKind,
     /// `[noise]`.
     pub noise: Noise,
-    /// `[[test]]`.
+    /// `[[test]]`, then the rows of the table of tests.
     pub tests: Vec<Test>,
     /// The measurement file, if one is named.
     pub measurements: Option<PathBuf>,
+    /// The table of tests, if one is named; what it holds is in `tests`.
+    pub tests_file: Option<PathBuf>,
     /// `[numerics]`.
     pub numerics: Numerics,
     /// `[face]`.
@@ -134,6 +139,7 @@ pub struct Study {
     effects: EffectModel,
     source: Source,
     spans: Spans,
+    tests_table: Option<TestsTable>,
 }
 
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
@@ -211,11 +217,10 @@ impl Study {
             },
         )
         .with_hint(hint);
-        let diagnostic = match self.spans.get("test") {
-            Some(span) => diagnostic.with_span(span.clone()),
-            None => diagnostic,
-        };
-        Err(StudyError::new(diagnostic, self.source.clone()))
+        Err(match self.spans.get("test") {
+            Some(span) => self.error_at(diagnostic, span.clone()),
+            None => StudyError::new(diagnostic, self.source.clone()),
+        })
     }
 
     /// `[[effect]]`, in the order of the file.
@@ -247,8 +252,9 @@ impl Study {
     /// the nearest table above it that the file has. Empty texts are left out.
     pub fn refuse(&self, key: &str, message: &str, allowed: &str, hint: &str) -> StudyError {
         let stated = self.spans.get(key);
-        let found = stated.map_or("no such key here", |span| {
-            self.source.text[span.clone()].lines().next().unwrap_or("")
+        let found = stated.map_or("no such key here".to_owned(), |span| {
+            let (source, span) = self.place(span.clone());
+            source.text[span].lines().next().unwrap_or("").to_owned()
         });
         let shown_key = shown(key);
         let diagnostic = Diagnostic::new(
@@ -265,10 +271,20 @@ impl Study {
             .next()
             .cloned();
         let end = self.source.text.trim_end().len();
-        StudyError::new(
-            diagnostic.with_span(span.unwrap_or(end..end)),
-            self.source.clone(),
-        )
+        self.error_at(diagnostic, span.unwrap_or(end..end))
+    }
+
+    /// In which text a span stands: the study's, or that of its table of tests.
+    fn place(&self, span: Range<usize>) -> (Source, Range<usize>) {
+        match &self.tests_table {
+            Some(table) => table.place(span, &self.source),
+            None => (self.source.clone(), span),
+        }
+    }
+
+    fn error_at(&self, diagnostic: Diagnostic, span: Range<usize>) -> StudyError {
+        let (source, span) = self.place(span);
+        StudyError::new(diagnostic.with_span(span), source)
     }
 
     /// Refuses a face in slices for what works on one section.
@@ -293,16 +309,32 @@ impl Study {
     }
 
     fn read(source: Source, folder: &Path) -> std::result::Result<Study, StudyError> {
-        match Study::sections(&source, folder) {
-            Ok((study, spans)) => Study {
+        let (study, spans) = match Study::sections(&source, folder) {
+            Ok(read) => read,
+            Err(diagnostic) => return Err(StudyError::new(*diagnostic, source)),
+        };
+        let Some(path) = &study.tests_file else {
+            return Study {
                 source,
                 spans,
                 ..study
             }
-            .with_profiles()
-            .and_then(Study::with_leads)
-            .and_then(Study::with_slices),
-            Err(diagnostic) => Err(StudyError::new(*diagnostic, source)),
+            .with_files();
+        };
+        let table = TestsTable::load(path)?;
+        match Study::sections(&table.behind(&source), folder) {
+            Ok((study, spans)) => Study {
+                source,
+                spans,
+                tests_table: Some(table),
+                ..study
+            }
+            .with_files(),
+            Err(mut diagnostic) => {
+                let span = diagnostic.span.take().unwrap_or(0..0);
+                let (source, span) = table.place(span, &source);
+                Err(StudyError::new(diagnostic.with_span(span), source))
+            }
         }
     }
 
@@ -313,8 +345,13 @@ impl Study {
             .into_iter()
             .chain(&self.profiles)
             .chain(&self.leads)
-            .chain([&self.measurements]);
+            .chain([&self.measurements, &self.tests_file]);
         all.filter_map(Option::as_deref).collect()
+    }
+
+    /// The study with what the files hold that it names.
+    fn with_files(self) -> std::result::Result<Study, StudyError> {
+        self.with_profiles()?.with_leads()?.with_slices()
     }
 
     /// The study with the measured profiles on its flanks.
@@ -404,6 +441,7 @@ impl Study {
             effects,
             tests,
             measurements: settings::read_measurements(&root, folder)?,
+            tests_file: settings::read_tests_file(&root, folder)?,
             numerics: numerics::read(&root, folder, lubricant)?,
             profiles: gears::profile_files(&root, folder)?,
             face,
@@ -414,6 +452,7 @@ impl Study {
                 text: String::new(),
             },
             spans: Spans::new(),
+            tests_table: None,
         };
         drop(document);
         Ok((study, spans.into_inner()))

@@ -281,7 +281,7 @@ fn fault(fault: Fault, column: &str, message: impl Into<String>, span: Range<usi
 }
 
 /// The lines that say something, without outer blanks.
-fn lines(text: &str) -> impl Iterator<Item = Range<usize>> + '_ {
+pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> + '_ {
     let mut at = 0;
     text.split('\n').filter_map(move |line| {
         let start = at;
@@ -303,7 +303,7 @@ fn cells(text: &str, line: Range<usize>) -> Vec<Range<usize>> {
         .collect()
 }
 
-fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
+pub(super) fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
     let part = &text[span.clone()];
     let start = span.start + (part.len() - part.trim_start().len());
     start..start + part.trim().len()

@@ -8,6 +8,7 @@ use super::effect_model::EffectModel;
 use super::free::{FreeParameter, WEAR_COEFFICIENT};
 use super::quantity as q;
 use super::reader::Table;
+use super::relative;
 use crate::source_text::{Diagnostic, Fault, nearest};
 
 pub(super) const WEAR_KEYS: &[&str] = &["coefficient", "cycles"];
@@ -24,7 +25,7 @@ pub(super) const NOISE_KEYS: &[&str] = &[
     "trace_shift",
     "outliers",
 ];
-pub(super) const MEASUREMENTS_KEYS: &[&str] = &["file"];
+pub(super) const MEASUREMENTS_KEYS: &[&str] = &["file", "tests"];
 
 /// `[wear]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -249,10 +250,21 @@ pub(super) fn read_measurements(root: &Table<'_>, folder: &Path) -> Result<Optio
     let what = "relative to the study file";
     match table.name("file", what)? {
         Some(file) => Ok(Some(folder.join(file))),
+        // tests that are still to be measured
+        None if table.has("tests") => Ok(None),
         None => Err(Box::new(
             table
                 .missing("file", "a text, the measurements' file name")
                 .with_hint(what),
         )),
     }
+}
+
+/// `[measurements] tests`: a table of tests.
+pub(super) fn read_tests_file(root: &Table<'_>, folder: &Path) -> Result<Option<PathBuf>> {
+    let Some(table) = root.table("measurements", MEASUREMENTS_KEYS)? else {
+        return Ok(None);
+    };
+    let file = table.name("tests", "relative to the study file")?;
+    Ok(file.map(|file| relative::joined(folder, Path::new(file))))
 }
