@@ -397,6 +397,16 @@ fn approach_recess() {
         }),
         1.365_529_289_315_002_4,
     );
+    // growing: nothing in recess and at the pitch point, the whole a base pitch away, as much in proportion between
+    let growing = effect("approach_recess", &[("growing", 1.0)]);
+    for share in [0.0, 0.25, 1.0] {
+        let path = -share * at.base_pitch;
+        same(
+            growing.wear_factor(&Local { path, ..at }),
+            1.0 + 0.5 * share,
+        );
+    }
+    assert_eq!(growing.wear_factor(&recess), 1.0);
 }
 
 #[test]

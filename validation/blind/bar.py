@@ -29,8 +29,8 @@ class Set:
         said = found["effect"] or []
         said = [said] if isinstance(said, str) else said
         group = [name for names in found["indistinguishable"] for name in names]
-        leader = "+".join(said) or (group or [NOTHING])[0]
-        self.outcome = outcome(truth, (self.verdict, leader, group))
+        sets = [name if name in (NOTHING, UNKNOWN) else name.split("+") for name in group]
+        self.outcome = outcome(truth, {"verdict": self.verdict, "effects": said, "group": sets})
         self.exact = bool(said) and sorted(said) == sorted(truth["kinds"])
         self.sure = max(found["probabilities"].values())
         drivers = [d for e in truth["effects"] for d in (e["drivers"] or [])]

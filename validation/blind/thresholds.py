@@ -50,6 +50,13 @@ def decided(answers):
     return [json.loads(line) for line in found.stdout.splitlines()]
 
 
+# causes that the catalogue lacks, as in src/draw.rs
+OUTSIDE = {
+    "starvation_band", "growing_scuff", "on_off_blocks", "gear_hardness_waves", "load_moved_band",
+    "members_swap", "half_flank_oil_failure", "humidity_cycle", "gear_groove", "gear_tip_plating",
+}
+
+
 def outcome(truth, said):
     """right, wrong or other, as `blind score` counts."""
     what, leading, group = said["verdict"], sorted(said["effects"] or []), said["group"]
@@ -58,6 +65,15 @@ def outcome(truth, said):
     in_group = wanted in group if wanted else kinds in [sorted(names) for names in group if isinstance(names, list)]
     if what == "ambiguous":
         return "right" if in_group else "other"
+    known = [kind for kind in kinds if kind not in OUTSIDE]
+    if what == "partial":
+        # established beside something unknown: one, or one of a group
+        named = [leading] if leading else [sorted(n for n in names if n != UNKNOWN) for names in group if isinstance(names, list)]
+        if truth["class"] == "mixed":
+            return "right" if known in named else "wrong"
+        return "other" if truth["class"] not in ("none", "outside") and all(set(n) <= set(kinds) for n in named) else "wrong"
+    if truth["class"] == "mixed" and what not in (NOTHING, UNKNOWN):
+        return "other" if leading == known else "wrong"
     if what in (NOTHING, UNKNOWN):
         return "right" if what == wanted else "wrong" if truth["class"] == "none" else "other"
     return "right" if wanted is None and (leading == kinds or in_group) else "wrong"

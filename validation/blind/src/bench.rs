@@ -146,8 +146,7 @@ impl Bench<'_> {
         let r = white(&values, &fitted, 1.0);
         let base = run(&[], 1.0);
         let by_k = white(&run(&[], 1.1), &base, 1.1f64.ln());
-        let none: Vec<Vec<f64>> = r.iter().map(|v| vec![0.0; v.len()]).collect();
-        let (all, _) = detect::left_over_white(&r, &by_k, &none);
+        let (all, _) = detect::left_over_white(&r, &by_k, &[]);
         let mut best: Vec<Rival> = Vec::new();
         for &(name, form) in CATALOGUE {
             if own.iter().any(|l| l.name == name) {
@@ -167,8 +166,8 @@ impl Bench<'_> {
                 ]
                 .contains(&name);
                 let change = white(&run(std::slice::from_ref(&law), 1.0), &base, 1.0);
-                let (left, amplitude) = detect::left_over_white(&r, &by_k, &change);
-                let left = if amplitude < 0.0 && !either {
+                let (left, amplitude) = detect::left_over_white(&r, &by_k, &[&change]);
+                let left = if amplitude[0] < 0.0 && !either {
                     all
                 } else {
                     left
@@ -287,8 +286,8 @@ pub fn strength(
     for &(name, form) in named {
         let mut law = draw::draw(name, form, context, d);
         let weigh = !law.moves_material();
-        // Two causes: each is strong enough by itself.
-        let aim = if matches!(kind, Kind::Pair | Kind::Mixed) {
+        // Several causes: each is strong enough by itself.
+        let aim = if matches!(kind, Kind::Pair | Kind::Mixed | Kind::Three) {
             target.max(12.0)
         } else {
             target
@@ -336,11 +335,11 @@ pub fn strength(
     let rows = bench.truth(&laws, weigh, 1.0);
     let seen = bench.detectability(&rows);
     let mut each = vec![seen];
-    if laws.len() == 2 {
-        each = (0..2)
+    if laws.len() > 1 {
+        each = (0..laws.len())
             .map(|x| given(bench, &laws, x, &rows, weigh))
             .collect();
-        let least = if kind == Kind::Mixed { 6.0 } else { 3.0 };
+        let least = if kind == Kind::Pair { 3.0 } else { 6.0 };
         if each.iter().any(|&v| v < least) {
             return None;
         }
@@ -348,9 +347,10 @@ pub fn strength(
     Some((laws, rows, seen, each))
 }
 
-/// Detectability of cause x when the other one is known: k and the other's strength refitted, linearised.
-fn given(bench: &Bench, laws: &[Law], x: usize, both: &[Vec<Row>], weigh: bool) -> f64 {
-    let other = &laws[1 - x];
+/// Detectability of cause x when the others are known: k and their strengths refitted, linearised.
+fn given(bench: &Bench, laws: &[Law], x: usize, all: &[Vec<Row>], weigh: bool) -> f64 {
+    let mut others = laws.to_vec();
+    others.remove(x);
     let free = |rows: Vec<Vec<Row>>| -> Vec<Vec<f64>> {
         rows.iter()
             .map(|r| r.iter().map(|v| v.free).collect())
@@ -362,12 +362,20 @@ fn given(bench: &Bench, laws: &[Law], x: usize, both: &[Vec<Row>], weigh: bool) 
             .map(|(a, b)| a.iter().zip(b).map(|(p, q)| (p - q) / by).collect())
             .collect()
     };
-    let one = std::slice::from_ref(other);
-    let alone = free(bench.truth(one, weigh, 1.0));
-    let by_k = difference(&free(bench.truth(one, weigh, 1.1)), &alone, 1.1f64.ln());
-    let stronger = other.with_strength(other.strength() * 1.1);
-    let by_a = difference(&free(bench.truth(&[stronger], weigh, 1.0)), &alone, 0.1);
-    let blocks: Vec<Vec<Block>> = both.iter().map(|r| blocks(r)).collect();
-    let r = difference(&free(both.to_vec()), &alone, 1.0);
-    detect::left_over(&r, &blocks, &by_k, &by_a).0.sqrt()
+    let without = free(bench.truth(&others, weigh, 1.0));
+    let by_k = difference(
+        &free(bench.truth(&others, weigh, 1.1)),
+        &without,
+        1.1f64.ln(),
+    );
+    let by_strengths: Vec<Vec<Vec<f64>>> = (0..others.len())
+        .map(|o| {
+            let mut stronger = others.clone();
+            stronger[o] = others[o].with_strength(others[o].strength() * 1.1);
+            difference(&free(bench.truth(&stronger, weigh, 1.0)), &without, 0.1)
+        })
+        .collect();
+    let blocks: Vec<Vec<Block>> = all.iter().map(|r| blocks(r)).collect();
+    let r = difference(&free(all.to_vec()), &without, 1.0);
+    detect::left_over(&r, &blocks, &by_k, &by_strengths).sqrt()
 }

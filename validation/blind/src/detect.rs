@@ -158,46 +158,56 @@ pub fn refit(
     (best, x)
 }
 
-/// What is left of a small change `r` (per test) when ln k of each test and one more amplitude are refitted, linearly;
-/// and that amplitude.
+/// What is left of a small change `r` (per test) when ln k of each test and more amplitudes are refitted, linearly.
 pub fn left_over(
     r: &[Vec<f64>],
     blocks: &[Vec<Block>],
     by_k: &[Vec<f64>],
-    by_amplitude: &[Vec<f64>],
-) -> (f64, f64) {
+    by_amplitudes: &[Vec<Vec<f64>>],
+) -> f64 {
     let white = |v: &[Vec<f64>]| -> Vec<Vec<f64>> {
         v.iter().zip(blocks).map(|(v, b)| whiten(b, v)).collect()
     };
-    left_over_white(&white(r), &white(by_k), &white(by_amplitude))
+    let by_amplitudes: Vec<Vec<Vec<f64>>> = by_amplitudes.iter().map(|v| white(v)).collect();
+    let by_amplitudes: Vec<&[Vec<f64>]> = by_amplitudes.iter().map(Vec::as_slice).collect();
+    left_over_white(&white(r), &white(by_k), &by_amplitudes).0
 }
 
-/// The same on whitened values.
-pub fn left_over_white(r: &[Vec<f64>], by_k: &[Vec<f64>], by_amplitude: &[Vec<f64>]) -> (f64, f64) {
+/// The same on whitened values; and those amplitudes.
+pub fn left_over_white(
+    r: &[Vec<f64>],
+    by_k: &[Vec<f64>],
+    by_amplitudes: &[&[Vec<f64>]],
+) -> (f64, Vec<f64>) {
     let tests = r.len();
-    let n = tests + 1;
+    let n = tests + by_amplitudes.len();
     let mut a = vec![0.0; n * n];
     let mut g = vec![0.0; n];
     let mut all = 0.0;
     let q = 1.0 / (SCATTER * SCATTER);
     for t in 0..tests {
-        let (w, k, s) = (&r[t], &by_k[t], &by_amplitude[t]);
+        let (w, k) = (&r[t], &by_k[t]);
         all += product(w, w);
         a[t * n + t] += product(k, k);
         for u in 0..tests {
             a[t * n + u] += q * (f64::from(u8::from(t == u)) - 1.0 / tests as f64);
         }
-        a[t * n + tests] = product(k, s);
-        a[tests * n + t] = a[t * n + tests];
-        a[tests * n + tests] += product(s, s);
         g[t] = product(k, w);
-        g[tests] += product(s, w);
+        for (i, s) in by_amplitudes.iter().enumerate() {
+            let row = tests + i;
+            a[t * n + row] = product(k, &s[t]);
+            a[row * n + t] = a[t * n + row];
+            g[row] += product(&s[t], w);
+            for (j, other) in by_amplitudes.iter().enumerate() {
+                a[row * n + tests + j] += product(&s[t], &other[t]);
+            }
+        }
     }
     for i in 0..n {
         a[i * n + i] = a[i * n + i] * (1.0 + 1e-9) + 1e-12;
     }
     let x = solve(a, g.clone());
-    ((all - product(&x, &g)).max(0.0), x[tests])
+    ((all - product(&x, &g)).max(0.0), x[tests..].to_vec())
 }
 
 pub fn penalty(e: &[f64]) -> f64 {

@@ -21,11 +21,15 @@ pub enum Kind {
     Pair,
     /// A known cause in any form beside one that the catalogue lacks.
     Mixed,
+    /// Three causes of the catalogue, in any form.
+    Three,
 }
 
 impl Kind {
     pub fn name(self) -> &'static str {
-        ["none", "single", "foreign", "outside", "pair", "mixed"][self as usize]
+        [
+            "none", "single", "foreign", "outside", "pair", "mixed", "three",
+        ][self as usize]
     }
 
     pub fn named(name: &str) -> Option<Self> {
@@ -329,11 +333,16 @@ fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static s
         Kind::Foreign => vec![known(Class::Foreign, d)],
         Kind::Outside => vec![(*d.pick(OUTSIDE), "own")],
         Kind::Mixed => vec![any(d), (*d.pick(OUTSIDE), "own")],
-        Kind::Pair => loop {
-            let (a, b) = (any(d), any(d));
-            if a.0 != b.0 {
-                return vec![a, b];
+        Kind::Pair | Kind::Three => {
+            let count = if kind == Kind::Pair { 2 } else { 3 };
+            let mut drawn: Vec<(&str, &str)> = Vec::new();
+            while drawn.len() < count {
+                let next = any(d);
+                if drawn.iter().all(|known| known.0 != next.0) {
+                    drawn.push(next);
+                }
             }
-        },
+            drawn
+        }
     }
 }

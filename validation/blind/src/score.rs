@@ -70,6 +70,32 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
         "outside" => g.iter().any(|s| s == "unknown"),
         _ => g.iter().any(|s| is_truth(s)),
     };
+    // What of it the catalogue holds; beside it there may be something that it lacks.
+    let known: Vec<String> = sorted(
+        truth["effects"]
+            .as_array()
+            .into_iter()
+            .flatten()
+            .filter(|e| e["class"] != "outside")
+            .map(|e| text(&e["kind"]))
+            .collect(),
+    );
+    // Established beside something unknown: by name, or as a group of such names.
+    let partial = || {
+        let of = |s: &str| sorted(s.trim_end_matches("+unknown").split('+').map(str::to_string).collect());
+        if !named.is_empty() {
+            return match class.as_str() {
+                "mixed" if named == known => "exact",
+                "none" | "outside" | "mixed" => "wrong",
+                _ if named.iter().all(|n| want.contains(n)) => "half",
+                _ => "wrong",
+            };
+        }
+        match class.as_str() {
+            "mixed" if raw.iter().flatten().any(|s| of(s) == known) => "group",
+            _ => "wrong",
+        }
+    };
     // Every true cause stands in a group with (or is) what was named.
     let covered = named.len() == want.len()
         && want.iter().all(|w| {
@@ -89,13 +115,18 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
                 "ambiguous"
             }
         }
+        (_, "partial") => partial(),
         ("none" | "outside", _) => "wrong",
+        // the rest is not acknowledged
+        ("mixed", _) if named == known => "half",
+        ("mixed", _) => "wrong",
         _ => {
             if named == want {
                 "exact"
             } else if covered {
                 "group"
-            } else if class == "pair" && named.iter().all(|n| want.contains(n)) {
+            } else if ["pair", "three"].contains(&class.as_str())
+                && named.iter().all(|n| want.contains(n)) {
                 "half"
             } else {
                 "wrong"
@@ -127,7 +158,7 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
         .unwrap_or_default();
     let driver = found["driver"]["name"].as_str();
     let d = match truth["d_each"].as_array() {
-        Some(a) if class == "pair" => a.iter().filter_map(Value::as_f64).fold(f64::MAX, f64::min),
+        Some(a) if ["pair", "mixed", "three"].contains(&class.as_str()) => a.iter().filter_map(Value::as_f64).fold(f64::MAX, f64::min),
         _ => truth["d"].as_f64().unwrap_or(0.0),
     };
     Outcome {
@@ -189,6 +220,10 @@ fn band(d: f64) -> &'static str {
     }
 }
 
+const CLASSES: [&str; 7] = [
+    "none", "single", "foreign", "outside", "pair", "mixed", "three",
+];
+
 const RESULTS: [&str; 7] = [
     "exact",
     "group",
@@ -238,7 +273,7 @@ pub fn baselines(found: &Value, rows: usize) -> [(&'static str, Value); 3] {
 /// Rows of sets with d >= 6 (or nothing hidden), right (exact or group) and wrong, by class.
 fn counted(list: &[Outcome]) -> String {
     let mut cells = Vec::new();
-    for class in ["none", "single", "foreign", "outside", "pair"] {
+    for class in CLASSES {
         let some: Vec<&Outcome> = (list.iter())
             .filter(|o| o.class == class && (class == "none" || o.d >= 6.0))
             .collect();
@@ -268,7 +303,7 @@ pub fn score(records: &[Record], missing: &[String]) -> (String, Value) {
     );
     text.push_str("| class | noise | d | sets | exact | group | half | wrong | ambiguous | unknown | nothing | right (exact or group), 95 % | wrong, 95 % |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     let mut cells = Vec::new();
-    for class in ["none", "single", "foreign", "outside", "pair"] {
+    for class in CLASSES {
         let mut keys: Vec<(String, String)> = Vec::new();
         let bands: &[&str] = if class == "none" {
             &["all"]
