@@ -5,7 +5,7 @@
 //! ```
 //! Exact at the anchor; away from it the cheap model's own error enters by its change only.
 
-use super::predictor::{PredictError, Predictor};
+use super::predictor::{Linearised, Move, PredictError, Predictor};
 
 /// A cheap model with an offset per test of the data set; none for a test without.
 pub(super) struct Anchored<P> {
@@ -45,6 +45,29 @@ impl<P: Predictor> Predictor for Anchored<P> {
             values.iter_mut().zip(offset).for_each(|(v, o)| *v += o);
         }
         Ok(values)
+    }
+
+    fn has_derivatives(&self) -> bool {
+        self.model.has_derivatives()
+    }
+
+    /// Those of the cheap model.
+    fn linearise(
+        &self,
+        test: usize,
+        k: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let mut found = self.model.linearise(test, k, parameters, moves);
+        if let (Some(Ok(found)), Some(offset)) = (&mut found, self.offset.get(test)) {
+            found
+                .values
+                .iter_mut()
+                .zip(offset)
+                .for_each(|(v, o)| *v += o);
+        }
+        found
     }
 }
 

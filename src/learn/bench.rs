@@ -169,6 +169,11 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
+    /// Whether contacts are solved by finite elements.
+    pub(super) fn is_elastic(&self) -> bool {
+        !self.shop.members.is_empty()
+    }
+
     /// The gears.
     pub fn set(&self) -> &'a GearSet {
         &self.shop.set

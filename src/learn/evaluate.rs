@@ -3,9 +3,10 @@
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::predictor::{PredictError, Predictor};
+use super::predictor::{Move, PredictError, Predictor};
 
 /// Arguments of one prediction.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub(super) struct Evaluator<'a> {
     /// Id and number of observations of each test.
     tests: Vec<(&'a str, usize)>,
     known: HashMap<Key, Prediction>,
+    /// Points at which derivatives were asked for.
+    differentiated: usize,
 }
 
 impl<'a> Evaluator<'a> {
@@ -33,12 +36,13 @@ impl<'a> Evaluator<'a> {
             predictor,
             tests,
             known: HashMap::new(),
+            differentiated: 0,
         }
     }
 
-    /// How many predictions have been made.
+    /// How many predictions have been made, with derivatives or without.
     pub(super) fn evaluations(&self) -> usize {
-        self.known.len()
+        self.known.len() + self.differentiated
     }
 
     /// The predictions at all points, in their order.
@@ -56,6 +60,31 @@ impl<'a> Evaluator<'a> {
             .iter()
             .map(|point| self.known[&key(point)].clone())
             .collect()
+    }
+
+    /// Whether the model gives derivatives of its own.
+    pub(super) fn has_derivatives(&self) -> bool {
+        self.predictor.has_derivatives()
+    }
+
+    /// The model's own derivatives at all points, along each point's moves and by ln k; none where it has none, or none that are finite.
+    pub(super) fn derivatives(
+        &mut self,
+        points: &[(Point, Vec<Move>)],
+    ) -> Vec<Option<DMatrix<f64>>> {
+        if !self.predictor.has_derivatives() {
+            return vec![None; points.len()];
+        }
+        self.differentiated += points.len();
+        let (predictor, tests) = (self.predictor, &self.tests);
+        let own = |(point, moves): &(Point, Vec<Move>)| {
+            let (test, k) = (point.test, point.coefficient);
+            let found = predictor.linearise(test, k, &point.parameters, moves)?;
+            let derivatives = found.ok()?.derivatives;
+            let is_whole = derivatives.nrows() == tests[test].1;
+            (is_whole && derivatives.iter().all(|d| d.is_finite())).then_some(derivatives)
+        };
+        points.par_iter().map(own).collect()
     }
 
     fn predict(&self, point: &Point) -> Prediction {

@@ -243,6 +243,12 @@ impl Predictor for GearModel<'_> {
         })
         .map_err(|error| self.failed(test, &error))
     }
+
+    /// Contacts that are solved give their derivatives for little more; the analytic ones cost as much again for each.
+    fn has_derivatives(&self) -> bool {
+        self.bench.is_elastic()
+    }
+
     fn linearise(
         &self,
         test: usize,

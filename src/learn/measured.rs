@@ -9,7 +9,7 @@ use crate::learn::gear_model::GearModel;
 use crate::learn::hypothesis::version::{ModelVersion, parameter};
 use crate::learn::noise::NoiseModel;
 use crate::learn::parameters::Parameter;
-use crate::learn::predictor::{PredictError, Predictor};
+use crate::learn::predictor::{Linearised, Move, PredictError, Predictor};
 use crate::learn::search::Effort;
 use crate::measure::Dataset;
 use crate::simulate::forward::{ContactKind, ForwardError};
@@ -184,6 +184,22 @@ impl<P: Predictor> Predictor for Counted<'_, P> {
         parameters: &[f64],
     ) -> Result<Vec<f64>, PredictError> {
         let found = self.model.predict(test, coefficient, parameters);
+        (self.watch)(self.count.fetch_add(1, Ordering::Relaxed) + 1);
+        found
+    }
+
+    fn has_derivatives(&self) -> bool {
+        self.model.has_derivatives()
+    }
+
+    fn linearise(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let found = (self.model).linearise(test, coefficient, parameters, moves);
         (self.watch)(self.count.fetch_add(1, Ordering::Relaxed) + 1);
         found
     }

@@ -19,6 +19,11 @@ pub trait Predictor: Sync {
         parameters: &[f64],
     ) -> Result<Vec<f64>, PredictError>;
 
+    /// Whether [`Predictor::linearise`] costs less than differences: a fit then takes derivatives from there.
+    fn has_derivatives(&self) -> bool {
+        false
+    }
+
     /// The same with derivatives, along each of `moves` and with respect to ln k. None: the model has none of its own there, and whoever
     /// needs them takes differences.
     fn linearise(
@@ -58,6 +63,10 @@ impl<P: Predictor + ?Sized> Predictor for &P {
         parameters: &[f64],
     ) -> Result<Vec<f64>, PredictError> {
         (**self).predict(test, coefficient, parameters)
+    }
+
+    fn has_derivatives(&self) -> bool {
+        (**self).has_derivatives()
     }
 
     fn linearise(

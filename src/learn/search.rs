@@ -1,10 +1,10 @@
 //! The most probable state: Levenberg and Marquardt's damped Gauss-Newton steps within bounds.
 //!
-//! One round asks for the predictions of all tests at one state, or for all tests' derivatives by forward differences: these run
-//! side by side. ∂f_t/∂ln k and ∂f_t/∂ε_t are one and the same. Close to where derivatives were taken they are kept up to date by
+//! One round asks for the predictions of all tests at one state, or for all tests' derivatives, the model's own or by forward differences:
+//! these run side by side. ∂f_t/∂ln k and ∂f_t/∂ε_t are one and the same. Close to where derivatives were taken they are kept up to date by
 //! Broyden's formula instead of being taken anew. The scatter σ_k is chosen anew before each step (see [`super::scatter`]).
 //!
-//! Predictions that are simulations are rough: contacts enter and leave a grid, steps are cut anew. Over a short move that roughness
+//! Differences of predictions that are simulations are rough: contacts enter and leave a grid, steps are cut anew. Over a short move that roughness
 //! outweighs the change itself; carried into derivatives it makes them too large, so that a fit seems to be at rest where it is not, and
 //! its parameters better known than they are. So derivatives are not carried over moves shorter than a difference, and a fit settles:
 //! where it comes to rest they are taken once more, central and over two posterior standard deviations to each side.
@@ -133,8 +133,9 @@ impl Search<'_> {
         effort: &Effort,
     ) -> Result<Found, PredictError> {
         let (state, values) = self.scaled_start(evaluator, state)?;
-        let jacobian = self.derivatives(evaluator, &state, &values)?;
-        self.descend(evaluator, state, values, jacobian, None, effort)
+        let taken = self.derivatives(evaluator, &state, &values)?;
+        let settled = taken.exact.then(|| state.clone());
+        self.descend(evaluator, state, values, taken.jacobian, settled, effort)
     }
 
     /// Goes on from `state`, where another search settled with these derivatives and model values: if the derivatives promise
@@ -182,7 +183,7 @@ impl Search<'_> {
                 || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
             if promised <= tolerance {
                 if !settled {
-                    jacobian = self.central(evaluator, &state, &values, &quadratic)?;
+                    jacobian = self.at_rest(evaluator, &state, &values, &quadratic)?;
                     (taken_at, settled_at) = (state.clone(), Some(state.clone()));
                     rounds += 1;
                     continue;
@@ -190,7 +191,7 @@ impl Search<'_> {
                 if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
                     break (true, scatter, normal);
                 }
-                jacobian = self.derivatives(evaluator, &state, &values)?;
+                (jacobian, settled_at) = self.anew(evaluator, &state, &values, settled_at)?;
                 taken_at = state.clone();
                 continue;
             }
@@ -207,7 +208,7 @@ impl Search<'_> {
             );
             let Some((next, next_values)) = tried else {
                 if !settled {
-                    jacobian = self.central(evaluator, &state, &values, &quadratic)?;
+                    jacobian = self.at_rest(evaluator, &state, &values, &quadratic)?;
                     (taken_at, settled_at) = (state.clone(), Some(state.clone()));
                     rounds += 1;
                     damping = 1e-3;
@@ -219,7 +220,7 @@ impl Search<'_> {
                 if fresh {
                     break (false, scatter, normal);
                 }
-                jacobian = self.derivatives(evaluator, &state, &values)?;
+                (jacobian, settled_at) = self.anew(evaluator, &state, &values, settled_at)?;
                 taken_at = state.clone();
                 damping = 1e-3;
                 continue;
@@ -231,7 +232,7 @@ impl Search<'_> {
                 (state, values) = (next, next_values);
             } else {
                 (state, values) = (next, next_values);
-                jacobian = self.derivatives(evaluator, &state, &values)?;
+                (jacobian, settled_at) = self.anew(evaluator, &state, &values, settled_at)?;
                 taken_at = state.clone();
             }
         };
@@ -245,6 +246,19 @@ impl Search<'_> {
             iterations,
             converged,
         })
+    }
+
+    /// Derivatives taken anew, and where a search has settled: exact ones leave nothing to be taken once more.
+    fn anew(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+        settled_at: Option<State>,
+    ) -> Result<(DMatrix<f64>, Option<State>), PredictError> {
+        let taken = self.derivatives(evaluator, state, values)?;
+        let settled_at = taken.exact.then(|| state.clone()).or(settled_at);
+        Ok((taken.jacobian, settled_at))
     }
 
     /// Sum of the squared whitened residuals at `state`, with k (if free) scaled to the measured size.

@@ -1,5 +1,5 @@
-//! Derivatives of predictions that are simulations: forward differences on the way, central ones where a search comes to rest, and
-//! Broyden's formula in between.
+//! Derivatives of predictions: the model's own where it has them; of those that are simulations without, forward differences on the way,
+//! central ones where a search comes to rest, and Broyden's formula in between.
 
 use std::sync::Arc;
 
@@ -7,25 +7,75 @@ use nalgebra::DMatrix;
 
 use super::{DIFFERENCE_K, Search, Values};
 use crate::learn::evaluate::{Evaluator, Point};
-use crate::learn::predictor::PredictError;
+use crate::learn::predictor::{Move, PredictError};
 use crate::learn::quadratic::{Quadratic, State};
 use crate::study::Scatter;
+
+/// Length of the moves along which a model gives its own derivatives, prior standard deviations: so short that every law is straight.
+const MOVE: f64 = 1e-7;
+
+/// Derivatives of the rows with respect to (θ, ln k_t), without whitening.
+pub(super) struct Derivatives {
+    pub(super) jacobian: DMatrix<f64>,
+    /// Whether they are all the model's own.
+    pub(super) exact: bool,
+}
 
 /// How much narrower a difference is where the model has no answer at either end.
 const NARROWER: f64 = 0.125;
 
 impl Search<'_> {
-    /// Forward differences of all tests in one round; where a prediction fails, the other side is tried, then narrower ones.
+    /// The model's own derivatives of each test; none for those without.
+    fn own(&self, evaluator: &mut Evaluator<'_>, state: &State) -> Vec<Option<DMatrix<f64>>> {
+        let a_move = |p: usize| {
+            let prior = &self.layout.parameters[p];
+            let length = MOVE * prior.scale();
+            let at = state.theta[p];
+            let step = if at + length <= prior.upper {
+                length
+            } else {
+                -length
+            };
+            let mut theta = state.theta.clone();
+            theta[p] += step;
+            Move {
+                parameters: self.values(&theta).to_vec(),
+                step: self.parameters[p].divisor(step),
+            }
+        };
+        let moves: Vec<Move> = (0..self.layout.parameters.len()).map(a_move).collect();
+        let points: Vec<(Point, Vec<Move>)> = (0..self.selection.tests.len())
+            .map(|test| (self.point(state, test), moves.clone()))
+            .collect();
+        evaluator.derivatives(&points)
+    }
+
+    /// The model's own derivatives where it has any, else forward differences of all tests in one round; where a prediction fails, the
+    /// other side is tried, then narrower ones.
     pub(super) fn derivatives(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: &State,
         values: &Values,
-    ) -> Result<DMatrix<f64>, PredictError> {
+    ) -> Result<Derivatives, PredictError> {
         let params = self.layout.parameters.len();
         let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
+        let mut jacobian =
+            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
+        let own = self.own(evaluator, state);
+        for (test, own) in own.iter().enumerate() {
+            let Some(own) = own else { continue };
+            for (from, &row) in self.selection.rows[test].iter().enumerate() {
+                for p in 0..params {
+                    jacobian[(row, p)] = own[(from, p)];
+                }
+                if moves_k {
+                    jacobian[(row, params + test)] = own[(from, params)];
+                }
+            }
+        }
         let mut asked = Vec::new();
-        for test in 0..self.selection.tests.len() {
+        for test in (0..own.len()).filter(|&test| own[test].is_none()) {
             for p in 0..params {
                 let step = self.parameters[p].difference(state.theta[p]);
                 asked.push((test, p, step));
@@ -52,8 +102,6 @@ impl Search<'_> {
                 found[i] = second;
             }
         }
-        let mut jacobian =
-            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
         for ((test, column, step), found) in asked.into_iter().zip(found) {
             let divisor = match self.parameters.get(column).filter(|_| column < params) {
                 Some(parameter) => parameter.divisor(step),
@@ -67,13 +115,33 @@ impl Search<'_> {
                 jacobian[(row, column)] = (after - before) / divisor;
             }
         }
-        Ok(jacobian)
+        Ok(Derivatives {
+            jacobian,
+            exact: own.iter().all(Option::is_some),
+        })
+    }
+
+    /// Where a search comes to rest: the model's own derivatives, else central differences.
+    pub(super) fn at_rest(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+        quadratic: &Quadratic,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        if evaluator.has_derivatives() {
+            let derivatives = self.derivatives(evaluator, state, values)?;
+            if derivatives.exact {
+                return Ok(derivatives.jacobian);
+            }
+        }
+        self.central(evaluator, state, values, quadratic)
     }
 
     /// Central differences of all tests in one round, over two posterior standard deviations to each side, but at least two and at most ten
     /// times as wide as a forward difference: a standard deviation that is too small because the last derivatives took roughness for
     /// change must not make the next ones as rough.
-    pub(super) fn central(
+    fn central(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: &State,
