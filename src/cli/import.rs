@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::{CliError, Context, Outcome};
 use crate::measure::import::{self, Mapping, Sheet, Wanted};
-use crate::measure::{Dataset, Quantity, Subject};
+use crate::measure::{Dataset, Place, Quantity, Subject};
 use crate::study::Study;
 
 /// Arguments of `import`.
@@ -249,11 +249,11 @@ fn wide(
     };
     let quantity = Quantity::ALL
         .into_iter()
-        .find(|quantity| quantity.name() == args.quantity && *quantity != Quantity::MassLoss)
+        .find(|quantity| quantity.name() == args.quantity && quantity.place() != Place::Whole)
         .ok_or_else(|| {
             let names = Quantity::ALL.map(Quantity::name);
             unusable(format!(
-                "--quantity {}: {}; a mass is written into the measurement file by hand",
+                "--quantity {}: {}; what has no position is written into the measurement file by hand",
                 args.quantity,
                 names.join(", ")
             ))

@@ -20,6 +20,8 @@ pub(super) struct Reading<'r, 'f> {
     /// What the state's derivatives are with respect to.
     variations: &'r [Variation],
     meshing: Option<Meshing>,
+    /// Mean approach of the unworn flanks, rad, and its derivatives by parameter.
+    fresh: Option<(f64, Vec<f64>)>,
 }
 
 /// What follows from the contacts of a worn state.
@@ -159,6 +161,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             set,
             variations,
             meshing: None,
+            fresh: None,
         }
     }
 
@@ -179,6 +182,10 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::LoadShare => self.load_share(pinion_for_pair, at),
             Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation.face),
             Quantity::MeshStiffness => self.stiffness(at),
+            Quantity::MeanLag => {
+                let fresh = self.fresh()?.0;
+                Ok(1e6 * (self.meshing()?.0.mean - fresh))
+            }
         }
     }
 
@@ -256,6 +263,13 @@ impl<'r, 'f> Reading<'r, 'f> {
                 Ok(meshing.tangents.iter().map(of).collect())
             }
             Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
+            Quantity::MeanLag => {
+                let fresh = self.fresh()?.1.clone();
+                let tangents = self.meshing()?.0.tangents.iter();
+                Ok((tangents.zip(fresh))
+                    .map(|(t, f)| 1e6 * (t.mean - f))
+                    .collect())
+            }
         }
     }
 
@@ -393,6 +407,22 @@ impl<'r, 'f> Reading<'r, 'f> {
             None => Meshing::new(self.forward, self.worn, self.variations)?,
         };
         Ok((self.meshing.insert(meshing), self.forward))
+    }
+
+    /// The mean approach of the unworn flanks under the same load, rad, and its derivatives.
+    fn fresh(&mut self) -> Result<&(f64, Vec<f64>), ForwardError> {
+        let fresh = match self.fresh.take() {
+            Some(known) => known,
+            None => {
+                let mut unworn = self.worn.clone();
+                unworn.u.fill(0.0);
+                unworn.tangents.depth.iter_mut().for_each(|d| d.fill(0.0));
+                let meshing = Meshing::new(self.forward, &unworn, self.variations)?;
+                let tangents = meshing.tangents.iter().map(|t| t.mean).collect();
+                (meshing.mean, tangents)
+            }
+        };
+        Ok(self.fresh.insert(fresh))
     }
 
     /// Rotation of the pinion that closes the flanks at the rotation `phase` (base pitches), rad; and its mean.

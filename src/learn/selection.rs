@@ -8,7 +8,7 @@ use crate::learn::evaluate::Evaluator;
 use crate::learn::noise::{Covariance, NoiseModel};
 use crate::learn::predictor::Predictor;
 use crate::learn::quadratic::Normal;
-use crate::measure::{Dataset, Observation, Quantity};
+use crate::measure::{Dataset, Observation};
 use crate::study::Role;
 
 /// The observations of the tests with one role.
@@ -45,8 +45,7 @@ impl<'a> Selection<'a> {
             let rows = 0..picked.len();
             rows.filter(|&i| picked[i].test == test).collect()
         };
-        let is_wear =
-            |o: &&Observation| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss);
+        let is_wear = |o: &&Observation| o.quantity.is_wear();
         let mut selection = Self {
             rows: tests.iter().map(rows_of).collect(),
             values: picked.iter().map(|o| o.value).collect(),

@@ -180,6 +180,7 @@ fn floor(o: &Observation, study: &Study, pair: &Pair) -> f64 {
         }
         // µm over mm = 1e-3 rad
         Quantity::TransmissionError => 1e3 * FLOOR_UM / pair.gear.base_radius,
+        Quantity::MeanLag => 1e3 * FLOOR_UM / pair.pinion.base_radius,
         _ => FLOOR_UM,
     }
 }

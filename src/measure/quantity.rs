@@ -51,6 +51,8 @@ pub enum Quantity {
     ContactPressure,
     /// Load per width over approach, N/(mm·µm).
     MeshStiffness,
+    /// Change since the start of the mean lag over a base pitch, seen at the pinion, µrad: what wear alone has opened, at the test's load.
+    MeanLag,
 }
 
 /// What the `position` of a quantity means.
@@ -60,7 +62,7 @@ pub enum Place {
     Flank,
     /// Pinion rotation from the pitch point, in base pitches, 0 to 1.
     Rotation,
-    /// The whole member: no position.
+    /// The whole member or the pair: no position.
     Whole,
 }
 
@@ -78,13 +80,14 @@ pub(super) struct Magnitude {
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Quantity; 6] = [
+    pub const ALL: [Quantity; 7] = [
         Quantity::WearDepth,
         Quantity::TransmissionError,
         Quantity::MassLoss,
         Quantity::LoadShare,
         Quantity::ContactPressure,
         Quantity::MeshStiffness,
+        Quantity::MeanLag,
     ];
 
     /// Its name in the file.
@@ -96,6 +99,7 @@ impl Quantity {
             Quantity::LoadShare => "load_share",
             Quantity::ContactPressure => "contact_pressure",
             Quantity::MeshStiffness => "mesh_stiffness",
+            Quantity::MeanLag => "mean_lag",
         }
     }
 
@@ -103,7 +107,7 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Quantity::WearDepth => "um",
-            Quantity::TransmissionError => "urad",
+            Quantity::TransmissionError | Quantity::MeanLag => "urad",
             Quantity::MassLoss => "mg",
             Quantity::LoadShare => "1",
             Quantity::ContactPressure => "MPa",
@@ -120,18 +124,27 @@ impl Quantity {
         }
     }
 
+    /// Whether it is nearly proportional to the wear.
+    pub fn is_wear(self) -> bool {
+        matches!(
+            self,
+            Quantity::WearDepth | Quantity::MassLoss | Quantity::MeanLag
+        )
+    }
+
     /// What its position means.
     pub fn place(self) -> Place {
         match self {
             Quantity::WearDepth | Quantity::LoadShare | Quantity::ContactPressure => Place::Flank,
             Quantity::TransmissionError | Quantity::MeshStiffness => Place::Rotation,
-            Quantity::MassLoss => Place::Whole,
+            Quantity::MassLoss | Quantity::MeanLag => Place::Whole,
         }
     }
 
     /// On what it can be measured.
     pub fn subjects(self) -> &'static [Subject] {
         match self.place() {
+            _ if self == Quantity::MeanLag => &[Subject::Pair],
             Place::Flank | Place::Whole => &[Subject::Pinion, Subject::Gear],
             Place::Rotation => &[Subject::Pair],
         }
@@ -152,6 +165,7 @@ impl Quantity {
             Quantity::LoadShare => limits(2.0, "percent", 0.0, ""),
             Quantity::ContactPressure => limits(3e4, "Pa or kPa", 5.0, "GPa"),
             Quantity::MeshStiffness => limits(1e3, "N/mm per mm", 0.0, ""),
+            Quantity::MeanLag => limits(1e6, "nrad", 0.0, ""),
         }
     }
 }

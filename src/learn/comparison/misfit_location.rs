@@ -97,6 +97,7 @@ fn subject(quantity: Quantity) -> &'static str {
         Quantity::LoadShare => "The computed load share",
         Quantity::ContactPressure => "The computed pressure",
         Quantity::MeshStiffness => "The computed mesh stiffness",
+        Quantity::MeanLag => "The computed mean lag",
     }
 }
 

@@ -48,9 +48,9 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
         list.push(words.to_owned());
     };
     judge(
-        has(Quantity::WearDepth) || has(Quantity::MassLoss),
+        Quantity::ALL.into_iter().any(|q| q.is_wear() && has(q)),
         "the wear coefficient k",
-        "the wear coefficient: no fit test has a depth or a mass",
+        "the wear coefficient: no fit test has a depth, a mass or a mean lag",
     );
     judge(
         has(Quantity::WearDepth),

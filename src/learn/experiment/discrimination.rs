@@ -50,7 +50,7 @@ impl PlannedResponse {
         let own = values(&state.theta);
         let at = predictor.predict(0, state.log_k.exp(), &own)?;
         let rows = &bench.tests[0].observations;
-        let worn = |q: Quantity| matches!(q, Quantity::WearDepth | Quantity::MassLoss);
+        let worn = Quantity::is_wear;
         // Worn depths are nearly proportional to k.
         let by_k = if rows.iter().all(|o| worn(o.quantity)) {
             at.clone()

@@ -20,7 +20,8 @@ const ROWS: &str = "test,member,cycles,quantity,position,value,sigma\n\
     A,pinion,4e5,load_share,25.9,1,1\n\
     A,pinion,4e5,load_share,27.9,1,1\n\
     A,pinion,4e5,contact_pressure,27.0,1,1\n\
-    A,pair,4e5,mesh_stiffness,0.3,1,1\n";
+    A,pair,4e5,mesh_stiffness,0.3,1,1\n\
+    A,pair,4e5,mean_lag,,1,1\n";
 
 fn study() -> Study {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -99,7 +100,7 @@ fn check(kind: ContactKind, names: &[&str]) {
                 (2.0 * apart * unit, at(-1.0), at(1.0))
             });
             // depths, masses, transmission errors, shares, the others
-            for kind in [0..3, 3..5, 5..7, 7..9, 9..10, 10..11] {
+            for kind in [0..3, 3..5, 5..7, 7..9, 9..10, 10..11, 11..12] {
                 for row in kind.clone() {
                     let exact = found.derivatives[(row, column)];
                     let agrees = differences.iter().any(|(apart, low, high)| {
@@ -124,13 +125,14 @@ fn check(kind: ContactKind, names: &[&str]) {
 }
 
 /// One law of every kind: with a clock and without, local and of the pair's load, added, displaced, of load, flexibility, profile, pitch, axes.
-const KINDS: [&str; 10] = [
+const KINDS: [&str; 11] = [
     "running_in",
     "pressure_exponent",
     "film_thickness",
     "debris_abrasion",
     "plastic_deformation",
     "dynamic_load",
+    "friction_load",
     "extra_flexibility",
     "tip_relief",
     "pitch_error",
@@ -146,4 +148,36 @@ fn what_is_measured_is_differentiated_by_finite_elements() {
 fn what_is_measured_is_differentiated_by_the_analytic_model() {
     let all: Vec<&str> = CATALOGUE.iter().map(|card| card.name).collect();
     check(ContactKind::Hertz, &all);
+}
+
+/// Flanks that have lost h everywhere, normal to themselves, meet as before when the pinion has turned by h/r_b1: the path of contact is the common
+/// tangent of the base circles. Tolerance: edges, where a turned flank ends elsewhere.
+#[test]
+fn an_even_loss_is_a_lag_of_its_depth_over_the_base_radius() {
+    let study = study();
+    let data = Dataset::parse(ROWS, "m.csv", &study.known()).unwrap();
+    let row = data.observations[11].clone();
+    let measured = Measured::new(&study, data);
+    for kind in [ContactKind::Fem, ContactKind::Hertz] {
+        let workshop = measured.workshop(kind).unwrap();
+        let bench = measured.bench(&workshop).unwrap();
+        let model = GearModel::new(&bench, Box::new(|_| Combined::default()));
+        let mut forward = model.forward(0, study.wear.coefficient, &[], None).unwrap();
+        let [pinion, gear] = forward.cycle().stations.arc.each_ref().map(Vec::len);
+        let mut u = vec![1e-3; pinion];
+        u.extend(vec![2e-3; gear]);
+        let worn = crate::learn::trajectory::Node {
+            u,
+            ..Default::default()
+        };
+        let base = forward.cycle().pair.pinion.base_radius;
+        let lag = Reading::new(&mut forward, &worn, bench.set(), &[])
+            .of(&row)
+            .unwrap();
+        let expected = 1e6 * 3e-3 / base;
+        assert!(
+            (lag / expected - 1.0).abs() < 2e-3,
+            "{kind:?}: {lag}, {expected}"
+        );
+    }
 }

@@ -7,7 +7,9 @@ use crate::measure::Quantity;
 fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
     match quantity {
         Quantity::WearDepth => &[("um", 1.0), ("mm", 1e3), ("nm", 1e-3), ("in", 25.4e3)],
-        Quantity::TransmissionError => &[("urad", 1.0), ("mrad", 1e3), ("arcsec", 4.848_136_811)],
+        Quantity::TransmissionError | Quantity::MeanLag => {
+            &[("urad", 1.0), ("mrad", 1e3), ("arcsec", 4.848_136_811)]
+        }
         Quantity::ContactPressure => &[("MPa", 1.0), ("GPa", 1e3), ("N/mm2", 1.0)],
         Quantity::LoadShare => &[("1", 1.0), ("%", 0.01)],
         Quantity::MeshStiffness => &[("N/(mm um)", 1.0), ("N/mm/um", 1.0)],

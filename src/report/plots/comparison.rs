@@ -95,6 +95,7 @@ fn words(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::LoadShare => ("load share", "-"),
         Quantity::ContactPressure => ("contact pressure", "MPa"),
         Quantity::MeshStiffness => ("mesh stiffness", "N/(mm µm)"),
+        Quantity::MeanLag => ("mean lag", "µrad"),
     }
 }
 
