@@ -83,6 +83,14 @@ macro_rules! refusals {
 }
 
 refusals! {
+    no_slices: format!("{SHORT}[face]\nslices = 0\n")
+        => BadValue "face.slices" at 22:10, "0", "1 to 201", "out of range";
+    half_a_slice: format!("{SHORT}[face]\nslices = 2.5\n")
+        => WrongType "face.slices" at 22:10, "2.5", "1 to 201", "whole number";
+    a_coupling_through_the_teeth: format!("{SHORT}[face]\nslices = 3\ncoupling = \"teeth\"\n")
+        => BadValue "face.coupling" at 23:12, "\"teeth\"", "\"none\"", "not modelled";
+    a_lead_without_slices: format!("{SHORT}[face.gear]\ncrowning = 5.0\n")
+        => Inconsistent "face.gear.crowning" at 22:12, "5.0", "2 or more", "needs slices";
     negative_module: with("module = 2.0", "module = -2.0")
         => BadValue "gears.module" at 2:10, "-2.0", "0.05 to 100 mm", "out of range";
     nan: with("module = 2.0", "module = nan")
@@ -633,4 +641,33 @@ fn faults_in_a_table_of_tests_name_its_line_and_column() {
     assert!(here.to_string().contains("study.toml:"), "{here}");
     let missing = Study::parse(TABLED, "nowhere/study.toml").expect_err("no such table");
     assert_eq!(missing.diagnostic().fault, Fault::Unreadable);
+}
+
+/// A lead file is refused at its row where it is off the face, does not ascend or has no number.
+#[test]
+fn faults_in_a_lead_file_name_its_line_and_column() {
+    let study = format!("{SHORT}[face]\nslices = 3\n[face.pinion]\nlead_file = \"lead.csv\"\n");
+    let refusal = |table: &str| {
+        let home = tempfile::tempdir().unwrap();
+        std::fs::write(home.path().join("lead.csv"), table).unwrap();
+        let path = home.path().join("study.toml");
+        std::fs::write(&path, &study).unwrap();
+        let error = Study::load(&path).expect_err(table);
+        (error.position(), error.to_string())
+    };
+    for (rows, position, says) in [
+        ("-20,1\n12,2", (2, 1), "-16.5 to 16.5 mm"),
+        ("-10,1\n-12,2", (3, 1), "ascend"),
+        ("-10,1\n10,deep", (3, 4), "not a finite number"),
+        ("-10000,1\n10000,2", (2, 1), "micrometres"),
+    ] {
+        let (at, message) = refusal(&format!("face,deviation\n{rows}\n"));
+        assert_eq!(at, Some(position), "{message}");
+        assert!(
+            message.contains(says) && message.contains("lead.csv"),
+            "{message}"
+        );
+    }
+    let (_, message) = refusal("face,deviation\n-20,1\n12,2\n");
+    assert!(!message.contains("micrometres"), "{message}");
 }

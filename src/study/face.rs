@@ -42,7 +42,15 @@ pub(super) fn read(
     let why = "sections across the face; 11 are enough for straight and crowned leads";
     face.slices = table.count("slices", 1..=MOST_SLICES, why)?.unwrap_or(1);
     let couplings: Vec<(&str, ())> = COUPLINGS.iter().map(|word| (*word, ())).collect();
-    table.choice("coupling", &couplings)?;
+    let coupling = table.choice("coupling", &couplings);
+    coupling.map_err(|refusal| {
+        let mut refusal = *refusal;
+        refusal.hints = vec![
+            "slices share the common turn alone: a coupling through the teeth is not modelled"
+                .to_owned(),
+        ];
+        Box::new(refusal)
+    })?;
     for (side, which) in Member::BOTH.into_iter().enumerate() {
         let Some(member) = table.table(which.name(), MEMBER_KEYS)? else {
             continue;

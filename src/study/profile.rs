@@ -222,7 +222,9 @@ fn check_face(place: f64, width: f64, before: Option<&[f64; 2]>, span: Range<usi
             p if p > 0.0 && p <= width + ROUNDING => {
                 "places count from mid-face: take off half of the width"
             }
-            p if p.abs() <= 1e3 * half => "this may be in micrometres: write millimetres",
+            p if p.abs() > 50.0 * half && p.abs() <= 1e3 * half => {
+                "this may be in micrometres: write millimetres"
+            }
             _ => "",
         };
         return Err(fault(Fault::BadValue, "face", message, span)
