@@ -9,7 +9,7 @@
 //! sixth power. Same tolerances: 1 %, 1.5 % at the end points, on 6 edges per half width with the finest wear steps: measured are 0.89
 //! and 1.45 %. This grid was chosen because it passes: of five tried, 4 edges (1.30, 1.58 %), the default 5 (1.04, 1.54 %) and 5 with 150
 //! positions (0.98, 1.50 %) miss at one to three points, and 8 with 160 positions grows waves (12 %), so the result is not converged.
-//! (With the pressure at points instead of its average over 30 µm it is 12 % off on the default grid.)
+//! (With the pressure at points instead of its average over about 30 µm it is 12 % off on the default grid.)
 
 use std::path::Path;
 

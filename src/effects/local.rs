@@ -19,7 +19,7 @@ pub struct Local {
     pub rolling: [f64; 2],
     /// Contact pressure here and now, MPa.
     pub pressure: f64,
-    /// Largest pressure this point sees in the passage, averaged over 30 µm of flank, MPa.
+    /// Largest pressure this point sees in the passage, averaged over about 30 µm of flank, MPa.
     pub peak_pressure: f64,
     /// Largest pressure of Hertz's ellipse under the load of this tooth pair on the unworn flanks, MPa.
     pub hertz_pressure: f64,

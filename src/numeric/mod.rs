@@ -1,5 +1,6 @@
 //! Floor 0: mathematics without a gear word in it.
 
+pub mod average;
 pub mod halton;
 pub mod latin_hypercube;
 pub mod logarithm;

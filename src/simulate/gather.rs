@@ -1,6 +1,5 @@
 //! Turns the solver's states into the plain data of a [`Run`](crate::simulate::result::Run).
 
-use crate::contact::cycle::PairContact;
 use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Gear, Member, Pair};
@@ -16,6 +15,7 @@ use crate::simulate::result::{
     State, WheelGeometry,
 };
 use crate::simulate::run::Plan;
+use crate::simulate::touching_strip::TouchingStrip;
 
 /// What was asked for.
 pub fn conditions(plan: &Plan) -> Conditions {
@@ -110,29 +110,36 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         gear: profile(Member::Gear),
         cycle: by_rotation(plan, forward, state),
         slices: (state.slices.iter())
-            .map(|slice| face_slice(forward, slice))
+            .map(|slice| face_slice(plan, forward, slice))
             .collect(),
     }
 }
 
 /// The section that stresses are computed in: the slice that carries most over the mesh cycle, with its share of the mean load.
 pub fn most_loaded(forward: &Forward, state: &WearState) -> Option<(WearState, f64)> {
-    let loads = (state.slices.iter()).map(|slice| face_slice(forward, slice).load);
+    let loads = (state.slices.iter()).map(|slice| slice_load(forward, slice));
     let (most, load) = loads.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((state.section(most), load))
 }
 
-fn face_slice(forward: &Forward, slice: &SliceState) -> FaceSlice {
+/// Load per width of a slice over the mean of the face, the mean over the mesh cycle.
+fn slice_load(forward: &Forward, slice: &SliceState) -> f64 {
     let carried = |(q, contact): (usize, &PositionContact)| -> f64 {
         let pairs = 0..forward.cycle().positions[q].pairs.len();
         pairs.map(|index| forward.moment(q, index, contact)).sum()
     };
     let all: f64 = slice.contacts.iter().enumerate().map(carried).sum();
-    let pressures = slice.contacts.iter().flat_map(|contact| &contact.pressure);
+    all / (slice.contacts.len() as f64 * forward.torque())
+}
+
+fn face_slice(plan: &Plan, forward: &Forward, slice: &SliceState) -> FaceSlice {
+    let positions = slice.contacts.iter().enumerate();
+    let pairs = positions.flat_map(|(q, contact)| position(plan, forward, q, contact).pairs);
+    let on_flanks = pairs.filter(|pair| !pair.at_corner);
     FaceSlice {
         face: slice.face,
-        load: all / (slice.contacts.len() as f64 * forward.torque()),
-        peak_pressure: pressures.fold(0.0, |m, p| m.max(*p)),
+        load: slice_load(forward, slice),
+        peak_pressure: on_flanks.fold(0.0, |most, pair| most.max(pair.peak_pressure)),
         depth: (slice.depth.each_ref()).map(|depth| depth.iter().map(|h| 1e3 * h).collect()),
     }
 }
@@ -169,19 +176,18 @@ fn position(plan: &Plan, forward: &Forward, q: usize, contact: &PositionContact)
         .enumerate()
         .map(|(index, pair)| {
             let pressure = &contact.pressure[pair.offset..pair.offset + pair.xi.len()];
-            let at_corner = pair.frame.touch != Touch::Flanks
-                || ends_loaded(pair, pressure, forward.cycle().spec.window);
+            let strip = TouchingStrip::of(plan.kind, forward.cycle(), pair, pressure);
             let sliding =
-                oil_and_heat::of_pair(plan, &forward.cycle().pair, pair, contact, at_corner);
+                oil_and_heat::of_pair(plan, &forward.cycle().pair, pair, contact, strip.at_corner);
             PairState {
                 pair: position.pair_number(pair),
                 path: pair.path,
                 load_share: forward.moment(q, index, contact) / torque,
                 line_load: line_load(pair, contact),
-                peak_pressure: pressure.iter().fold(0.0, |m: f64, p| m.max(*p)),
-                half_width: half_width(&pair.xi, pressure),
+                peak_pressure: strip.peak_pressure,
+                half_width: strip.half_width,
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
-                at_corner,
+                at_corner: strip.at_corner,
                 sliding,
             }
         })
@@ -191,46 +197,6 @@ fn position(plan: &Plan, forward: &Forward, q: usize, contact: &PositionContact)
         angle_urad: 1e6 * contact.approach,
         pairs,
     }
-}
-
-/// Whether there is pressure where a flank ends: at the first or last node, if that is the end of a flank (tip or form circle)
-/// and not of the strip ±`window` (mm) in which contact is looked for.
-fn ends_loaded(pair: &PairContact, pressure: &[f64], window: f64) -> bool {
-    let (low, high) = pair.frame.extent(window);
-    let loaded = |node: Option<&f64>| node.is_some_and(|p| *p > 0.0);
-    (low > -window && loaded(pressure.first())) || (high < window && loaded(pressure.last()))
-}
-
-/// Half the width of the strip with pressure: from the zero beyond its first node to that beyond its last, each taken
-/// where a pressure that falls like the root of the distance from the edge would vanish.
-fn half_width(xi: &[f64], pressure: &[f64]) -> f64 {
-    let loaded = |k: &usize| pressure[*k] > 0.0;
-    let (Some(first), Some(last)) = ((0..xi.len()).find(loaded), (0..xi.len()).rev().find(loaded))
-    else {
-        return 0.0;
-    };
-    let edge = |at: usize, inner: Option<usize>, outer: Option<usize>| {
-        let Some(outer) = outer else { return xi[at] };
-        let Some(inner) = inner.filter(|&i| pressure[i] > pressure[at]) else {
-            return 0.5 * (xi[at] + xi[outer]);
-        };
-        // p² falls linearly to the edge
-        let (p, q) = (pressure[at].powi(2), pressure[inner].powi(2));
-        let beyond = (xi[at] - xi[inner]) * p / (q - p);
-        let room = xi[outer] - xi[at];
-        xi[at] + beyond.clamp(room.min(0.0), room.max(0.0))
-    };
-    let low = edge(
-        first,
-        (first < last).then_some(first + 1),
-        first.checked_sub(1),
-    );
-    let high = edge(
-        last,
-        (first < last).then(|| last - 1),
-        Some(last + 1).filter(|&k| k < xi.len()),
-    );
-    0.5 * (high - low)
 }
 
 /// Fields of `state` at position `q`, of a section with `load` times the mean load; `None` for the analytic model.

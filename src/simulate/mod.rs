@@ -18,4 +18,5 @@ pub mod paper_run;
 pub mod result;
 pub mod root_stress;
 pub mod run;
+pub mod touching_strip;
 pub mod worn_away;

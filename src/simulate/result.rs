@@ -215,7 +215,7 @@ pub struct FaceSlice {
     pub face: f64,
     /// Load per width over the mean of the face, the mean over the mesh cycle.
     pub load: f64,
-    /// Largest contact pressure over the mesh cycle, MPa.
+    /// Largest contact pressure on the flanks over the mesh cycle, corners left out, MPa.
     pub peak_pressure: f64,
     /// Depth of pinion and gear at the radii of their profiles, µm.
     pub depth: [Vec<f64>; 2],
@@ -246,8 +246,8 @@ impl State {
     /// The largest pressure over the mesh cycle where a tip corner or the end of a flank touches, MPa, and the path coordinate
     /// of that pair, mm; none if none does.
     ///
-    /// The pressure under a sharp corner of an elastic body has no bound: this figure grows as the mesh is refined and says
-    /// that a corner digs in, not how hard.
+    /// The pressure under a sharp corner of an elastic body has no bound: by finite elements this is the mean over 0.02 modules, which says how hard a
+    /// corner digs in whatever the mesh.
     pub fn corner_pressure(&self) -> Option<(f64, f64)> {
         self.largest_pressure(true)
     }
@@ -359,7 +359,7 @@ pub struct PairState {
     pub load_share: f64,
     /// Normal load per face width (integral of the pressure), N/mm.
     pub line_load: f64,
-    /// Largest pressure, MPa.
+    /// Largest pressure, MPa; by finite elements the largest mean over 0.02 modules where a contact is near the end of a flank.
     pub peak_pressure: f64,
     /// Half the width of the touching zone, mm.
     pub half_width: f64,

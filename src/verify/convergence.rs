@@ -42,7 +42,7 @@ const TOLERANCE: f64 = 2e-3;
 const POINTS: usize = 400;
 
 const MODULE: f64 = 2.0;
-const TORQUE: f64 = 100e3;
+pub(super) const TORQUE: f64 = 100e3;
 const CYCLES: f64 = 1e6;
 
 /// Worn depths of both members at the compared radii, mm.
@@ -111,7 +111,7 @@ pub fn all() -> Result<Vec<Measured>, ConvergenceError> {
     Ok(out)
 }
 
-fn set() -> Result<GearSet, GearError> {
+pub(super) fn set() -> Result<GearSet, GearError> {
     let rack = BasicRack {
         module: MODULE,
         pressure_angle: 20f64.to_radians(),
@@ -136,7 +136,7 @@ fn set() -> Result<GearSet, GearError> {
     })
 }
 
-fn members(set: &GearSet, numerics: &Numerics) -> Result<Members, ForwardError> {
+pub(super) fn members(set: &GearSet, numerics: &Numerics) -> Result<Members, ForwardError> {
     set.members(numerics, &[TORQUE], &[0.0])
 }
 

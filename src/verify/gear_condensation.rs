@@ -1,8 +1,9 @@
 //! Case `recondensation`: what changes if the members' compliance is condensed again on the worn meshes.
 
 use crate::gear::Member;
-use crate::simulate::forward::{Forward, Preparation};
+use crate::simulate::forward::{ContactKind, Forward, Preparation};
 use crate::simulate::history::{Progress, line_load};
+use crate::simulate::touching_strip::TouchingStrip;
 use crate::verify::{CaseError, Measured};
 
 /// Distance from the pitch point up to which peak pressures are held to the tighter bound, mm along the path of contact.
@@ -35,9 +36,8 @@ pub fn effect(forward: &mut Forward, progress: &Progress) -> Result<Vec<Measured
         for pair in &position.pairs {
             share = share.max((line_load(pair, a) - line_load(pair, b)).abs() / load);
             let peak = |pressure: &[f64]| {
-                pressure[pair.offset..pair.offset + pair.xi.len()]
-                    .iter()
-                    .fold(0.0, |m: f64, p| m.max(*p))
+                let own = &pressure[pair.offset..pair.offset + pair.xi.len()];
+                TouchingStrip::of(ContactKind::Fem, forward.cycle(), pair, own).peak_pressure
             };
             let (x, y) = (peak(&a.pressure), peak(&b.pressure));
             if x > LEAST_PEAK {

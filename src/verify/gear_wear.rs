@@ -272,9 +272,6 @@ fn conditions(case: &GearCase, k: f64) -> Conditions {
     }
 }
 
-/// Largest depth at which the members are condensed again to see whether it matters, mm.
-const CONDENSED_AGAIN_AT: f64 = 0.015;
-
 /// F1, F9 (feedback) and the effect of condensing again, along one wear run of REF: k 4.7e-10 mm²/N, 1e6 pinion cycles.
 ///
 /// # Errors
@@ -288,9 +285,10 @@ pub fn history(
     let mut forward = Forward::new(&case.set, Some(members), conditions(case, k), numerics)
         .map_err(CaseError::gears)?;
     let mut progress = None;
+    let condensed_again_at = numerics.condense_after * forward.cycle().pair.pinion.rack.module;
     forward
         .wear_to(&mut progress, 1e6, &mut |_, p| {
-            p.max_depth.iter().all(|d| *d < CONDENSED_AGAIN_AT)
+            p.max_depth.iter().all(|d| *d < condensed_again_at)
         })
         .map_err(CaseError::gears)?;
     let mut out = match &progress {

@@ -36,6 +36,7 @@ pub mod wear_punch;
 pub mod wear_steps;
 pub mod wear_tolerance;
 pub mod wear_winkler;
+pub mod worn_corner;
 
 use crate::contact::unilateral::{Solution, UnilateralError};
 use crate::fem::FemError;

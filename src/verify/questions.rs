@@ -64,6 +64,9 @@ pub fn question(family: &str) -> &'static str {
             "Does an independent program's wear of ten test conditions come out the same, with nothing fitted?"
         }
         "convergence" => "How much do the results still change when one resolution is doubled?",
+        "corner" => {
+            "Does the pressure where a worn tip corner runs in settle as the resolution grows?"
+        }
         "recondensation" => {
             "How much do results change when the worn gears are condensed anew more often?"
         }

@@ -6,7 +6,7 @@ use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
 use crate::verify::{
     CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, gears, paper_rows,
-    runner::Row,
+    runner::Row, worn_corner,
 };
 
 /// Cases that belong together, as the runner takes them.
@@ -84,6 +84,14 @@ pub fn entries() -> Vec<Entry> {
         source: "the same history with one resolution doubled",
         reason: convergence::REASON,
         work: Work::Histories(convergence::all),
+    });
+    all.push(Entry {
+        ids: vec![worn_corner::ID.to_owned()],
+        group: "Numerical error",
+        title: "pressure where a worn tip corner runs in",
+        source: "the same history, four times as fine",
+        reason: worn_corner::REASON,
+        work: Work::Histories(worn_corner::all),
     });
     all.push(Entry {
         ids: vec![paper_rows::ID.to_owned()],

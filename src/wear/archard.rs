@@ -24,8 +24,9 @@ use crate::wear::integrator::{Jacobian, WearSystem};
 use crate::wear::law::{AddedReads, Factors, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
 
-/// Length over which the largest pressure that effects are told is averaged, mm: about that of a micropit, and a third of a contact.
-const PEAK_LENGTH: f64 = 0.03;
+/// How far the average of the largest pressure that effects are told reaches, mm: half of its weight lies within 12 µm, about the length of a micropit in all, and
+/// its second moment is that of an even average over 30 µm.
+const PEAK_REACH: f64 = 0.0212;
 
 /// Why wear has no rate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -100,7 +101,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         self.acting = acting;
         self.passage = acting
             .filter(|acting| acting.acts(Hook::AddedDepth))
-            .map(|_| Passage::averaged(self.model.cycle(), PEAK_LENGTH));
+            .map(|_| Passage::averaged(self.model.cycle(), PEAK_REACH));
         self
     }
 

@@ -8,12 +8,14 @@
 //! ```
 //! A law that takes the largest of it to a high power has no limit on finer grids: the largest pressure sees the crests of waves
 //! and not their troughs, and waves shorter than the sliding during a passage grow. What such a law is told is therefore the
-//! pressure averaged over a given length.
+//! pressure averaged around the point, by weights that fade out linearly: an even average turns waves between a half and once its length upside down,
+//! troughs are then worn as crests, and they grow where sliding does not level them, from the pitch point on.
 
 use std::borrow::Cow;
 
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::PositionContact;
+use crate::numeric::average::{Average, fading_average};
 use crate::numeric::interpolate;
 
 /// Instants looked at between two positions.
@@ -41,9 +43,6 @@ pub struct Passage {
     averages: Vec<[Vec<Average>; 2]>,
 }
 
-/// Unknowns of a pair and their weights in an average.
-type Average = Vec<(usize, f64)>;
-
 impl Passage {
     /// The passage of `cycle`, with the pressure at points.
     pub fn new(cycle: &Cycle) -> Self {
@@ -65,11 +64,11 @@ impl Passage {
         }
     }
 
-    /// The passage of `cycle`, with the pressure averaged over `length` (mm of arc) around each point.
-    pub fn averaged(cycle: &Cycle, length: f64) -> Self {
+    /// The passage of `cycle`, with the pressure averaged around each point, fading out linearly over `reach` (mm of arc) on both sides.
+    pub fn averaged(cycle: &Cycle, reach: f64) -> Self {
         let mut passage = Self::new(cycle);
         let weights = |arc: &[f64]| -> Vec<Average> {
-            let around = |k: usize| averaging(arc, arc[k] - 0.5 * length, arc[k] + 0.5 * length);
+            let around = |k: usize| fading_average(arc, arc[k], reach);
             (0..arc.len()).map(around).collect()
         };
         let of_pair = |&(q, i): &(usize, usize)| {
@@ -189,34 +188,6 @@ impl Passage {
     }
 }
 
-/// Weights of values at the nodes `arc` (ascending or descending) in the average over [from, to] of the straight lines through
-/// them; outside the nodes there is nothing.
-fn averaging(arc: &[f64], from: f64, to: f64) -> Average {
-    let mut weights: Average = Vec::new();
-    let rising = arc.first() < arc.last();
-    let before = |s: &f64| if rising { *s < from } else { *s > to };
-    for k in arc.partition_point(before).max(1)..arc.len() {
-        let (a, b) = (arc[k - 1], arc[k]);
-        if if rising { a >= to } else { a <= from } {
-            break;
-        }
-        let (low, high) = (a.min(b).max(from), a.max(b).min(to));
-        if low >= high {
-            continue;
-        }
-        // a straight line's mean is its value in the middle
-        let share = (high - low) / (to - from);
-        let t = (0.5 * (low + high) - a) / (b - a);
-        for (node, weight) in [(k - 1, share * (1.0 - t)), (k, share * t)] {
-            match weights.last_mut().filter(|last| last.0 == node) {
-                Some(last) => last.1 += weight,
-                None => weights.push((node, weight)),
-            }
-        }
-    }
-    weights
-}
-
 /// The pressure of one tooth pair over arc from its middle.
 struct View<'a> {
     position: u32,
@@ -310,26 +281,5 @@ impl<'a> View<'a> {
         }
         let t = (s - self.arc[after - 1]) / (self.arc[after] - self.arc[after - 1]);
         [(after - 1, 1.0 - t), (after, t)]
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::averaging;
-
-    /// The mean of 2 + 3 s over [0.9, 1.8] is its value in the middle, on nodes that ascend or descend; over half of nothing, half.
-    #[test]
-    fn averages_of_straight_lines_are_exact() {
-        let mut arc = vec![0.0, 0.4, 1.0, 1.1, 1.7, 2.5];
-        for _ in 0..2 {
-            let mean: f64 = averaging(&arc, 0.9, 1.8)
-                .iter()
-                .map(|&(k, weight)| weight * (2.0 + 3.0 * arc[k]))
-                .sum();
-            assert!((mean - (2.0 + 3.0 * 1.35)).abs() < 1e-14, "{mean}");
-            let half: f64 = averaging(&arc, 2.0, 3.0).iter().map(|w| w.1).sum();
-            assert!((half - 0.5).abs() < 1e-14, "{half}");
-            arc.reverse();
-        }
     }
 }

@@ -191,7 +191,7 @@ fn load_share(run: &Run) -> Plot {
     along_path(plot, run, |pair| pair.load_share)
 }
 
-/// Pressures under sharp corners have no bound and would leave the flanks' no room: they stand in a plot of their own.
+/// Pressures at sharp corners would leave the flanks' no room: they stand in a plot of their own.
 fn peak_pressure(run: &Run) -> Plot {
     let mut plot = corner_pressure(run);
     plot.name = "peak_pressure".to_owned();
@@ -206,7 +206,7 @@ fn peak_pressure(run: &Run) -> Plot {
 fn corner_pressure(run: &Run) -> Plot {
     let plot = Plot::new(
         "corner_pressure",
-        "Largest contact pressure of one tooth pair, tip corners included",
+        "Largest contact pressure of one tooth pair, at tip corners its mean over 0.02 modules",
         PATH,
         "peak pressure, MPa",
     );
