@@ -102,7 +102,9 @@ fn settle(problem: &JointProblem, start: &[Vec<usize>]) -> Result<JointSolution,
             sets = first_sets(problem);
             continue;
         };
-        let trials: Vec<Trial> = solved.iter().map(|on| on.trial(approach)).collect();
+        let trials: Vec<Trial> = (solved.iter().enumerate())
+            .map(|(i, on)| on.trial(&problem.slice(i, approach), approach))
+            .collect();
         let next: Vec<Vec<usize>> = (trials.iter().enumerate())
             .map(|(i, trial)| trial.primal_dual_set(&problem.slice(i, approach)))
             .collect();
@@ -156,7 +158,9 @@ fn bracketed(problem: &JointProblem) -> Result<JointSolution, UnilateralError> {
             continue;
         };
         let moved = next - approach;
-        let trials: Vec<Trial> = solved.iter().map(|on| on.trial(next)).collect();
+        let trials: Vec<Trial> = (solved.iter().enumerate())
+            .map(|(i, on)| on.trial(&problem.slice(i, next), next))
+            .collect();
         let settled = trials
             .iter()
             .enumerate()
@@ -302,12 +306,10 @@ impl OnSet {
         }
     }
 
-    fn trial(&self, approach: f64) -> Trial {
-        Trial {
-            active: self.active.to_vec(),
-            pressure: &self.factor.of_arm * approach - &self.of_gap,
-            approach,
-        }
+    /// At the approach of the slice's own problem.
+    fn trial(&self, slice: &Problem, approach: f64) -> Trial {
+        let pressure = &self.factor.of_arm * approach - &self.of_gap;
+        Trial::with(slice, self.active.to_vec(), pressure, approach)
     }
 }
 

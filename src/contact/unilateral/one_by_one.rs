@@ -46,11 +46,10 @@ pub(super) fn one_by_one(problem: &Problem) -> Result<Solution, UnilateralError>
             }
             continue;
         }
-        let residual = trial.residual(problem);
         let scale = trial.scale(problem);
         let worst = (0..n)
             .filter(|k| !barred[*k] && trial.active.binary_search(k).is_err())
-            .map(|k| (k, residual[k] / problem.arm[k].abs()))
+            .map(|k| (k, trial.residual[k] / problem.arm[k].abs()))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         match worst {
             Some((k, violation)) if violation < -CLOSED * scale => {

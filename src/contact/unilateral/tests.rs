@@ -16,9 +16,7 @@ fn brute_force(w: &DMatrix<f64>, gap: &[f64], arm: &[f64], load: f64) -> Vec<f64
     for mask in 1u32..(1 << n) {
         let set: Vec<usize> = (0..n).filter(|k| mask >> k & 1 == 1).collect();
         let trial = Trial::on(&problem, set).unwrap();
-        if trial.pressure.iter().all(|&p| p >= 0.0)
-            && trial.residual(&problem).iter().all(|&r| r >= -1e-10)
-        {
+        if trial.pressure.iter().all(|&p| p >= 0.0) && trial.residual.iter().all(|&r| r >= -1e-10) {
             return trial.into_solution(&problem, 0).pressure;
         }
     }

@@ -15,17 +15,15 @@ pub(super) struct Trial {
     /// In that order; may be negative.
     pub(super) pressure: DVector<f64>,
     pub(super) approach: f64,
+    /// What is left of the gap at every point.
+    pub(super) residual: Vec<f64>,
 }
 
 impl Trial {
     pub(super) fn on(problem: &Problem, mut active: Vec<usize>) -> Result<Self, UnilateralError> {
         active.sort_unstable();
         if let (true, Drive::Approach(approach)) = (active.is_empty(), problem.drive) {
-            return Ok(Self {
-                active,
-                pressure: DVector::zeros(0),
-                approach,
-            });
+            return Ok(Self::with(problem, active, DVector::zeros(0), approach));
         }
         let reduced = Reduced::new(problem, &active)?;
         let approach = match problem.drive {
@@ -35,35 +33,37 @@ impl Trial {
             Drive::Approach(phi) => phi,
         };
         let pressure = &reduced.x * approach - &reduced.y;
-        Ok(Self {
-            active,
-            pressure,
-            approach,
-        })
+        Ok(Self::with(problem, active, pressure, approach))
     }
 
-    /// Residual r of every point.
-    pub(super) fn residual(&self, problem: &Problem) -> Vec<f64> {
-        let mut r: Vec<f64> = problem
-            .gap
-            .iter()
-            .zip(problem.arm)
-            .map(|(g, a)| g - self.approach * a)
+    /// Pressures on a set, at an approach.
+    pub(super) fn with(
+        problem: &Problem,
+        active: Vec<usize>,
+        pressure: DVector<f64>,
+        approach: f64,
+    ) -> Self {
+        let mut residual: Vec<f64> = (problem.gap.iter().zip(problem.arm))
+            .map(|(g, a)| g - approach * a)
             .collect();
-        for (&l, &p) in self.active.iter().zip(self.pressure.iter()) {
-            for (rk, w) in r.iter_mut().zip(problem.w.column(l).iter()) {
+        for (&l, &p) in active.iter().zip(pressure.iter()) {
+            for (rk, w) in residual.iter_mut().zip(problem.w.column(l).iter()) {
                 *rk += w * p;
             }
         }
-        r
+        Self {
+            active,
+            pressure,
+            approach,
+            residual,
+        }
     }
 
     pub(super) fn primal_dual_set(&self, problem: &Problem) -> Vec<usize> {
         let mut keep = vec![false; problem.gap.len()];
-        let residual = self.residual(problem);
         let scale = self.scale(problem);
         for (k, flag) in keep.iter_mut().enumerate() {
-            *flag = residual[k] < -CLOSED * scale * problem.arm[k].abs();
+            *flag = self.residual[k] < -CLOSED * scale * problem.arm[k].abs();
         }
         for (&k, &p) in self.active.iter().zip(self.pressure.iter()) {
             keep[k] = p > 0.0;
@@ -88,9 +88,9 @@ impl Trial {
     }
 
     pub(super) fn into_solution(self, problem: &Problem, iterations: usize) -> Solution {
-        let residual = self.residual(problem);
         let scale = self.scale(problem);
-        let penetration = residual
+        let penetration = self
+            .residual
             .iter()
             .zip(problem.arm)
             .map(|(r, a)| -r / (a.abs() * scale))
