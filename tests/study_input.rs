@@ -608,6 +608,55 @@ fn a_table_of_tests_is_so_many_tests() {
 }
 
 /// A fault of a cell is told at the cell, in the table, in the words of the study's own reader; one that shows later too.
+/// A unit of five million letters took minutes to refuse, an effect's name of as many six seconds, a hundred thousand tests more than a minute.
+#[test]
+fn texts_keys_and_lists_beyond_any_use_are_refused_at_once() {
+    let letters = |count: usize| "x".repeat(count);
+    let unit = with(
+        "torque =",
+        &format!("torque = \"100 {}\" #", letters(5_000_000)),
+    );
+    let kind = format!("{SHORT}[[effect]]\nkind = \"{}\"\n", letters(5_000_000));
+    let key = format!("{SHORT}{} = 1\n", letters(5_000_000));
+    let tests: String = (0..100_000)
+        .map(|i| format!("[[test]]\nid = \"T{i}\"\n"))
+        .collect();
+    let begun = std::time::Instant::now();
+    for (text, place, found, allowed) in [
+        (
+            unit,
+            "operation.torque",
+            "5000004 characters",
+            "at most 10000",
+        ),
+        (
+            kind,
+            "effect[0].kind",
+            "5000000 characters",
+            "at most 10000",
+        ),
+        (key, "wear.xxxxx", "5000000 characters", "at most 200"),
+        (
+            format!("{SHORT}{tests}"),
+            "test",
+            "100000 entries",
+            "at most 10000",
+        ),
+    ] {
+        let error = Study::parse(&text, "study.toml").expect_err("must be refused");
+        let message = error.to_string();
+        for part in [place, found, allowed] {
+            assert!(
+                message.contains(part),
+                "{part}: {}",
+                &message[..message.len().min(600)]
+            );
+        }
+        assert!(message.len() < 2000, "{} characters", message.len());
+    }
+    assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+}
+
 #[test]
 fn faults_in_a_table_of_tests_name_its_line_and_column() {
     let refusal = |table: &str| {

@@ -3,6 +3,7 @@
 //! Point data: integer array `flank`, 0 off the flanks, k > 0 on the loaded flank of the k-th candidate tooth; integer array
 //! `bore`, 1 on the bore, else 0. Cell types 5 (three nodes) or 22 (six nodes), not mixed.
 
+use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 
 use vtkio::model::{
@@ -82,8 +83,9 @@ pub fn read_vtu(path: &Path, bytes: &[u8], gear: &Gear) -> Result<Mesh, MeshErro
 }
 
 fn raw(bytes: &[u8]) -> Result<RawMesh, String> {
-    let vtk =
-        Vtk::parse_xml(bytes).map_err(|e| format!("not a VTK XML file with inline data: {e}"))?;
+    let vtk = without_panic(|| Vtk::parse_xml(bytes))
+        .ok_or("not a VTK XML file with inline data: its arrays have other sizes than their headers say")?
+        .map_err(|e| format!("not a VTK XML file with inline data: {e}"))?;
     let DataSet::UnstructuredGrid { pieces, .. } = vtk.data else {
         return Err("not an unstructured grid".into());
     };
@@ -138,6 +140,15 @@ fn raw(bytes: &[u8]) -> Result<RawMesh, String> {
     })
 }
 
+/// What `read` finds, or none if it panics: vtkio trusts the sizes that a file states of its arrays.
+fn without_panic<T>(read: impl FnOnce() -> T) -> Option<T> {
+    let usual = panic::take_hook();
+    panic::set_hook(Box::new(|_| {}));
+    let found = panic::catch_unwind(AssertUnwindSafe(read));
+    panic::set_hook(usual);
+    found.ok()
+}
+
 fn cells(cells: &VtkCells, points: usize) -> Result<Cells, String> {
     let (connectivity, _) = cells.cell_verts.clone().into_xml();
     if let Some(k) = connectivity.iter().find(|k| **k >= points as u64) {
@@ -176,5 +187,57 @@ fn numbers(attributes: &[Attribute], name: &str, points: usize) -> Result<Vec<i6
             "point data `{name}` holds {v}; whole numbers are allowed"
         )),
         None => Ok(values.iter().map(|v| *v as i64).collect()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::raw;
+
+    /// One triangle whose points take `size` bytes by the header of their array (72 in truth), with more attributes of the file, and what stands behind the grid.
+    fn triangle(points: &str, attributes: &str, behind: &str) -> String {
+        format!(
+            r#"<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt32"{attributes}>
+<UnstructuredGrid><Piece NumberOfPoints="3" NumberOfCells="1">
+<PointData><DataArray type="Int64" Name="flank" format="ascii">0 0 0</DataArray><DataArray type="Int64" Name="bore" format="ascii">1 1 1</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" {points}</Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2</DataArray><DataArray type="Int64" Name="offsets" format="ascii">3</DataArray><DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells>
+</Piece></UnstructuredGrid>{behind}</VTKFile>"#
+        )
+    }
+
+    /// Points (0, 0), (1, 0), (0, 1) as base64, behind the first six characters of their header.
+    const POINTS: &str = "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAPA/AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAAA==";
+
+    #[test]
+    fn arrays_of_another_size_than_stated_make_no_panic() {
+        let inline = |header: &str| {
+            let points = format!(r#"format="binary">{header}{POINTS}</DataArray>"#);
+            triangle(&points, "", "")
+        };
+        let right = raw(inline("SAAAAA").as_bytes());
+        assert_eq!(right.map(|mesh| mesh.points.len()), Ok(3));
+        let compressor = r#" compressor="vtkZLibDataCompressor""#;
+        let compressed =
+            r#"format="binary">AQAAAEgAAAAAAAAA+gMAAA==eJxjYMAHPtjjlUaSBwA9VgJf</DataArray>"#;
+        let behind = r#"format="appended" offset="5000"/>"#;
+        let appended = format!(r#"<AppendedData encoding="base64">_SAAAAA{POINTS}</AppendedData>"#);
+        // 72000 and 8 bytes: the points themselves say how many there are
+        for other in [inline("QBkBAA"), inline("CAAAAA")] {
+            let read = raw(other.as_bytes()).map(|mesh| mesh.points.len());
+            assert!(read.is_err() || read == Ok(3), "{read:?}");
+        }
+        let elsewhere = [
+            triangle(compressed, compressor, ""),
+            triangle(behind, "", &appended),
+        ];
+        for (i, wrong) in elsewhere.iter().enumerate() {
+            let error = raw(wrong.as_bytes()).err();
+            let begins = "not a VTK XML file with inline data";
+            assert!(
+                error.as_ref().is_some_and(|e| e.starts_with(begins)),
+                "{i}: {error:?}"
+            );
+        }
     }
 }

@@ -27,6 +27,7 @@ mod reader;
 mod relative;
 mod settings;
 mod setup;
+mod size_limits;
 mod tests_table;
 mod units;
 mod values;
@@ -410,6 +411,7 @@ impl Study {
         let spans = RefCell::new(Spans::new());
         let document =
             DeTable::parse(&source.text).map_err(|error| file::syntax(source, &error))?;
+        size_limits::check(document.get_ref(), "")?;
         let root = Table::root(source, document.get_ref(), ROOT_KEYS, KEYS, &spans)?;
         let title = root.text("title")?.unwrap_or_default().to_owned();
         let gears = gears::read(&root)?;
