@@ -2,7 +2,7 @@
 //!
 //! Under a sharp corner of an elastic body the pressure has no bound, and where a tip corner has worn a ledge it changes within a hundredth of a module:
 //! its largest value on a grid says more about the grid than about the teeth. Near the end of a flank the peak is therefore the largest mean over
-//! [`LENGTH`], which converges as the grid is refined (`validation/cases/corner.md`). Elsewhere it is the largest value.
+//! 0.02 modules, which converges as the grid is refined (`validation/cases/corner.md`). Elsewhere it is the largest value.
 
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
@@ -23,7 +23,7 @@ pub struct TouchingStrip {
     pub half_width: f64,
     /// Whether the pressure reaches the tip corner or form circle of a flank, or the pair touches outside the line of action.
     pub at_corner: bool,
-    /// Largest pressure, MPa; by finite elements the largest mean over [`LENGTH`] near the end of a flank.
+    /// Largest pressure, MPa; by finite elements the largest mean over 0.02 modules near the end of a flank.
     pub peak_pressure: f64,
 }
 
