@@ -4,6 +4,7 @@ pub mod average;
 pub mod halton;
 pub mod latin_hypercube;
 pub mod logarithm;
+pub mod patchy;
 pub mod quadrature;
 pub mod smooth_functions;
 pub mod sparse;

@@ -6,11 +6,11 @@
 //! Depth h and pressure p are piecewise linear on one grid, so the law holds at every point of it and the worn area grows
 //! as k F' s exactly. Gap and opening come from the product's mortar integrals, pressures from its unilateral contact.
 
-use faer::Mat;
 use nalgebra::DMatrix;
 
 use crate::contact::mortar::{Coupling, Facing, Trace, couple};
 use crate::contact::unilateral::{Drive, Problem, Solution, UnilateralError, sensitivity, solve};
+use crate::numeric::patchy::{PatchyMatrix, Rows};
 use crate::verify::CaseError;
 use crate::wear::integrator::{Jacobian, Stand, StepControl, WearSystem, advance};
 
@@ -140,13 +140,16 @@ impl WearSystem for SlidingContact {
 
     fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Jacobian>, UnilateralError> {
         let (active, s) = self.relaxation(u)?;
-        let mut jacobian = Mat::zeros(u.len(), u.len());
+        let mut jacobian = PatchyMatrix::new(u.len());
+        let mut column = vec![0.0; u.len()];
+        let rows = Rows::new(active.clone());
         for (j, &l) in active.iter().enumerate() {
+            for (i, &k) in active.iter().enumerate() {
+                column[k] = s[(i, j)];
+            }
             let (columns, values) = self.coupling.traces[0].row(l);
             for (&c, &v) in columns.iter().zip(values) {
-                for (i, &k) in active.iter().enumerate() {
-                    jacobian[(k, c as usize)] += v * s[(i, j)];
-                }
+                jacobian.add(c as usize, &rows, v, &column);
             }
         }
         Ok(Some(Jacobian::Full(jacobian)))

@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use crate::contact::cycle::{PairContact, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact, SlicedContact};
 use crate::effects::{Effect, Hook};
+use crate::numeric::patchy::{PatchyMatrix, Rows};
 use crate::numeric::sparse::SparseRows;
 use crate::wear::acting::Acting;
 use crate::wear::integrator::{Jacobian, WearSystem};
@@ -290,7 +291,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         let of_slice = |(i, solved): (usize, &Solved)| {
             let view = law.view(n, &solved.u);
             let reads = law.added_reads(&view, solved, &law.reads(solved));
-            let mut block = Mat::zeros(size, size);
+            let mut block = PatchyMatrix::new(size);
             let mut drive = Mat::zeros(size, positions);
             let mut follow = Mat::zeros(size, positions);
             let mut all_factors = Vec::with_capacity(positions);
@@ -391,7 +392,7 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
             return Ok(None);
         };
         let view = law.view(n, u);
-        let mut jacobian = Mat::zeros(u.len(), u.len());
+        let mut jacobian = PatchyMatrix::new(u.len());
         let mut all_factors = Vec::with_capacity(contacts.len());
         let reads = law.added_reads(&view, solved, &law.reads(solved));
         for (q, ((contact, block), reads)) in contacts.iter().zip(blocks).zip(reads).enumerate() {
@@ -484,14 +485,15 @@ impl Local<'_> {
         }
     }
 
-    fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut Mat<f64>) {
+    fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut PatchyMatrix) {
         let deposits = self.deposits();
         let mut touched: Vec<usize> = deposits.iter().flatten().map(|e| e.0).collect();
         touched.sort_unstable();
         touched.dedup();
-        let mut column = vec![0.0; jacobian.nrows()];
+        let touched = Rows::new(touched);
+        let mut column = vec![0.0; jacobian.size()];
         for (j, &l) in self.active.iter().enumerate() {
-            for &i in &touched {
+            for i in touched.iter() {
                 column[i] = 0.0;
             }
             for (i, deposit) in deposits.iter().enumerate() {
@@ -500,10 +502,7 @@ impl Local<'_> {
                 }
             }
             for (station, opening, _) in self.row(l, |pair| &pair.opening) {
-                let target = jacobian.col_as_slice_mut(station);
-                for &i in &touched {
-                    target[i] += opening * column[i];
-                }
+                jacobian.add(station, &touched, opening, &column);
             }
         }
     }

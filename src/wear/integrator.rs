@@ -13,6 +13,8 @@
 
 use faer::Mat;
 
+use crate::numeric::patchy::PatchyMatrix;
+
 use crate::wear::shifted::Shifted;
 
 /// A system du/dn = F(n, u) of worn depths u.
@@ -36,12 +38,12 @@ pub trait WearSystem {
 /// A matrix that stands in for ∂F/∂u.
 pub enum Jacobian {
     /// Any.
-    Full(Mat<f64>),
+    Full(PatchyMatrix),
     /// Systems of one size that act on one another through few common quantities (slices of a face through the approach of each mesh
     /// position): J = diag(blocks) + U Vᵀ with U and V by block, each with one column for each quantity.
     Blocks {
         /// Each system by itself.
-        blocks: Vec<Mat<f64>>,
+        blocks: Vec<PatchyMatrix>,
         /// How its rate follows the common quantities.
         drive: Vec<Mat<f64>>,
         /// How these follow its unknowns.
@@ -308,7 +310,7 @@ mod tests {
         }
         fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Jacobian>, Self::Error> {
             let j = [[0.0, 0.0], [self.0 * u[0].cos() - u[0].sin(), -self.0]];
-            let full = || Jacobian::Full(Mat::from_fn(2, 2, |i, k| j[i][k]));
+            let full = || Jacobian::Full(PatchyMatrix::from_fn(2, |i, k| j[i][k]));
             Ok((self.0 > 10.0).then(full))
         }
     }

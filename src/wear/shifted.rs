@@ -10,6 +10,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{ColMut, Mat, MatMut};
 use rayon::prelude::*;
 
+use crate::numeric::patchy::PatchyMatrix;
 use crate::wear::integrator::Jacobian;
 
 /// From so many unknowns on a sparse factor can be cheaper than a full one.
@@ -38,7 +39,7 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    fn new(blocks: &[Mat<f64>], drive: &[Mat<f64>], follow: &[Mat<f64>], factor: f64) -> Self {
+    fn new(blocks: &[PatchyMatrix], drive: &[Mat<f64>], follow: &[Mat<f64>], factor: f64) -> Self {
         let parts: Vec<(Shifted, Mat<f64>, Mat<f64>)> = (blocks, drive, follow)
             .into_par_iter()
             .map(|(block, drive, follow)| {
@@ -59,7 +60,7 @@ impl Blocks {
             driven.push(of_block);
         }
         Self {
-            size: blocks.first().map_or(0, Mat::nrows),
+            size: blocks.first().map_or(0, PatchyMatrix::size),
             quantities,
             factor,
             blocks: shifted,
@@ -103,29 +104,35 @@ impl Shifted {
         }
     }
 
-    fn of(jacobian: &Mat<f64>, factor: f64) -> Self {
+    fn of(jacobian: &PatchyMatrix, factor: f64) -> Self {
         Self::sparse(jacobian, factor).unwrap_or_else(|| {
-            let n = jacobian.nrows();
-            Self::Full(Mat::from_fn(n, n, |i, j| entry(jacobian, factor, i, j)).partial_piv_lu())
+            let mut matrix = Mat::<f64>::identity(jacobian.size(), jacobian.size());
+            for j in 0..jacobian.size() {
+                for (i, value) in jacobian.column(j) {
+                    matrix[(i, j)] -= factor * value;
+                }
+            }
+            Self::Full(matrix.partial_piv_lu())
         })
     }
 
     /// A sparse factor where it pays and can be had.
-    fn sparse(jacobian: &Mat<f64>, factor: f64) -> Option<Self> {
-        let n = jacobian.nrows();
-        let column = |j: usize| jacobian.col(j).iter().enumerate();
-        let filled = |j: usize| column(j).filter(|(i, v)| **v != 0.0 || *i == j).count();
-        let count: usize = (0..n).map(filled).sum();
-        if n < LEAST_UNKNOWNS || count as f64 > MOST_FILLED * (n * n) as f64 {
+    fn sparse(jacobian: &PatchyMatrix, factor: f64) -> Option<Self> {
+        let n = jacobian.size();
+        if n < LEAST_UNKNOWNS {
             return None;
         }
-        let mut entries = Vec::with_capacity(count);
+        let most = MOST_FILLED * (n * n) as f64;
+        let mut entries = Vec::new();
         for j in 0..n {
-            for (i, value) in column(j) {
-                if *value != 0.0 || i == j {
-                    let value = entry(jacobian, factor, i, j);
-                    entries.push(Triplet::new(i as u32, j as u32, value));
-                }
+            let off_diagonal = jacobian.column(j).filter(|&(i, _)| i != j);
+            let scaled =
+                off_diagonal.map(|(i, value)| Triplet::new(i as u32, j as u32, -factor * value));
+            entries.extend(scaled);
+            let own = 1.0 - factor * jacobian[(j, j)];
+            entries.push(Triplet::new(j as u32, j as u32, own));
+            if entries.len() as f64 > most {
+                return None;
             }
         }
         let matrix = SparseColMat::try_new_from_triplets(n, n, &entries).ok()?;
@@ -152,10 +159,6 @@ impl Shifted {
     }
 }
 
-fn entry(jacobian: &Mat<f64>, factor: f64, i: usize, j: usize) -> f64 {
-    f64::from(u8::from(i == j)) - factor * jacobian[(i, j)]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,7 +168,7 @@ mod tests {
     fn full_and_sparse_solve_alike() {
         let n = LEAST_UNKNOWNS;
         let half = n / 2;
-        let jacobian = Mat::from_fn(n, n, |i, j| {
+        let jacobian = PatchyMatrix::from_fn(n, |i, j| {
             let apart = (i % half).abs_diff(j % half);
             if apart > 6 {
                 return 0.0;
@@ -177,7 +180,9 @@ mod tests {
         let factor = 0.3;
         let sparse = Shifted::of(&jacobian, factor);
         assert!(matches!(sparse, Shifted::Sparse(_)));
-        let matrix = Mat::from_fn(n, n, |i, j| entry(&jacobian, factor, i, j));
+        let matrix = Mat::from_fn(n, n, |i, j| {
+            f64::from(u8::from(i == j)) - factor * jacobian[(i, j)]
+        });
         let full = Shifted::Full(matrix.partial_piv_lu());
         for factored in [full, sparse] {
             let mut x: Vec<f64> = (0..n)
@@ -194,7 +199,7 @@ mod tests {
     #[test]
     fn second_differences_are_solved_as_their_sines_say() {
         for (n, sparse) in [(LEAST_UNKNOWNS - 1, false), (LEAST_UNKNOWNS, true)] {
-            let jacobian = Mat::from_fn(n, n, |i, j| match i.abs_diff(j) {
+            let jacobian = PatchyMatrix::from_fn(n, |i, j| match i.abs_diff(j) {
                 0 => -2.0,
                 1 => 1.0,
                 _ => 0.0,
@@ -219,9 +224,8 @@ mod tests {
     /// A matrix as full as that of contacts as wide as the tooth is not taken for a sparse one.
     #[test]
     fn wide_contacts_are_factored_full() {
-        let jacobian = Mat::from_fn(LEAST_UNKNOWNS, LEAST_UNKNOWNS, |i, j| {
-            -1.0 / (1.0 + i.abs_diff(j) as f64)
-        });
+        let jacobian =
+            PatchyMatrix::from_fn(LEAST_UNKNOWNS, |i, j| -1.0 / (1.0 + i.abs_diff(j) as f64));
         assert!(matches!(Shifted::of(&jacobian, 1.0), Shifted::Full(_)));
     }
 
@@ -231,11 +235,9 @@ mod tests {
         let (count, n, quantities) = (3, 5, 2);
         let value =
             |i: usize, j: usize, k: usize| ((7 * i + 13 * j + 29 * k) % 11) as f64 / 11.0 - 0.4;
-        let blocks: Vec<Mat<f64>> = (0..count)
+        let blocks: Vec<PatchyMatrix> = (0..count)
             .map(|b| {
-                Mat::from_fn(n, n, |i, j| {
-                    value(i, j, b) - 3.0 * f64::from(u8::from(i == j))
-                })
+                PatchyMatrix::from_fn(n, |i, j| value(i, j, b) - 3.0 * f64::from(u8::from(i == j)))
             })
             .collect();
         let thin = |shift: usize| -> Vec<Mat<f64>> {
@@ -245,7 +247,7 @@ mod tests {
         };
         let (drive, follow) = (thin(3), thin(8));
         let all = count * n;
-        let whole = Mat::from_fn(all, all, |i, j| {
+        let whole = PatchyMatrix::from_fn(all, |i, j| {
             let own = if i / n == j / n {
                 blocks[i / n][(i % n, j % n)]
             } else {
