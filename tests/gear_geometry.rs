@@ -889,6 +889,37 @@ fn tip_relief_is_as_stated() {
     );
 }
 
+/// What a rounding takes off the involute is what its circle leaves; the flank's points lie on the circle and its last one has turned by 0.9 rad.
+#[test]
+fn a_rounding_takes_off_what_its_circle_leaves() {
+    for radius in [0.05, 0.3] {
+        let spec = ToothSpec {
+            tip_rounding: radius,
+            ..ToothSpec::plain(27, 25.0)
+        };
+        let g = Gear::new(BasicRack::iso53_a(2.0), spec).unwrap();
+        let centre = g.tip_rounding_arc().unwrap().centre;
+        assert!(g.rho_end < g.rho_last && g.rho_last <= g.rho_tip);
+        assert_eq!(g.relief(g.rho_end), 0.0);
+        for share in [0.1, 0.5, 0.9, 1.0] {
+            let rho = g.rho_end + share * (g.rho_last - g.rho_end);
+            let off = g.flank_point(rho) - centre;
+            close("on the circle", off.norm(), radius, 1e-12);
+            // a circle falls off as the square of the distance along it; the involute's own curve is a part t/rho of that
+            let along = g.arc(rho) - g.arc(g.rho_end);
+            let circle = radius - (radius * radius - along * along).sqrt();
+            let rounded = g.relief(rho) / circle;
+            assert!(
+                (rounded - 1.0).abs() < 2.0 * radius / g.rho_end,
+                "{rounded}"
+            );
+        }
+        let last = (g.flank_point(g.rho_last) - centre) / radius;
+        let turned = last.dot(&g.involute_normal(g.rho_last)).acos();
+        assert!(turned < 0.9 + 1e-9, "{turned}");
+    }
+}
+
 /// The tip rounding touches involute and tip circle with common tangents; it shortens the path of contact.
 #[test]
 fn tip_rounding_is_tangent() {

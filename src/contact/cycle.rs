@@ -44,7 +44,7 @@ impl Stations {
     /// Evenly spaced stations, at most `spacing` (mm) apart, from the form circle to the tip.
     pub fn new(pair: &Pair, spacing: f64) -> Self {
         let count = |gear: &Gear| {
-            let length = gear.arc(gear.rho_tip) - gear.arc(gear.rho_form);
+            let length = gear.arc(gear.rho_last) - gear.arc(gear.rho_form);
             (length / spacing).ceil().max(2.0) as usize
         };
         Self::even(pair, [count(&pair.pinion), count(&pair.gear)])
@@ -58,7 +58,7 @@ impl Stations {
 
     fn even(pair: &Pair, counts: [usize; 2]) -> Self {
         let even = |gear: &Gear, count: usize| {
-            let (from, to) = (gear.arc(gear.rho_form), gear.arc(gear.rho_tip));
+            let (from, to) = (gear.arc(gear.rho_form), gear.arc(gear.rho_last));
             (0..=count)
                 .map(|i| from + (to - from) * i as f64 / count as f64)
                 .collect()

@@ -1,7 +1,8 @@
 //! Where a tooth pair meets at a mesh position, and in which frame its contact is described.
 //!
 //! Inside the path of contact the frame sits on the line of action. Outside it the sharp tip corner of one tooth is the
-//! nearest to the other's flank; the frame then sits at the foot of the corner on that flank, with the flank's normal.
+//! nearest to the other's flank; the frame then sits at the foot of the corner on that flank, with the flank's normal. A rounded corner
+//! begins where the involute ends, and both flanks' distance follows it from there.
 
 use crate::contact::mortar::Facing;
 use crate::gear::Pair;
@@ -51,7 +52,10 @@ impl Frame {
     /// `None` if the corner has no foot on the other flank, that is far outside the path of contact.
     pub fn new(pair: &Pair, path: f64) -> Option<Self> {
         let flanks = PlacedInvolute::pair(pair, path);
-        let range = [&pair.pinion, &pair.gear].map(|g| [g.rho_form, g.rho_tip]);
+        let members = [&pair.pinion, &pair.gear];
+        let range = members.map(|g| [g.rho_form, g.rho_last]);
+        // with a rounded tip the end of the involute stands for the corner
+        let corner = members.map(|g| g.rho_end);
         let rho1 = pair.rho_c + path;
         let frame = |touch, origin, normal: Vec2, separation, rho| Self {
             touch,
@@ -65,26 +69,24 @@ impl Frame {
             range,
         };
         if rho1 < pair.rho_a {
-            let corner = flanks[1].point(range[1][1]);
-            let (foot, separation) = flanks[0].project(corner)?;
+            let (foot, separation) = flanks[0].project(flanks[1].point(corner[1]))?;
             let normal = flanks[0].normal(foot);
             Some(frame(
                 Touch::GearTip,
                 flanks[0].point(foot),
                 normal,
                 separation,
-                [foot, range[1][1]],
+                [foot, corner[1]],
             ))
         } else if rho1 > pair.rho_e {
-            let corner = flanks[0].point(range[0][1]);
-            let (foot, separation) = flanks[1].project(corner)?;
+            let (foot, separation) = flanks[1].project(flanks[0].point(corner[0]))?;
             let normal = -flanks[1].normal(foot);
             Some(frame(
                 Touch::PinionTip,
                 flanks[1].point(foot),
                 normal,
                 separation,
-                [range[0][1], foot],
+                [corner[0], foot],
             ))
         } else {
             Some(frame(

@@ -33,7 +33,7 @@ pub struct Trace<'a> {
 }
 
 impl Trace<'_> {
-    /// First node of the edge that holds `s` (the end edges are extended).
+    /// First node of the edge that holds `s`, or is next to it.
     fn edge(&self, s: f64) -> usize {
         let edges = (self.arc.len() - 1) / self.order;
         // corners are every `order`-th node
@@ -113,8 +113,12 @@ pub fn couple(xi: &[f64], facing: impl Fn(f64) -> Facing, traces: &[Trace]) -> C
     out
 }
 
+/// Values of the edge's shape functions at `s`; beyond the ends of the trace those of its end: continued, quadratic ones would pull at nodes.
 fn edge_shapes(trace: &Trace, first: usize, s: f64) -> ([f64; 3], usize) {
     let t = (s - trace.arc[first]) / (trace.arc[first + trace.order] - trace.arc[first]);
+    let last = trace.arc.len() - 1 - trace.order;
+    let t = if first == 0 { t.max(0.0) } else { t };
+    let t = if first == last { t.min(1.0) } else { t };
     if trace.order == 1 {
         ([1.0 - t, t, 0.0], 2)
     } else {
@@ -165,6 +169,29 @@ fn common_refinement(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A load that reaches beyond the last node goes to that node: none is pulled, and the sum stays.
+    #[test]
+    fn a_load_beyond_the_end_is_borne_by_the_end() {
+        let quadratic: Vec<f64> = (0..=10).map(|i| 0.1 * f64::from(i)).collect();
+        let trace = Trace {
+            side: 0,
+            arc: &quadratic,
+            order: 2,
+        };
+        let facing = |x| Facing {
+            arc: [x, x],
+            gap: 0.0,
+        };
+        let c = couple(&[1.05, 1.2, 1.4], facing, &[trace]);
+        for k in 0..3 {
+            let (columns, values) = c.traces[0].row(k);
+            for (&column, &value) in columns.iter().zip(values) {
+                assert!(value >= 0.0 && (value == 0.0 || column == 10));
+            }
+            assert!((values.iter().sum::<f64>() - c.length[k]).abs() < 1e-15);
+        }
+    }
 
     #[test]
     fn constants_and_linears_are_integrated_exactly() {

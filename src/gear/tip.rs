@@ -5,6 +5,10 @@ use super::fillet::bisect;
 use super::tooth::Gear;
 use crate::numeric::Vec2;
 
+/// How far a tip rounding turns away from the involute up to where it can touch, rad: what lies beyond stands back by more than a third of the
+/// rounding's radius.
+const LAST_TURN: f64 = 0.9;
+
 /// A circular arc between the loaded involute of tooth 0 and the tip circle, tangent to both, member frame, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipRounding {
@@ -39,10 +43,49 @@ impl TipRounding {
 }
 
 impl Gear {
-    /// Material missing normal to the flank at curvature radius `rho`, mm: the stated tip relief and the measured profile.
-    /// The nominal involute leaves both out.
+    /// Material missing normal to the flank at curvature radius `rho`, mm: tip rounding, the stated tip relief and the measured profile.
+    /// The nominal involute leaves all of them out.
     pub fn relief(&self, rho: f64) -> f64 {
-        self.tip_relief(rho) + self.measured(rho)
+        self.rounded_off(rho) + self.tip_relief(rho) + self.measured(rho)
+    }
+
+    /// Material that the tip rounding takes off normal to the involute at curvature radius `rho` up to `rho_last`, mm; beyond, what it takes off there.
+    ///
+    /// ```text
+    /// involute point P with normal n, arc of radius t about c:   w = P − c,   |w − s n| = t
+    /// s = w·n − sqrt((w·n)² − |w|² + t²)
+    /// ```
+    pub fn rounded_off(&self, rho: f64) -> f64 {
+        if rho <= self.rho_end {
+            return 0.0;
+        }
+        let rho = rho.min(self.rho_last);
+        let across = self.involute_point(rho) - self.rounding_centre();
+        let along = across.dot(&self.involute_normal(rho));
+        along - self.turned_share(rho) * self.spec.tip_rounding
+    }
+
+    /// The point of the loaded flank of tooth 0 at curvature radius `rho`, before wear and relief but on the rounding of the tip, mm.
+    pub fn flank_point(&self, rho: f64) -> Vec2 {
+        let point = self.involute_point(rho);
+        if rho <= self.rho_end {
+            return point;
+        }
+        point - self.rounded_off(rho) * self.involute_normal(rho)
+    }
+
+    fn rounding_centre(&self) -> Vec2 {
+        self.involute_point(self.rho_end)
+            - self.spec.tip_rounding * self.involute_normal(self.rho_end)
+    }
+
+    /// Cosine of the angle by which the rounding has turned away from the involute at `rho`; negative beyond the arc.
+    fn turned_share(&self, rho: f64) -> f64 {
+        let across = self.involute_point(rho) - self.rounding_centre();
+        let along = across.dot(&self.involute_normal(rho));
+        let radius = self.spec.tip_rounding;
+        let square = (along * along - across.norm_squared()) / (radius * radius) + 1.0;
+        square.abs().sqrt().copysign(square)
     }
 
     /// Takes a measured profile: rows of ascending radius and missing material, mm, in place of one it had.
@@ -91,7 +134,7 @@ impl Gear {
             return None;
         }
         let start = self.involute_point(self.rho_end);
-        let centre = start - radius * self.involute_normal(self.rho_end);
+        let centre = self.rounding_centre();
         Some(TipRounding {
             centre,
             radius,
@@ -130,6 +173,11 @@ impl Gear {
             return Err(GearError::TipRounding { radius, max });
         }
         self.rho_end = self.rounding_start(radius);
+        self.rho_last = self.rho_tip;
+        if radius > 0.0 && self.turned_share(self.rho_tip) < LAST_TURN.cos() {
+            let left = |rho: f64| self.turned_share(rho) - LAST_TURN.cos();
+            self.rho_last = bisect(self.rho_end, self.rho_tip, left);
+        }
         Ok(())
     }
 

@@ -74,6 +74,9 @@ pub struct Gear {
     pub rho_tip: f64,
     /// Curvature radius at the end of the usable involute: `rho_tip`, or the start of the tip rounding.
     pub rho_end: f64,
+    /// Curvature radius of the involute at the foot of the last point that can touch: `rho_tip`, or where a tip rounding has turned so far that what
+    /// lies beyond stands back by a third of its radius.
+    pub rho_last: f64,
     /// Half the angular thickness that the tooth would have at the base circle: s/(2 r) + inv α.
     pub base_half_angle: f64,
     /// The fillet in the frame of the tooth space.
@@ -127,6 +130,7 @@ impl Gear {
             rho_form: 0.0,
             rho_tip: 0.0,
             rho_end: 0.0,
+            rho_last: 0.0,
             base_half_angle: 0.5 * thickness / reference_radius + inv(rack.pressure_angle),
             trochoid: Trochoid {
                 rolling_radius: reference_radius,

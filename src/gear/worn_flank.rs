@@ -66,7 +66,7 @@ impl<'a> WornFlank<'a> {
 
     /// The flank's point that lay at arc `s` before wear, mm, member frame.
     pub fn point(&self, s: f64) -> Vec2 {
-        let unworn = self.gear.involute_point(self.gear.rho_at_arc(s));
+        let unworn = self.gear.flank_point(self.gear.rho_at_arc(s));
         self.gear.turned_back(unworn, self.depth(s))
     }
 
@@ -75,7 +75,7 @@ impl<'a> WornFlank<'a> {
         const LOOKS: usize = 200;
         let (from, to) = (
             self.gear.arc(self.gear.rho_form),
-            self.gear.arc(self.gear.rho_tip),
+            self.gear.arc(self.gear.rho_last),
         );
         let at = |s: f64| {
             let (radius, depth) = (self.gear.radius_at_arc(s), self.depth(s));

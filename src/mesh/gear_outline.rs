@@ -1,7 +1,9 @@
 //! The outline of a whole gear with its edges as the mesh wants them.
 
 use super::gear_mesh::MeshSpec;
-use super::profile::{Curve, involute_down, involute_up, ledge, root, rounding_down, tip_land};
+use super::profile::{
+    Curve, flank_down, involute_down, involute_up, ledge, root, rounding_down, tip_land,
+};
 use super::{Loop, Outline, SizeField};
 use crate::gear::{Gear, WornFlank};
 use crate::numeric::{Vec2, cross, rotate};
@@ -121,13 +123,12 @@ impl Tooth {
         let sharp = gear.half_angle(gear.tip_radius);
         // So is a rounding far below the spacing.
         let shown = gear.spec.tip_rounding > 0.25 * spec.flank_spacing;
-        let top = if shown && gear.tip_rounding_arc().is_some() {
-            gear.rho_end
-        } else {
-            gear.rho_tip
+        let rounding = rounding_down(gear).filter(|_| shown);
+        let (top, unworn) = match rounding {
+            Some(_) => (gear.rho_last, flank_down(gear, gear.rho_last, from)),
+            None => (gear.rho_tip, involute_down(gear, gear.rho_tip, from)),
         };
         let back = worn.depth(gear.arc(top)) / gear.base_radius;
-        let rounding = rounding_down(gear).filter(|_| shown);
         let end = match rounding {
             Some(_) => gear.tip_land_half_angle(),
             None => sharp,
@@ -141,7 +142,7 @@ impl Tooth {
                 tip_land(gear, -sharp, end - back),
             ],
             rounding: rounding.map(|curve| curve.turned(-back)),
-            flank: WornEdges::new(gear, involute_down(gear, top, from), top, spec, worn),
+            flank: WornEdges::new(gear, unworn, top, spec, worn),
             ledge: Some(ledge).filter(|_| long),
             steps_down: !long && rest.is_none() && lost != 0.0,
             rest,

@@ -69,15 +69,24 @@ impl Curve {
 
 /// The loaded involute of tooth 0 from curvature radius `top` down to `bottom`; distances count from the top.
 pub(super) fn involute_down(gear: &Gear, top: f64, bottom: f64) -> Curve {
+    down(gear, top, bottom, Gear::involute_point)
+}
+
+/// The same along the loaded flank with its rounded tip; distances count along the involute there too.
+pub(super) fn flank_down(gear: &Gear, top: f64, bottom: f64) -> Curve {
+    down(gear, top, bottom, Gear::flank_point)
+}
+
+fn down(gear: &Gear, top: f64, bottom: f64, point: fn(&Gear, f64) -> Vec2) -> Curve {
     let g = gear.clone();
     let (s_top, length) = (g.arc(top), g.arc(top) - g.arc(bottom));
     Curve::new(length, 1, move |s| {
         if s <= 0.0 {
-            g.involute_point(top)
+            point(&g, top)
         } else if s >= length {
-            g.involute_point(bottom)
+            point(&g, bottom)
         } else {
-            g.involute_point(g.rho_at_arc(s_top - s))
+            point(&g, g.rho_at_arc(s_top - s))
         }
     })
 }
@@ -102,10 +111,11 @@ pub(super) fn ledge(gear: &Gear, rho: f64, back: f64) -> Curve {
     Curve::new(r * back, 1, move |s| rotate(to, s / r - back))
 }
 
-/// The rounding of the loaded tip corner, from the land to the involute; `None` for a sharp corner.
+/// The rounding of the loaded tip corner, from the land to the flank's last point that can touch; `None` for a sharp corner.
 pub(super) fn rounding_down(gear: &Gear) -> Option<Curve> {
     let arc = gear.tip_rounding_arc()?;
-    let (from, to) = (arc.end - arc.centre, arc.start - arc.centre);
+    let last = gear.flank_point(gear.rho_last);
+    let (from, to) = (arc.end - arc.centre, last - arc.centre);
     let begin = from.y.atan2(from.x);
     let sweep = crate::numeric::cross(from, to).atan2(from.dot(&to));
     let length = arc.radius * sweep;
@@ -114,7 +124,7 @@ pub(super) fn rounding_down(gear: &Gear) -> Option<Curve> {
         if s <= 0.0 {
             arc.end
         } else if s >= length {
-            arc.start
+            last
         } else {
             arc.centre + polar(arc.radius, begin + s / arc.radius)
         }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use super::home::{Home, number};
+use super::home::{Home, number, study_with};
 use super::vtu::Grid;
 
 /// Quadratic triangles, so that mid-side nodes are there to be moved too; finer than the other runs for the tip land's sake.
@@ -164,6 +164,31 @@ fn the_area_that_the_meshes_lose_is_the_worn_area() {
 #[test]
 fn the_pressure_over_the_outline_is_the_load_at_corners_too() {
     let home = Home::with(&[("order", "2"), ("torque", "500.0"), ("fields", "3")]);
+    loads_are_drawn(&home);
+}
+
+/// Rounded tips touch along their rounding: flanks end there, and what they bear is drawn whole and nowhere negative.
+#[test]
+fn rounded_tips_bear_their_load_along_the_rounding() {
+    let study = study_with(&[("order", "2"), ("torque", "300.0"), ("fields", "3")]);
+    for radius in ["0.05", "0.3"] {
+        let home = Home::with(&[]);
+        let rounded = |member: &str| {
+            (
+                member.to_owned(),
+                format!("{member}tip_rounding = {radius}\n"),
+            )
+        };
+        let [(p, pinion), (g, gear)] = ["[gears.pinion]\n", "[gears.gear]\n"].map(rounded);
+        let rounded = study.replace(&p, &pinion).replace(&g, &gear);
+        assert_eq!(rounded.matches("tip_rounding").count(), 2);
+        home.write("study.toml", &rounded);
+        loads_are_drawn(&home);
+    }
+}
+
+/// Runs the study: in every picture the pressure over each member's outline is the load, and nowhere negative.
+fn loads_are_drawn(home: &Home) {
     home.succeed("run study.toml -o run --quiet");
     let loads = std::fs::read(home.result("run").0.join("fields/loads.json")).unwrap();
     let loads: serde_json::Value = serde_json::from_slice(&loads).unwrap();
@@ -171,8 +196,9 @@ fn the_pressure_over_the_outline_is_the_load_at_corners_too() {
     assert_eq!(files.len(), 5);
     for file in files {
         let name = file["file"].as_str().unwrap();
-        let pressure = grid(&home, name).array("PointData/contact_pressure");
-        let drawn = drawn(&home, name);
+        let pressure = grid(home, name).array("PointData/contact_pressure");
+        assert!(pressure.iter().all(|p| *p >= 0.0), "{name}");
+        let drawn = drawn(home, name);
         let mut outline = BTreeMap::new();
         for t in &drawn.triangles {
             for [a, mid, b] in [[t[0], t[3], t[1]], [t[1], t[4], t[2]], [t[2], t[5], t[0]]] {
