@@ -37,7 +37,10 @@ impl TouchingStrip {
         let near = NEAR * cycle.pair.pinion.rack.module;
         let peak_pressure = if kind == ContactKind::Hertz {
             largest(pressure)
-        } else if at_corner || gap_to_an_end(pair, pressure, cycle.spec.window) < near {
+        } else if at_corner {
+            // no less than the mean over the whole strip
+            largest_mean(&pair.xi, pressure, length.min(2.0 * half_width))
+        } else if gap_to_an_end(pair, pressure, cycle.spec.window) < near {
             // that takes at most 4 % off a Hertz contact; the whole length would level narrower ones
             largest_mean(&pair.xi, pressure, half_width.min(length))
         } else {
