@@ -879,7 +879,11 @@ fn tip_relief_is_as_stated() {
     close("half", g.relief(g.rho_tip - 1.0), 0.01, 1e-15);
     close("start", g.relief(g.rho_tip - 2.0), 0.0, 1e-16);
     assert_eq!(g.relief(g.rho_tip - 2.1), 0.0);
-    assert_eq!(gear(2.0, 27, 0.0).relief(14.0), 0.0);
+    let plain = gear(2.0, 27, 0.0);
+    // beyond the tip, too, where neighbours are looked for
+    for rho in [14.0, plain.rho_tip, 1.1 * plain.rho_tip] {
+        assert_eq!(plain.relief(rho), 0.0);
+    }
     let relieved = Pair::new(g, gear(2.0, 53, 0.0), 80.0, 0.0).unwrap();
     close(
         "nominal contact ratio",

@@ -56,7 +56,7 @@ impl Gear {
     /// s = w·n − sqrt((w·n)² − |w|² + t²)
     /// ```
     pub fn rounded_off(&self, rho: f64) -> f64 {
-        if rho <= self.rho_end {
+        if rho <= self.rho_end || self.spec.tip_rounding <= 0.0 {
             return 0.0;
         }
         let rho = rho.min(self.rho_last);
@@ -68,7 +68,7 @@ impl Gear {
     /// The point of the loaded flank of tooth 0 at curvature radius `rho`, before wear and relief but on the rounding of the tip, mm.
     pub fn flank_point(&self, rho: f64) -> Vec2 {
         let point = self.involute_point(rho);
-        if rho <= self.rho_end {
+        if rho <= self.rho_end || self.spec.tip_rounding <= 0.0 {
             return point;
         }
         point - self.rounded_off(rho) * self.involute_normal(rho)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::predictor::{Move, PredictError, Predictor};
+use super::predictor::{Linearised, Move, PredictError, Predictor};
 
 /// Arguments of one prediction.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,8 @@ impl<'a> Evaluator<'a> {
         self.predictor.has_derivatives()
     }
 
-    /// The model's own derivatives at all points, along each point's moves and by ln k; none where it has none, or none that are finite.
+    /// The model's own derivatives at all points, along each point's moves and by ln k; none where it has none, or none that are finite. The
+    /// predictions that come with them are kept.
     pub(super) fn derivatives(
         &mut self,
         points: &[(Point, Vec<Move>)],
@@ -79,12 +80,22 @@ impl<'a> Evaluator<'a> {
         let (predictor, tests) = (self.predictor, &self.tests);
         let own = |(point, moves): &(Point, Vec<Move>)| {
             let (test, k) = (point.test, point.coefficient);
-            let found = predictor.linearise(test, k, &point.parameters, moves)?;
-            let derivatives = found.ok()?.derivatives;
-            let is_whole = derivatives.nrows() == tests[test].1;
-            (is_whole && derivatives.iter().all(|d| d.is_finite())).then_some(derivatives)
+            let found = predictor
+                .linearise(test, k, &point.parameters, moves)?
+                .ok()?;
+            let all = [&found.values[..], found.derivatives.as_slice()].concat();
+            let is_whole = found.derivatives.nrows() == tests[test].1;
+            (is_whole && all.iter().all(|d| d.is_finite())).then_some(found)
         };
-        points.par_iter().map(own).collect()
+        let found: Vec<Option<Linearised>> = points.par_iter().map(own).collect();
+        (points.iter().zip(found))
+            .map(|((point, _), found)| {
+                let found = found?;
+                let values = || Ok(found.values.into());
+                self.known.entry(key(point)).or_insert_with(values);
+                Some(found.derivatives)
+            })
+            .collect()
     }
 
     fn predict(&self, point: &Point) -> Prediction {

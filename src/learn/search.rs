@@ -123,6 +123,8 @@ const MOVED: f64 = 1.0;
 
 /// Model values per test.
 type Values = Vec<Arc<[f64]>>;
+/// The model's own derivatives per test, as far as it has any.
+type OwnDerivatives = Vec<Option<DMatrix<f64>>>;
 
 impl Search<'_> {
     /// Searches from `state`; `theta` of the state is also what the predictor is given where no parameter is free.
@@ -132,8 +134,16 @@ impl Search<'_> {
         state: State,
         effort: &Effort,
     ) -> Result<Found, PredictError> {
+        // the model's own derivatives bring the predictions with them
+        let own = self.own(evaluator, &state);
+        let asked = state.clone();
         let (state, values) = self.scaled_start(evaluator, state)?;
-        let taken = self.derivatives(evaluator, &state, &values)?;
+        let own = if state == asked {
+            own
+        } else {
+            self.own(evaluator, &state)
+        };
+        let taken = self.with_differences(evaluator, &state, &values, own)?;
         let settled = taken.exact.then(|| state.clone());
         self.descend(evaluator, state, values, taken.jacobian, settled, effort)
     }
@@ -191,7 +201,8 @@ impl Search<'_> {
                 if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
                     break (true, scatter, normal);
                 }
-                (jacobian, settled_at) = self.anew(evaluator, &state, &values, settled_at)?;
+                let own = self.own(evaluator, &state);
+                (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
                 taken_at = state.clone();
                 continue;
             }
@@ -205,8 +216,9 @@ impl Search<'_> {
                 &state,
                 scatter,
                 (&mut damping, effort.gain),
+                &|next| self.distance(&taken_at, next) > effort.carry,
             );
-            let Some((next, next_values)) = tried else {
+            let Some((next, next_values, own)) = tried else {
                 if !settled {
                     jacobian = self.at_rest(evaluator, &state, &values, &quadratic)?;
                     (taken_at, settled_at) = (state.clone(), Some(state.clone()));
@@ -220,7 +232,8 @@ impl Search<'_> {
                 if fresh {
                     break (false, scatter, normal);
                 }
-                (jacobian, settled_at) = self.anew(evaluator, &state, &values, settled_at)?;
+                let own = self.own(evaluator, &state);
+                (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
                 taken_at = state.clone();
                 damping = 1e-3;
                 continue;
@@ -232,7 +245,8 @@ impl Search<'_> {
                 (state, values) = (next, next_values);
             } else {
                 (state, values) = (next, next_values);
-                (jacobian, settled_at) = self.anew(evaluator, &state, &values, settled_at)?;
+                let own = own.unwrap_or_else(|| self.own(evaluator, &state));
+                (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
                 taken_at = state.clone();
             }
         };
@@ -248,15 +262,16 @@ impl Search<'_> {
         })
     }
 
-    /// Derivatives taken anew, and where a search has settled: exact ones leave nothing to be taken once more.
+    /// Derivatives taken anew, the model's `own` as far as it has them, and where a search has settled: exact ones leave nothing to be taken once more.
     fn anew(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: &State,
         values: &Values,
+        own: OwnDerivatives,
         settled_at: Option<State>,
     ) -> Result<(DMatrix<f64>, Option<State>), PredictError> {
-        let taken = self.derivatives(evaluator, state, values)?;
+        let taken = self.with_differences(evaluator, state, values, own)?;
         let settled_at = taken.exact.then(|| state.clone()).or(settled_at);
         Ok((taken.jacobian, settled_at))
     }
@@ -271,7 +286,8 @@ impl Search<'_> {
         Ok(self.square(&values))
     }
 
-    /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none.
+    /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none. With the model's own derivatives
+    /// there where `far` says that they will be taken anew: they bring the predictions with them.
     fn improve(
         &self,
         evaluator: &mut Evaluator<'_>,
@@ -279,10 +295,13 @@ impl Search<'_> {
         state: &State,
         scatter: f64,
         (damping, gain): (&mut f64, f64),
-    ) -> Option<(State, Values)> {
-        for _ in 0..8 {
+        far: &dyn Fn(&State) -> bool,
+    ) -> Option<(State, Values, Option<OwnDerivatives>)> {
+        for trial in 0..8 {
             let step = quadratic.step(*damping);
             let next = self.layout.moved(state, &step.x, scatter);
+            // a second trial is for steps that often fail
+            let own = (trial == 0 && far(&next)).then(|| self.own(evaluator, &next));
             if let Ok(values) = self.predict(evaluator, &next) {
                 let square = self.square(&values);
                 let gained = quadratic.value - self.layout.objective(square, &next, scatter);
@@ -290,7 +309,7 @@ impl Search<'_> {
                     let good = gained > 0.75 * step.decrease;
                     *damping = if good { *damping * 0.1 } else { *damping };
                     *damping = damping.max(1e-6);
-                    return Some((next, values));
+                    return Some((next, values, own));
                 }
             }
             *damping = (*damping * 10.0).max(0.1);

@@ -136,8 +136,10 @@ impl<'a> Forward<'a> {
     ) -> Result<Self, ForwardError> {
         let mut pair = set.mount(conditions.misalignment)?;
         if let Some(acting) = acting.filter(|acting| acting.acts(Hook::Operation)) {
-            conditions.misalignment += acting.added_centre_distance(&pair) + farther;
-            pair = set.mount_moved(conditions.misalignment)?;
+            let moved = acting.added_centre_distance(&pair) + farther;
+            conditions.misalignment += moved;
+            pair = (set.mount_moved(conditions.misalignment))
+                .map_err(|reason| ForwardError::Moved { moved, reason })?;
         }
         let torque = conditions.torque / set.face_width;
         let modulus = set.modulus();

@@ -32,6 +32,19 @@ fn wear_that_no_mesh_can_follow_ends_with_the_cycles_reached() {
     assert_eq!(home.tree(), [".run.checkpoint", "study.toml"]);
 }
 
+/// The centre distance in the reason is none that the study states, so what made it is said.
+#[test]
+fn gears_that_effects_take_out_of_mesh_are_an_error_that_says_so() {
+    let home = Home::with(&[]);
+    let effect = "\n[[effect]]\nkind = \"radial_misalignment\"\namount = 1.9\n";
+    home.write("study.toml", &(study_with(&[]) + effect));
+    let answer = home.gearwear("run study.toml -o run");
+    assert_eq!(answer.code, Some(1), "{}", answer.err);
+    let said = "the study's effects move the axes 1900 µm farther from each other than it states: contact ratio is ";
+    assert!(answer.err.contains(said), "{}", answer.err);
+    assert_eq!(home.tree(), ["study.toml"]);
+}
+
 #[test]
 fn a_tolerance_that_cannot_be_held_is_an_error() {
     // a model whose pressures jump with every look at them, and less error allowed than the jump leaves in the least step

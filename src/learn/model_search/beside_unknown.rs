@@ -17,6 +17,7 @@ use crate::learn::discrepancy::gaussian_process;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate, orthonormalise};
+use crate::learn::hypothesis::EffectSet;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::likelihood::{Likelihood, whiten};
 use crate::learn::search::Found;
@@ -42,8 +43,8 @@ pub(in crate::learn) struct BesideUnknown {
 }
 
 impl Context<'_> {
-    /// Fits all effects beside the most probable discrepancy, by the stages of the search without one, and compares those that lead with a
-    /// discrepancy alone; the leader first. `alone`: the effects fitted without it.
+    /// Fits the effects beside the most probable discrepancy, by the stages of the search without one, and compares those that lead with a
+    /// discrepancy alone; the leader first. `alone`: the effects fitted without it, by falling evidence.
     pub(in crate::learn) fn beside_unknown(
         &self,
         base: &BaseFit,
@@ -51,6 +52,7 @@ impl Context<'_> {
         alone: &[FittedCandidate],
     ) -> Vec<BesideUnknown> {
         let plain = &self.likelihood;
+        let singles = worth_fitting(plain, singles, alone);
         let discrepancy = gaussian_process::most_probable(
             plain,
             &base.fitted.found,
@@ -64,7 +66,7 @@ impl Context<'_> {
         let Some(base) = context.base_beside(base) else {
             return Vec::new();
         };
-        let mut fitted = context.screen(&base, singles);
+        let mut fitted = context.screen(&base, &singles);
         if context.fidelity != Fidelity::Screening {
             fitted = context.refine(&base, fitted, true);
         }
@@ -83,13 +85,7 @@ impl Context<'_> {
                 let without = alone
                     .iter()
                     .find(|c| c.candidate.effects == fitted.candidate.effects)?;
-                let remainder_gain = with_discrepancy(plain, without)
-                    - (plain.evidence(
-                        &without.found,
-                        &without.candidate.parameters,
-                        Some(&without.change),
-                    ))
-                    .0;
+                let remainder_gain = remainder_gain(plain, without);
                 let remaining =
                     SmoothDiscrepancy::of(plain, &without.found.model).gaining(remainder_gain);
                 Some(BesideUnknown {
@@ -133,6 +129,40 @@ impl Context<'_> {
             base.hertz_offset.clone(),
         ))
     }
+}
+
+/// All effects; where the leader leaves nothing that a discrepancy would account for, its own and those that come next: no other could stand
+/// beside something unknown, for there is none.
+fn worth_fitting(
+    plain: &Likelihood<'_>,
+    singles: &[Candidate],
+    alone: &[FittedCandidate],
+) -> Vec<Candidate> {
+    let all = || singles.to_vec();
+    let Some(leader) = alone.first() else {
+        return all();
+    };
+    if remainder_gain(plain, leader) > 0.0 {
+        return all();
+    }
+    let mut next: Vec<&EffectSet> = Vec::new();
+    for fitted in alone {
+        let effects = &fitted.candidate.effects;
+        if effects.single().is_some() && next.len() < JUDGED && !next.contains(&effects) {
+            next.push(effects);
+        }
+    }
+    let wanted = |candidate: &&Candidate| {
+        leader.candidate.effects.contains(&candidate.effects) || next.contains(&&candidate.effects)
+    };
+    singles.iter().filter(wanted).cloned().collect()
+}
+
+/// ln Z(effect and discrepancy) − ln Z(effect) of an effect fitted without a discrepancy.
+fn remainder_gain(plain: &Likelihood<'_>, alone: &FittedCandidate) -> f64 {
+    let parameters = &alone.candidate.parameters;
+    let own = plain.evidence(&alone.found, parameters, Some(&alone.change));
+    with_discrepancy(plain, alone) - own.0
 }
 
 /// Log evidence of a fit with a discrepancy of any kind.

@@ -41,6 +41,9 @@ const WITHIN: f64 = 10.0;
 const WITHIN_SHARE: f64 = 0.02;
 /// Least and most single candidates decided by finite elements.
 const DECIDED: [usize; 2] = [3, 7];
+/// Share of the leader's gain with which an effect that it is mistaken for is decided like the leader: coarse and fine finite elements agree on gains
+/// within a few per cent.
+const ALIKE_SHARE: f64 = 0.7;
 /// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
 const GAIN: f64 = 0.0;
 
@@ -175,7 +178,7 @@ pub(in crate::learn) fn decide_leaders(
         judged.push(decided(candidate, i as f64 / chosen as f64));
     }
     judged.extend(rest);
-    let alike = look_alikes_left(&judged, before + GAIN);
+    let alike = look_alikes_left(&judged, before, (GAIN, ALIKE_SHARE));
     let mut judged: Vec<FittedCandidate> = (judged.into_iter().zip(alike))
         .map(|(j, alike)| if alike { decided(j, 1.0) } else { j })
         .collect();

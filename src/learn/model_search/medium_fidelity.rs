@@ -29,6 +29,9 @@ const UNSTUCK: Effort = Effort {
 const BEHIND_ITS_BEST: f64 = 0.002;
 /// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
 const SHARP_SHARE: f64 = 0.15;
+/// Share of the leader's gain by which a form must be behind the best form of its effect not to be fitted: the analytic model is right to a tenth of
+/// that where the rate is not sharp in the pressure.
+const BEHIND_FORM: f64 = 0.15;
 /// Share of the attainable fall of χ² below which nothing explains what is there.
 const EXPLAINED: f64 = 0.85;
 
@@ -63,12 +66,19 @@ impl Context<'_> {
             } else {
                 bar
             };
-            judged.log_evidence - before >= bar || contact_missed && candidate.changes_contact()
+            let best_form = (screened.iter())
+                .filter(|other| other.candidate.effects == candidate.effects)
+                .map(|other| other.log_evidence)
+                .fold(f64::NEG_INFINITY, f64::max);
+            // forms of one effect stand or fall by the best of them
+            let behind = !candidate.sharp() && best_form - judged.log_evidence > BEHIND_FORM * best;
+            judged.log_evidence - before >= bar && !behind
+                || contact_missed && candidate.changes_contact()
         };
         let wanted: Vec<bool> = screened.iter().map(wanted).collect();
         let refined = self.by_coarse_elements(base, screened, &wanted);
         // what the leader is mistaken for is held against it by the same means
-        let alike = look_alikes_left(&refined, before + MEANT);
+        let alike = look_alikes_left(&refined, before, (MEANT, REFINED_SHARE));
         self.by_coarse_elements(base, refined, &alike)
     }
 
@@ -165,14 +175,21 @@ impl Context<'_> {
     }
 }
 
-/// Which candidates are the best form of an effect that the leader is mistaken for, promise more than `bar` and were not fitted by what the
-/// leader was.
-pub(super) fn look_alikes_left(fitted: &[FittedCandidate], bar: f64) -> Vec<bool> {
+/// Which candidates are the best form of an effect that the leader is mistaken for, were not fitted by what the leader was, and gain more over
+/// the base model's log evidence `before` than `least` and than this `share` of what the leader gains.
+pub(super) fn look_alikes_left(
+    fitted: &[FittedCandidate],
+    before: f64,
+    (least, share): (f64, f64),
+) -> Vec<bool> {
     let best = |of: &dyn Fn(&FittedCandidate) -> bool| {
         let all = fitted.iter().filter(|&j| of(j));
         all.max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence))
     };
-    let leader = best(&|_| true).filter(|leader| leader.log_evidence > bar);
+    let leader = best(&|_| true).filter(|leader| leader.log_evidence > before + least);
+    let bar = leader.map_or(f64::INFINITY, |leader| {
+        before + least.max(share * (leader.log_evidence - before))
+    });
     let left = |judged: &FittedCandidate| {
         let Some(leader) = leader else { return false };
         let own = &judged.candidate.effects;

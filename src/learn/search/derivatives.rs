@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
-use super::{DIFFERENCE_K, Search, Values};
+use super::{DIFFERENCE_K, OwnDerivatives, Search, Values};
 use crate::learn::evaluate::{Evaluator, Point};
 use crate::learn::predictor::{Move, PredictError};
 use crate::learn::quadratic::{Quadratic, State};
@@ -26,7 +26,7 @@ const NARROWER: f64 = 0.125;
 
 impl Search<'_> {
     /// The model's own derivatives of each test; none for those without.
-    fn own(&self, evaluator: &mut Evaluator<'_>, state: &State) -> Vec<Option<DMatrix<f64>>> {
+    pub(super) fn own(&self, evaluator: &mut Evaluator<'_>, state: &State) -> OwnDerivatives {
         let a_move = |p: usize| {
             let prior = &self.layout.parameters[p];
             let length = MOVE * prior.scale();
@@ -50,19 +50,30 @@ impl Search<'_> {
         evaluator.derivatives(&points)
     }
 
-    /// The model's own derivatives where it has any, else forward differences of all tests in one round; where a prediction fails, the
-    /// other side is tried, then narrower ones.
+    /// The model's own derivatives where it has any, else forward differences.
     pub(super) fn derivatives(
         &self,
         evaluator: &mut Evaluator<'_>,
         state: &State,
         values: &Values,
     ) -> Result<Derivatives, PredictError> {
+        let own = self.own(evaluator, state);
+        self.with_differences(evaluator, state, values, own)
+    }
+
+    /// The model's `own` derivatives of each test, and where there are none forward differences of all tests in one round; where a prediction
+    /// fails, the other side is tried, then narrower ones.
+    pub(super) fn with_differences(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+        values: &Values,
+        own: OwnDerivatives,
+    ) -> Result<Derivatives, PredictError> {
         let params = self.layout.parameters.len();
         let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
         let mut jacobian =
             DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
-        let own = self.own(evaluator, state);
         for (test, own) in own.iter().enumerate() {
             let Some(own) = own else { continue };
             for (from, &row) in self.selection.rows[test].iter().enumerate() {

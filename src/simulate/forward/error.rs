@@ -13,6 +13,18 @@ pub enum ForwardError {
     /// The gears do not run at this centre distance.
     #[error(transparent)]
     Pair(#[from] PairError),
+    /// They do not run where effects have moved their axes.
+    #[error(
+        "the study's effects move the axes {} µm {} each other than it states: {reason}",
+        (1e3 * .moved.abs()).round(),
+        if *.moved < 0.0 { "nearer to" } else { "farther from" }
+    )]
+    Moved {
+        /// By how much farther apart they are, mm.
+        moved: f64,
+        /// Why the gears cannot run.
+        reason: PairError,
+    },
     /// A member could not be built.
     #[error(transparent)]
     Member(#[from] MemberError),
