@@ -118,6 +118,10 @@ const SMALLER_STARTS: usize = 8;
 /// Step of the differences in ln k of a test.
 const DIFFERENCE_K: f64 = 0.02;
 
+/// How far a step goes at most, prior standard deviations (for ln k: 1): the derivatives say nothing of what lies beyond, and laws out there, a hundred times
+/// as fast as they are measured, take minutes to wear.
+const FARTHEST: f64 = 2.0;
+
 /// Whitened sum of squares by which model values may have moved under derivatives that are kept.
 const MOVED: f64 = 1.0;
 
@@ -298,8 +302,13 @@ impl Search<'_> {
         far: &dyn Fn(&State) -> bool,
     ) -> Option<(State, Values, Option<OwnDerivatives>)> {
         for trial in 0..8 {
-            let step = quadratic.step(*damping);
-            let next = self.layout.moved(state, &step.x, scatter);
+            let mut step = quadratic.step(*damping);
+            let mut next = self.layout.moved(state, &step.x, scatter);
+            while self.distance(state, &next) > FARTHEST && *damping < 1e6 {
+                *damping = (*damping * 10.0).max(0.1);
+                step = quadratic.step(*damping);
+                next = self.layout.moved(state, &step.x, scatter);
+            }
             // a second trial is for steps that often fail
             let own = (trial == 0 && far(&next)).then(|| self.own(evaluator, &next));
             if let Ok(values) = self.predict(evaluator, &next) {
