@@ -145,7 +145,7 @@ fn contact_table_is_in_equilibrium() {
     assert_eq!(table.distinct("position").len(), 30);
     let base_pitch = number(&result.summary(), "/geometry/base_pitch");
     // torque per width over base radius, N/mm; the levers of single pressures differ from the base radius off the line of action
-    let load = 100e3 / 33.0 / (27.0 * 20f64.to_radians().cos());
+    let load = new_load();
     for cycles in ["0", "25000", "50000"] {
         for position in table.distinct("position") {
             let rows = table.only("cycles", cycles).only("position", position);
@@ -172,6 +172,11 @@ fn contact_table_is_in_equilibrium() {
     for column in ["load_share", "line_load", "peak_pressure", "half_width"] {
         assert!(table.numbers(column).iter().all(|v| *v >= 0.0), "{column}");
     }
+}
+
+/// Normal load per width of 100 N m on 33 mm, N/mm.
+fn new_load() -> f64 {
+    100e3 / (27.0 * 20f64.to_radians().cos() * 33.0)
 }
 
 #[test]
@@ -201,7 +206,17 @@ fn flanks_and_tip_corners_are_told_apart() {
     for path in corners.numbers("path") {
         assert!((path - start).min(end - path) < 0.25, "a corner at {path}");
     }
-    assert!(largest("1") > largest("0"), "{} MPa", largest("1"));
+    // as a mean over 0.02 modules still above Hertz's pressure of a single pair at the pitch point, sqrt(F E*/(π R)) with the curvature radii of both flanks
+    // there; the grid's own peaks on the flanks, two linear edges per half width, are too high by half to compare with
+    let sine = 20f64.to_radians().sin();
+    let radius = 1.0 / (1.0 / (27.0 * sine) + 1.0 / (53.0 * sine));
+    let modulus = 2.1e5 / (2.0 * (1.0 - 0.09));
+    let hertz = (new_load() * modulus / (PI * radius)).sqrt();
+    assert!(
+        largest("1") > hertz,
+        "{} MPa, Hertz {hertz} MPa",
+        largest("1")
+    );
 }
 
 #[test]
