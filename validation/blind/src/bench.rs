@@ -2,14 +2,16 @@
 
 use rayon::prelude::*;
 
-use crate::detect::{self, Block};
+use crate::detect::{self, Block, DATUM};
 use crate::dice::Dice;
 use crate::draw::{self, CATALOGUE, Context};
 use crate::involute::Mating;
 use crate::laws::{self, Law};
 use crate::make::Kind;
+use crate::observe::{Quantity, Row};
 use crate::passage::Fineness;
-use crate::rig::{Rig, Row};
+use crate::rig::Rig;
+use crate::uneven::Uneven;
 use crate::wear::{History, Run};
 
 /// A cause of another name that explains part of the difference.
@@ -56,7 +58,7 @@ impl Bench<'_> {
                         .run(plan, self.k_tests[t] * k_scale, laws, plan.cycles);
                 let mut rows: Vec<Row> = self.templates[t]
                     .iter()
-                    .filter(|r| weigh || r.radius.is_some())
+                    .filter(|r| weigh || r.quantity != Quantity::Mass)
                     .cloned()
                     .collect();
                 let values = self.rig.observe(&run, &history, &rows, 1.0);
@@ -193,21 +195,21 @@ impl Bench<'_> {
 
 pub fn sigmas(rows: &mut [Row], values: &[f64], noise: f64) {
     for i in 0..rows.len() {
-        let same = |j: &usize| rows[*j].trace == rows[i].trace && rows[*j].radius.is_some();
-        rows[i].sigma = if rows[i].radius.is_some() {
-            let top = (0..rows.len())
-                .filter(same)
-                .map(|j| values[j].abs())
-                .fold(0.0, f64::max);
-            noise * top + 0.05
-        } else {
-            let last = (0..rows.len())
-                .filter(|&j| rows[j].radius.is_none() && rows[j].member == rows[i].member)
-                .map(|j| values[j])
-                .fold(0.0, f64::max);
-            noise * last + 0.02
+        let top = |same: &dyn Fn(&Row) -> bool| {
+            let list = (0..rows.len()).filter(|&j| same(&rows[j]));
+            list.map(|j| values[j].abs()).fold(0.0, f64::max)
         };
-        rows[i].sigma = (rows[i].sigma * 1e4).round() / 1e4;
+        let (own, quantity) = (&rows[i], rows[i].quantity);
+        let on_trace = |r: &Row| r.trace == own.trace && r.position.is_some();
+        let of_member = |r: &Row| r.quantity == quantity && r.member == own.member;
+        let sigma: f64 = match quantity {
+            Quantity::Depth => noise * top(&on_trace) + 0.05,
+            Quantity::Mass => noise * top(&of_member) + 0.02,
+            Quantity::Error => noise * top(&on_trace) + 0.2,
+            Quantity::Share => 0.5 * noise + 0.002,
+            Quantity::Lag => noise * top(&of_member) + 0.2,
+        };
+        rows[i].sigma = (sigma * 1e4).round() / 1e4;
         rows[i].free = values[i];
     }
 }
@@ -217,25 +219,26 @@ fn blocks(rows: &[Row]) -> Vec<Block> {
     let mut i = 0;
     while i < rows.len() {
         let mut list = vec![i];
-        if rows[i].radius.is_some() {
+        if rows[i].position.is_some() {
             while i + 1 < rows.len()
-                && rows[i + 1].radius.is_some()
+                && rows[i + 1].position.is_some()
                 && rows[i + 1].trace == rows[i].trace
             {
                 i += 1;
                 list.push(i);
             }
         }
-        let at: Vec<f64> = list.iter().filter_map(|&j| rows[j].radius).collect();
+        let at: Vec<f64> = list.iter().filter_map(|&j| rows[j].position).collect();
         let values: Vec<f64> = list.iter().map(|&j| rows[j].free).collect();
         let sigma: Vec<f64> = list.iter().map(|&j| rows[j].sigma).collect();
-        out.push(Block::new(list, &at, &values, &sigma));
+        let datum = if rows[i].has_datum() { DATUM } else { 0.0 };
+        out.push(Block::new(list, &at, &values, &sigma, datum));
         i += 1;
     }
     out
 }
 
-pub fn context(rig: &Rig, pair: &Mating, bench: &Bench) -> Context {
+pub fn context(rig: &Rig, pair: &Mating, bench: &Bench, uneven: Uneven) -> Context {
     let a = &rig.tests[0];
     let (run, history) = &bench.base[0];
     let state = history.at(a.cycles);
@@ -249,9 +252,9 @@ pub fn context(rig: &Rig, pair: &Mating, bench: &Bench) -> Context {
             omega * ratio * pair.rho(1, s) * 1e-3,
         ]
     };
-    let (r, _, _) = run.passage.hertz(0.0, w);
-    let (_, p0, _) = run.passage.hertz(pair.end - pair.pb, w);
-    let (_, _, half) = run.passage.hertz(pair.start, 0.4 * w);
+    let (r, _, _) = run.passage().hertz(0.0, w);
+    let (_, p0, _) = run.passage().hertz(pair.end - pair.pb, w);
+    let (_, _, half) = run.passage().hertz(pair.start, 0.4 * w);
     Context {
         pair: pair.clone(),
         module: rig.pinion.m,
@@ -260,9 +263,10 @@ pub fn context(rig: &Rig, pair: &Mating, bench: &Bench) -> Context {
         cycles: a.cycles,
         depth: rig.deepest(a, run, history, a.cycles),
         p0,
-        film: laws::film(w, r, speeds(0.0), run.passage.e_star, &a.conditions),
+        film: laws::film(w, r, speeds(0.0), run.passage().e_star, &a.conditions),
         flash: laws::flash(0.4 * w, speeds(pair.start), half, a.conditions.friction).max(0.5),
         worn: worn[0] + worn[1] / ratio,
+        uneven,
     }
 }
 

@@ -14,8 +14,8 @@ const MODEL: f64 = 0.005;
 const LENGTH: f64 = 0.15;
 
 impl Block {
-    /// `at`: positions of a trace (empty for a weighed value); `values` noise-free.
-    pub fn new(rows: Vec<usize>, at: &[f64], values: &[f64], sigma: &[f64]) -> Self {
+    /// `at`: positions of a trace (empty for a single value); `values` noise-free; `datum`: standard deviation of the trace's zero.
+    pub fn new(rows: Vec<usize>, at: &[f64], values: &[f64], sigma: &[f64], datum: f64) -> Self {
         let n = rows.len();
         let top = values.iter().fold(0.0f64, |a, v| a.max(v.abs()));
         let trace = !at.is_empty();
@@ -30,7 +30,7 @@ impl Block {
                 let mut v = if i == j { sigma[i] * sigma[i] } else { 0.0 };
                 if trace {
                     let x = (at[i] - at[j]) / (LENGTH * span);
-                    v += DATUM * DATUM + (MODEL * top).powi(2) * (-0.5 * x * x).exp();
+                    v += datum * datum + (MODEL * top).powi(2) * (-0.5 * x * x).exp();
                 } else {
                     v += (MODEL * top).powi(2);
                 }

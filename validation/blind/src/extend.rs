@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::str::FromStr;
 
+use clap::ValueEnum;
 use serde_json::Value;
 
 use crate::bench;
@@ -13,7 +14,9 @@ use crate::files;
 use crate::hidden::Conditions;
 use crate::laws::Law;
 use crate::make::{self, DataSet, Kind, Wish};
+use crate::observe::Quantity;
 use crate::rig::Plan;
+use crate::trace::Trace;
 
 /// Conditions of a test that is to be made.
 #[derive(Debug, Clone)]
@@ -76,6 +79,12 @@ fn wish(folder: &Path) -> Result<Wish, Box<dyn Error>> {
         understate: 1.0,
         messy: false,
         rivals: false,
+        trace: truth["trace"]
+            .as_str()
+            .and_then(|t| Trace::from_str(t, false).ok()),
+        stated: truth["stated"].as_bool(),
+        mesh: truth["mesh"].as_bool().unwrap_or(false),
+        d: truth["wanted_d"].as_f64(),
     })
 }
 
@@ -103,7 +112,7 @@ fn measure(set: &mut DataSet, test: &Test, which: u64) {
     let (run, history) = set.rig.run(&plan, k, &set.laws, plan.cycles);
     let weigh = !set.laws.iter().any(Law::moves_material);
     let mut rows = set.rig.rows(&plan, number);
-    rows.retain(|r| weigh || r.radius.is_some());
+    rows.retain(|r| weigh || r.quantity != Quantity::Mass);
     let values = set.rig.observe(&run, &history, &rows, 1.0);
     bench::sigmas(&mut rows, &values, set.noise);
     make::measure(&mut rows, set.datum, &mut set.datums, &mut dice);

@@ -9,7 +9,9 @@ use serde_json::{Value, json};
 
 use crate::make::DataSet;
 use crate::messy;
-use crate::rig::{Plan, Row};
+use crate::observe::{Quantity, Row};
+use crate::rig::Plan;
+use crate::trace::Column;
 
 pub fn name(set: &DataSet) -> String {
     name_of(set.wish.seed, set.wish.index)
@@ -80,23 +82,30 @@ fn study(set: &DataSet) -> String {
 }
 
 pub fn table(set: &DataSet, rows: &[Row]) -> String {
-    let mut s = String::from("test,member,cycles,quantity,position,value,sigma,trace\n");
+    let mut s = String::from("test,member,cycles,quantity,position,value,sigma,trace");
+    s.extend(set.column.name().map(|name| format!(",{name}")));
+    s.push('\n');
     for r in rows {
         let id = set.rig.tests.get(r.test).map_or("S", |p| p.id.as_str());
-        let member = ["pinion", "gear"][r.member];
-        // Writing to a string cannot fail.
-        let _ = match r.radius {
-            Some(radius) => writeln!(
-                s,
-                "{id},{member},{:.0},wear_depth,{radius:.3},{:.4},{:.4},{}",
-                r.cycles, r.value, r.sigma, r.trace
-            ),
-            None => writeln!(
-                s,
-                "{id},{member},{:.0},mass_loss,,{:.4},{:.4},",
-                r.cycles, r.value, r.sigma
-            ),
+        let member = ["pinion", "gear", "pair"][r.member];
+        let position = match r.quantity {
+            Quantity::Depth | Quantity::Share => r.position.map(|x| format!("{x:.3}")),
+            _ => r.position.map(|x| format!("{x:.4}")),
         };
+        // Names of traces without a datum are the program's own.
+        let trace = if r.trace.contains('@') { "" } else { &r.trace };
+        // Writing to a string cannot fail.
+        let _ = write!(
+            s,
+            "{id},{member},{:.0},{},{},{:.4},{:.4},{trace}",
+            r.cycles,
+            r.quantity.name(),
+            position.unwrap_or_default(),
+            r.value,
+            r.sigma,
+        );
+        s.extend(set.column.cell(r, set.rig.width).map(|c| format!(",{c}")));
+        s.push('\n');
     }
     s
 }
@@ -115,7 +124,7 @@ fn truth(set: &DataSet) -> Value {
     let top = |m: usize, id: usize| {
         set.rows
             .iter()
-            .filter(|r| r.test == id && r.member == m && r.radius.is_some())
+            .filter(|r| r.test == id && r.member == m && r.is_depth())
             .map(|r| r.free)
             .fold(0.0, f64::max)
     };
@@ -155,6 +164,10 @@ fn truth(set: &DataSet) -> Value {
         "coefficient_scatter": set.scatter,
         "datum_sd_um": set.datum,
         "datums_um": datums,
+        "trace": set.trace.name(),
+        "stated": set.column != Column::None,
+        "mesh": set.rig.mesh,
+        "wanted_d": set.wish.d,
         "messy": set.wish.messy,
         "outlier": set.wish.outlier,
         "missing": set.wish.missing,

@@ -81,4 +81,11 @@ pub trait Hidden: Send + Sync {
     fn shift(&self, _: &Conditions, _load: f64) -> f64 {
         0.0
     }
+    /// Coefficient of friction at path s.
+    fn friction(&self, _s: f64) -> f64 {
+        0.0
+    }
+    fn has_friction(&self) -> bool {
+        false
+    }
 }

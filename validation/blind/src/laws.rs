@@ -71,6 +71,22 @@ pub fn film(load: f64, curvature: f64, u: [f64; 2], e_star: f64, c: &Conditions)
     2.65 * r * speed.powf(0.7) * material.powf(0.54) * w.powf(-0.13) * 1e6 / c.roughness
 }
 
+/// Coefficient of friction of ISO/TR 14179-2, its mean over the tooth taken at each contact: 0.048 (w/(v rho))^0.2 eta^-0.05 Ra^0.25 (N/mm, m/s, mm,
+/// mPa s, um; v the sum of the rolling speeds). Ra is 0.8 of Rq for Gaussian heights, of one flank 1/sqrt(2).
+pub fn mean_tooth_friction(load: f64, curvature: f64, u: [f64; 2], c: &Conditions) -> f64 {
+    let rough = 0.8 * c.roughness / 2f64.sqrt();
+    let speed = (u[0] + u[1]).max(0.02);
+    let contact = (load / (speed * curvature)).powf(0.2);
+    0.048 * contact * (1e3 * c.viscosity).powf(-0.05) * rough.powf(0.25)
+}
+
+/// Benedict and Kelley (1961) for smooth flanks: 0.0127 log10(29660 w/(eta v_sum v_slide^2)), N/mm, mPa s, m/s.
+pub fn rolling_and_sliding(load: f64, u: [f64; 2], c: &Conditions) -> f64 {
+    let sliding = (u[0] - u[1]).abs().max(0.05);
+    let x = 29_660.0 * load / (1e3 * c.viscosity * (u[0] + u[1]) * sliding * sliding);
+    0.0127 * x.max(2.0).log10()
+}
+
 fn member_path(pair: &Mating, member: usize, rho: f64) -> f64 {
     if member == 0 {
         rho - pair.c1
@@ -92,7 +108,20 @@ impl Hidden for Law {
                 | "oxidative"
                 | "starvation_band"
                 | "load_moved_band"
+                | "energy_wear"
         )
+    }
+
+    fn has_friction(&self) -> bool {
+        self.name == "friction_load"
+    }
+
+    fn friction(&self, s: f64) -> f64 {
+        match (self.name, self.form) {
+            ("friction_load", "recess") if s > 0.0 => self.p(0) * self.p(1),
+            ("friction_load", _) => self.p(0),
+            _ => 0.0,
+        }
     }
 
     fn has_spot(&self) -> bool {
@@ -149,6 +178,15 @@ impl Hidden for Law {
                 1.0 + a * ((x.p0 - self.p(1)) / self.p(2) + 0.5).clamp(0.0, 1.0)
             }
             ("oxidative", _) => 1.0 - a + a * self.p(1) / slip(x).max(0.02),
+            ("energy_wear", form) => {
+                let mu = match form {
+                    "mean_tooth_friction" => {
+                        mean_tooth_friction(x.load, x.curvature, x.u, x.conditions)
+                    }
+                    _ => rolling_and_sliding(x.load, x.u, x.conditions),
+                };
+                (mu / self.p(1)).powf(a)
+            }
             ("starvation_band", _) => 1.0 + a * (-((x.s - self.p(1)) / self.p(2)).powi(2)).exp(),
             ("load_moved_band", _) => {
                 let at = self.p(1) * x.conditions.torque / self.p(3);
@@ -304,6 +342,11 @@ impl Hidden for Law {
     fn load(&self, theta: f64, c: &Conditions, _: &Mating) -> f64 {
         if self.name != "dynamic_load" {
             return 1.0;
+        }
+        if self.form == "mean_and_ripple" {
+            // Inertia forces of deviations grow with the square of the speed, far below any resonance.
+            let rise = self.p(0) * (c.speed / self.p(3)).powi(2);
+            return 1.0 + rise * (1.0 + self.p(1) * (2.0 * PI * theta + self.p(2)).cos());
         }
         let gain = |r: f64| 1.0 / ((1.0 - r * r).powi(2) + (2.0 * self.p(2) * r).powi(2)).sqrt();
         // At speed 0 only the amplitude would be left: count what the speed adds.

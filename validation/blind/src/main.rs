@@ -3,6 +3,7 @@
 mod banded;
 mod bench;
 mod checks;
+mod climb;
 mod contact;
 mod detect;
 mod dice;
@@ -12,13 +13,17 @@ mod files;
 mod hidden;
 mod involute;
 mod laws;
+mod layout;
 mod make;
 mod messy;
+mod observe;
 mod passage;
 mod records;
 mod rig;
 mod ring;
 mod score;
+mod trace;
+mod uneven;
 mod wear;
 
 use std::error::Error;
@@ -29,6 +34,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 use make::{Kind, Wish};
 use records::Record;
+use trace::Trace;
 
 #[derive(Parser)]
 #[command(about = "Blind data for wear diagnosis, and their judging")]
@@ -82,6 +88,18 @@ enum Command {
         /// Also look which known causes of other names could explain the data (in truth.json; some seconds more).
         #[arg(long)]
         rivals: bool,
+        /// Where across the face traces are taken, for causes that act there; default: any.
+        #[arg(long)]
+        trace: Option<Trace>,
+        /// Whether columns `face` or `tooth` say what was measured; default: in half of the sets.
+        #[arg(long)]
+        stated: Option<bool>,
+        /// Also measure transmission error, load share and mean lag.
+        #[arg(long)]
+        mesh: bool,
+        /// Wanted detectability; default: 3 to 50.
+        #[arg(long)]
+        d: Option<f64>,
     },
     /// Measure one more test of a set that is there; the whole is written anew.
     Extend {
@@ -95,11 +113,13 @@ enum Command {
     /// Judge diagnosis.json files against the answers.
     Score {
         /// Folder of the data sets.
-        #[arg(requires = "results")]
         data: Option<PathBuf>,
         /// Folder of the diagnoses.
         #[arg(long, requires = "data")]
         results: Option<PathBuf>,
+        /// Folder of climbs, each with climb.json and diagnosis.json: judged instead.
+        #[arg(long, requires = "data", conflicts_with = "results")]
+        climbs: Option<PathBuf>,
         /// Also count records kept in these files.
         #[arg(long)]
         records: Vec<PathBuf>,
@@ -135,6 +155,10 @@ fn main() -> Result<(), Box<dyn Error>> {
             understate,
             messy,
             rivals,
+            trace,
+            stated,
+            mesh,
+            d,
         } => {
             let law = law.map(|l| match l.split_once(':') {
                 Some((a, b)) => (a.to_string(), Some(b.to_string())),
@@ -158,6 +182,10 @@ fn main() -> Result<(), Box<dyn Error>> {
                     understate,
                     messy,
                     rivals,
+                    trace,
+                    stated,
+                    mesh,
+                    d,
                 };
                 let set = make::make(&wish);
                 files::write(&set, &folder)?;
@@ -194,10 +222,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         Command::Score {
             data,
             results,
+            climbs,
             records,
             keep,
             json,
         } => {
+            if let Some((data, climbs)) = data.as_ref().zip(climbs) {
+                print!("{}", climb::table(data, &climbs)?);
+                return Ok(());
+            }
             let (mut all, mut missing) = (Vec::new(), Vec::new());
             for path in &records {
                 all.extend(Record::of_file(path)?);
@@ -218,7 +251,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         Command::Check { what } => checks::print(&what),
         Command::Laws => {
-            for (name, form) in draw::CATALOGUE {
+            for (name, form) in draw::KNOWN.iter().copied().flatten() {
                 println!("{name}: {form}");
             }
             for name in draw::OUTSIDE {

@@ -9,7 +9,10 @@ use crate::draw::{self, CATALOGUE, OUTSIDE};
 use crate::involute::Mating;
 use crate::laws::{Class, Law};
 use crate::messy;
-use crate::rig::{Rig, Row};
+use crate::observe::{Quantity, Row};
+use crate::rig::Rig;
+use crate::trace::{Column, Trace};
+use crate::uneven::{self, Uneven};
 use crate::wear::{History, Run};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -23,12 +26,19 @@ pub enum Kind {
     Mixed,
     /// Three causes of the catalogue, in any form.
     Three,
+    /// Leads that differ across the face.
+    Face,
+    /// Teeth of a member that differ.
+    Teeth,
+    /// Friction, inertia and work: causes that act through forces.
+    Force,
 }
 
 impl Kind {
     pub fn name(self) -> &'static str {
         [
-            "none", "single", "foreign", "outside", "pair", "mixed", "three",
+            "none", "single", "foreign", "outside", "pair", "mixed", "three", "face", "teeth",
+            "force",
         ][self as usize]
     }
 
@@ -40,7 +50,7 @@ impl Kind {
     }
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Wish {
     pub seed: u64,
     pub index: u64,
@@ -55,6 +65,14 @@ pub struct Wish {
     pub messy: bool,
     /// Also find the catalogue's causes that explain most of the difference.
     pub rivals: bool,
+    /// Where across the face traces are taken, for causes that act there.
+    pub trace: Option<Trace>,
+    /// Whether the file says which place or tooth was measured.
+    pub stated: Option<bool>,
+    /// Also measure transmission error, load share and mean lag.
+    pub mesh: bool,
+    /// Wanted detectability.
+    pub d: Option<f64>,
 }
 
 pub struct DataSet {
@@ -75,6 +93,8 @@ pub struct DataSet {
     pub d_each: Vec<f64>,
     pub attempts: usize,
     pub rivals: Vec<Rival>,
+    pub trace: Trace,
+    pub column: Column,
 }
 
 fn three_digits(v: f64) -> f64 {
@@ -102,6 +122,14 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         wish.law
             .as_ref()
             .map(|(name, form)| match draw::class_of(name, form.as_deref()) {
+                _ if uneven::FACE.iter().any(|c| c.0 == name) => Kind::Face,
+                _ if uneven::TEETH.iter().any(|c| c.0 == name) => Kind::Teeth,
+                _ if draw::FORCE
+                    .iter()
+                    .any(|c| c.0 == name && form.as_deref() == Some(c.1)) =>
+                {
+                    Kind::Force
+                }
                 Class::Single => Kind::Single,
                 Class::Foreign => Kind::Foreign,
                 Class::Outside => Kind::Outside,
@@ -119,7 +147,8 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     });
     let noise = wish.noise.unwrap_or(*plan.pick(&[0.02, 0.05, 0.1]));
     let paper = wish.paper.unwrap_or(plan.unit() < 0.3);
-    let target = plan.log_uniform(3.0, 50.0);
+    let drawn = plan.log_uniform(3.0, 50.0);
+    let target = wish.d.unwrap_or(drawn);
     let scatter = match kind {
         Kind::None => *plan.pick(&[0.1, 0.2, 0.3]),
         _ => *plan.pick(&[0.0, 0.1, 0.2, 0.3]),
@@ -129,7 +158,17 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let named: Vec<(&'static str, &'static str)> = names(wish, kind, &mut choice);
 
     let mut d = root.branch(attempt as u64);
+    // The pair 27/53 has no even number of teeth.
+    let paper = paper && !named.contains(&("pitch_error", "alternate"));
     let mut rig = Rig::draw(paper, matches!(kind, Kind::Outside | Kind::Mixed), &mut d);
+    let mut look = root.branch(4);
+    let (trace, stated) = (Trace::draw(&mut look), look.unit() < 0.5);
+    let (trace, stated) = (wish.trace.unwrap_or(trace), wish.stated.unwrap_or(stated));
+    let choice = Uneven::draw(&named, &rig, &mut look)?;
+    if named.iter().any(|n| uneven::FACE.contains(n)) {
+        rig.places = trace.places(choice.side);
+    }
+    rig.mesh = wish.mesh;
     if named
         .iter()
         .any(|n| ["pressure_exponent", "micropitting", "plastic_deformation"].contains(&n.0))
@@ -192,13 +231,13 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         base,
         templates,
     };
-    let context = bench::context(&rig, &pair, &bench);
+    let context = bench::context(&rig, &pair, &bench, choice);
     let (mut found, rows, dd, d_each) =
         bench::strength(&bench, &context, &named, target, kind, &mut d)?;
     let top = rows
         .iter()
         .flatten()
-        .filter(|r| r.radius.is_some())
+        .filter(|r| r.is_depth())
         .map(|r| r.free)
         .fold(0.0, f64::max);
     if !(1.8..26.0).contains(&top) {
@@ -214,7 +253,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let mut sealed: Vec<Row> = rig
         .rows(&rig.sealed, rig.tests.len())
         .into_iter()
-        .filter(|r| weigh || r.radius.is_some())
+        .filter(|r| weigh || r.quantity != Quantity::Mass)
         .collect();
     let values = rig.observe(&run, &history, &sealed, 1.0);
     bench::sigmas(&mut sealed, &values, noise);
@@ -236,7 +275,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         }
     }
     if wish.missing > 0.0 {
-        rows.retain(|r| r.radius.is_none() || dice.unit() >= wish.missing);
+        rows.retain(|r| r.position.is_none() || dice.unit() >= wish.missing);
     }
     for r in &mut rows {
         r.sigma /= wish.understate;
@@ -247,6 +286,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     found.iter_mut().for_each(|l| l.limit = 0.0);
     let wrong = d.uniform(0.5f64.ln(), 1.5f64.ln()).exp();
     drop(bench);
+    let column = Column::of(&found, trace, stated);
     Some(DataSet {
         wish: wish.clone(),
         kind,
@@ -264,6 +304,8 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         d_each,
         attempts: attempt,
         rivals,
+        trace,
+        column,
         rig,
     })
 }
@@ -272,7 +314,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
 pub fn measure(rows: &mut [Row], datum: f64, datums: &mut Vec<(String, f64)>, dice: &mut Dice) {
     for r in rows {
         let mut offset = 0.0;
-        if r.radius.is_some() {
+        if r.has_datum() {
             if datums.last().is_none_or(|l| l.0 != r.trace) {
                 datums.push((
                     r.trace.clone(),
@@ -309,8 +351,10 @@ fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static s
         **d.pick(&forms)
     };
     if let Some((name, form)) = &wish.law {
-        let all = CATALOGUE
+        let all = draw::KNOWN
             .iter()
+            .copied()
+            .flatten()
             .copied()
             .chain(OUTSIDE.iter().map(|&n| (n, "own")));
         let fits: Vec<_> = all
@@ -319,6 +363,10 @@ fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static s
         assert!(!fits.is_empty(), "no law named {name}");
         return vec![*d.pick(&fits)];
     }
+    let equal = |lists: &[&'static [(&'static str, &'static str)]], d: &mut Dice| {
+        let all: Vec<_> = lists.iter().copied().flatten().copied().collect();
+        vec![*d.pick(&all)]
+    };
     let any = |d: &mut Dice| {
         let class = if d.unit() < 0.5 {
             Class::Single
@@ -332,6 +380,9 @@ fn names(wish: &Wish, kind: Kind, d: &mut Dice) -> Vec<(&'static str, &'static s
         Kind::Single => vec![known(Class::Single, d)],
         Kind::Foreign => vec![known(Class::Foreign, d)],
         Kind::Outside => vec![(*d.pick(OUTSIDE), "own")],
+        Kind::Face => equal(&[uneven::FACE], d),
+        Kind::Teeth => equal(&[uneven::TEETH], d),
+        Kind::Force => equal(&[draw::FORCE], d),
         Kind::Mixed => vec![any(d), (*d.pick(OUTSIDE), "own")],
         Kind::Pair | Kind::Three => {
             let count = if kind == Kind::Pair { 2 } else { 3 };

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::dice::Dice;
-use crate::rig::Row;
+use crate::observe::Row;
 
 /// Standard deviations of the tilt from end to end, um, and of the shift of the radii, mm.
 pub const TILT: f64 = 0.3;
@@ -20,7 +20,7 @@ const LEFT_OUT: f64 = 0.05;
 pub fn spoil(rows: &mut Vec<Row>, dice: &mut Dice) {
     let mut traces: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (i, row) in rows.iter().enumerate() {
-        if row.radius.is_some() {
+        if row.is_depth() {
             traces.entry(row.trace.clone()).or_default().push(i);
         }
     }
@@ -32,12 +32,12 @@ pub fn spoil(rows: &mut Vec<Row>, dice: &mut Dice) {
             left_out.insert(name.clone());
         }
         let mut curve: Vec<(f64, f64)> = (own.iter())
-            .map(|&i| (rows[i].radius.unwrap_or(0.0), rows[i].free))
+            .map(|&i| (rows[i].position.unwrap_or(0.0), rows[i].free))
             .collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (low, high) = (curve[0].0, curve[curve.len() - 1].0);
         for &i in own {
-            let radius = rows[i].radius.unwrap_or(0.0);
+            let radius = rows[i].position.unwrap_or(0.0);
             let moved = between(&curve, radius - shift) - between(&curve, radius);
             rows[i].value += moved + tilt * ((radius - low) / (high - low) - 0.5);
             if dice.unit() < DIRT {

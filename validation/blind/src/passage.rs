@@ -6,6 +6,7 @@
 //! cells beyond the corner do not exist. So contact at tip corners needs no formula of its own.
 
 use crate::involute::Mating;
+use crate::layout::PLACES;
 use crate::ring::{FlankCompliance, NU, PLANE};
 
 /// Pressure cells of one tooth pair at one position.
@@ -13,6 +14,8 @@ use crate::ring::{FlankCompliance, NU, PLANE};
 pub struct Slot {
     /// Path coordinate of the pair, mm from the pitch point.
     pub s: f64,
+    /// Which pair: base pitches from the one nearest the pitch point.
+    pub j: i64,
     /// First cell of this pair in the position's list, and number.
     pub from: usize,
     pub count: usize,
@@ -34,6 +37,8 @@ pub struct Position {
     pub cells: Vec<Cell>,
     /// Displacement of cell i under unit pressure on cell j, row-major, mm/MPa.
     pub flexibility: Vec<f64>,
+    /// The same under unit traction, outward on both flanks; empty where nobody asked for friction.
+    pub shear: Vec<f64>,
 }
 
 /// A flank's stations, equidistant in arc length.
@@ -98,13 +103,15 @@ impl Default for Fineness {
 }
 
 impl Passage {
-    /// `load`: the largest line load expected, N/mm; `dent`: initial profile deviations to make room for, mm.
+    /// `load`: the line load expected, N/mm; `shared`: stations of other passages of the same flanks, to be kept; `friction`: also what traction does.
     pub fn new(
         pair: Mating,
         soft: &[FlankCompliance; 2],
         youngs: f64,
         load: f64,
         fine: Fineness,
+        shared: Option<&[Stations; 2]>,
+        friction: bool,
     ) -> Self {
         let e_star = youngs / (2.0 * (1.0 - NU * NU));
         let curvature = pair.c1 * pair.c2 / (pair.c1 + pair.c2);
@@ -126,7 +133,7 @@ impl Passage {
         // Deflection of a pair, generously: 8 N/(mm um) for steel, scaled with E.
         let give = load / (8.0e3 * youngs / 2.1e5);
         let extension = 0.2 * pair.pb;
-        let stations = [0, 1].map(|m| {
+        let own = [0, 1].map(|m| {
             let t = pair.teeth(m);
             let deepest = if m == 0 {
                 pair.rho(0, pair.start - extension)
@@ -142,6 +149,7 @@ impl Passage {
                 count: n,
             }
         });
+        let stations = shared.cloned().unwrap_or(own);
         let tip = [0, 1].map(|m| pair.teeth(m).arc(pair.teeth(m).rho_tip()));
         // Arc coordinate of a member's flank at path s, offset x along e.
         let arc = |m: usize, s: f64, x: f64| {
@@ -178,7 +186,7 @@ impl Passage {
             let mut cells = Vec::new();
             let mut weights = Vec::new();
             let mut spots = Vec::new(); // (slot's tooth, x index, compliance weights)
-            for j in -3i64..=3 {
+            for j in PLACES {
                 let s = (theta + j as f64) * pair.pb;
                 if s < pair.start - extension || s > pair.end + extension {
                     continue;
@@ -241,6 +249,7 @@ impl Passage {
                 if cells.len() > from {
                     slots.push(Slot {
                         s,
+                        j,
                         from,
                         count: cells.len() - from,
                     });
@@ -255,6 +264,7 @@ impl Passage {
                 })
                 .collect();
             let mut flexibility = vec![0.0; n * n];
+            let mut shear = vec![0.0; if friction { n * n } else { 0 }];
             for a in 0..n {
                 for b in 0..=a {
                     let (ja, ca, wa) = &spots[a];
@@ -270,10 +280,22 @@ impl Passage {
                     flexibility[b * n + a] = v;
                 }
             }
+            if friction {
+                for a in 0..n {
+                    for b in 0..n {
+                        let ((ja, _, wa), (jb, _, wb)) = (&spots[a], &spots[b]);
+                        let t = (ja - jb) as isize;
+                        let both =
+                            soft[0].aside(t, &wa[0], &wb[0]) + soft[1].aside(-t, &wa[1], &wb[1]);
+                        shear[a * n + b] = both * dx / youngs;
+                    }
+                }
+            }
             positions.push(Position {
                 slots,
                 cells,
                 flexibility,
+                shear,
             });
             deposits.push(weights);
         }

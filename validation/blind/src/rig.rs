@@ -1,14 +1,18 @@
-//! Gears, loads and tests of a data set, its runs and where they are measured.
+//! Gears, loads and tests of a data set, and its runs.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex};
+
+use rayon::prelude::*;
 
 use crate::dice::Dice;
 use crate::hidden::{Conditions, Hidden};
 use crate::involute::{Mating, Tooth};
 use crate::laws::Law;
-use crate::passage::{Fineness, Passage};
+use crate::layout::Place;
+use crate::passage::{Fineness, Passage, Stations};
 use crate::ring::{self, FlankCompliance};
+use crate::uneven;
 use crate::wear::{History, Run};
 
 #[derive(Clone, Debug)]
@@ -17,19 +21,6 @@ pub struct Plan {
     pub conditions: Conditions,
     pub cycles: f64,
     pub checkpoints: Vec<f64>,
-}
-
-#[derive(Clone, Debug)]
-pub struct Row {
-    pub test: usize,
-    pub member: usize,
-    pub cycles: f64,
-    /// Radius, mm; none for a weighed mass.
-    pub radius: Option<f64>,
-    pub trace: String,
-    pub sigma: f64,
-    pub free: f64,
-    pub value: f64,
 }
 
 /// Gears, machine and tests, before any cause.
@@ -44,10 +35,14 @@ pub struct Rig {
     pub tests: Vec<Plan>,
     pub sealed: Plan,
     pub points: usize,
+    /// Where on the flanks traces are taken.
+    pub places: Vec<Place>,
+    /// Also measure transmission error, load share and mean lag.
+    pub mesh: bool,
     /// Finer for laws that are sharp in the local pressure.
     pub fine: Fineness,
     pub tolerance: f64,
-    passages: Mutex<HashMap<(i64, i64), Arc<Passage>>>,
+    passages: Mutex<HashMap<(i64, i64, bool), Arc<Passage>>>,
 }
 
 fn paper_teeth() -> (Tooth, Tooth) {
@@ -228,6 +223,8 @@ impl Rig {
             tests,
             sealed,
             points: 40 + d.below(17),
+            places: vec![Place::Usual],
+            mesh: false,
             fine: Fineness::default(),
             tolerance: 4e-4,
             passages: Mutex::new(HashMap::new()),
@@ -247,42 +244,83 @@ impl Rig {
             tests: self.tests.clone(),
             sealed: self.sealed.clone(),
             points: self.points,
+            places: self.places.clone(),
+            mesh: self.mesh,
             fine,
             tolerance,
             passages: Mutex::new(HashMap::new()),
         }
     }
 
-    pub fn passage(&self, centre: f64, load: f64) -> Arc<Passage> {
-        let key = ((centre * 1e6).round() as i64, (load * 1e6).round() as i64);
+    fn passage(&self, centre: f64, load: f64, friction: bool) -> Arc<Passage> {
+        let key = (
+            (centre * 1e6).round() as i64,
+            (load * 1e6).round() as i64,
+            friction,
+        );
         let mut map = self
             .passages
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner);
         map.entry(key)
-            .or_insert_with(|| {
-                let pair = Mating::new(&self.pinion, &self.gear, centre);
-                Arc::new(Passage::new(pair, &self.soft, self.youngs, load, self.fine))
-            })
+            .or_insert_with(|| Arc::new(self.new_passage(centre, load, None, friction)))
             .clone()
     }
 
-    pub fn run(&self, plan: &Plan, k: f64, laws: &[Law], cycles: f64) -> (Run, History) {
+    fn new_passage(
+        &self,
+        centre: f64,
+        load: f64,
+        shared: Option<&[Stations; 2]>,
+        friction: bool,
+    ) -> Passage {
+        let pair = Mating::new(&self.pinion, &self.gear, centre);
+        Passage::new(
+            pair,
+            &self.soft,
+            self.youngs,
+            load,
+            self.fine,
+            shared,
+            friction,
+        )
+    }
+
+    pub fn set_up(&self, plan: &Plan, k: f64, laws: &[Law]) -> Run {
         let load = 1e3 * plan.conditions.torque / (self.width * self.pinion.rb);
         let shift: f64 = laws.iter().map(|l| l.shift(&plan.conditions, load)).sum();
         let centre = self.centre + plan.conditions.misalignment + shift;
+        let friction = laws.iter().any(|l| l.has_friction());
+        let first = self.passage(centre, load, friction);
+        let places = (first.positions.iter()).flat_map(|at| at.slots.iter().map(|s| s.j));
+        let near = places.clone().min().unwrap_or(0)..=places.max().unwrap_or(0);
+        let moved = laws.iter().map(uneven::centres).find(|c| c.len() > 1);
+        let passages = match moved {
+            None => vec![first],
+            Some(moved) => moved
+                .par_iter()
+                .map(|a| {
+                    Arc::new(self.new_passage(centre + a, load, Some(&first.stations), friction))
+                })
+                .collect(),
+        };
         let hidden: Vec<Box<dyn Hidden>> = laws
             .iter()
             .map(|l| Box::new(l.clone()) as Box<dyn Hidden>)
             .collect();
-        let run = Run {
-            passage: self.passage(centre, load),
+        Run {
+            passages,
+            layout: uneven::layout(laws, [self.pinion.z, self.gear.z], near),
             conditions: plan.conditions.clone(),
             width: self.width,
             k,
             hidden: Arc::new(hidden),
             tolerance: self.tolerance,
-        };
+        }
+    }
+
+    pub fn run(&self, plan: &Plan, k: f64, laws: &[Law], cycles: f64) -> (Run, History) {
+        let run = self.set_up(plan, k, laws);
         let start = std::time::Instant::now();
         let history = run.run(cycles);
         if std::env::var("BLIND_COST").is_ok() {
@@ -292,105 +330,16 @@ impl Rig {
                 laws.iter().map(|l| l.name).collect::<Vec<_>>(),
                 history.cycles.len(),
                 history.evaluations,
-                run.passage
+                run.passage()
                     .stations
                     .iter()
                     .map(|s| s.count)
                     .collect::<Vec<_>>(),
-                run.passage.positions[0].cells.len(),
+                run.passage().positions[0].cells.len(),
                 start.elapsed()
             );
         }
         (run, history)
-    }
-
-    /// Where a test is measured: (member, radii), on the active profile with margins at both ends.
-    pub fn radii(&self, plan: &Plan) -> [Vec<f64>; 2] {
-        let pair = Mating::new(
-            &self.pinion,
-            &self.gear,
-            self.centre + plan.conditions.misalignment,
-        );
-        [0, 1].map(|m| {
-            let t = pair.teeth(m);
-            let low = pair.rho(m, if m == 0 { pair.start } else { pair.end });
-            let low = t.radius(t.rho_of_arc(t.arc(low) + 0.12 * t.m));
-            let high = t.ra - 0.15 * t.m;
-            (0..self.points)
-                .map(|i| {
-                    let r = low + (high - low) * i as f64 / (self.points - 1) as f64;
-                    (r * 1e3).round() / 1e3
-                })
-                .collect()
-        })
-    }
-
-    /// Deepest wear where the test is measured, um.
-    pub fn deepest(&self, plan: &Plan, run: &Run, history: &History, cycles: f64) -> f64 {
-        let state = history.at(cycles);
-        let p = &run.passage;
-        let n0 = p.stations[0].count;
-        let mut deepest = 0.0f64;
-        for (m, radii) in self.radii(plan).iter().enumerate() {
-            let t = p.pair.teeth(m);
-            let part = if m == 0 { &state[..n0] } else { &state[n0..] };
-            for &r in radii {
-                deepest = deepest.max(1e3 * p.stations[m].sample(part, t.arc(t.rho(r))));
-            }
-        }
-        deepest
-    }
-
-    /// Rows of a test without values, in the order of the file.
-    pub fn rows(&self, plan: &Plan, test: usize) -> Vec<Row> {
-        let radii = self.radii(plan);
-        let mut rows = Vec::new();
-        for (c, &cycles) in plan.checkpoints.iter().enumerate() {
-            for m in 0..2 {
-                let row = |radius, trace: String| Row {
-                    test,
-                    member: m,
-                    cycles,
-                    radius,
-                    trace,
-                    sigma: 0.0,
-                    free: 0.0,
-                    value: 0.0,
-                };
-                let name = format!("{}-{}-{}", plan.id, ["p", "g"][m], c + 1);
-                rows.extend(radii[m].iter().map(|&r| row(Some(r), name.clone())));
-                rows.push(row(None, String::new()));
-            }
-        }
-        rows
-    }
-
-    /// Values of the rows with the history's cycles scaled by `scale`.
-    pub fn observe(&self, run: &Run, history: &History, rows: &[Row], scale: f64) -> Vec<f64> {
-        let p = &run.passage;
-        let n0 = p.stations[0].count;
-        let mut at = f64::NAN;
-        let mut state = Vec::new();
-        rows.iter()
-            .map(|r| {
-                if r.cycles != at {
-                    at = r.cycles;
-                    state = history.at(at * scale);
-                }
-                match r.radius {
-                    Some(radius) => {
-                        let t = p.pair.teeth(r.member);
-                        let part = if r.member == 0 {
-                            &state[..n0]
-                        } else {
-                            &state[n0..]
-                        };
-                        1e3 * p.stations[r.member].sample(part, t.arc(t.rho(radius)))
-                    }
-                    None => run.mass(&state, r.member),
-                }
-            })
-            .collect()
     }
 }
 

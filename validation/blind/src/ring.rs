@@ -24,6 +24,8 @@ pub struct FlankCompliance {
     pub arcs: Vec<f64>,
     /// smooth[t + REACH][i * n + j]: displacement at station i of tooth t for a unit load at station j of tooth 0.
     pub smooth: Vec<Vec<f64>>,
+    /// The same under a tangential unit load, outward; without the half plane's own step, which two bodies of one material take from each other.
+    pub sideways: Vec<Vec<f64>>,
 }
 
 /// How fine: 1 = default; 2 halves every element.
@@ -278,11 +280,13 @@ impl Sector {
             }
         }
         a.factor();
-        let mut loads: Vec<Vec<f64>> = (0..self.stations.len())
-            .map(|k| self.tent(k, &place, inner))
-            .collect();
-        loads
-            .par_iter_mut()
+        let tents = |outward: bool| -> Vec<Vec<f64>> {
+            let all = 0..self.stations.len();
+            all.map(|k| self.tent(k, outward, &place, inner)).collect()
+        };
+        let (mut loads, mut pulls) = (tents(false), tents(true));
+        (loads.par_iter_mut())
+            .chain(pulls.par_iter_mut())
             .chain(to_cut.par_iter_mut())
             .for_each(|v| a.forward(v));
         let m = loads.len();
@@ -296,10 +300,11 @@ impl Sector {
                 }
             }
         }
-        let b: Vec<Vec<f64>> = loads
-            .iter()
-            .map(|p| to_cut.iter().map(|k| -dot(p, k)).collect())
-            .collect();
+        let seen_by_cuts = |loads: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            let at_cuts = |p: &Vec<f64>| to_cut.iter().map(|k| -dot(p, k)).collect();
+            loads.iter().map(at_cuts).collect()
+        };
+        let b = seen_by_cuts(&loads);
         // Ring.
         let half = 2 * cut;
         let z = tooth.z;
@@ -345,6 +350,29 @@ impl Sector {
             }
         }
         let plane = half_plane_means(&self.stations);
+        let step = half_plane_steps(&self.stations);
+        let aside = seen_by_cuts(&pulls);
+        // Reciprocity: what a pull at i moves under a push at j is what the push moves under the pull.
+        let sideways = (0..(2 * REACH + 1) as usize)
+            .map(|t| {
+                let away = (2 * REACH) as usize - t;
+                let mut g = vec![0.0; m * m];
+                for i in 0..m {
+                    for j in 0..m {
+                        let mut v = 0.0;
+                        for e in 0..half {
+                            v += aside[j][e] * cuts[(away * half + e) * m + i]
+                                + aside[j][half + e] * cuts[((away + 1) * half + e) * m + i];
+                        }
+                        if t == REACH as usize {
+                            v += dot(&loads[i], &pulls[j]) - step[i * m + j];
+                        }
+                        g[i * m + j] = v;
+                    }
+                }
+                g
+            })
+            .collect();
         let smooth = (0..(2 * REACH + 1) as usize)
             .map(|t| {
                 let mut g = vec![0.0; m * m];
@@ -376,11 +404,15 @@ impl Sector {
                 }
             })
             .collect();
-        FlankCompliance { arcs, smooth }
+        FlankCompliance {
+            arcs,
+            smooth,
+            sideways,
+        }
     }
 
-    /// Nodal forces of a pressure tent around station k of unit resultant, along the inward normal.
-    fn tent(&self, k: usize, place: &[usize], size: usize) -> Vec<f64> {
+    /// Nodal forces of a tent of traction around station k of unit resultant, along the inward normal or outward along the flank.
+    fn tent(&self, k: usize, outward: bool, place: &[usize], size: usize) -> Vec<f64> {
         let mut f = vec![0.0; size];
         let st = &self.stations;
         let area = tent_area(st, k);
@@ -401,9 +433,14 @@ impl Sector {
                     }
                 }
                 for a in 0..3 {
-                    // inward normal times length element: (t_y, -t_x)
-                    f[place[nodes[a]]] += w * load * shape[a] * t[1];
-                    f[place[nodes[a]] + 1] -= w * load * shape[a] * t[0];
+                    // The edge runs from the tip inward: inward normal times length element is (t_y, -t_x), outward along the flank -t.
+                    let along = if outward {
+                        [-t[0], -t[1]]
+                    } else {
+                        [t[1], -t[0]]
+                    };
+                    f[place[nodes[a]]] += w * load * shape[a] * along[0];
+                    f[place[nodes[a]] + 1] += w * load * shape[a] * along[1];
                 }
             }
         }
@@ -563,6 +600,44 @@ fn tent_area(st: &[f64], k: usize) -> f64 {
 /// -2(1-nu^2)/pi, times ln|x|/E: the half plane's normal displacement under a unit line load (datum at 1 mm).
 pub const PLANE: f64 = -2.0 * (1.0 - NU * NU) / PI;
 
+/// Mean normal displacement (inward) of tent i of the half plane under a unit pull (outward) spread over tent j, E = 1. A pull sinks the surface that it is
+/// drawn over (ahead of it, here outward) and lifts what it leaves: (1 - 2 nu)(1 + nu)/2 on either side.
+fn half_plane_steps(st: &[f64]) -> Vec<f64> {
+    let m = st.len();
+    let size = 0.5 * (1.0 - 2.0 * NU) * (1.0 + NU);
+    // Share of a tent that lies below x.
+    let below = |k: usize, x: f64| {
+        let area = tent_area(st, k);
+        let mut sum = 0.0;
+        if k > 0 {
+            let h = st[k] - st[k - 1];
+            let t = ((x - st[k - 1]) / h).clamp(0.0, 1.0);
+            sum += 0.5 * h * t * t;
+        }
+        if k + 1 < m {
+            let h = st[k + 1] - st[k];
+            let t = ((x - st[k]) / h).clamp(0.0, 1.0);
+            sum += h * (t - 0.5 * t * t);
+        }
+        sum / area
+    };
+    let mut out = vec![0.0; m * m];
+    for i in 0..m {
+        for j in 0..m {
+            let mut mean = 0.0;
+            for k in 0..m - 1 {
+                let (lo, hi) = (st[k], st[k + 1]);
+                for (x, w) in GAUSS4 {
+                    let s = 0.5 * (lo + hi) + 0.5 * (hi - lo) * x;
+                    mean += 0.5 * (hi - lo) * w * hat(st, i, s) * (2.0 * below(j, s) - 1.0);
+                }
+            }
+            out[i * m + j] = size * mean / tent_area(st, i);
+        }
+    }
+    out
+}
+
 /// Mean half-plane displacement of tent i under tent j (E = 1).
 fn half_plane_means(st: &[f64]) -> Vec<f64> {
     let m = st.len();
@@ -639,10 +714,25 @@ impl FlankCompliance {
 
     /// Smooth part at tooth t, places given by their weights.
     pub fn at(&self, t: isize, i: &(usize, [f64; 4]), j: &(usize, [f64; 4])) -> f64 {
+        self.interpolate(&self.smooth, t, i, j)
+    }
+
+    /// The same under a tangential load at j.
+    pub fn aside(&self, t: isize, i: &(usize, [f64; 4]), j: &(usize, [f64; 4])) -> f64 {
+        self.interpolate(&self.sideways, t, i, j)
+    }
+
+    fn interpolate(
+        &self,
+        of: &[Vec<f64>],
+        t: isize,
+        i: &(usize, [f64; 4]),
+        j: &(usize, [f64; 4]),
+    ) -> f64 {
         if t.abs() > REACH {
             return 0.0;
         }
-        let g = &self.smooth[(t + REACH) as usize];
+        let g = &of[(t + REACH) as usize];
         let n = self.arcs.len();
         let mut v = 0.0;
         for a in 0..4 {

@@ -29,12 +29,27 @@ pub struct Outcome {
     pub rival: Option<(f64, f64)>,
 }
 
+/// The name that truths have for a cause that goes by several.
+fn usual(name: &str) -> String {
+    match name {
+        "crowning" => "lead_crowning",
+        "eccentricity" => "run_out",
+        other => other,
+    }
+    .to_string()
+}
+
+/// Names of a set "a+b".
+pub fn names(set: &str) -> Vec<String> {
+    set.split('+').map(usual).collect()
+}
+
 pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     let text = |v: &Value| v.as_str().unwrap_or_default().to_string();
     let words = |v: &Value| -> Vec<String> {
         match v {
-            Value::String(s) => s.split('+').map(str::to_string).collect(),
-            Value::Array(a) => a.iter().map(text).collect(),
+            Value::String(s) => names(s),
+            Value::Array(a) => a.iter().map(|v| usual(&text(v))).collect(),
             _ => Vec::new(),
         }
     };
@@ -58,13 +73,13 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
             a.iter()
                 .map(|g| {
                     g.as_array()
-                        .map(|g| g.iter().map(text).collect())
+                        .map(|g| g.iter().map(|v| names(&text(v)).join("+")).collect())
                         .unwrap_or_default()
                 })
                 .collect()
         })
         .unwrap_or_default();
-    let is_truth = |s: &str| sorted(s.split('+').map(str::to_string).collect()) == want;
+    let is_truth = |s: &str| sorted(names(s)) == want;
     let right_in = |g: &Vec<String>| match class.as_str() {
         "none" => g.iter().any(|s| s == "nothing_missing"),
         "outside" => g.iter().any(|s| s == "unknown"),
@@ -82,7 +97,7 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
     );
     // Established beside something unknown: by name, or as a group of such names.
     let partial = || {
-        let of = |s: &str| sorted(s.trim_end_matches("+unknown").split('+').map(str::to_string).collect());
+        let of = |s: &str| sorted(names(s.trim_end_matches("+unknown")));
         if !named.is_empty() {
             return match class.as_str() {
                 "mixed" if named == known => "exact",
@@ -126,7 +141,8 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
             } else if covered {
                 "group"
             } else if ["pair", "three"].contains(&class.as_str())
-                && named.iter().all(|n| want.contains(n)) {
+                && named.iter().all(|n| want.contains(n))
+            {
                 "half"
             } else {
                 "wrong"
@@ -158,7 +174,9 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
         .unwrap_or_default();
     let driver = found["driver"]["name"].as_str();
     let d = match truth["d_each"].as_array() {
-        Some(a) if ["pair", "mixed", "three"].contains(&class.as_str()) => a.iter().filter_map(Value::as_f64).fold(f64::MAX, f64::min),
+        Some(a) if ["pair", "mixed", "three"].contains(&class.as_str()) => {
+            a.iter().filter_map(Value::as_f64).fold(f64::MAX, f64::min)
+        }
         _ => truth["d"].as_f64().unwrap_or(0.0),
     };
     Outcome {
@@ -220,8 +238,8 @@ fn band(d: f64) -> &'static str {
     }
 }
 
-const CLASSES: [&str; 7] = [
-    "none", "single", "foreign", "outside", "pair", "mixed", "three",
+const CLASSES: [&str; 10] = [
+    "none", "single", "foreign", "outside", "pair", "mixed", "three", "face", "teeth", "force",
 ];
 
 const RESULTS: [&str; 7] = [
@@ -280,7 +298,11 @@ fn counted(list: &[Outcome]) -> String {
         let count = |results: &[&str]| some.iter().filter(|o| results.contains(&o.result)).count();
         let share = |hits: usize| 100.0 * hits as f64 / some.len().max(1) as f64;
         let (right, wrong) = (count(&["exact", "group"]), count(&["wrong", "half"]));
-        cells.push(format!("{:.0} / {:.0}", share(right), share(wrong)));
+        cells.push(if some.is_empty() {
+            "-".to_string()
+        } else {
+            format!("{:.0} / {:.0}", share(right), share(wrong))
+        });
     }
     cells.join(" | ")
 }
@@ -359,7 +381,11 @@ pub fn score(records: &[Record], missing: &[String]) -> (String, Value) {
                 "right": right as f64 / n as f64, "right_95": [a, z], "wrong": count[3] as f64 / n as f64, "wrong_95": [wa, wz]}));
         }
     }
-    text.push_str("\n| right / wrong (or half), % of d >= 6 | none | single | foreign | outside | pair |\n|---|---|---|---|---|---|\n");
+    text.push_str(&format!(
+        "\n| right / wrong (or half), % of d >= 6 | {} |\n|{}\n",
+        CLASSES.join(" | "),
+        "---|".repeat(CLASSES.len() + 1)
+    ));
     text.push_str(&format!("| gearwear | {} |\n", counted(&list)));
     for (who, outcomes) in &simple {
         text.push_str(&format!("| {who} | {} |\n", counted(outcomes)));
@@ -519,6 +545,18 @@ mod tests {
             "exact"
         );
         assert_eq!(one(&t, &found("effect", json!("a"), json!([]))), "half");
+        let t = truth("face", &["lead_crowning"]);
+        assert_eq!(
+            one(&t, &found("effect", json!("crowning"), json!([]))),
+            "exact"
+        );
+        assert_eq!(
+            one(
+                &t,
+                &found("ambiguous", Value::Null, json!([["crowning", "c"]]))
+            ),
+            "group"
+        );
         assert_eq!(
             one(&truth("none", &[]), &found("effect", json!("a"), json!([]))),
             "wrong"

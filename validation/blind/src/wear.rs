@@ -5,12 +5,15 @@
 
 use std::sync::Arc;
 
-use crate::contact::{self, Answer};
+use crate::contact::{self, Answer, Asked, Friction};
 use crate::hidden::{Conditions, Hidden, Seen, Spot};
-use crate::passage::Passage;
+use crate::layout::{self, Layout};
+use crate::passage::{Passage, Position};
 
 pub struct Run {
-    pub passage: Arc<Passage>,
+    /// The passages of the layout's scenes, all with the first one's stations.
+    pub passages: Vec<Arc<Passage>>,
+    pub layout: Layout,
     pub conditions: Conditions,
     pub width: f64,
     /// mm^2/N
@@ -19,7 +22,7 @@ pub struct Run {
     pub tolerance: f64,
 }
 
-/// Depths (mm, pinion's stations then gear's) over cycles, with slopes.
+/// Depths (mm, the stations of the pinion's flanks, then of the gear's) over cycles, with slopes.
 #[derive(Clone, Default)]
 pub struct History {
     pub cycles: Vec<f64>,
@@ -56,44 +59,88 @@ impl History {
 
 /// Working memory: contact cells of the last solution at every position.
 #[derive(Clone, Default)]
-struct Memory {
-    active: Vec<Vec<bool>>,
+pub struct Memory {
+    /// Per scene, per position.
+    active: Vec<Vec<Vec<bool>>>,
 }
 
 impl Run {
     pub fn line_load(&self) -> f64 {
-        1e3 * self.conditions.torque / (self.width * self.passage.pair.pinion.rb)
+        1e3 * self.conditions.torque / (self.width * self.passage().pair.pinion.rb)
     }
 
-    fn profile(&self) -> Vec<f64> {
-        let p = &self.passage;
+    /// The passage whose stations all of them have.
+    pub fn passage(&self) -> &Passage {
+        &self.passages[0]
+    }
+
+    /// Where a flank's stations start.
+    pub fn offset(&self, member: usize, flank: usize) -> usize {
+        let counts = [0, 1].map(|m| self.passage().stations[m].count);
+        if member == 0 {
+            flank * counts[0]
+        } else {
+            self.layout.share[0].len() * counts[0] + flank * counts[1]
+        }
+    }
+
+    /// A flank's part of all depths.
+    pub fn flank<'a>(&self, depth: &'a [f64], member: usize, flank: usize) -> &'a [f64] {
+        let from = self.offset(member, flank);
+        &depth[from..from + self.passage().stations[member].count]
+    }
+
+    /// Stations of all flanks.
+    pub fn size(&self) -> usize {
+        self.offset(1, self.layout.share[1].len())
+    }
+
+    pub fn profile(&self) -> Vec<f64> {
+        let p = self.passage();
         let mut out = Vec::new();
         for m in 0..2 {
+            let mut one = Vec::new();
             for k in 0..p.stations[m].count {
                 let rho = p.pair.teeth(m).rho_of_arc(p.stations[m].arc(k));
                 let um: f64 = self.hidden.iter().map(|e| e.profile(m, &p.pair, rho)).sum();
-                out.push(um * 1e-3);
+                one.push(um * 1e-3);
+            }
+            for _ in &self.layout.share[m] {
+                out.extend(&one);
             }
         }
         out
     }
 
-    /// Contact at position i with worn surfaces (depth plus profile, mm).
-    pub fn contact(&self, i: usize, surface: &[f64], active: &mut Vec<bool>) -> Answer {
-        let p = &self.passage;
+    /// Contact of a scene at position i with worn surfaces (depth plus profile, mm).
+    pub fn contact(
+        &self,
+        scene: usize,
+        i: usize,
+        surface: &[f64],
+        active: &mut Vec<bool>,
+    ) -> Answer {
+        let scene = &self.layout.scenes[scene];
+        let p = &self.passages[scene.passage];
         let at = &p.positions[i];
-        let n0 = p.stations[0].count;
-        let gaps: Vec<f64> = at
-            .cells
+        let gaps: Vec<Vec<f64>> = scene
+            .slices
             .iter()
-            .map(|c| {
-                let mut g = c.gap;
-                for m in 0..2 {
-                    let (k, f) = c.station[m];
-                    let k = k as usize + m * n0;
-                    g += surface[k] + f64::from(f) * (surface[k + 1] - surface[k]);
+            .map(|slice| {
+                let mut gaps = Vec::with_capacity(at.cells.len());
+                for slot in &at.slots {
+                    let q = layout::place(slot.j);
+                    let from = [0, 1].map(|m| self.offset(m, slice.flank[m][q]));
+                    for c in &at.cells[slot.from..slot.from + slot.count] {
+                        let mut g = c.gap + slice.back[q];
+                        for ((k, f), from) in c.station.into_iter().zip(from) {
+                            let k = k as usize + from;
+                            g += surface[k] + f64::from(f) * (surface[k + 1] - surface[k]);
+                        }
+                        gaps.push(g);
+                    }
                 }
-                g
+                gaps
             })
             .collect();
         let theta = (i as f64 + 0.5) / p.positions.len() as f64;
@@ -103,40 +150,101 @@ impl Run {
             load *= e.load(theta, &self.conditions, &p.pair);
             soft += 1e-3 * e.softness();
         }
-        contact::solve(at, &gaps, p.cell, soft, load, active)
+        let friction = self.friction(p, at);
+        let asked = Asked {
+            at,
+            gaps: &gaps,
+            cell: p.cell,
+            softness: soft,
+            load,
+            friction: friction.as_ref(),
+        };
+        contact::solve(&asked, active)
+    }
+
+    /// Statics about the pinion's centre: its base radius is the lever of the pressure, the distance from the line of action's foot to the contact that of the
+    /// traction. In approach the faster gear draws the pinion's flank inward and on; in recess the pinion's flank is held back, outward.
+    fn friction(&self, p: &Passage, at: &Position) -> Option<Friction> {
+        let coefficient = |s: f64| self.hidden.iter().map(|e| e.friction(s)).sum::<f64>();
+        if !self.hidden.iter().any(|e| e.has_friction()) {
+            return None;
+        }
+        let traction: Vec<f64> = (at.slots.iter())
+            .map(|slot| slot.s.signum() * coefficient(slot.s))
+            .collect();
+        let lever = (at.slots.iter().zip(&traction))
+            .map(|(slot, t)| 1.0 + t * p.pair.rho(0, slot.s) / p.pair.pinion.rb)
+            .collect();
+        Some(Friction { traction, lever })
     }
 
     /// Wear per pinion cycle at every station, mm.
-    fn rate(&self, cycles: f64, depth: &[f64], profile: &[f64], memory: &mut Memory) -> Vec<f64> {
-        let p = &self.passage;
-        let n0 = p.stations[0].count;
+    pub fn rate(
+        &self,
+        cycles: f64,
+        depth: &[f64],
+        profile: &[f64],
+        memory: &mut Memory,
+    ) -> Vec<f64> {
         let surface: Vec<f64> = depth.iter().zip(profile).map(|(a, b)| a + b).collect();
-        let plain = !self.hidden.iter().any(|e| e.has_factor());
         let spots = self.hidden.iter().any(|e| e.has_spot());
         let total = depth.len();
         let mut out = vec![0.0; total];
         let mut peak = vec![0.0f64; if spots { total } else { 0 }];
+        memory.active.resize(self.layout.scenes.len(), Vec::new());
+        for scene in 0..self.layout.scenes.len() {
+            let active = &mut memory.active[scene];
+            self.wear_in(scene, &surface, active, &mut out, &mut peak);
+        }
+        if spots {
+            self.at_places(cycles, depth, &peak, &mut out);
+        }
+        out
+    }
+
+    /// Adds the wear of one scene per pinion cycle; and the largest pressures, if `peak` has room for them.
+    fn wear_in(
+        &self,
+        scene: usize,
+        surface: &[f64],
+        active: &mut Vec<Vec<bool>>,
+        out: &mut [f64],
+        peak: &mut [f64],
+    ) {
+        let way = &self.layout.scenes[scene];
+        let p = &self.passages[way.passage];
+        let plain = !self.hidden.iter().any(|e| e.has_factor());
         let omega = self.conditions.speed * std::f64::consts::PI / 30.0;
         let ratio = p.pair.pinion.z as f64 / p.pair.gear.z as f64;
         let per = [self.k, self.k * ratio];
-        memory.active.resize(p.positions.len(), Vec::new());
+        let part = 1.0 / way.slices.len() as f64;
+        active.resize(p.positions.len(), Vec::new());
         for (i, at) in p.positions.iter().enumerate() {
-            let answer = self.contact(i, &surface, &mut memory.active[i]);
-            for (slot, &w) in at.slots.iter().zip(&answer.loads) {
+            let answer = self.contact(scene, i, surface, &mut active[i]);
+            let slots = way.slices.iter().enumerate().flat_map(|(q, slice)| {
+                let loads = &answer.loads[q * at.slots.len()..];
+                (at.slots.iter().zip(loads)).map(move |(slot, &w)| (q, slice, slot, w))
+            });
+            for (q, slice, slot, w) in slots {
                 if w <= 0.0 {
                     continue;
                 }
+                let j = layout::place(slot.j);
+                let flank = [0, 1].map(|m| slice.flank[m][j]);
+                let from = [0, 1].map(|m| self.offset(m, flank[m]));
+                // How often a tooth (or slice) of this flank stands here while the pinion turns once.
+                let often = [0, 1].map(|m| way.time * part / self.layout.share[m][flank[m]]);
                 let (r, p0, half) = p.hertz(slot.s, w);
                 let rho = [p.pair.rho(0, slot.s), p.pair.rho(1, slot.s)];
                 let u = [omega * rho[0] * 1e-3, omega * ratio * rho[1] * 1e-3];
                 for c in slot.from..slot.from + slot.count {
-                    let pressure = answer.pressure[c];
+                    let pressure = answer.pressure[q * at.cells.len() + c];
                     if pressure <= 0.0 {
                         continue;
                     }
                     let cell = &at.cells[c];
                     for m in 0..2 {
-                        let mut value = pressure * per[m];
+                        let mut value = pressure * per[m] * often[m];
                         if !plain {
                             let seen = Seen {
                                 s: slot.s,
@@ -153,14 +261,14 @@ impl Run {
                                 value *= e.factor(&seen);
                             }
                         }
-                        let base = m * n0 + cell.first[m] as usize;
+                        let base = from[m] + cell.first[m] as usize;
                         let weights = &p.deposits[i][2 * c + m];
                         for (o, wgt) in out[base..base + weights.len()].iter_mut().zip(weights) {
                             *o += value * f64::from(*wgt);
                         }
-                        if spots {
+                        if !peak.is_empty() {
                             let (a, b) = cell.range[m];
-                            for v in &mut peak[m * n0 + a as usize..=m * n0 + b.max(a) as usize] {
+                            for v in &mut peak[from[m] + a as usize..=from[m] + b.max(a) as usize] {
                                 *v = v.max(pressure);
                             }
                         }
@@ -168,15 +276,21 @@ impl Run {
                 }
             }
         }
-        if spots {
-            let worn = self.worn_area(depth);
-            for m in 0..2 {
-                let st = &p.stations[m];
-                let t = p.pair.teeth(m);
+    }
+
+    /// What acts on places of the flanks: factors, and depth added.
+    fn at_places(&self, cycles: f64, depth: &[f64], peak: &[f64], out: &mut [f64]) {
+        let p = self.passage();
+        let ratio = p.pair.pinion.z as f64 / p.pair.gear.z as f64;
+        let worn = self.worn_area(depth);
+        for m in 0..2 {
+            let st = &p.stations[m];
+            let t = p.pair.teeth(m);
+            for from in (0..self.layout.share[m].len()).map(|f| self.offset(m, f)) {
                 let smooth = |k: usize| {
                     let at = |d: isize| {
                         let q = (k as isize + d).clamp(0, st.count as isize - 1) as usize;
-                        peak[m * n0 + q]
+                        peak[from + q]
                     };
                     0.25 * at(-1) + 0.5 * at(0) + 0.25 * at(1)
                 };
@@ -191,7 +305,7 @@ impl Run {
                         member: m,
                         s,
                         start: p.pair.start,
-                        depth: depth[m * n0 + k] * 1e3,
+                        depth: depth[from + k] * 1e3,
                         peak: smooth(k),
                         cycles,
                         contacts_per_cycle: if m == 0 { 1.0 } else { ratio },
@@ -199,36 +313,39 @@ impl Run {
                         conditions: &self.conditions,
                     };
                     for e in self.hidden.iter() {
-                        out[m * n0 + k] *= e.local(&spot);
+                        out[from + k] *= e.local(&spot);
                     }
                     for e in self.hidden.iter() {
-                        out[m * n0 + k] += 1e-3 * e.added(&spot);
+                        out[from + k] += 1e-3 * e.added(&spot);
                     }
                 }
             }
         }
-        out
     }
 
-    /// Worn area of one tooth of each member, mm^2.
+    /// Worn area of the average tooth of each member, mm^2.
     pub fn worn_area(&self, depth: &[f64]) -> [f64; 2] {
-        let p = &self.passage;
-        let n0 = p.stations[0].count;
         [0, 1].map(|m| {
-            let st = &p.stations[m];
-            (0..st.count).map(|k| depth[m * n0 + k] * st.width(k)).sum()
+            let st = &self.passage().stations[m];
+            let flanks = self.layout.share[m].iter().enumerate();
+            flanks
+                .map(|(f, share)| {
+                    let own = self.flank(depth, m, f);
+                    share * (0..st.count).map(|k| own[k] * st.width(k)).sum::<f64>()
+                })
+                .sum()
         })
     }
 
     /// Mass lost by a member, mg (steel).
     pub fn mass(&self, depth: &[f64], member: usize) -> f64 {
-        let z = self.passage.pair.teeth(member).z as f64;
+        let z = self.passage().pair.teeth(member).z as f64;
         self.worn_area(depth)[member] * self.width * z * 7.85
     }
 
     /// Of the step's error: one where flanks are measured, a tenth where tip corners dig.
     fn weights(&self) -> Vec<f64> {
-        let p = &self.passage;
+        let p = self.passage();
         let mut out = Vec::new();
         for m in 0..2 {
             let t = p.pair.teeth(m);
@@ -237,9 +354,11 @@ impl Run {
                     .rho(m, if m == 0 { p.pair.start } else { p.pair.end }),
             ) + 0.1 * t.m;
             let high = t.arc(t.rho(t.ra - 0.12 * t.m));
-            for k in 0..p.stations[m].count {
-                let inside = (low..high).contains(&p.stations[m].arc(k));
-                out.push(if inside { 1.0 } else { 0.1 });
+            for _ in &self.layout.share[m] {
+                for k in 0..p.stations[m].count {
+                    let inside = (low..high).contains(&p.stations[m].arc(k));
+                    out.push(if inside { 1.0 } else { 0.1 });
+                }
             }
         }
         out
@@ -247,7 +366,7 @@ impl Run {
 
     pub fn run(&self, last: f64) -> History {
         let profile = self.profile();
-        let size: usize = self.passage.stations.iter().map(|s| s.count).sum();
+        let size = self.size();
         let mut memory = Memory::default();
         let mut calls = 0;
         let mut f = |n: f64, y: &[f64], calls: &mut usize| {

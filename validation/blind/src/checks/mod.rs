@@ -1,11 +1,19 @@
 //! The generator's base model against what others computed.
 
+#[cfg(test)]
+mod face;
+#[cfg(test)]
+mod forces;
+#[cfg(test)]
+mod teeth;
+
 use std::sync::Arc;
 use std::time::Instant;
 
 use crate::hidden::{Conditions, Hidden};
 use crate::involute::{Mating, Tooth};
 use crate::laws::{Class, Law};
+use crate::layout::Layout;
 use crate::make::{self, Kind, Wish};
 use crate::passage::{Fineness, Passage};
 use crate::ring::{self, FlankCompliance};
@@ -160,13 +168,7 @@ fn grid() {
             index,
             kind: Some(kinds[index as usize % 5]),
             noise: Some(0.02),
-            paper: None,
-            law: None,
-            outlier: false,
-            missing: 0.0,
-            understate: 1.0,
-            messy: false,
-            rivals: false,
+            ..Wish::default()
         };
         let set = make::make(&wish);
         let fine = set.rig.on_grid(
@@ -182,7 +184,7 @@ fn grid() {
             let rows: Vec<_> = set
                 .rows
                 .iter()
-                .filter(|r| r.test == t && r.radius.is_some())
+                .filter(|r| r.test == t && r.is_depth())
                 .cloned()
                 .collect();
             let (run, history) = fine.run(plan, set.k_tests[t], &set.laws, plan.cycles);
@@ -344,10 +346,11 @@ pub fn none(folder: &str, fine: &Fineness, tolerance: f64) -> (f64, f64) {
         let t = Instant::now();
         let pair = Mating::new(&p, &g, 80.0 + mis);
         let load = 1e3 * torque / 33.0 / p.rb;
-        let passage = Arc::new(Passage::new(pair, &soft, 2.1e5, load, *fine));
+        let passage = Arc::new(Passage::new(pair, &soft, 2.1e5, load, *fine, None, false));
         let set = t.elapsed();
         let run = Run {
-            passage: passage.clone(),
+            passages: vec![passage.clone()],
+            layout: Layout::even(),
             conditions: Conditions {
                 torque,
                 speed,
@@ -436,13 +439,28 @@ pub fn none(folder: &str, fine: &Fineness, tolerance: f64) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::OnceLock;
+
     use super::*;
     use crate::involute::inv;
 
-    fn reference(fine: Fineness, torque: f64) -> (Run, Mating) {
-        let p = Tooth::new(2.0, 27, 0.0, 12.5);
-        let g = Tooth::new(2.0, 53, 0.0, 20.0);
-        let soft = [ring::compliance(&p, 1), ring::compliance(&g, 1)];
+    pub static REFERENCE: OnceLock<[FlankCompliance; 2]> = OnceLock::new();
+
+    fn teeth() -> [Tooth; 2] {
+        [
+            Tooth::new(2.0, 27, 0.0, 12.5),
+            Tooth::new(2.0, 53, 0.0, 20.0),
+        ]
+    }
+
+    pub fn compliances() -> [FlankCompliance; 2] {
+        teeth().map(|t| ring::compliance(&t, 1))
+    }
+
+    /// The pair 27/53.
+    pub fn reference(fine: Fineness, torque: f64) -> (Run, Mating) {
+        let [p, g] = teeth();
+        let soft = REFERENCE.get_or_init(compliances);
         let pair = Mating::new(&p, &g, 80.0);
         let load = 1e3 * torque / 33.0 / p.rb;
         let conditions = Conditions {
@@ -455,10 +473,19 @@ mod tests {
             roughness: 0.5,
             friction: 0.06,
         };
-        let passage = Arc::new(Passage::new(pair.clone(), &soft, 2.1e5, load, fine));
+        let passage = Arc::new(Passage::new(
+            pair.clone(),
+            soft,
+            2.1e5,
+            load,
+            fine,
+            None,
+            false,
+        ));
         (
             Run {
-                passage,
+                passages: vec![passage],
+                layout: Layout::even(),
                 conditions,
                 width: 33.0,
                 k: 2e-10,
@@ -480,7 +507,7 @@ mod tests {
             },
             100.0,
         );
-        let size: usize = run.passage.stations.iter().map(|s| s.count).sum();
+        let size: usize = run.passage().stations.iter().map(|s| s.count).sum();
         let (mut seen, m) = (0, 2.46);
         // (sqrt(pi)/2) Gamma(m/2+1)/Gamma(m/2+3/2) by integration of (1-x^2)^(m/2) over 0..1.
         let n = 20_000;
@@ -491,18 +518,18 @@ mod tests {
             })
             .sum::<f64>()
             / f64::from(n);
-        for (i, at) in run.passage.positions.iter().enumerate() {
-            let a = run.contact(i, &vec![0.0; size], &mut Vec::new());
+        for (i, at) in run.passage().positions.iter().enumerate() {
+            let a = run.contact(0, i, &vec![0.0; size], &mut Vec::new());
             for (slot, &w) in at.slots.iter().zip(&a.loads) {
                 if (w / run.line_load() - 1.0).abs() > 1e-9 {
                     continue;
                 }
-                let (_, p0, half) = run.passage.hertz(slot.s, w);
+                let (_, p0, half) = run.passage().hertz(slot.s, w);
                 let cells = &a.pressure[slot.from..slot.from + slot.count];
                 let peak = cells.iter().copied().fold(0.0, f64::max);
                 assert!((peak / p0 - 1.0).abs() < 0.015, "{} {peak} {p0}", slot.s);
                 let sum: f64 =
-                    cells.iter().map(|p| p.max(0.0).powf(m)).sum::<f64>() * run.passage.cell;
+                    cells.iter().map(|p| p.max(0.0).powf(m)).sum::<f64>() * run.passage().cell;
                 let exact = 2.0 * half * p0.powf(m) * shape;
                 assert!(
                     (sum / exact - 1.0).abs() < 0.015,
@@ -550,10 +577,10 @@ mod tests {
         let p = Tooth::new(2.0, 27, 0.0, 12.5);
         let g = Tooth::new(2.0, 53, 0.0, 20.0);
         let soft = [ring::compliance(&p, 1), ring::compliance(&g, 1)];
-        let size: usize = run.passage.stations.iter().map(|s| s.count).sum();
+        let size: usize = run.passage().stations.iter().map(|s| s.count).sum();
         let mut seen = 0;
-        for (i, at) in run.passage.positions.iter().enumerate() {
-            let a = run.contact(i, &vec![0.0; size], &mut Vec::new());
+        for (i, at) in run.passage().positions.iter().enumerate() {
+            let a = run.contact(0, i, &vec![0.0; size], &mut Vec::new());
             let loaded: Vec<(f64, f64)> = at
                 .slots
                 .iter()
@@ -583,7 +610,8 @@ mod tests {
         let coarse = run.run(end);
         let fine = Run {
             tolerance: 5e-5,
-            passage: run.passage.clone(),
+            passages: run.passages.clone(),
+            layout: run.layout.clone(),
             conditions: run.conditions.clone(),
             hidden: run.hidden.clone(),
             ..run
@@ -591,9 +619,9 @@ mod tests {
         let fine_history = fine.run(end);
         for part in [0.1, 0.35, 1.0] {
             let (a, b) = (coarse.at(part * end), fine_history.at(part * end));
-            let n0 = fine.passage.stations[0].count;
+            let n0 = fine.passage().stations[0].count;
             for m in 0..2 {
-                let (t, st) = (pair.teeth(m), &fine.passage.stations[m]);
+                let (t, st) = (pair.teeth(m), &fine.passage().stations[m]);
                 let low =
                     t.arc(pair.rho(m, if m == 0 { pair.start } else { pair.end })) + 0.12 * t.m;
                 let high = t.arc(t.rho(t.ra - 0.15 * t.m));
