@@ -11,7 +11,7 @@ use crate::make::DataSet;
 use crate::messy;
 use crate::observe::{Quantity, Row};
 use crate::rig::Plan;
-use crate::trace::Column;
+use crate::trace::{Column, Trace};
 
 pub fn name(set: &DataSet) -> String {
     name_of(set.wish.seed, set.wish.index)
@@ -164,7 +164,7 @@ fn truth(set: &DataSet) -> Value {
         "coefficient_scatter": set.scatter,
         "datum_sd_um": set.datum,
         "datums_um": datums,
-        "trace": set.trace.name(),
+        "trace": set.trace.map(Trace::name),
         "stated": set.column != Column::None,
         "mesh": set.rig.mesh,
         "wanted_d": set.wish.d,

@@ -93,7 +93,8 @@ pub struct DataSet {
     pub d_each: Vec<f64>,
     pub attempts: usize,
     pub rivals: Vec<Rival>,
-    pub trace: Trace,
+    /// Where across the face traces were taken, if that was of concern.
+    pub trace: Option<Trace>,
     pub column: Column,
 }
 
@@ -165,7 +166,9 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     let (trace, stated) = (Trace::draw(&mut look), look.unit() < 0.5);
     let (trace, stated) = (wish.trace.unwrap_or(trace), wish.stated.unwrap_or(stated));
     let choice = Uneven::draw(&named, &rig, &mut look)?;
-    if named.iter().any(|n| uneven::FACE.contains(n)) {
+    // Asked for, places are stated of any cause, and of none.
+    let across = wish.trace.is_some() || named.iter().any(|n| uneven::FACE.contains(n));
+    if across {
         rig.places = trace.places(choice.side);
     }
     rig.mesh = wish.mesh;
@@ -286,7 +289,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     found.iter_mut().for_each(|l| l.limit = 0.0);
     let wrong = d.uniform(0.5f64.ln(), 1.5f64.ln()).exp();
     drop(bench);
-    let column = Column::of(&found, trace, stated);
+    let column = Column::of(&named, across, trace, stated);
     Some(DataSet {
         wish: wish.clone(),
         kind,
@@ -304,7 +307,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         d_each,
         attempts: attempt,
         rivals,
-        trace,
+        trace: across.then_some(trace),
         column,
         rig,
     })

@@ -43,8 +43,12 @@ impl Record {
             };
             let truth: Value = serde_json::from_str(&fs::read_to_string(path.join("truth.json"))?)?;
             let found: Value = serde_json::from_str(&text)?;
-            let rows = fs::read_to_string(path.join("measurements.csv"))?;
-            let simple = baselines(&found, rows.lines().count());
+            // Where answers lie apart from the data, the values without noise are as many.
+            let rows = match fs::read_to_string(path.join("measurements.csv")) {
+                Ok(text) => text.lines().count(),
+                Err(_) => truth["noise_free"].as_array().map_or(0, Vec::len),
+            };
+            let simple = baselines(&found, rows);
             let made = fs::read_to_string(answer.join("seconds.txt")).unwrap_or_default();
             list.push(Self {
                 name: name.into_owned(),

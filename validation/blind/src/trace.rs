@@ -3,7 +3,6 @@
 use clap::ValueEnum;
 
 use crate::dice::Dice;
-use crate::laws::Law;
 use crate::layout::Place;
 use crate::observe::Row;
 use crate::uneven;
@@ -55,13 +54,13 @@ pub enum Column {
 }
 
 impl Column {
-    /// `wanted`: whether places are stated where that is left to choose.
-    pub fn of(laws: &[Law], trace: Trace, wanted: bool) -> Self {
-        let names = |list: &[(&str, &str)]| laws.iter().any(|l| list.contains(&(l.name, l.form)));
-        if names(uneven::FACE) && (wanted || trace == Trace::Three) {
+    /// `across`: traces have places across the face; `wanted`: whether the file says so where that is left to choose.
+    pub fn of(named: &[(&str, &str)], across: bool, trace: Trace, wanted: bool) -> Self {
+        if named.iter().any(|n| uneven::TEETH.contains(n)) {
+            return if wanted { Self::Tooth } else { Self::None };
+        }
+        if across && (wanted || trace == Trace::Three) {
             Self::Face
-        } else if names(uneven::TEETH) && wanted {
-            Self::Tooth
         } else {
             Self::None
         }
