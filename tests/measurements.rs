@@ -377,6 +377,32 @@ fn every_quantity_says_its_unit_and_place() {
 }
 
 #[test]
+fn spans_go_over_so_many_teeth_that_the_anvils_touch_flanks() {
+    let row = |teeth: &str| format!("{}A,gear,250000,span_loss,{teeth},2.1,1.0,\n", GOOD);
+    let known = known();
+    let [_, gear] = &known.spanned;
+    for teeth in gear {
+        assert!(parse(&row(&teeth.to_string())).is_ok(), "{teeth}");
+    }
+    let beyond = gear.last().unwrap() + 1;
+    for teeth in ["1", "5.5", "", &beyond.to_string()] {
+        let error = parse(&row(teeth)).unwrap_err().to_string();
+        let first = gear[0].to_string();
+        assert!(
+            error.contains("position") && error.contains(&format!("flanks: {first}")),
+            "{error}"
+        );
+    }
+    let pair = GOOD.to_owned() + "A,pair,250000,span_loss,6,2.1,1.0,\n";
+    assert!(
+        parse(&pair)
+            .unwrap_err()
+            .to_string()
+            .contains("span_loss is no quantity of the pair")
+    );
+}
+
+#[test]
 fn the_challenges_are_read_in_full() {
     // data of noise level 1 has no datum, so no traces
     for (text, traces) in [

@@ -249,11 +249,12 @@ fn wide(
     };
     let quantity = Quantity::ALL
         .into_iter()
-        .find(|quantity| quantity.name() == args.quantity && quantity.place() != Place::Whole)
+        .find(|quantity| quantity.name() == args.quantity
+                && matches!(quantity.place(), Place::Flank | Place::Rotation))
         .ok_or_else(|| {
             let names = Quantity::ALL.map(Quantity::name);
             unusable(format!(
-                "--quantity {}: {}; what has no position is written into the measurement file by hand",
+                "--quantity {}: {}; what has no place on a flank or rotation is written into the measurement file by hand",
                 args.quantity,
                 names.join(", ")
             ))

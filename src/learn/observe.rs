@@ -1,6 +1,7 @@
 //! What an instrument reads off the model: each quantity of the measurement file, in its unit.
 
 mod meshing;
+mod thickness;
 
 use crate::effects::{Effect, Local};
 use crate::gear::Member;
@@ -60,6 +61,9 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::LoadShare => self.load_share(pinion_for_pair, at),
             Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation.face),
             Quantity::MeshStiffness => self.stiffness(at),
+            Quantity::SpanLoss | Quantity::ChordalLoss => {
+                Ok(1e3 * self.thickness(observation, pinion_for_pair).loss)
+            }
             Quantity::MeanLag => {
                 let fresh = self.fresh()?.0;
                 Ok(1e6 * (self.meshing()?.0.mean - fresh))
@@ -141,6 +145,15 @@ impl<'r, 'f> Reading<'r, 'f> {
                 Ok(meshing.tangents.iter().map(of).collect())
             }
             Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
+            Quantity::SpanLoss | Quantity::ChordalLoss => {
+                let felt = self.thickness(observation, pinion_for_pair);
+                let slices = self.slices_at(observation.face);
+                Ok(
+                    self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
+                        1e3 * felt.gain * interpolate(stations, depths, felt.arc)
+                    }),
+                )
+            }
             Quantity::MeanLag => {
                 let fresh = self.fresh()?.1.clone();
                 let tangents = self.meshing()?.0.tangents.iter();

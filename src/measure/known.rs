@@ -12,6 +12,8 @@ pub struct Known {
     pub tests: Vec<KnownTest>,
     /// Form radius and tip radius of pinion and gear, mm.
     pub flank: [[f64; 2]; 2],
+    /// Over how many teeth a span of pinion and gear can be measured.
+    pub spanned: [Vec<u32>; 2],
     /// Face width, mm.
     pub face_width: f64,
 }
@@ -39,8 +41,14 @@ impl Known {
         Self {
             tests: tests.collect(),
             flank: gears.map(|gear| [gear.form_radius, gear.tip_radius]),
+            spanned: gears.map(Gear::spanned_teeth),
             face_width,
         }
+    }
+
+    /// Over how many teeth a span of `member` touches its flanks.
+    pub(super) fn spanned_by(&self, member: Member) -> &[u32] {
+        &self.spanned[usize::from(member == Member::Gear)]
     }
 
     /// Form radius and tip radius of a member, mm.

@@ -21,7 +21,7 @@ pub struct Observation {
     pub cycles: f64,
     /// What was measured.
     pub quantity: Quantity,
-    /// Where: mm of radius or base pitches of rotation, as [`Quantity::place`] says; none for the whole member.
+    /// Where: mm of radius, base pitches of rotation or teeth spanned, as [`Quantity::place`] says; none for the whole member.
     pub position: Option<f64>,
     /// The value, in [`Quantity::unit`].
     pub value: f64,
@@ -78,6 +78,10 @@ impl<'k> Reader<'k> {
                 Some(self.radius(cell("position"), member)?)
             }
             Place::Rotation => Some(rotation(cell("position"))?),
+            Place::Span => {
+                let member = member.member().expect("a span is a member's");
+                Some(self.teeth(cell("position"), member)?)
+            }
             Place::Whole => no_position(cell("position"), quantity)?,
         };
         self.stated_units(row, quantity)?;
@@ -160,6 +164,7 @@ impl<'k> Reader<'k> {
         let of_position: &[&str] = match quantity.place() {
             Place::Flank => &["mm"],
             Place::Rotation => &["base pitches", "pitches", "1", "-"],
+            Place::Span => &["teeth", "1", "-"],
             Place::Whole => &[],
         };
         let of_value = [quantity.unit(), quantity.plain_unit()];
@@ -257,6 +262,25 @@ impl<'k> Reader<'k> {
         Err(hints
             .fold(fault, |fault, (_, hint)| fault.with_hint(hint))
             .into())
+    }
+
+    /// The number of teeth that a span goes over.
+    fn teeth(&self, cell: Cell<'_, '_>, member: Member) -> Result<f64> {
+        let known = self.known.spanned_by(member);
+        let allowed = format!(
+            "number of teeth over which the anvils touch the {member}'s flanks: {}",
+            known
+                .iter()
+                .map(u32::to_string)
+                .collect::<Vec<_>>()
+                .join(", ")
+        );
+        let teeth = cell.number(&allowed)?;
+        if known.iter().any(|&known| f64::from(known) == teeth) {
+            return Ok(teeth);
+        }
+        let message = "no span of the new gear is measured over so many teeth";
+        Err(cell.fault(Fault::BadValue, message, &allowed).into())
     }
 
     fn value(&self, cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {

@@ -53,6 +53,10 @@ pub enum Quantity {
     MeshStiffness,
     /// Change since the start of the mean lag over a base pitch, seen at the pinion, µrad: what wear alone has opened, at the test's load.
     MeanLag,
+    /// What the base tangent length over so many teeth has lost, µm: flat anvils, of which one rests on a worn flank.
+    SpanLoss,
+    /// What the chord of a tooth at a circle has lost, µm: one of its flanks is worn.
+    ChordalLoss,
 }
 
 /// What the `position` of a quantity means.
@@ -62,6 +66,8 @@ pub enum Place {
     Flank,
     /// Pinion rotation from the pitch point, in base pitches, 0 to 1.
     Rotation,
+    /// The number of teeth that a span goes over.
+    Span,
     /// The whole member or the pair: no position.
     Whole,
 }
@@ -80,7 +86,7 @@ pub(super) struct Magnitude {
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Quantity; 7] = [
+    pub const ALL: [Quantity; 9] = [
         Quantity::WearDepth,
         Quantity::TransmissionError,
         Quantity::MassLoss,
@@ -88,6 +94,8 @@ impl Quantity {
         Quantity::ContactPressure,
         Quantity::MeshStiffness,
         Quantity::MeanLag,
+        Quantity::SpanLoss,
+        Quantity::ChordalLoss,
     ];
 
     /// Its name in the file.
@@ -100,13 +108,15 @@ impl Quantity {
             Quantity::ContactPressure => "contact_pressure",
             Quantity::MeshStiffness => "mesh_stiffness",
             Quantity::MeanLag => "mean_lag",
+            Quantity::SpanLoss => "span_loss",
+            Quantity::ChordalLoss => "chordal_loss",
         }
     }
 
     /// Its unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Quantity::WearDepth => "um",
+            Quantity::WearDepth | Quantity::SpanLoss | Quantity::ChordalLoss => "um",
             Quantity::TransmissionError | Quantity::MeanLag => "urad",
             Quantity::MassLoss => "mg",
             Quantity::LoadShare => "1",
@@ -128,14 +138,22 @@ impl Quantity {
     pub fn is_wear(self) -> bool {
         matches!(
             self,
-            Quantity::WearDepth | Quantity::MassLoss | Quantity::MeanLag
+            Quantity::WearDepth
+                | Quantity::MassLoss
+                | Quantity::MeanLag
+                | Quantity::SpanLoss
+                | Quantity::ChordalLoss
         )
     }
 
     /// What its position means.
     pub fn place(self) -> Place {
         match self {
-            Quantity::WearDepth | Quantity::LoadShare | Quantity::ContactPressure => Place::Flank,
+            Quantity::WearDepth
+            | Quantity::LoadShare
+            | Quantity::ContactPressure
+            | Quantity::ChordalLoss => Place::Flank,
+            Quantity::SpanLoss => Place::Span,
             Quantity::TransmissionError | Quantity::MeshStiffness => Place::Rotation,
             Quantity::MassLoss | Quantity::MeanLag => Place::Whole,
         }
@@ -145,7 +163,7 @@ impl Quantity {
     pub fn subjects(self) -> &'static [Subject] {
         match self.place() {
             _ if self == Quantity::MeanLag => &[Subject::Pair],
-            Place::Flank | Place::Whole => &[Subject::Pinion, Subject::Gear],
+            Place::Flank | Place::Span | Place::Whole => &[Subject::Pinion, Subject::Gear],
             Place::Rotation => &[Subject::Pair],
         }
     }
@@ -159,7 +177,8 @@ impl Quantity {
             smaller,
         };
         match self {
-            Quantity::WearDepth => limits(depth_limit, "nm", 0.05, "mm"),
+            Quantity::WearDepth | Quantity::SpanLoss => limits(depth_limit, "nm", 0.05, "mm"),
+            Quantity::ChordalLoss => limits(2.0 * depth_limit, "nm", 0.05, "mm"),
             Quantity::TransmissionError => limits(1e5, "nrad", 0.05, "rad"),
             Quantity::MassLoss => limits(f64::INFINITY, "", 0.0, ""),
             Quantity::LoadShare => limits(2.0, "percent", 0.0, ""),

@@ -98,6 +98,8 @@ fn subject(quantity: Quantity) -> &'static str {
         Quantity::ContactPressure => "The computed pressure",
         Quantity::MeshStiffness => "The computed mesh stiffness",
         Quantity::MeanLag => "The computed mean lag",
+        Quantity::SpanLoss => "The computed loss of span",
+        Quantity::ChordalLoss => "The computed loss of chordal thickness",
     }
 }
 

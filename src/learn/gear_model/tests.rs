@@ -21,7 +21,9 @@ const ROWS: &str = "test,member,cycles,quantity,position,value,sigma\n\
     A,pinion,4e5,load_share,27.9,1,1\n\
     A,pinion,4e5,contact_pressure,27.0,1,1\n\
     A,pair,4e5,mesh_stiffness,0.3,1,1\n\
-    A,pair,4e5,mean_lag,,1,1\n";
+    A,pair,4e5,mean_lag,,1,1\n\
+    A,pinion,4e5,span_loss,4,1,1\n\
+    A,gear,4e5,chordal_loss,53.1,1,1\n";
 
 fn study() -> Study {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -100,7 +102,17 @@ fn check(kind: ContactKind, names: &[&str]) {
                 (2.0 * apart * unit, at(-1.0), at(1.0))
             });
             // depths, masses, transmission errors, shares, the others
-            for kind in [0..3, 3..5, 5..7, 7..9, 9..10, 10..11, 11..12] {
+            for kind in [
+                0..3,
+                3..5,
+                5..7,
+                7..9,
+                9..10,
+                10..11,
+                11..12,
+                12..13,
+                13..14,
+            ] {
                 for row in kind.clone() {
                     let exact = found.derivatives[(row, column)];
                     let agrees = differences.iter().any(|(apart, low, high)| {
@@ -179,5 +191,41 @@ fn an_even_loss_is_a_lag_of_its_depth_over_the_base_radius() {
             (lag / expected - 1.0).abs() < 2e-3,
             "{kind:?}: {lag}, {expected}"
         );
+    }
+}
+
+/// An even loss h takes h from the span, and turns the flank by h/r_b: what that takes from the chord.
+#[test]
+fn an_even_loss_is_felt_by_span_and_chord() {
+    let study = study();
+    let data = Dataset::parse(ROWS, "m.csv", &study.known()).unwrap();
+    let rows = [data.observations[12].clone(), data.observations[13].clone()];
+    let measured = Measured::new(&study, data);
+    for kind in [ContactKind::Fem, ContactKind::Hertz] {
+        let workshop = measured.workshop(kind).unwrap();
+        let bench = measured.bench(&workshop).unwrap();
+        let model = GearModel::new(&bench, Box::new(|_| Combined::default()));
+        let mut forward = model.forward(0, study.wear.coefficient, &[], None).unwrap();
+        let stations = &forward.cycle().stations.arc;
+        let (pinion, gear) = (5e-3, 8e-3);
+        let mut u = vec![pinion; stations[0].len()];
+        u.extend(vec![gear; stations[1].len()]);
+        let worn = crate::learn::trajectory::Node {
+            u,
+            ..Default::default()
+        };
+        let set = bench.set();
+        let r = rows[1].position.unwrap();
+        let half = set.gears[1].half_angle(r);
+        let turned = 0.5 * gear / set.gears[1].base_radius;
+        let expected = [pinion, 2.0 * r * (half.sin() - (half - turned).sin())];
+        let mut reading = Reading::new(&mut forward, &worn, set, &[]);
+        for (row, expected) in rows.iter().zip(expected) {
+            let found = 1e-3 * reading.of(row).unwrap();
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{kind:?}: {found}, {expected}"
+            );
+        }
     }
 }

@@ -6,7 +6,9 @@ use crate::measure::Quantity;
 /// Units of a quantity's values with their factors to its own, the first one.
 fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
     match quantity {
-        Quantity::WearDepth => &[("um", 1.0), ("mm", 1e3), ("nm", 1e-3), ("in", 25.4e3)],
+        Quantity::WearDepth | Quantity::SpanLoss | Quantity::ChordalLoss => {
+            &[("um", 1.0), ("mm", 1e3), ("nm", 1e-3), ("in", 25.4e3)]
+        }
         Quantity::TransmissionError | Quantity::MeanLag => {
             &[("urad", 1.0), ("mrad", 1e3), ("arcsec", 4.848_136_811)]
         }

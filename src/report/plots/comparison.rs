@@ -14,7 +14,7 @@ pub fn of_comparison(result: &Result<'_>) -> Vec<Vec<Plot>> {
     let mut plots: Vec<Vec<Plot>> = vec![Vec::new(); result.study.tests.len()];
     let mut groups: BTreeMap<(usize, Quantity, Option<Subject>), Vec<&Curve>> = BTreeMap::new();
     for curve in &all {
-        let whole = curve.quantity.place() == Place::Whole;
+        let whole = matches!(curve.quantity.place(), Place::Whole | Place::Span);
         let member = (!whole).then_some(curve.member);
         groups
             .entry((curve.test, curve.quantity, member))
@@ -96,6 +96,8 @@ fn words(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::ContactPressure => ("contact pressure", "MPa"),
         Quantity::MeshStiffness => ("mesh stiffness", "N/(mm µm)"),
         Quantity::MeanLag => ("mean lag", "µrad"),
+        Quantity::SpanLoss => ("loss of span", "µm"),
+        Quantity::ChordalLoss => ("loss of chordal thickness", "µm"),
     }
 }
 
