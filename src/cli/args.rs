@@ -7,7 +7,8 @@ use clap::{Args, Parser, Subcommand};
 
 use super::{
     CliError, Context, Outcome, add, check, climb, compare, completions, diagnose, effects, export,
-    import, init, ladder, mesh, models, plan, run, schema, serve, sweep, synthesize, validate,
+    import, init, ladder, materials, mesh, models, plan, run, schema, serve, sweep, synthesize,
+    validate,
 };
 
 /// Finite-element contact and wear of spur gears.
@@ -92,6 +93,8 @@ pub enum Command {
     Synthesize(synthesize::SynthesizeArgs),
     /// List the catalogue of physical effects, or tell all about one: formula, parameters, source, signature
     Effects(effects::EffectsArgs),
+    /// List published wear coefficients of material pairs, or tell all about one: value, scatter, conditions, source
+    Materials(materials::MaterialsArgs),
     /// Run the verification and validation cases; exit code 1 if one fails
     Validate(validate::ValidateArgs),
     /// Print the script that completes commands and options in a shell
@@ -121,6 +124,7 @@ impl Command {
             Command::Ladder(args) => ladder::execute(args, context),
             Command::Synthesize(args) => synthesize::execute(args, context),
             Command::Effects(args) => effects::execute(args),
+            Command::Materials(args) => materials::execute(args),
             Command::Validate(args) => validate::execute(args, context),
             Command::Completions(args) => completions::execute(args),
             Command::Schema(args) => schema::execute(args),

@@ -8,6 +8,7 @@ use serde_json::json;
 use super::args::Arguments;
 use super::{CliError, Outcome};
 use crate::effects::CATALOGUE;
+use crate::material::WEAR_PAIRS;
 
 /// Arguments of `completions`.
 #[derive(Debug, Args)]
@@ -31,6 +32,13 @@ fn with_effects(command: Command) -> Command {
         })
     };
     command
+        .mut_subcommand("materials", |command: Command| {
+            command.mut_arg("pair", |argument| {
+                argument.value_parser(PossibleValuesParser::new(
+                    WEAR_PAIRS.iter().map(|pair| pair.name),
+                ))
+            })
+        })
         .mut_subcommand("effects", offers)
         .mut_subcommand("add", offers)
 }

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::text::wrap;
 use super::{CliError, Outcome};
 use crate::effects::formula::FUNCTIONS;
 use crate::effects::{CATALOGUE, Card, Param, find};
@@ -19,9 +20,6 @@ pub struct EffectsArgs {
     #[arg(value_name = "EFFECT")]
     effect: Option<String>,
 }
-
-/// Width of the text, characters.
-const WIDTH: usize = 100;
 
 /// Lists the catalogue, or one of its cards.
 pub(super) fn execute(args: &EffectsArgs) -> Result<Outcome, CliError> {
@@ -185,23 +183,4 @@ fn parameter(text: &mut String, param: &Param) {
         line.push_str("; fits leave it alone");
     }
     wrap(text, "      ", "      ", &line);
-}
-
-/// Appends `words` in lines of at most [`WIDTH`] characters.
-fn wrap(text: &mut String, first: &str, other: &str, words: &str) {
-    let mut line = first.to_owned();
-    let mut empty = true;
-    for word in words.split(' ') {
-        if !empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
-            let _ = writeln!(text, "{line}");
-            line = other.to_owned();
-            empty = true;
-        }
-        if !empty {
-            line.push(' ');
-        }
-        line.push_str(word);
-        empty = false;
-    }
-    let _ = writeln!(text, "{line}");
 }

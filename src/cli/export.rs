@@ -51,8 +51,8 @@ pub(super) fn execute(args: &ExportArgs, context: &Context) -> Result<Outcome, C
     let mut staging = Staging::begin(&target)?;
     let progress = context.progress("export");
     progress.stage("mesh, factor and condense both gears");
-    let set = study.gear_set();
-    let conditions = operation.simulated(&study.wear);
+    let set = study.gear_set_at(operation);
+    let conditions = operation.simulated(&study.wear_at(operation));
     let numerics = study.resolution();
     let mut own = [None, None];
     for (slot, (member, path)) in own.iter_mut().zip(study.own_meshes()) {

@@ -26,6 +26,7 @@ mod init;
 mod inputs;
 mod interrupt;
 mod ladder;
+mod materials;
 mod mesh;
 mod models;
 mod plan;
@@ -35,6 +36,7 @@ mod schema;
 mod serve;
 mod sweep;
 mod synthesize;
+mod text;
 mod validate;
 
 use std::ffi::OsString;

@@ -80,7 +80,7 @@ fn compare_models(
     }
     let task = Task {
         set: &study.gear_set(),
-        conditions: study.operation.simulated(&study.wear),
+        conditions: study.operation.simulated(&study.wear_at(&study.operation)),
         numerics: study.resolution(),
         misalignments: &misalignments,
         own,

@@ -95,7 +95,7 @@ fn simulate(
     keeper: &Keeper,
     progress: &Progress,
 ) -> Result<Run, CliError> {
-    let set = study.gear_set();
+    let set = study.gear_set_at(conditions);
     let acting = study.acting(conditions);
     let effects: Vec<String> = study.effects().iter().map(ToString::to_string).collect();
     let plan = Plan {
@@ -105,7 +105,7 @@ fn simulate(
         title: &study.title,
         test,
         set: &set,
-        conditions: conditions.simulated(&study.wear),
+        conditions: conditions.simulated(&study.wear_at(conditions)),
         numerics: study.resolution(),
         kind: match study.contact {
             ContactKind::Fem => crate::simulate::forward::ContactKind::Fem,

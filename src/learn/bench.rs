@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::effects::{Combined, Hook, Surroundings};
+use crate::material::Elastic;
 use crate::measure::Observation;
 use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, GearSet};
 use crate::simulate::members::Members;
@@ -18,6 +19,8 @@ pub struct MeasuredTest {
     pub conditions: Conditions,
     /// The study's wear coefficient, mm²/N, and those of pinion and gear over it.
     pub wear: (f64, [f64; 2]),
+    /// Elastic constants of pinion and gear at the test's temperature.
+    pub materials: [Elastic; 2],
     /// Oil and heat.
     pub surroundings: Surroundings,
     /// Whether the drive direction is the other one.
@@ -28,10 +31,11 @@ pub struct MeasuredTest {
 
 /// Elastic members that serve all tests of a study.
 pub struct Workshop {
-    set: GearSet,
+    /// The gears; then the same gears with each of the tests' other materials, which their temperatures give them.
+    sets: Vec<GearSet>,
     numerics: Numerics,
-    /// By elements: the least torque (N·mm) of tests of similar contact width, and members for these; ascending.
-    members: Vec<(f64, Members)>,
+    /// By elements and materials: the least torque (N·mm) of tests of similar contact width, and members for these; ascending.
+    members: Vec<Vec<(f64, Members)>>,
 }
 
 /// Step tolerance with which fits begin, looser than a run's own: it costs 0.05 % of the largest depth, and more than measurements with 2 %
@@ -90,25 +94,40 @@ impl Workshop {
             room: ROOM,
             ..numerics
         };
-        let members = match kind {
-            ContactKind::Fem => (classes(tests, |t| t.conditions.torque).iter())
+        let mut sets = vec![set];
+        for test in tests {
+            if !sets.iter().any(|set| set.materials == test.materials) {
+                sets.push(GearSet {
+                    materials: test.materials,
+                    ..sets[0].clone()
+                });
+            }
+        }
+        let members_of = |set: &GearSet| -> Result<Vec<(f64, Members)>, ForwardError> {
+            let own: Vec<&MeasuredTest> = (tests.iter())
+                .filter(|test| test.materials == set.materials)
+                .collect();
+            (classes(own, |t| t.conditions.torque).iter())
                 .map(|class| {
-                    let members = members_for(&set, &numerics, class)?;
+                    let members = members_for(set, &numerics, class)?;
                     Ok((class[0].conditions.torque, members))
                 })
-                .collect::<Result<_, ForwardError>>()?,
+                .collect()
+        };
+        let members = match kind {
+            ContactKind::Fem => sets.iter().map(members_of).collect::<Result<_, _>>()?,
             ContactKind::Hertz => Vec::new(),
         };
         Ok(Self {
-            set,
+            sets,
             numerics,
             members,
         })
     }
 
-    /// The gears.
+    /// The gears, with the materials that they have under the study's own conditions.
     pub fn set(&self) -> &GearSet {
-        &self.set
+        &self.sets[0]
     }
 
     /// Prepares every test.
@@ -127,11 +146,18 @@ impl Workshop {
         self.stepping(tests, FINEST_TOLERANCE)
     }
 
-    /// The members for a test: of the classes that begin with a smaller load the nearest, or else the finest; none for the analytic model.
-    fn members_of(&self, conditions: &Conditions) -> Option<&Members> {
-        let begins = |(least, _): &&(f64, Members)| *least <= conditions.torque * (1.0 + 1e-9);
-        let class = self.members.iter().rfind(begins);
-        class.or(self.members.first()).map(|(_, members)| members)
+    /// The gears with a test's materials, and its members: of the classes that begin with a smaller load the nearest, or else the finest; none for
+    /// the analytic model.
+    fn gears_of(&self, test: &MeasuredTest) -> (&GearSet, Option<&Members>) {
+        let same = |set: &GearSet| set.materials == test.materials;
+        let place = self.sets.iter().position(same).unwrap_or(0);
+        let torque = test.conditions.torque;
+        let begins = |(least, _): &&(f64, Members)| *least <= torque * (1.0 + 1e-9);
+        let members = self.members.get(place).and_then(|classes| {
+            let class = classes.iter().rfind(begins).or(classes.first());
+            class.map(|(_, members)| members)
+        });
+        (&self.sets[place], members)
     }
 
     fn stepping(
@@ -146,8 +172,8 @@ impl Workshop {
         let templates = tests
             .par_iter()
             .map(|test| {
-                let members = self.members_of(&test.conditions);
-                Forward::new(&self.set, members, test.conditions, numerics)
+                let (set, members) = self.gears_of(test);
+                Forward::new(set, members, test.conditions, numerics)
             })
             .collect::<Result<_, ForwardError>>()?;
         Ok(Bench {
@@ -176,7 +202,7 @@ impl<'a> Bench<'a> {
 
     /// The gears.
     pub fn set(&self) -> &'a GearSet {
-        &self.shop.set
+        self.shop.set()
     }
 
     /// Effects at the conditions of a test.
@@ -227,10 +253,9 @@ impl<'a> Bench<'a> {
 }
 
 /// Tests in classes of similar contact width, narrowest first: widths go with the root of the torque.
-fn classes<T>(tests: &[T], torque: impl Fn(&T) -> f64) -> Vec<Vec<&T>> {
-    let mut ascending: Vec<&T> = tests.iter().collect();
+fn classes<'t, T>(mut ascending: Vec<&'t T>, torque: impl Fn(&T) -> f64) -> Vec<Vec<&'t T>> {
     ascending.sort_by(|a, b| torque(a).total_cmp(&torque(b)));
-    let mut classes: Vec<Vec<&T>> = Vec::new();
+    let mut classes: Vec<Vec<&'t T>> = Vec::new();
     for test in ascending {
         match classes.last_mut() {
             Some(class) if torque(test) <= CLASS * CLASS * torque(class[0]) => class.push(test),
@@ -263,7 +288,8 @@ mod tests {
     /// Four times the torque make a contact twice as wide, which is as far as a class goes.
     #[test]
     fn classes_span_twice_the_width() {
-        let classes = classes(&[160.0, 50.0, 200.0, 900.0, 201.0], |t| *t);
+        let torques = [160.0, 50.0, 200.0, 900.0, 201.0];
+        let classes = classes(torques.iter().collect(), |t| *t);
         assert_eq!(
             classes,
             [vec![&50.0, &160.0, &200.0], vec![&201.0], vec![&900.0]]

@@ -38,8 +38,12 @@ impl<'a> Measured<'a> {
             .enumerate()
             .map(|(number, test)| MeasuredTest {
                 id: test.id.clone(),
-                conditions: test.conditions.simulated(&study.wear),
-                wear: (study.wear.coefficient, study.wear.members),
+                conditions: (test.conditions).simulated(&study.wear_at(&test.conditions)),
+                wear: (
+                    study.wear.coefficient,
+                    study.wear_at(&test.conditions).members,
+                ),
+                materials: study.elastic_at(&test.conditions),
                 surroundings: study.surroundings(&test.conditions),
                 reversed: test.conditions.reversed,
                 observations: of_test(number),

@@ -1,5 +1,9 @@
 //! Floor 1: plain material data and what follows from it.
 
+mod wear_pairs;
+
+pub use wear_pairs::{WEAR_PAIRS, WearPair, wear_pair};
+
 /// Linear isotropic elasticity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elastic {

@@ -104,16 +104,18 @@ impl Edit<'_> {
             // members' own keep their proportion to the common one
             let wear = &self.study.wear;
             for (member, factor) in ["pinion", "gear"].into_iter().zip(wear.members) {
-                if let Some(span) = self.span(&format!("wear.{member}.coefficient")) {
-                    self.changes.push((span, number(factor * value)));
+                let key = format!("wear.{member}.coefficient");
+                if self.span(&key).is_some()
+                    || self.span(&format!("wear.{member}.material")).is_some()
+                {
+                    self.put(&key, &number(factor * value));
                 }
             }
-        }
-        let number = number(value);
-        if let Some(span) = self.span(name).filter(|_| name == super::WEAR_COEFFICIENT) {
-            self.changes.push((span, number));
+            // beside a pair of materials none need be stated
+            self.put(name, &number(value));
             return;
         }
+        let number = number(value);
         let effects = self.study.effects().iter().enumerate();
         for (place, spec) in effects {
             let Some(n) = spec.parameters.iter().position(|p| p.name == name) else {

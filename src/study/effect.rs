@@ -235,6 +235,7 @@ pub(super) fn is_stated(key: &str, lubricant: Option<Lubricant>, thermal: Option
         "lubricant.pressure_viscosity" => lubricant.pressure_viscosity_per_gpa,
         "lubricant.roughness" => lubricant.roughness_um,
         "lubricant.friction_coefficient" => lubricant.friction_coefficient,
+        "thermal.bulk_temperature" if thermal.warm => Some(thermal.ambient_c),
         "thermal.bulk_temperature" => thermal.bulk_temperature_c,
         "thermal.conductivity" => thermal.conductivity_w_mk,
         "thermal.specific_heat" => thermal.specific_heat_j_kgk,

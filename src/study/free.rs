@@ -67,7 +67,7 @@ impl FreeParameter {
             value: (wear.coefficient).clamp(COEFFICIENT_BOUNDS[0], COEFFICIENT_BOUNDS[1]),
             lower: COEFFICIENT_BOUNDS[0],
             upper: COEFFICIENT_BOUNDS[1],
-            prior: COEFFICIENT_PRIOR,
+            prior: wear.prior(),
             neutral: None,
             log_scale: true,
             role: ParamRole::Plain,
@@ -270,5 +270,39 @@ mod tests {
             }
         );
         assert_eq!((negative.lower, negative.upper), (-39.0, 0.0));
+    }
+
+    #[test]
+    fn a_pair_of_materials_is_the_prior_of_k() {
+        const PLASTIC: &str = include_str!("../cli/examples/plastic-steel.toml");
+        let with = |new: &str| {
+            let text = PLASTIC.replacen("coefficient = 2e-9 ", new, 1);
+            super::super::Study::parse(&text, "study.toml")
+        };
+        let named = with("material = \"pom-pa66\" ").unwrap();
+        let pair = crate::material::wear_pair("pom-pa66").unwrap();
+        assert_eq!(named.wear.coefficient, pair.coefficient);
+        let prior = Prior::LogNormal {
+            median: pair.coefficient,
+            spread: pair.spread,
+        };
+        assert_eq!(named.free()[0].prior, prior);
+        // what a fit writes stands beside it and leaves the prior
+        let fitted = with("coefficient = 3e-10\nmaterial = \"pom-pa66\" ").unwrap();
+        assert_eq!(
+            (fitted.wear.coefficient, fitted.free()[0].prior),
+            (3e-10, prior)
+        );
+        let mut edit = named.edit();
+        edit.set(WEAR_COEFFICIENT, 5e-10);
+        let written = edit.finish("fitted.toml").unwrap();
+        assert_eq!(
+            (written.wear.coefficient, written.free()[0].prior),
+            (5e-10, prior)
+        );
+        let plain = with("coefficient = 3e-10 ").unwrap();
+        assert_eq!(plain.free()[0].prior, COEFFICIENT_PRIOR);
+        let wrong = with("material = \"pom-pa6\" ").unwrap_err().to_string();
+        assert!(wrong.contains("the nearest is \"pom-pa66\""), "{wrong}");
     }
 }

@@ -159,6 +159,9 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("material", "poisson_ratio", &q::POISSON_RATIO, Refused, "Poisson's ratio"),
     number("material", "density", &q::DENSITY, Refused, "turns worn volume into mass"),
 
+    doc("material", "temperatures", Value::Numbers, NOT_STATED, "degC, ascending: where `moduli` hold; a run outside them is refused"),
+    doc("material", "moduli", Value::Numbers, NOT_STATED, "MPa, Young's modulus at each of the `temperatures`, linear between them; `youngs_modulus` then only bounds the torque"),
+
     number("lubricant", "viscosity", &q::VISCOSITY, NOT_STATED, "dynamic, at the operating temperature"),
     number("lubricant", "pressure_viscosity", &q::PRESSURE_VISCOSITY, NOT_STATED, "pressure viscosity coefficient"),
     number("lubricant", "roughness", &q::ROUGHNESS, NOT_STATED, "composite Rq of both flanks"),
@@ -168,14 +171,25 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("thermal", "conductivity", &q::CONDUCTIVITY, NOT_STATED, "heat conductivity of the teeth"),
     number("thermal", "specific_heat", &q::SPECIFIC_HEAT, NOT_STATED, "specific heat of the teeth"),
 
+    doc("thermal", "tooth_temperature", Value::Word(&["vdi2736"]), Words("as stated"), "bulk and flank temperature of plastic teeth from friction losses where a test states no `bulk_temperature`"),
+    number("thermal", "ambient_temperature", &q::TEMPERATURE, Default("20.0"), "around the gears, with `tooth_temperature`"),
+    number("thermal", "housing_resistance", &q::HOUSING, Default("0.0"), "resistance of the housing to heat over its surface, with `tooth_temperature`; 0 in the open"),
+    number("thermal", "duty", &q::DUTY, Default("1.0"), "part of the time that the gears run, with `tooth_temperature`"),
+
     number("operation", "torque", &q::TORQUE, Refused, "on the pinion"),
     number("operation", "speed", &q::SPEED, Refused, "of the pinion"),
     number("operation", "misalignment", &q::MISALIGNMENT, Default("0.0"), "radial: added to the centre distance"),
 
-    number("wear", "coefficient", &q::WEAR_COEFFICIENT, Refused, "specific wear coefficient k = K/H of both members"),
+    number("wear", "coefficient", &q::WEAR_COEFFICIENT, Refused, "specific wear coefficient k = K/H of both members; not needed beside `material`"),
+    doc("wear", "material", Value::Text, Words("mild wear of metals: 3.2e-10 mm2/N, factor 18"), "a pair of `gearwear materials`: its k is `coefficient` where none is stated, its spread the width of the prior in fits"),
     number("wear", "cycles", &q::CYCLES, Refused, "length of the run"),
 
+    doc("wear", "temperatures", Value::Numbers, NOT_STATED, "degC, ascending: where `factors` hold; a run outside them is refused"),
+    doc("wear", "factors", Value::Numbers, NOT_STATED, "k over `coefficient` at each of the `temperatures`, its logarithm linear between them"),
+
     number("wear.pinion", "coefficient", &q::WEAR_COEFFICIENT, Words("that of `[wear]`"), "the member's own k; a fit scales it with that of `[wear]`"),
+
+    doc("wear.pinion", "material", Value::Text, Words("that of `[wear]`"), "a pair of `gearwear materials`: its k is the member's where none is stated"),
 
     doc("model", "contact", Value::Word(CONTACTS), Default("\"fem\""), "finite elements, analytic line contact, or the published model with its mistakes"),
 

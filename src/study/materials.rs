@@ -6,11 +6,19 @@ use crate::gear::Member;
 use crate::material::Elastic;
 use crate::source_text::{Diagnostic, Fault};
 
-pub(super) const MATERIAL_KEYS: &[&str] = &["youngs_modulus", "poisson_ratio", "density"];
-const MATERIAL_TABLE_KEYS: &[&str] = &[
+pub(super) const MATERIAL_KEYS: &[&str] = &[
     "youngs_modulus",
     "poisson_ratio",
     "density",
+    "temperatures",
+    "moduli",
+];
+pub(super) const MATERIAL_TABLE_KEYS: &[&str] = &[
+    "youngs_modulus",
+    "poisson_ratio",
+    "density",
+    "temperatures",
+    "moduli",
     "pinion",
     "gear",
 ];
@@ -20,7 +28,15 @@ pub(super) const LUBRICANT_KEYS: &[&str] = &[
     "roughness",
     "friction_coefficient",
 ];
-pub(super) const THERMAL_KEYS: &[&str] = &["bulk_temperature", "conductivity", "specific_heat"];
+pub(super) const THERMAL_KEYS: &[&str] = &[
+    "bulk_temperature",
+    "conductivity",
+    "specific_heat",
+    "tooth_temperature",
+    "ambient_temperature",
+    "housing_resistance",
+    "duty",
+];
 
 /// What one member is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,6 +88,14 @@ pub struct Thermal {
     pub conductivity_w_mk: Option<f64>,
     /// Specific heat, J/(kg K).
     pub specific_heat_j_kgk: Option<f64>,
+    /// Whether the teeth's temperature follows from friction losses where a test states none (VDI 2736 part 2).
+    pub warm: bool,
+    /// Temperature around the gears, °C; with `warm`.
+    pub ambient_c: f64,
+    /// Resistance of the housing to heat over its surface, K/W; with `warm`.
+    pub housing_k_w: f64,
+    /// Part of the time that the gears run; with `warm`.
+    pub duty: f64,
 }
 
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
@@ -133,5 +157,9 @@ pub(super) fn read_thermal(root: &Table<'_>) -> Result<Option<Thermal>> {
         bulk_temperature_c: table.number("bulk_temperature", &q::TEMPERATURE)?,
         conductivity_w_mk: table.number("conductivity", &q::CONDUCTIVITY)?,
         specific_heat_j_kgk: table.number("specific_heat", &q::SPECIFIC_HEAT)?,
+        warm: (table.choice("tooth_temperature", &[("vdi2736", true)])?).unwrap_or(false),
+        ambient_c: (table.number("ambient_temperature", &q::TEMPERATURE)?).unwrap_or(20.0),
+        housing_k_w: (table.number("housing_resistance", &q::HOUSING)?).unwrap_or(0.0),
+        duty: table.number("duty", &q::DUTY)?.unwrap_or(1.0),
     }))
 }

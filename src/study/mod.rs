@@ -28,6 +28,7 @@ mod relative;
 mod settings;
 mod setup;
 mod size_limits;
+mod temperature;
 mod tests_table;
 mod units;
 mod values;
@@ -54,6 +55,7 @@ pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
 pub use operation::{Operation, Role, Test};
 pub use settings::{ContactKind, Noise, Outliers, Scatter, Wear};
+pub use temperature::Temperatures;
 
 use reader::{Spans, Table, shown};
 use tests_table::TestsTable;
@@ -118,6 +120,8 @@ pub struct Study {
     pub operation: Operation,
     /// `[wear]`.
     pub wear: Wear,
+    /// What depends on the teeth's temperature.
+    pub temperatures: Temperatures,
     /// `[model] contact`.
     pub contact: ContactKind,
     /// `[noise]`.
@@ -419,10 +423,13 @@ impl Study {
         let lubricant = materials::read_lubricant(&root)?;
         let thermal = materials::read_thermal(&root)?;
         let wear = settings::read_wear(&root)?;
+        let temperatures = temperature::read(&root)?;
         let limits = operation::Limits {
             root: &root,
             gears: &gears,
             materials: &materials,
+            temperatures: &temperatures,
+            warm: temperature::WarmTeeth::read(&root, &materials, lubricant, thermal)?,
         };
         let operation = operation::read(&limits, wear.cycles, lubricant, thermal)?;
         let tests = operation::read_tests(&limits, operation)?;
@@ -435,6 +442,7 @@ impl Study {
             thermal,
             operation,
             wear,
+            temperatures,
             contact: settings::read_model(&root)?,
             free: settings::read_fit(&root, &wear, &effects, &|key| {
                 effect::is_stated(key, lubricant, thermal)

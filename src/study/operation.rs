@@ -6,6 +6,7 @@ use super::gears::{Gears, check_pair};
 use super::materials::{Lubricant, Materials, Thermal};
 use super::quantity::{self as q, Short};
 use super::reader::Table;
+use super::temperature::{Temperatures, WarmTeeth};
 use crate::gear::Pair;
 use crate::material::contact_modulus;
 use crate::source_text::{Diagnostic, Fault};
@@ -40,6 +41,8 @@ pub struct Operation {
     pub cycles: f64,
     /// Bulk temperature, °C: the test's, else that of `[thermal]`.
     pub bulk_temperature_c: Option<f64>,
+    /// Temperature of the flanks at which k is taken, °C: that of friction losses where it is computed, else the bulk temperature.
+    pub flank_temperature_c: Option<f64>,
     /// Dynamic viscosity, Pa s: the test's, else that of `[lubricant]`.
     pub viscosity_pa_s: Option<f64>,
     /// Whether the drive direction is the other one.
@@ -73,15 +76,24 @@ pub(super) struct Limits<'a> {
     pub(super) root: &'a Table<'a>,
     pub(super) gears: &'a Gears,
     pub(super) materials: &'a Materials,
+    pub(super) temperatures: &'a Temperatures,
+    pub(super) warm: Option<WarmTeeth>,
 }
 
 impl Limits<'_> {
-    /// Refuses conditions at which the teeth do not run or are crushed.
-    fn check(&self, table: &Table<'_>, conditions: &Operation) -> Result<()> {
+    /// Warms the teeth where their temperature is computed; refuses conditions at which they do not run or are crushed, or whose
+    /// temperature no table holds.
+    fn settle(&self, table: &Table<'_>, conditions: &mut Operation) -> Result<()> {
         let pair = check_pair(self.root, self.gears, table, conditions.misalignment_mm)?;
         let most = self.largest_torque_nmm(&pair);
         if conditions.torque_nmm <= most {
-            return Ok(());
+            conditions.flank_temperature_c = conditions.bulk_temperature_c;
+            if let (Some(warm), None) = (self.warm, conditions.bulk_temperature_c) {
+                let [flank, root] = warm.of(self.gears, &pair, conditions);
+                conditions.flank_temperature_c = Some(flank);
+                conditions.bulk_temperature_c = Some(root);
+            }
+            return self.temperatures.check(table, conditions);
         }
         let mut diagnostic = table
             .refuse("torque", "N m crushes the teeth", format!("above 0, up to {} N m for this pair", Short((most * 1e-3).floor())))
@@ -115,7 +127,7 @@ pub(super) fn read(
     thermal: Option<Thermal>,
 ) -> Result<Operation> {
     let table = limits.root.required_table("operation", OPERATION_KEYS)?;
-    let operation = Operation {
+    let mut operation = Operation {
         torque_nmm: table.required_number("torque", &q::TORQUE)? * 1e3,
         speed_rpm: table.required_number("speed", &q::SPEED)?,
         misalignment_mm: table
@@ -123,10 +135,11 @@ pub(super) fn read(
             .unwrap_or(0.0),
         cycles,
         bulk_temperature_c: thermal.and_then(|thermal| thermal.bulk_temperature_c),
+        flank_temperature_c: None,
         viscosity_pa_s: lubricant.and_then(|lubricant| lubricant.viscosity_pa_s),
         reversed: false,
     };
-    limits.check(&table, &operation)?;
+    limits.settle(&table, &mut operation)?;
     Ok(operation)
 }
 
@@ -149,7 +162,7 @@ pub(super) fn read_tests(limits: &Limits<'_>, operation: Operation) -> Result<Ve
                 "a text, different in each test",
             )));
         }
-        let conditions = Operation {
+        let mut conditions = Operation {
             torque_nmm: table
                 .number("torque", &q::TORQUE)?
                 .map_or(operation.torque_nmm, |torque| torque * 1e3),
@@ -164,13 +177,16 @@ pub(super) fn read_tests(limits: &Limits<'_>, operation: Operation) -> Result<Ve
                 .unwrap_or(operation.cycles),
             bulk_temperature_c: table
                 .number("bulk_temperature", &q::TEMPERATURE)?
-                .or(operation.bulk_temperature_c),
+                .or(operation
+                    .bulk_temperature_c
+                    .filter(|_| limits.warm.is_none())),
+            flank_temperature_c: None,
             viscosity_pa_s: table
                 .number("viscosity", &q::VISCOSITY)?
                 .or(operation.viscosity_pa_s),
             reversed: table.flag("reversed")?.unwrap_or(false),
         };
-        limits.check(&table, &conditions)?;
+        limits.settle(&table, &mut conditions)?;
         let role = table
             .choice("role", &[("fit", Role::Fit), ("holdout", Role::Holdout)])?
             .unwrap_or(Role::Fit);

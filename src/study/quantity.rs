@@ -287,6 +287,13 @@ pub(super) const TEMPERATURE: Quantity = Quantity {
         "bulk temperature of running gears",
     )
 };
+pub(super) const HOUSING: Quantity = quantity(
+    "K/W",
+    From(0.0),
+    1e4,
+    "resistance to heat over surface: 0 in the open, 6 for 0.06 K m2/W and 0.01 m2",
+);
+pub(super) const DUTY: Quantity = quantity("-", Above(0.0), 1.0, "part of the time, 1 is always");
 pub(super) const CONDUCTIVITY: Quantity =
     quantity("W/(m K)", From(0.01), 3000.0, "steel has about 46");
 pub(super) const SPECIFIC_HEAT: Quantity = Quantity {

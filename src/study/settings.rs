@@ -5,17 +5,33 @@ use std::path::{Path, PathBuf};
 use toml::de::DeValue;
 
 use super::effect_model::EffectModel;
-use super::free::{FreeParameter, WEAR_COEFFICIENT};
+use super::free::{COEFFICIENT_PRIOR, FreeParameter, WEAR_COEFFICIENT};
 use super::quantity as q;
 use super::reader::Table;
 use super::relative;
-use crate::source_text::{Diagnostic, Fault, nearest};
+use crate::effects::Prior;
+use crate::material::{WEAR_PAIRS, WearPair, wear_pair};
+use crate::source_text::{Diagnostic, Fault, list, nearest};
 
-pub(super) const WEAR_KEYS: &[&str] = &["coefficient", "cycles"];
+pub(super) const WEAR_KEYS: &[&str] = &[
+    "coefficient",
+    "material",
+    "cycles",
+    "temperatures",
+    "factors",
+];
 /// Of `[wear.pinion]` and `[wear.gear]`.
-pub(super) const MEMBER_WEAR_KEYS: &[&str] = &["coefficient"];
+pub(super) const MEMBER_WEAR_KEYS: &[&str] = &["coefficient", "material"];
 /// `[wear]` with the tables in it.
-const WEAR_TABLE_KEYS: &[&str] = &["coefficient", "cycles", "pinion", "gear"];
+pub(super) const WEAR_TABLE_KEYS: &[&str] = &[
+    "coefficient",
+    "material",
+    "cycles",
+    "temperatures",
+    "factors",
+    "pinion",
+    "gear",
+];
 pub(super) const MODEL_KEYS: &[&str] = &["contact"];
 pub(super) const FIT_KEYS: &[&str] = &["free"];
 pub(super) const NOISE_KEYS: &[&str] = &[
@@ -37,6 +53,19 @@ pub struct Wear {
     pub members: [f64; 2],
     /// Length of the run, pinion revolutions.
     pub cycles: f64,
+    /// The published pair of materials whose k is the prior, if one is named.
+    pub material: Option<&'static WearPair>,
+}
+
+impl Wear {
+    /// What is thought of the coefficient before any measurement.
+    pub fn prior(&self) -> Prior {
+        self.material
+            .map_or(COEFFICIENT_PRIOR, |pair| Prior::LogNormal {
+                median: pair.coefficient,
+                spread: pair.spread,
+            })
+    }
 }
 
 /// `[model] contact`.
@@ -98,13 +127,14 @@ type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
 pub(super) fn read_wear(root: &Table<'_>) -> Result<Wear> {
     let table = root.required_table("wear", WEAR_TABLE_KEYS)?;
-    let coefficient = table.required_number("coefficient", &q::WEAR_COEFFICIENT)?;
+    let material = material(&table)?;
+    let coefficient = coefficient(&table, material)?;
     let mut members = [1.0; 2];
     for (factor, member) in members.iter_mut().zip(["pinion", "gear"]) {
         let Some(own) = table.table(member, MEMBER_WEAR_KEYS)? else {
             continue;
         };
-        let own = own.required_number("coefficient", &q::WEAR_COEFFICIENT)?;
+        let own = self::coefficient(&own, self::material(&own)?)?;
         if coefficient <= 0.0 {
             return Err(Box::new(table.refuse(
                 "coefficient",
@@ -118,7 +148,36 @@ pub(super) fn read_wear(root: &Table<'_>) -> Result<Wear> {
         coefficient,
         members,
         cycles: table.required_number("cycles", &q::CYCLES)?,
+        material,
     })
+}
+
+/// The coefficient that a table states, else that of its pair of materials.
+fn coefficient(table: &Table<'_>, material: Option<&WearPair>) -> Result<f64> {
+    match material {
+        Some(pair) => {
+            Ok((table.number("coefficient", &q::WEAR_COEFFICIENT)?).unwrap_or(pair.coefficient))
+        }
+        None => table.required_number("coefficient", &q::WEAR_COEFFICIENT),
+    }
+}
+
+/// The pair of materials that a table names.
+fn material(table: &Table<'_>) -> Result<Option<&'static WearPair>> {
+    let Some(name) = table.text("material")? else {
+        return Ok(None);
+    };
+    if let Some(pair) = wear_pair(name) {
+        return Ok(Some(pair));
+    }
+    let names = || WEAR_PAIRS.iter().map(|pair| pair.name);
+    let near = nearest(name, names()).unwrap_or_default();
+    Err(Box::new(
+        table
+            .refuse("material", "is no pair of materials", list(names()))
+            .with_hint(format!("the nearest is \"{near}\""))
+            .with_hint("`gearwear materials` tells where each is from"),
+    ))
 }
 
 pub(super) fn read_model(root: &Table<'_>) -> Result<ContactKind> {

@@ -3,19 +3,40 @@
 use super::{EffectSpec, Materials, Operation, Order, Study, Wear, effect};
 use crate::effects::Surroundings;
 use crate::gear::Member;
-use crate::material::contact_modulus;
+use crate::material::{Elastic, contact_modulus};
 use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::numerics::Numerics;
 use crate::tribology::flash_temperature::contact_coefficient;
 use crate::wear::acting::Acting;
 
 impl Study {
-    /// The gears with their materials.
+    /// The gears with their materials at the temperature of `[operation]`.
     pub fn gear_set(&self) -> GearSet {
+        self.gear_set_at(&self.operation)
+    }
+
+    /// The elastic constants of pinion and gear at the temperature of `conditions`.
+    pub fn elastic_at(&self, conditions: &Operation) -> [Elastic; 2] {
+        let Materials { pinion, gear } = self.materials;
+        self.temperatures
+            .elastic([pinion.elastic, gear.elastic], conditions)
+    }
+
+    /// `[wear]` at the temperature of `conditions`: a table's factor stands in the members' own.
+    pub fn wear_at(&self, conditions: &Operation) -> Wear {
+        let factor = self.temperatures.wear_factor(conditions);
+        Wear {
+            members: self.wear.members.map(|member| factor * member),
+            ..self.wear
+        }
+    }
+
+    /// The gears with their materials at the temperature of `conditions`.
+    pub fn gear_set_at(&self, conditions: &Operation) -> GearSet {
         let Materials { pinion, gear } = self.materials;
         GearSet {
             gears: [self.gears.pinion.clone(), self.gears.gear.clone()],
-            materials: [pinion.elastic, gear.elastic],
+            materials: self.elastic_at(conditions),
             densities: [pinion.density_kg_m3, gear.density_kg_m3],
             centre_distance: self.gears.centre_distance,
             face_width: self.gears.face_width,
@@ -58,7 +79,10 @@ impl Study {
             0.5 * (of(pinion.density_kg_m3) + of(gear.density_kg_m3))
         });
         Surroundings {
-            contact_modulus: contact_modulus(pinion.elastic, gear.elastic),
+            contact_modulus: {
+                let [pinion, gear] = self.elastic_at(conditions);
+                contact_modulus(pinion, gear)
+            },
             viscosity_pa_s: conditions.viscosity_pa_s,
             pressure_viscosity_per_gpa: lubricant.pressure_viscosity_per_gpa,
             roughness_um: lubricant.roughness_um,

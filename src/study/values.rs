@@ -222,6 +222,27 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// A list of numbers, if present.
+    pub(super) fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>> {
+        const WANTED: &str = "a list of numbers, [...]";
+        let Some((value, span)) = self.get(key) else {
+            return Ok(None);
+        };
+        let DeValue::Array(items) = value else {
+            return Err(self.wrong_type(key, value, span, WANTED).into());
+        };
+        let read = |item: &toml::Spanned<DeValue<'_>>| match plain_number(item.get_ref()) {
+            Some(number) if number.is_finite() => Ok(number),
+            _ => Err(Box::from(self.wrong_type(
+                key,
+                item.get_ref(),
+                item.span(),
+                WANTED,
+            ))),
+        };
+        items.iter().map(read).collect::<Result<_>>().map(Some)
+    }
+
     /// A text, if present.
     pub(super) fn text(&self, key: &str) -> Result<Option<&'a str>> {
         match self.get(key) {

@@ -7,6 +7,7 @@ pub mod film;
 pub mod flash_temperature;
 pub mod friction;
 pub mod sliding;
+pub mod tooth_temperature;
 
 #[cfg(test)]
 mod tests;

@@ -142,7 +142,7 @@ fn one(study: &Study, set: &GearSet, members: Option<&Members>) -> Result {
         title: &study.title,
         test: None,
         set,
-        conditions: study.operation.simulated(&study.wear),
+        conditions: study.operation.simulated(&study.wear_at(&study.operation)),
         numerics: study.resolution(),
         kind: match study.contact {
             study::ContactKind::Fem => ContactKind::Fem,

@@ -67,6 +67,9 @@ pub struct Comparison {
     pub validation: Vec<Validation>,
     /// Rows further off than four of their sigmas, the furthest first.
     pub outliers: Vec<Outlier>,
+    /// Where the prior of the wear coefficient is from: a pair of materials; empty: the program's own, that of mild wear of metals.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub coefficient_prior: String,
     /// Whether the fit converged.
     pub converged: bool,
     /// Logarithm of the marginal likelihood of the fit tests.
@@ -132,6 +135,16 @@ pub struct Outlier {
     pub standardised: f64,
 }
 
+/// The pair of materials from which a study has its prior of k, in words.
+fn coefficient_prior(study: &Study) -> String {
+    study.wear.material.map_or(String::new(), |pair| {
+        format!(
+            "{} ({:.3e} mm2/N, factor {}): {} against {}",
+            pair.name, pair.coefficient, pair.spread, pair.worn, pair.against
+        )
+    })
+}
+
 impl Comparison {
     /// Of a fit to a study's measurements.
     pub fn new(study: &Study, data: &Dataset, fit: &Fit) -> Self {
@@ -168,6 +181,7 @@ impl Comparison {
             sanity: sanity(study, data, fit),
             warnings: fit_warnings(data, fit),
             tests: test_records(study, fit, &rows),
+            coefficient_prior: coefficient_prior(study),
             coefficient_scatter: fit.scatter,
             coefficient_scatter_interval: fit.scatter_interval,
             by_member: Group::by(&rows, |o| Some(o.member), |m| m.name().to_owned()),

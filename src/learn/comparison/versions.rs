@@ -51,6 +51,7 @@ fn share(a: Item<'_>, b: Item<'_>) -> bool {
     };
     a.0.gears == b.0.gears
         && a.0.materials == b.0.materials
+        && a.0.temperatures == b.0.temperatures
         && a.0.lubricant == b.0.lubricant
         && a.0.thermal == b.0.thermal
         && a.0.numerics == b.0.numerics

@@ -169,6 +169,7 @@ pub(in crate::learn) mod tests {
             misalignment_mm: 0.0,
             cycles: 1e6,
             bulk_temperature_c: None,
+            flank_temperature_c: None,
             viscosity_pa_s: None,
             reversed: false,
         }

@@ -145,8 +145,9 @@ impl MeasurementDesign {
     pub(in crate::learn) fn test(&self, study: &Study, operation: &Operation) -> MeasuredTest {
         MeasuredTest {
             id: "next".to_owned(),
-            conditions: operation.simulated(&study.wear),
-            wear: (study.wear.coefficient, study.wear.members),
+            conditions: operation.simulated(&study.wear_at(operation)),
+            wear: (study.wear.coefficient, study.wear_at(operation).members),
+            materials: study.elastic_at(operation),
             surroundings: study.surroundings(operation),
             reversed: operation.reversed,
             observations: self.observations.clone(),

@@ -229,3 +229,66 @@ fn an_even_loss_is_felt_by_span_and_chord() {
         }
     }
 }
+
+/// Tests at temperatures of their own are computed as with the modulus and the k of each: 40 °C is half way in both tables, of the modulus and of ln k.
+#[test]
+fn each_test_has_the_modulus_and_k_of_its_temperature() {
+    const PLASTIC: &str = include_str!("../../cli/examples/plastic-steel.toml");
+    const LATER: &str = "gear,5e5,mass_loss,,1,1\n";
+    let plain = PLASTIC
+        .replace("elements_per_half_width = 8", "elements_per_half_width = 2")
+        .replace("positions = 150", "positions = 24");
+    let (head, tests) = plain.split_once("[[test]]").unwrap();
+    let rest = &tests[tests.find("[measurements]").unwrap()..];
+    let study_of = |head: &str, tests: &str| {
+        Study::parse(&format!("{head}{tests}{rest}"), "study.toml").unwrap()
+    };
+    let predicted = |study: &Study, kind, test: usize, k: f64| {
+        let ids: Vec<&str> = study.tests.iter().map(|test| test.id.as_str()).collect();
+        let rows: String = ids
+            .iter()
+            .map(|id| format!("{id},{LATER}{id},pair,5e5,mean_lag,,1,1\n"))
+            .collect();
+        let head = ROWS.lines().next().unwrap();
+        let data = Dataset::parse(&format!("{head}\n{rows}"), "m.csv", &study.known()).unwrap();
+        let measured = Measured::new(study, data);
+        let workshop = measured.workshop(kind).unwrap();
+        let bench = measured.bench(&workshop).unwrap();
+        GearModel::new(&bench, Box::new(|_| Combined::default()))
+            .predict(test, k, &[])
+            .unwrap()
+    };
+    let warm = head
+        .replacen(
+            "youngs_modulus = 2800.0",
+            "temperatures = [20, 60]\nmoduli = [2800, 1800]\nyoungs_modulus = 2800.0",
+            1,
+        )
+        .replacen(
+            "coefficient = 2e-9 ",
+            "temperatures = [20, 60]\nfactors = [1, 4]\ncoefficient = 2e-9 ",
+            1,
+        );
+    let both = study_of(
+        &warm,
+        "[[test]]\nid = \"A\"\n[[test]]\nid = \"B\"\nbulk_temperature = 60\n",
+    );
+    for kind in [ContactKind::Hertz, ContactKind::Fem] {
+        for (test, modulus, factor) in [(0, "2300.0", 2.0), (1, "1800.0", 4.0)] {
+            let alone = head.replacen(
+                "youngs_modulus = 2800.0",
+                &format!("youngs_modulus = {modulus}"),
+                1,
+            );
+            let alone = study_of(&alone, "[[test]]\nid = \"A\"\n");
+            let expected = predicted(&alone, kind, 0, factor * 2e-9);
+            let found = predicted(&both, kind, test, 2e-9);
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-8,
+                    "{kind:?} {test}: {found}, {expected}"
+                );
+            }
+        }
+    }
+}

@@ -135,6 +135,9 @@ fn figures(lines: &mut Vec<String>, c: &Comparison) {
         ));
     }
     lines.push(format!("  scatter of k      {}", scatter(c)));
+    if !c.coefficient_prior.is_empty() {
+        lines.push(format!("  prior of k        {}", c.coefficient_prior));
+    }
 }
 
 /// The scatter of k between tests. From one test there is none: what a fit holds is its prior.

@@ -26,6 +26,7 @@ pub fn schema() -> Json {
         let own = match *table {
             "effect" => effect(),
             "material" => material(),
+            "wear" | "wear.pinion" => wear(table),
             table => table_of(table),
         };
         match table.split_once('.') {
@@ -105,6 +106,19 @@ fn material() -> Json {
         "additionalProperties": false,
     });
     json!({"anyOf": [own, each]})
+}
+
+/// A coefficient, or a pair of materials in its place.
+fn wear(table: &str) -> Json {
+    let mut own = table_of(table);
+    if let Some(needed) = own["required"].as_array_mut() {
+        needed.retain(|key| key != "coefficient");
+    }
+    own["oneOf"] = json!([
+        {"required": ["coefficient"]},
+        {"required": ["material"], "not": {"required": ["coefficient"]}},
+    ]);
+    own
 }
 
 /// An effect of the catalogue, a formula or a learned law: a parameter's name depends on the kind.
