@@ -84,7 +84,7 @@ mod tests {
             loss: 1047.2 * 0.28 * factor,
             face_width: 15.0,
             teeth: 30,
-            velocity: 3.1416,
+            velocity: PI,
             module: 2.0,
             housing: 0.0,
             duty: 1.0,
