@@ -63,9 +63,13 @@ impl Gear {
     pub fn span_loss(&self, teeth: u32, worn: WornDepths<'_>) -> ThicknessLoss {
         let touched = 0.5 * self.span(teeth);
         let turned = |arc: f64| (self.rho_at_arc(arc) - touched) / self.base_radius;
+        // ρ₀ − ρ cos δ + r_b sin δ with ρ = ρ₀ + r_b δ, without the difference of large numbers
         let short = |arc: f64| {
-            let (sin, cos) = turned(arc).sin_cos();
-            touched - (self.rho_at_arc(arc) - worn.at(arc)) * cos + self.base_radius * sin
+            let angle = turned(arc);
+            let (sin, cos) = angle.sin_cos();
+            let sag = 2.0 * touched * (0.5 * angle).sin().powi(2)
+                + self.base_radius * (sin - angle * cos);
+            worn.at(arc) * cos + sag
         };
         let best = (worn.arcs.iter().enumerate())
             .min_by(|a, b| short(*a.1).total_cmp(&short(*b.1)))
@@ -112,7 +116,8 @@ impl Gear {
         }
         let depth = worn.at(high);
         let half = self.half_angle(radius);
-        let left = half - 0.5 * depth / self.base_radius;
+        let turned = 0.5 * depth / self.base_radius;
+        let left = half - turned;
         // the point that has come down moves as the depth grows: dρ (1 − h′) = dh
         let next = worn.arcs.partition_point(|&arc| arc <= high);
         let slope = if next == 0 || next == worn.arcs.len() {
@@ -123,7 +128,8 @@ impl Gear {
             by_arc * self.rho_at_arc(high) / self.base_radius
         };
         ThicknessLoss {
-            loss: 2.0 * radius * (half.sin() - left.sin()),
+            // sin ψ − sin(ψ − t), as a product
+            loss: 4.0 * radius * (half - 0.5 * turned).cos() * (0.5 * turned).sin(),
             arc: high,
             gain: radius / self.base_radius * left.cos() / (1.0 - slope),
         }
