@@ -51,6 +51,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "search",
             "selection",
             "simulator",
+            "standard_test",
             "starts",
             "strength_prior",
             "trajectory",

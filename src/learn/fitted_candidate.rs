@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fidelity::Fidelity;
 use super::hypothesis::candidate::Candidate;
-use super::likelihood::{Likelihood, whiten};
+use super::likelihood::Likelihood;
 use super::quadratic::State;
 use super::search::Found;
 use super::strength_prior;
@@ -97,7 +97,7 @@ impl BaseFit {
         fitted: FittedCandidate,
         hertz_offset: Vec<Vec<f64>>,
     ) -> Self {
-        let mut adjustable = whiten(&likelihood.covariance, &fitted.found.jacobian);
+        let mut adjustable = (likelihood.covariance).whiten_all(&fitted.found.jacobian);
         orthonormalise(&mut adjustable);
         let residual = likelihood.residual(&fitted.found.model);
         Self {

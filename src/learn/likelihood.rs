@@ -13,7 +13,6 @@ use crate::learn::quadratic::{Layout, Normal, State};
 use crate::learn::scatter::marginal;
 use crate::learn::search::{Effort, Found, Search};
 use crate::learn::selection::Selection;
-pub(super) use crate::learn::selection::whiten;
 use crate::study::{Role, Scatter, WEAR_COEFFICIENT};
 
 /// How far an effect's own contribution may differ from its formula, relative: nature does not use our formulas.

@@ -48,6 +48,7 @@ mod scatter;
 mod search;
 mod selection;
 mod simulator;
+mod standard_test;
 mod starts;
 mod strength_prior;
 mod synthesize;

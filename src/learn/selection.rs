@@ -107,7 +107,7 @@ impl<'a> Selection<'a> {
         covariance: &Covariance,
     ) -> Normal {
         let residual = DVector::from_vec(covariance.whiten(&self.residual(model)));
-        let white = whiten(covariance, jacobian);
+        let white = covariance.whiten_all(jacobian);
         Normal {
             gram: white.tr_mul(&white),
             rhs: white.tr_mul(&residual),
@@ -170,14 +170,4 @@ impl<'a> Selection<'a> {
         });
         Evaluator::new(predictor, counts.collect())
     }
-}
-
-/// W J.
-pub(super) fn whiten(covariance: &Covariance, jacobian: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut white = DMatrix::zeros(jacobian.nrows(), jacobian.ncols());
-    for column in 0..jacobian.ncols() {
-        let whitened = covariance.whiten(jacobian.column(column).as_slice());
-        white.column_mut(column).copy_from_slice(&whitened);
-    }
-    white
 }

@@ -14,20 +14,10 @@ use super::fit::FitError;
 use super::gear_model::GearModel;
 use super::measured::Measured;
 use super::predictor::Predictor;
-use crate::gear::{Member, Pair};
-use crate::measure::{Dataset, Observation, Quantity, Subject, Trace};
+use super::standard_test::{self, floor};
+use crate::gear::Pair;
+use crate::measure::{Dataset, Observation, Quantity};
 use crate::study::{Scatter, Study, Test};
-
-/// Points of a trace along a flank.
-const POINTS: usize = 41;
-/// Arc left out at the root end and at the tip end of the active flank, modules.
-const MARGINS: [f64; 2] = [0.12, 0.15];
-/// When is measured, as shares of a test's cycles.
-const CHECKPOINTS: [f64; 5] = [0.1, 0.25, 0.5, 0.75, 1.0];
-/// Positions of a transmission error over the base pitch.
-const TURNS: usize = 24;
-/// Noise of an instrument that measures nothing, µm.
-const FLOOR_UM: f64 = 0.02;
 
 /// Measurements made up, with what is true of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,27 +154,6 @@ fn tilted_and_shifted(places: &[f64], values: &[f64], tilt: f64, shift: f64) -> 
         .collect()
 }
 
-/// [`FLOOR_UM`] in the unit of an observation's quantity.
-fn floor(o: &Observation, study: &Study, pair: &Pair) -> f64 {
-    match o.quantity {
-        Quantity::MassLoss => {
-            let member = o.member.member().unwrap_or(Member::Pinion);
-            let density = match member {
-                Member::Pinion => study.materials.pinion.density_kg_m3,
-                Member::Gear => study.materials.gear.density_kg_m3,
-            };
-            let [from, to] = active_arcs(pair, member);
-            let teeth = f64::from(pair.member(member).spec.teeth);
-            // mm³ · kg/m³ = µg
-            1e-3 * (1e-3 * FLOOR_UM) * (to - from) * study.gears.face_width * teeth * density
-        }
-        // µm over mm = 1e-3 rad
-        Quantity::TransmissionError => 1e3 * FLOOR_UM / pair.gear.base_radius,
-        Quantity::MeanLag => 1e3 * FLOOR_UM / pair.pinion.base_radius,
-        _ => FLOOR_UM,
-    }
-}
-
 /// Every row that is measured, without values.
 fn places(study: &Study) -> Result<Dataset, CompareError> {
     let mut data = Dataset {
@@ -197,58 +166,9 @@ fn places(study: &Study) -> Result<Dataset, CompareError> {
     };
     for (number, test) in study.tests.iter().enumerate() {
         let pair = pair(study, test)?;
-        let mut times: Vec<f64> = CHECKPOINTS
-            .iter()
-            .map(|share| (share * test.conditions.cycles).round())
-            .filter(|&cycles| cycles >= 1.0 && cycles <= test.conditions.cycles)
-            .collect();
-        times.dedup();
-        if times.is_empty() {
-            times.push(test.conditions.cycles);
-        }
-        for (checkpoint, &cycles) in times.iter().enumerate() {
-            for member in Member::BOTH {
-                let subject = subject(member);
-                let trace = data.traces.len();
-                data.traces.push(Trace {
-                    name: format!("{}-{}-{}", test.id, member.name(), checkpoint + 1),
-                    quantity: Quantity::WearDepth,
-                    line: 0,
-                });
-                let row = |quantity, position, trace| Observation {
-                    test: number,
-                    member: subject,
-                    cycles,
-                    quantity,
-                    position,
-                    value: 0.0,
-                    sigma: 1.0,
-                    trace,
-                    face: None,
-                    tooth: None,
-                    line: 0,
-                };
-                let radii = radii(&pair, member);
-                let depths = radii.map(|r| row(Quantity::WearDepth, Some(r), Some(trace)));
-                data.observations.extend(depths);
-                data.observations.push(row(Quantity::MassLoss, None, None));
-            }
-        }
-        let turn = |i: usize| Observation {
-            test: number,
-            member: Subject::Pair,
-            cycles: times[times.len() - 1],
-            quantity: Quantity::TransmissionError,
-            // rounded as it is written
-            position: Some((1e4 * i as f64 / TURNS as f64).round() / 1e4),
-            value: 0.0,
-            sigma: 1.0,
-            trace: None,
-            face: None,
-            tooth: None,
-            line: 0,
-        };
-        data.observations.extend((0..TURNS).map(turn));
+        let cycles = test.conditions.cycles;
+        let rows = standard_test::rows((number, &test.id), &pair, cycles, &mut data.traces);
+        data.observations.extend(rows);
     }
     Ok(data)
 }
@@ -256,35 +176,6 @@ fn places(study: &Study) -> Result<Dataset, CompareError> {
 fn pair(study: &Study, test: &Test) -> Result<Pair, CompareError> {
     let mounted = study.gear_set().mount(test.conditions.misalignment_mm);
     Ok(mounted.map_err(crate::simulate::forward::ForwardError::from)?)
-}
-
-fn subject(member: Member) -> Subject {
-    match member {
-        Member::Pinion => Subject::Pinion,
-        Member::Gear => Subject::Gear,
-    }
-}
-
-/// Arcs where the active flank begins and ends, mm.
-fn active_arcs(pair: &Pair, member: Member) -> [f64; 2] {
-    let [a, .., e] = pair.path_points();
-    let gear = pair.member(member);
-    let ends = [a, e].map(|path| gear.arc(pair.rho(member, path)));
-    [ends[0].min(ends[1]), ends[0].max(ends[1])]
-}
-
-/// Radii inside the active flank, equally far apart along it, mm, with three decimals as they are written.
-fn radii(pair: &Pair, member: Member) -> impl Iterator<Item = f64> {
-    let gear = pair.member(member).clone();
-    let [from, to] = active_arcs(pair, member);
-    let module = gear.rack.module;
-    let [root, tip] = MARGINS.map(|margin| (margin * module).min(0.2 * (to - from)));
-    let (from, to) = (from + root, to - tip);
-    (0..POINTS).map(move |i| {
-        let arc = from + (to - from) * i as f64 / (POINTS - 1) as f64;
-        let radius = gear.radius_at_rho(gear.rho_at_arc(arc));
-        (1e3 * radius).round() / 1e3
-    })
 }
 
 /// Random numbers of one test.

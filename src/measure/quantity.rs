@@ -36,6 +36,15 @@ impl Subject {
     }
 }
 
+impl From<Member> for Subject {
+    fn from(member: Member) -> Self {
+        match member {
+            Member::Pinion => Self::Pinion,
+            Member::Gear => Self::Gear,
+        }
+    }
+}
+
 /// A measured quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Quantity {

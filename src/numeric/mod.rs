@@ -5,6 +5,7 @@ pub mod halton;
 pub mod latin_hypercube;
 pub mod logarithm;
 pub mod patchy;
+pub mod positive_definite;
 pub mod quadrature;
 pub mod smooth_functions;
 pub mod sparse;

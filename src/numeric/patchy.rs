@@ -1,6 +1,6 @@
 //! Square matrices of which whole stretches may be zero.
 
-use std::ops::Index;
+use std::ops::{Index, Range};
 
 /// Rows of one stretch.
 const STRETCH: usize = 32;
@@ -30,7 +30,7 @@ impl PatchyMatrix {
     /// The matrix of the entries that `of` gives for row and column.
     pub fn from_fn(size: usize, of: impl Fn(usize, usize) -> f64) -> Self {
         let mut out = Self::new(size);
-        let rows = Rows::new((0..size).collect());
+        let rows = Rows::new(std::iter::once(0..size));
         for j in 0..size {
             let column: Vec<f64> = (0..size).map(|i| of(i, j)).collect();
             out.add(j, &rows, 1.0, &column);
@@ -47,30 +47,37 @@ impl PatchyMatrix {
     pub fn add(&mut self, j: usize, rows: &Rows, factor: f64, column: &[f64]) {
         let count = self.size.div_ceil(STRETCH);
         let places = &mut self.places[j * count..][..count];
-        for of_stretch in rows.0.chunk_by(|a, b| a / STRETCH == b / STRETCH) {
-            let from = of_stretch[0] / STRETCH * STRETCH;
+        for range in &rows.0 {
+            let from = range.start / STRETCH * STRETCH;
             let place = &mut places[from / STRETCH];
             if *place == NOWHERE {
                 *place = self.stretches.len() as u32;
                 self.stretches.push([0.0; STRETCH]);
             }
             let target = &mut self.stretches[*place as usize];
-            for &i in of_stretch {
-                target[i - from] += factor * column[i];
+            let target = &mut target[range.start - from..range.end - from];
+            for (target, value) in target.iter_mut().zip(&column[range.clone()]) {
+                *target += factor * value;
             }
         }
     }
 
-    /// Rows and values of column `j` that are not zero, by ascending row.
-    pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    /// What has been written of column `j`: first row and values of each stretch, ascending.
+    pub fn stretches(&self, j: usize) -> impl Iterator<Item = (usize, &[f64])> + '_ {
         let count = self.size.div_ceil(STRETCH);
         let places = self.places[j * count..][..count].iter().enumerate();
-        places
-            .filter(|(_, place)| **place != NOWHERE)
-            .flat_map(|(stretch, place)| {
-                let values = self.stretches[*place as usize];
-                (stretch * STRETCH..).zip(values)
-            })
+        let written = places.filter(|(_, place)| **place != NOWHERE);
+        written.map(|(stretch, place)| {
+            let first = stretch * STRETCH;
+            let rows = STRETCH.min(self.size - first);
+            (first, &self.stretches[*place as usize][..rows])
+        })
+    }
+
+    /// Rows and values of column `j` that are not zero, by ascending row.
+    pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.stretches(j)
+            .flat_map(|(first, values)| (first..).zip(values.iter().copied()))
             .filter(|(_, value)| *value != 0.0)
     }
 }
@@ -86,19 +93,36 @@ impl Index<(usize, usize)> for PatchyMatrix {
     }
 }
 
-/// Rows that are written together.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rows(Vec<usize>);
+/// Rows that are written together, ascending: ranges that lie within a stretch each.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rows(Vec<Range<usize>>);
 
 impl Rows {
-    /// These rows, ascending.
-    pub fn new(rows: Vec<usize>) -> Self {
-        Self(rows)
+    /// The rows of these ranges, which may overlap.
+    pub fn new(ranges: impl IntoIterator<Item = Range<usize>>) -> Self {
+        let mut ranges: Vec<Range<usize>> = ranges.into_iter().collect();
+        ranges.sort_unstable_by_key(|range| range.start);
+        let mut joined: Vec<Range<usize>> = Vec::new();
+        for range in ranges {
+            match joined.last_mut() {
+                Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+                _ => joined.push(range),
+            }
+        }
+        let mut rows = Self::default();
+        for Range { mut start, end } in joined {
+            while start < end {
+                let stop = end.min((start / STRETCH + 1) * STRETCH);
+                rows.0.push(start..stop);
+                start = stop;
+            }
+        }
+        rows
     }
 
-    /// The rows.
-    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
-        self.0.iter().copied()
+    /// The ranges.
+    pub fn ranges(&self) -> &[Range<usize>] {
+        &self.0
     }
 }
 
@@ -112,8 +136,11 @@ mod tests {
         let n = 2500;
         let mut matrix = PatchyMatrix::new(n);
         let column: Vec<f64> = (0..n).map(|i| i as f64).collect();
-        matrix.add(7, &Rows::new(vec![0, 31, 32, 2499]), 2.0, &column);
-        matrix.add(7, &Rows::new(vec![32, 2100]), 1.0, &column);
+        matrix.add(7, &Rows::new([2499..2500, 31..33, 0..1]), 2.0, &column);
+        matrix.add(7, &Rows::new([32..33, 2100..2101]), 1.0, &column);
+        // what overlaps is written once
+        let rows = Rows::new([60..70, 64..66, 70..71]);
+        assert_eq!(rows.ranges(), [60..64, 64..71]);
         let found: Vec<(usize, f64)> = matrix.column(7).collect();
         let expected = vec![(31, 62.0), (32, 96.0), (2100, 2100.0), (2499, 4998.0)];
         assert_eq!(found, expected);

@@ -1,5 +1,7 @@
 //! Short compressed sparse rows for the many small operators of a mesh cycle.
 
+use std::ops::Range;
+
 /// Adds `value` to the entry of `column`, which is expected near the end.
 pub fn accumulate(row: &mut Vec<(u32, f64)>, column: u32, value: f64) {
     match row.iter_mut().rev().find(|entry| entry.0 == column) {
@@ -58,6 +60,9 @@ impl SparseRows {
     /// Row `i` times `x`.
     pub fn dot(&self, i: usize, x: &[f64]) -> f64 {
         let (columns, values) = self.row(i);
+        if let Some(range) = stretch(columns) {
+            return values.iter().zip(&x[range]).map(|(v, x)| v * x).sum();
+        }
         columns
             .iter()
             .zip(values)
@@ -68,10 +73,22 @@ impl SparseRows {
     /// `y += scale · (row i)ᵀ`.
     pub fn scatter(&self, i: usize, scale: f64, y: &mut [f64]) {
         let (columns, values) = self.row(i);
+        if let Some(range) = stretch(columns) {
+            let entries = y[range].iter_mut().zip(values);
+            entries.for_each(|(y, v)| *y += scale * v);
+            return;
+        }
         for (&c, v) in columns.iter().zip(values) {
             y[c as usize] += scale * v;
         }
     }
+}
+
+/// The columns as one range where they are neighbours: a loop over a slice is several times as fast.
+fn stretch(columns: &[u32]) -> Option<Range<usize>> {
+    let (&first, &last) = columns.first().zip(columns.last())?;
+    let range = first as usize..last as usize + 1;
+    (range.len() == columns.len()).then_some(range)
 }
 
 #[cfg(test)]

@@ -142,7 +142,7 @@ impl WearSystem for SlidingContact {
         let (active, s) = self.relaxation(u)?;
         let mut jacobian = PatchyMatrix::new(u.len());
         let mut column = vec![0.0; u.len()];
-        let rows = Rows::new(active.clone());
+        let rows = Rows::new(active.iter().map(|&k| k..k + 1));
         for (j, &l) in active.iter().enumerate() {
             for (i, &k) in active.iter().enumerate() {
                 column[k] = s[(i, j)];

@@ -11,6 +11,8 @@
 //! dh/dn = ∫ k f p |v| dy + a
 //! ```
 
+use std::ops::Range;
+
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -453,25 +455,26 @@ impl Local<'_> {
     }
 
     /// Where the pressure at each unknown of the active set wears, by its rate of depth.
-    fn deposits(&self) -> Vec<Vec<(usize, f64)>> {
-        self.active
-            .iter()
-            .map(|&k| {
-                let slope = |side: usize| self.slopes.as_ref().map_or(1.0, |s| s[side][k]);
-                let read = self.reads.iter().filter(|read| read.0 == k);
-                self.row(k, |pair| &pair.wear)
-                    .map(|(at, v, side)| (at, self.scale[side] * slope(side) * v))
-                    .chain(read.map(|&(_, at, value)| (at, value)))
-                    .collect()
-            })
-            .collect()
+    fn deposits(&self) -> Deposits {
+        let mut deposits = Deposits::default();
+        for &k in self.active {
+            let slope = |side: usize| self.slopes.as_ref().map_or(1.0, |s| s[side][k]);
+            let read = self.reads.iter().filter(|read| read.0 == k);
+            let worn = self
+                .row(k, |pair| &pair.wear)
+                .map(|(at, v, side)| (at, self.scale[side] * slope(side) * v));
+            deposits.push(worn.chain(read.map(|&(_, at, value)| (at, value))));
+        }
+        deposits
     }
 
     /// Rates per approach, where `pressure` is that on the active set per approach.
     fn drives(&self, pressure: &DVector<f64>, rate: &mut [f64]) {
-        for (deposit, p) in self.deposits().iter().zip(pressure.iter()) {
-            for &(at, value) in deposit {
-                rate[at] += value * p;
+        let deposits = self.deposits();
+        for (i, p) in pressure.iter().enumerate() {
+            for (first, values) in deposits.of(i) {
+                let rates = rate[first..].iter_mut().zip(values);
+                rates.for_each(|(rate, value)| *rate += value * p);
             }
         }
     }
@@ -487,23 +490,61 @@ impl Local<'_> {
 
     fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut PatchyMatrix) {
         let deposits = self.deposits();
-        let mut touched: Vec<usize> = deposits.iter().flatten().map(|e| e.0).collect();
-        touched.sort_unstable();
-        touched.dedup();
-        let touched = Rows::new(touched);
+        let touched = Rows::new(deposits.stations());
         let mut column = vec![0.0; jacobian.size()];
         for (j, &l) in self.active.iter().enumerate() {
-            for i in touched.iter() {
-                column[i] = 0.0;
+            for range in touched.ranges() {
+                column[range.clone()].fill(0.0);
             }
-            for (i, deposit) in deposits.iter().enumerate() {
-                for &(at, value) in deposit {
-                    column[at] -= value * sensitivity[(i, j)];
+            for i in 0..self.active.len() {
+                let sensitivity = sensitivity[(i, j)];
+                for (first, values) in deposits.of(i) {
+                    let entries = column[first..].iter_mut().zip(values);
+                    entries.for_each(|(entry, value)| *entry -= value * sensitivity);
                 }
             }
             for (station, opening, _) in self.row(l, |pair| &pair.opening) {
                 jacobian.add(station, &touched, opening, &column);
             }
         }
+    }
+}
+
+/// Rates of depth per pressure at the unknowns of an active set, by runs of neighbouring stations: loops over a run are loops over slices.
+#[derive(Default)]
+struct Deposits {
+    values: Vec<f64>,
+    /// First station of each run, and its place in `values`.
+    runs: Vec<(usize, Range<usize>)>,
+    /// Where each unknown's runs end.
+    ends: Vec<usize>,
+}
+
+impl Deposits {
+    /// Takes the next unknown's entries (joint station, value).
+    fn push(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
+        let own = self.runs.len();
+        for (station, value) in entries {
+            let at = self.values.len();
+            match self.runs[own..].last_mut() {
+                Some((first, run)) if *first + run.len() == station => run.end += 1,
+                _ => self.runs.push((station, at..at + 1)),
+            }
+            self.values.push(value);
+        }
+        self.ends.push(self.runs.len());
+    }
+
+    /// First station and values of every run of the unknown number `i` of the set.
+    fn of(&self, i: usize) -> impl Iterator<Item = (usize, &[f64])> + '_ {
+        let begin = if i == 0 { 0 } else { self.ends[i - 1] };
+        let runs = self.runs[begin..self.ends[i]].iter();
+        runs.map(|(first, run)| (*first, &self.values[run.clone()]))
+    }
+
+    /// The stations of all.
+    fn stations(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        let runs = self.runs.iter();
+        runs.map(|(first, run)| *first..*first + run.len())
     }
 }

@@ -108,8 +108,11 @@ impl Shifted {
         Self::sparse(jacobian, factor).unwrap_or_else(|| {
             let mut matrix = Mat::<f64>::identity(jacobian.size(), jacobian.size());
             for j in 0..jacobian.size() {
-                for (i, value) in jacobian.column(j) {
-                    matrix[(i, j)] -= factor * value;
+                let column = matrix.col_as_slice_mut(j);
+                for (first, values) in jacobian.stretches(j) {
+                    for (entry, value) in column[first..].iter_mut().zip(values) {
+                        *entry -= factor * value;
+                    }
                 }
             }
             Self::Full(matrix.partial_piv_lu())

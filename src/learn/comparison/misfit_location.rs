@@ -7,7 +7,6 @@ use std::collections::BTreeMap;
 
 use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
-use crate::gear::Member;
 use crate::learn::region::{Map, words};
 use crate::measure::{Quantity, Subject};
 
@@ -227,10 +226,7 @@ fn mate(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>) -> String {
     let Some(member) = key.1.member() else {
         return String::new();
     };
-    let other = match member.other() {
-        Member::Pinion => Subject::Pinion,
-        Member::Gear => Subject::Gear,
-    };
+    let other = Subject::from(member.other());
     let Some(found) = cells.get(&(key.0, other, key.2, key.3, key.4)) else {
         return String::new();
     };

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::basis::{Functions, numbered, polynomials, waves};
-use crate::learn::likelihood::{Likelihood, whiten};
+use crate::learn::likelihood::Likelihood;
 use crate::learn::region::Map;
 use crate::measure::Observation;
 
@@ -154,7 +154,7 @@ impl DriverAnalysis<'_> {
     fn fall(&self, columns: &[Vec<f64>]) -> (f64, usize) {
         let rows = self.model.len();
         let matrix = DMatrix::from_fn(rows, columns.len(), |i, j| columns[j][i]);
-        let mut white = whiten(&self.likelihood.covariance, &matrix);
+        let mut white = self.likelihood.covariance.whiten_all(&matrix);
         for mut column in white.column_iter_mut() {
             let size = column.norm();
             if size > 0.0 {

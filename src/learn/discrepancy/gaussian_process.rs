@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use super::basis::{self, mean_waves, numbered, polynomials, waves};
 use crate::learn::fitted_candidate::orthonormalise;
-use crate::learn::likelihood::{Likelihood, OWN_FORM, whiten};
+use crate::learn::likelihood::{Likelihood, OWN_FORM};
 use crate::learn::noise::{Covariance, Discrepancy, ModelError, amplitudes};
 use crate::learn::parameters::Parameter;
 use crate::learn::region::Map;
@@ -261,7 +261,7 @@ struct Left<'a> {
 
 impl<'a> Left<'a> {
     fn new(likelihood: &Likelihood<'_>, fit: &Found, covariance: &'a Covariance) -> Self {
-        let mut adjustable = whiten(covariance, &fit.jacobian);
+        let mut adjustable = covariance.whiten_all(&fit.jacobian);
         orthonormalise(&mut adjustable);
         let residual = covariance.whiten(&likelihood.residual(&fit.model));
         let own = likelihood.noise.model_error;
@@ -273,10 +273,10 @@ impl<'a> Left<'a> {
         }
     }
 
-    fn visible(&self, column: &[f64]) -> DVector<f64> {
-        let v = DVector::from_vec(self.covariance.whiten(column));
-        let along = self.adjustable.tr_mul(&v);
-        v - &self.adjustable * along
+    fn visible(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let white = self.covariance.whiten_all(columns);
+        let along = self.adjustable.tr_mul(&white);
+        white - &self.adjustable * along
     }
 }
 
@@ -296,10 +296,10 @@ impl SharedFunctions {
     /// g φ_j at the rows of each group.
     fn new(left: &Left<'_>, functions: &Functions<'_>) -> Self {
         let wanted = functions.wanted();
-        let columns: Vec<DVector<f64>> = (wanted.par_iter())
-            .map(|&at| left.visible(&functions.column(at)))
+        let columns: Vec<DVector<f64>> = (wanted.iter())
+            .map(|&at| DVector::from_vec(functions.column(at)))
             .collect();
-        let x = DMatrix::from_columns(&columns);
+        let x = left.visible(&DMatrix::from_columns(&columns));
         Self {
             error: left.error,
             degrees: wanted.iter().map(|w| w.1).collect(),

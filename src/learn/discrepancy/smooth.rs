@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::learn::likelihood::{Likelihood, whiten};
+use crate::learn::likelihood::Likelihood;
 use crate::numeric::chebyshev;
 
 /// Terms along the position and over the cycles that are tried.
@@ -79,7 +79,7 @@ impl SmoothDiscrepancy {
                 let (mut fallen, mut count) = (0.0, 0);
                 for group in &groups {
                     let columns = group.columns(g, terms);
-                    let seen = whiten(&likelihood.covariance, &columns);
+                    let seen = likelihood.covariance.whiten_all(&columns);
                     let mut gram = seen.tr_mul(&seen);
                     for i in 0..gram.nrows() {
                         gram[(i, i)] += RIDGE * (1.0 + gram[(i, i)]);

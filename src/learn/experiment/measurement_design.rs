@@ -2,21 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::gear::Member;
 use crate::learn::bench::MeasuredTest;
 use crate::learn::model_search::context::Context;
+use crate::learn::standard_test;
 use crate::measure::{Dataset, Observation, Quantity, Subject, Trace};
 use crate::study::{Operation, Study};
 
-/// Radii of a trace, and when traces are taken, as shares of the test.
-const RADII: usize = 50;
-const CHECKPOINTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-/// Positions of a transmission error over the base pitch, at the end.
-const TURNS: usize = 24;
-/// Share of the active flank that is not measured at each end.
-const MARGIN: f64 = 0.04;
-/// Noise of an instrument that measures nothing, µm.
-const FLOOR_UM: f64 = 0.02;
 /// Smallest sigma, in any unit.
 const LEAST: f64 = 1e-9;
 
@@ -61,69 +52,24 @@ impl MeasurementDesign {
         })
     }
 
-    /// Wear traces and mass losses of both members at four times and a transmission error at the end, all with the relative
-    /// noise `noise`; None if the gears do not run at that misalignment.
+    /// The rows of a standard test, all with the relative noise `noise`; None if the gears do not run at that misalignment.
     pub(in crate::learn) fn standard(
         study: &Study,
         operation: &Operation,
         noise: f64,
     ) -> Option<Self> {
         let pair = study.gear_set().mount(operation.misalignment_mm).ok()?;
-        let [a, .., e] = pair.path_points();
-        let mut design = Self {
-            observations: Vec::new(),
-            traces: Vec::new(),
-            relative: Vec::new(),
-            floor: Vec::new(),
-        };
-        for (number, share) in CHECKPOINTS.into_iter().enumerate() {
-            let cycles = share * operation.cycles;
-            for member in Member::BOTH {
-                let gear = pair.member(member);
-                let subject = match member {
-                    Member::Pinion => Subject::Pinion,
-                    Member::Gear => Subject::Gear,
-                };
-                let ends = [a, e].map(|path| gear.arc(pair.rho(member, path)));
-                let (from, to) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-                let margin = MARGIN * (to - from);
-                let trace = design.traces.len();
-                design.traces.push(Trace {
-                    name: format!("{}-{}", subject.name(), number + 1),
-                    quantity: Quantity::WearDepth,
-                    line: 0,
-                });
-                for i in 0..RADII {
-                    let share = i as f64 / (RADII - 1) as f64;
-                    let arc = from + margin + (to - from - 2.0 * margin) * share;
-                    let radius = gear.radius_at_rho(gear.rho_at_arc(arc));
-                    let row = row(
-                        Quantity::WearDepth,
-                        subject,
-                        cycles,
-                        Some(radius),
-                        Some(trace),
-                    );
-                    design.push(row, noise, FLOOR_UM);
-                }
-                let mass = row(Quantity::MassLoss, subject, cycles, None, None);
-                design.push(mass, noise, 0.0);
-            }
-        }
-        // µm over mm = 1e-3 rad
-        let floor = 1e3 * FLOOR_UM / pair.gear.base_radius;
-        for i in 0..TURNS {
-            let turn = Some(i as f64 / TURNS as f64);
-            let row = row(
-                Quantity::TransmissionError,
-                Subject::Pair,
-                operation.cycles,
-                turn,
-                None,
-            );
-            design.push(row, noise, floor);
-        }
-        Some(design)
+        let mut traces = Vec::new();
+        let observations = standard_test::rows((0, "next"), &pair, operation.cycles, &mut traces);
+        let floor = observations.iter();
+        Some(Self {
+            floor: floor
+                .map(|o| standard_test::floor(o, study, &pair))
+                .collect(),
+            relative: vec![noise; observations.len()],
+            traces,
+            observations,
+        })
     }
 
     /// With the rows of `other` whose quantity is not there yet.
@@ -190,28 +136,6 @@ impl MeasurementDesign {
     }
 }
 
-fn row(
-    quantity: Quantity,
-    member: Subject,
-    cycles: f64,
-    position: Option<f64>,
-    trace: Option<usize>,
-) -> Observation {
-    Observation {
-        test: 0,
-        member,
-        cycles,
-        quantity,
-        position,
-        value: 0.0,
-        sigma: 1.0,
-        trace,
-        face: None,
-        tooth: None,
-        line: 0,
-    }
-}
-
 type Curve = (Subject, Quantity, u64);
 
 fn curve(o: &Observation) -> Curve {
@@ -241,8 +165,8 @@ mod tests {
         let study = study();
         let design = MeasurementDesign::standard(&study, &study.operation, 0.02).unwrap();
         let depths = design.rows(Quantity::WearDepth);
-        assert_eq!(depths.len(), 50 * 4 * 2);
-        assert_eq!(design.rows(Quantity::MassLoss).len(), 8);
+        assert_eq!(depths.len(), 41 * 5 * 2);
+        assert_eq!(design.rows(Quantity::MassLoss).len(), 10);
         let data = design.with(&vec![5.0; design.observations.len()]);
         assert!((data.observations[depths[0]].sigma - (0.02 * 5.0 + 0.02)).abs() < 1e-12);
         // the radii lie on the members' flanks

@@ -19,7 +19,7 @@ use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate, orthonormalise};
 use crate::learn::hypothesis::EffectSet;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::likelihood::{Likelihood, whiten};
+use crate::learn::likelihood::Likelihood;
 use crate::learn::search::Found;
 
 /// Effects whose evidence is taken with every kind of discrepancy.
@@ -175,7 +175,7 @@ fn with_discrepancy(plain: &Likelihood<'_>, fitted: &FittedCandidate) -> f64 {
 /// Fall of χ² where an effect may be stronger in one test and weaker in another, and how many strengths more that takes.
 fn transfer(likelihood: &Likelihood<'_>, fitted: &FittedCandidate) -> (f64, usize) {
     let (found, change): (&Found, &[f64]) = (&fitted.found, &fitted.change);
-    let mut adjustable = whiten(&likelihood.covariance, &found.jacobian);
+    let mut adjustable = likelihood.covariance.whiten_all(&found.jacobian);
     orthonormalise(&mut adjustable);
     let visible = |v: Vec<f64>| {
         let v = DVector::from_vec(likelihood.covariance.whiten(&v));

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::medium_fidelity::look_alikes_left;
 use crate::learn::candidate_model::{AnchoredOn, model, offset, predictions};
+use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::predictor::PredictError;
@@ -41,9 +42,9 @@ const WITHIN: f64 = 10.0;
 const WITHIN_SHARE: f64 = 0.02;
 /// Least and most single candidates decided by finite elements.
 const DECIDED: [usize; 2] = [3, 7];
-/// Share of the leader's gain with which an effect that it is mistaken for is decided like the leader: coarse and fine finite elements agree on gains
-/// within a few per cent.
-const ALIKE_SHARE: f64 = 0.7;
+/// Share of the leader's gain with which an effect that coarse finite elements have fitted may still lead, and one that the leader is mistaken for is
+/// decided like it: coarse and fine finite elements agree on gains within a few per cent.
+const ALIKE_SHARE: f64 = 0.85;
 /// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
 const GAIN: f64 = 0.0;
 
@@ -159,7 +160,10 @@ pub(in crate::learn) fn decide_leaders(
         .iter()
         .enumerate()
         .take_while(|(i, j)| {
-            let near = *i < DECIDED[0] || j.log_evidence > leader - within;
+            let gain = j.log_evidence - before;
+            let may_lead = j.fidelity == Fidelity::Screening
+                || gain > ALIKE_SHARE * (leader - before) - WITHIN;
+            let near = *i < DECIDED[0] && may_lead || j.log_evidence > leader - within;
             *i == 0 || *i < DECIDED[1] && near && j.log_evidence > before + GAIN
         })
         .count();

@@ -3,12 +3,14 @@
 //! With z = e/σ and X = M/σ = U s Vᵀ, the inverse root of `I + X Xᵀ` is `I − U (1 − 1/√(1 + s²)) Uᵀ` (Sherman, Morrison and Woodbury), so
 //! whitening costs one pass. With K, rows of one test, member and quantity make one dense block with its Cholesky factor.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use faer::Mat;
+use nalgebra::{DMatrix, DVector};
 
 use super::NoiseModel;
 use super::model_error::{ModelError, amplitudes, dense_blocks};
 use super::trace::{Datum, TraceErrors, directions, trace_errors};
 use crate::measure::{Dataset, Observation};
+use crate::numeric::positive_definite::Factor;
 
 /// The covariance of some of a data set's rows.
 #[derive(Debug, Clone)]
@@ -23,7 +25,7 @@ pub(in crate::learn) struct Covariance {
 #[derive(Debug, Clone)]
 enum Block {
     Trace(TraceErrors),
-    Dense(Vec<usize>, Box<Cholesky<f64, Dyn>>),
+    Dense(Vec<usize>, Factor),
 }
 
 impl Covariance {
@@ -72,44 +74,54 @@ impl Covariance {
     /// X = W Φ = U s Vᵀ:   (I + X Xᵀ)^(−½) = I − U (1 − 1/√(1 + s²)) Uᵀ
     /// ```
     pub(in crate::learn) fn with_shared(mut self, functions: &DMatrix<f64>) -> Self {
-        let columns: Vec<DVector<f64>> = (functions.column_iter())
-            .map(|column| DVector::from_vec(self.whiten(column.as_slice())))
-            .collect();
-        if columns.is_empty() {
-            return self;
+        if functions.ncols() > 0 {
+            self.shared.extend(directions(&self.whiten_all(functions)));
         }
-        let x = DMatrix::from_columns(&columns);
-        self.shared.extend(directions(&x));
         self
     }
 
     /// W v, where WᵀW is the inverse of the covariance.
     pub(in crate::learn) fn whiten(&self, v: &[f64]) -> Vec<f64> {
-        let z = self.whiten_blocks(v);
-        if self.shared.is_empty() {
-            return z;
+        let column = DMatrix::from_column_slice(v.len(), 1, v);
+        self.whiten_all(&column).data.into()
+    }
+
+    /// W of every column.
+    pub(in crate::learn) fn whiten_all(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut z = self.whiten_blocks(columns);
+        for mut z in z.column_iter_mut() {
+            let along: Vec<f64> = self.shared.iter().map(|(u, _)| u.dot(&z)).collect();
+            for ((u, variance), along) in self.shared.iter().zip(along) {
+                z.axpy(-(1.0 - (1.0 + variance).sqrt().recip()) * along, u, 1.0);
+            }
         }
-        let mut z = DVector::from_vec(z);
-        let along: Vec<f64> = self.shared.iter().map(|(u, _)| u.dot(&z)).collect();
-        for ((u, variance), along) in self.shared.iter().zip(along) {
-            z.axpy(-(1.0 - (1.0 + variance).sqrt().recip()) * along, u, 1.0);
-        }
-        z.as_slice().to_vec()
+        z
     }
 
     /// The same without a shared discrepancy.
-    fn whiten_blocks(&self, v: &[f64]) -> Vec<f64> {
-        let mut z: Vec<f64> = v.iter().zip(&self.sigma).map(|(v, s)| v / s).collect();
+    fn whiten_blocks(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut z = columns.clone();
+        for mut column in z.column_iter_mut() {
+            let rows = column.iter_mut().zip(&self.sigma);
+            rows.for_each(|(z, sigma)| *z /= sigma);
+        }
         for block in &self.blocks {
             match block {
-                Block::Trace(errors) => errors.whiten(&mut z),
-                // a derivative with respect to one test's k is zero in the blocks of all others
-                Block::Dense(rows, _) if rows.iter().all(|&i| v[i] == 0.0) => {}
+                Block::Trace(errors) => {
+                    let columns = z.column_iter_mut();
+                    columns.for_each(|mut column| errors.whiten(column.as_mut_slice()));
+                }
                 Block::Dense(rows, factor) => {
-                    let mut part = DVector::from_iterator(rows.len(), rows.iter().map(|&i| v[i]));
-                    factor.l_dirty().solve_lower_triangular_mut(&mut part);
-                    for (&i, part) in rows.iter().zip(part.iter()) {
-                        z[i] = *part;
+                    // a derivative with respect to one test's k is zero in the blocks of all others
+                    let touched = |j: &usize| rows.iter().any(|&i| columns[(i, *j)] != 0.0);
+                    let own: Vec<usize> = (0..columns.ncols()).filter(touched).collect();
+                    let value = |i: usize, j: usize| columns[(rows[i], own[j])];
+                    let mut part = Mat::from_fn(rows.len(), own.len(), value);
+                    factor.solve_lower(part.as_mut());
+                    for (j, &column) in own.iter().enumerate() {
+                        for (&row, part) in rows.iter().zip(part.col_as_slice(j)) {
+                            z[(row, column)] = *part;
+                        }
                     }
                 }
             }
@@ -126,7 +138,7 @@ impl Covariance {
                 Block::Trace(errors) => sum += errors.log_determinant(),
                 Block::Dense(rows, factor) => {
                     rows.iter().for_each(|&i| dense[i] = true);
-                    sum += 2.0 * factor.l_dirty().diagonal().map(f64::ln).sum();
+                    sum += factor.log_determinant();
                 }
             }
         }
@@ -157,6 +169,8 @@ impl Covariance {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Cholesky;
+
     use super::*;
 
     /// Against the dense covariance σ² + M Mᵀ (per trace) + Φ Φᵀ: the square of the whitened rows and the determinant.

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Cholesky, DMatrix, Dyn};
+use faer::Mat;
 
 use super::trace::TraceErrors;
 use crate::measure::Observation;
+use crate::numeric::positive_definite::Factor;
 
 /// An error of the model, proportional to each curve's largest measured magnitude (a curve: same test, member, quantity and cycles).
 ///
@@ -34,7 +35,7 @@ impl Default for ModelError {
 }
 
 /// Rows with the factor of their covariance.
-pub(super) type Dense = (Vec<usize>, Box<Cholesky<f64, Dyn>>);
+pub(super) type Dense = (Vec<usize>, Factor);
 
 /// One block per test, member and quantity; traces that reach over several tie them together.
 pub(super) fn dense_blocks(
@@ -49,10 +50,11 @@ pub(super) fn dense_blocks(
         rows.push(i);
     }
     let groups: Vec<Vec<usize>> = groups.into_values().collect();
-    let mut label = vec![0; picked.len()];
+    let mut group = vec![0; picked.len()];
     for (number, rows) in groups.iter().enumerate() {
-        rows.iter().for_each(|&i| label[i] = number);
+        rows.iter().for_each(|&i| group[i] = number);
     }
+    let mut label = group.clone();
     for trace in traces {
         let first = label[trace.rows[0]];
         for &row in &trace.rows {
@@ -73,19 +75,21 @@ pub(super) fn dense_blocks(
     }
     let block = |rows: Vec<usize>| {
         let n = rows.len();
-        let mut matrix = DMatrix::zeros(n, n);
-        for (a, &i) in rows.iter().enumerate() {
-            for (b, &j) in rows.iter().enumerate().take(a + 1) {
-                let (o, p) = (picked[i], picked[j]);
-                if (o.test, o.member, o.quantity) == (p.test, p.member, p.quantity) {
-                    for (amplitude, error) in errors {
-                        let along = (share[i] - share[j]) / error.along;
-                        let over = (logs[i] - logs[j]) / error.over_cycles;
-                        let size = error.relative.powi(2) * amplitude[i] * amplitude[j];
-                        matrix[(a, b)] += size * (-0.5 * (along * along + over * over)).exp();
+        let mut matrix = Mat::<f64>::zeros(n, n);
+        for (amplitude, error) in errors {
+            let along = Bell::new(rows.iter().map(|&i| share[i]), error.along);
+            let over = Bell::new(rows.iter().map(|&i| logs[i]), error.over_cycles);
+            for (b, &j) in rows.iter().enumerate() {
+                let size = error.relative.powi(2) * amplitude[j];
+                let column = &mut matrix.col_as_slice_mut(b)[b..];
+                for ((a, &i), entry) in rows.iter().enumerate().skip(b).zip(column) {
+                    if group[i] == group[j] {
+                        *entry += size * amplitude[i] * along.at(a, b) * over.at(a, b);
                     }
                 }
             }
+        }
+        for (a, &i) in rows.iter().enumerate() {
             matrix[(a, a)] += sigma[i].powi(2);
         }
         for errors in traces
@@ -97,14 +101,46 @@ pub(super) fn dense_blocks(
                 .collect();
             let own = &errors.functions * errors.functions.transpose();
             for (a, &i) in place.iter().enumerate() {
-                for (b, &j) in place.iter().enumerate() {
+                for (b, &j) in place.iter().enumerate().filter(|(_, j)| **j <= i) {
                     matrix[(i, j)] += own[(a, b)];
                 }
             }
         }
-        (rows, Box::new(factor(matrix)))
+        (rows, factor(&matrix))
     };
     blocks.into_values().map(block).collect()
+}
+
+/// exp(−(x_a − x_b)²/(2 l²)) between the values of rows, each pair of values worked out once.
+struct Bell {
+    /// Which of the different values a row has.
+    kind: Vec<usize>,
+    kinds: usize,
+    between: Vec<f64>,
+}
+
+impl Bell {
+    fn new(values: impl Iterator<Item = f64>, length: f64) -> Self {
+        let values: Vec<f64> = values.collect();
+        let mut different = values.clone();
+        different.sort_by(f64::total_cmp);
+        different.dedup();
+        let kinds = different.len();
+        let kind = |value: &f64| different.partition_point(|known| known < value);
+        let pair = |p: usize| {
+            let apart = (different[p / kinds] - different[p % kinds]) / length;
+            (-0.5 * apart * apart).exp()
+        };
+        Self {
+            kind: values.iter().map(kind).collect(),
+            kinds,
+            between: (0..kinds * kinds).map(pair).collect(),
+        }
+    }
+
+    fn at(&self, a: usize, b: usize) -> f64 {
+        self.between[self.kind[b] * self.kinds + self.kind[a]]
+    }
 }
 
 /// Cholesky's factor of a covariance: a sum of positive semi-definite parts and diag σ² > 0.
@@ -114,16 +150,20 @@ pub(super) fn dense_blocks(
 ///
 /// # Panics
 /// If an element is not finite.
-fn factor(matrix: DMatrix<f64>) -> Cholesky<f64, Dyn> {
-    let largest = matrix.diagonal().max();
+fn factor(matrix: &Mat<f64>) -> Factor {
+    let diagonal = (0..matrix.nrows()).map(|i| matrix[(i, i)]);
+    let largest = diagonal.fold(0.0, f64::max);
     let mut rounding = 1e-14 * largest;
     let mut raised = matrix.clone();
     loop {
-        if let Some(factor) = Cholesky::new(raised) {
+        if let Some(factor) = Factor::new(raised) {
             return factor;
         }
         assert!(largest.is_finite(), "a covariance is not finite");
-        raised = &matrix + DMatrix::identity(matrix.nrows(), matrix.nrows()) * rounding;
+        raised = matrix.clone();
+        for i in 0..matrix.nrows() {
+            raised[(i, i)] += rounding;
+        }
         rounding *= 10.0;
     }
 }
@@ -164,16 +204,17 @@ mod tests {
     #[test]
     fn an_error_far_above_the_noise_has_a_factor_too() {
         // rank one of size 1e20 over a variance of 1e-3: below the rounding of the sum
-        let matrix = DMatrix::from_fn(30, 30, |i, j| {
-            let size = |k: usize| 1e10 * (1.0 + 0.3 * k as f64).sin();
-            size(i) * size(j) + if i == j { 1e-3 } else { 0.0 }
-        });
-        assert!(Cholesky::new(matrix.clone()).is_none());
-        let back = factor(matrix.clone());
-        let product = back.l() * back.l().transpose();
-        assert!((product - &matrix).abs().max() < 1e-9 * matrix.abs().max());
+        let size = |k: usize| 1e10 * (1.0 + 0.3 * k as f64).sin();
+        let noise = |i: usize, j: usize| if i == j { 1e-3 } else { 0.0 };
+        let matrix = Mat::from_fn(30, 30, |i, j| size(i) * size(j) + noise(i, j));
+        assert!(Factor::new(matrix.clone()).is_none());
+        // whitened, the one direction that there is has a length of about 1
+        let mut whitened = Mat::from_fn(30, 1, |i, _| size(i));
+        factor(&matrix).solve_lower(whitened.as_mut());
+        let square = whitened.col_as_slice(0).iter().map(|z| z * z).sum::<f64>();
+        assert!((square - 1.0).abs() < 1e-2, "{square}");
         // and what needs nothing gets nothing
-        let plain = DMatrix::identity(3, 3) * 4.0;
-        assert_eq!(factor(plain.clone()).l(), plain / 2.0);
+        let plain = factor(&Mat::from_fn(3, 3, |i, j| 4000.0 * noise(i, j)));
+        assert!((plain.log_determinant() - 3.0 * 4.0f64.ln()).abs() < 1e-14);
     }
 }

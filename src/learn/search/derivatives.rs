@@ -95,14 +95,8 @@ impl Search<'_> {
                 asked.push((test, params + test, DIFFERENCE_K));
             }
         }
-        let shifted = |&(test, column, step): &(usize, usize, f64)| {
-            let mut state = state.clone();
-            match state.theta.get_mut(column).filter(|_| column < params) {
-                Some(theta) => *theta += step,
-                None => state.epsilon[test] += step,
-            }
-            self.point(&state, test)
-        };
+        let shifted =
+            |&(test, column, step): &(usize, usize, f64)| self.shifted(state, test, column, step);
         let points: Vec<Point> = asked.iter().map(shifted).collect();
         let mut found = evaluator.all(&points);
         for factor in [-1.0, -NARROWER, -1.0] {
@@ -114,17 +108,13 @@ impl Search<'_> {
             }
         }
         for ((test, column, step), found) in asked.into_iter().zip(found) {
-            let divisor = match self.parameters.get(column).filter(|_| column < params) {
-                Some(parameter) => parameter.divisor(step),
-                None => step.exp_m1(),
-            };
-            for ((&row, after), before) in self.selection.rows[test]
-                .iter()
-                .zip(found?.iter())
-                .zip(values[test].iter())
-            {
-                jacobian[(row, column)] = (after - before) / divisor;
-            }
+            let divisor = self.divisor(column, step);
+            self.fill(
+                &mut jacobian,
+                (test, column),
+                [&values[test], &found?],
+                divisor,
+            );
         }
         Ok(Derivatives {
             jacobian,
@@ -177,16 +167,8 @@ impl Search<'_> {
                 asked.push((test, params + test, -DIFFERENCE_K, DIFFERENCE_K));
             }
         }
-        let shifted = |test: usize, column: usize, step: f64| {
-            let mut state = state.clone();
-            match state.theta.get_mut(column).filter(|_| column < params) {
-                Some(theta) => *theta += step,
-                None => state.epsilon[test] += step,
-            }
-            self.point(&state, test)
-        };
         let sides = asked.iter().flat_map(|&(test, column, low, high)| {
-            [low, high].map(|step| shifted(test, column, step))
+            [low, high].map(|step| self.shifted(state, test, column, step))
         });
         let points: Vec<Point> = sides.collect();
         let mut found = evaluator.all(&points);
@@ -194,7 +176,7 @@ impl Search<'_> {
             let sides = 2 * i..2 * i + 2;
             if found[sides.clone()].iter().all(Result::is_err) {
                 (ask.2, ask.3) = (NARROWER * ask.2, NARROWER * ask.3);
-                let again = [ask.2, ask.3].map(|step| shifted(ask.0, ask.1, step));
+                let again = [ask.2, ask.3].map(|step| self.shifted(state, ask.0, ask.1, step));
                 found.splice(sides, evaluator.all(&again));
             }
         }
@@ -211,22 +193,44 @@ impl Search<'_> {
                     })
                 }
             };
-            let divided = |step: f64| match self.parameters.get(column).filter(|_| column < params)
-            {
-                Some(parameter) => parameter.divisor(step),
-                None => step.exp_m1(),
-            };
             let [(before, low), (after, high)] = ends;
-            let divisor = divided(high) - divided(low);
-            for ((&row, after), before) in self.selection.rows[test]
-                .iter()
-                .zip(after.iter())
-                .zip(before.iter())
-            {
-                jacobian[(row, column)] = (after - before) / divisor;
-            }
+            let divisor = self.divisor(column, high) - self.divisor(column, low);
+            self.fill(&mut jacobian, (test, column), [&before, &after], divisor);
         }
         Ok(jacobian)
+    }
+
+    /// Where a test is asked for a difference: at `state`, moved by `step` along a parameter or, beyond those, along the test's own ln k.
+    fn shifted(&self, state: &State, test: usize, column: usize, step: f64) -> Point {
+        let mut state = state.clone();
+        match state.theta.get_mut(column) {
+            Some(theta) if column < self.layout.parameters.len() => *theta += step,
+            _ => state.epsilon[test] += step,
+        }
+        self.point(&state, test)
+    }
+
+    /// What a difference over `step` is divided by, in the unit of the derivative.
+    fn divisor(&self, column: usize, step: f64) -> f64 {
+        match self.parameters.get(column) {
+            Some(parameter) if column < self.layout.parameters.len() => parameter.divisor(step),
+            _ => step.exp_m1(),
+        }
+    }
+
+    /// Writes a test's difference quotients into a column.
+    fn fill(
+        &self,
+        jacobian: &mut DMatrix<f64>,
+        (test, column): (usize, usize),
+        [before, after]: [&[f64]; 2],
+        divisor: f64,
+    ) {
+        for (&row, (after, before)) in
+            (self.selection.rows[test].iter()).zip(after.iter().zip(before))
+        {
+            jacobian[(row, column)] = (after - before) / divisor;
+        }
     }
 
     /// Each test's derivatives changed least, in the priors' scales, so that they give the change seen from one state to the next.
