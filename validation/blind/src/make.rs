@@ -115,52 +115,131 @@ pub fn make(wish: &Wish) -> DataSet {
     }
 }
 
+/// What a set shall be like; the same in every attempt.
+struct Intent {
+    kind: Kind,
+    noise: f64,
+    paper: bool,
+    /// Wanted detectability.
+    target: f64,
+    scatter: f64,
+    datum: f64,
+}
+
+impl Intent {
+    fn of(wish: &Wish, root: &Dice) -> Self {
+        let mut plan = root.branch(0);
+        let u = plan.unit();
+        let drawn = match u {
+            _ if u < 0.3 => Kind::None,
+            _ if u < 0.45 => Kind::Single,
+            _ if u < 0.7 => Kind::Foreign,
+            _ if u < 0.85 => Kind::Outside,
+            _ => Kind::Pair,
+        };
+        let kind = wish.kind.or(kind_of_law(wish)).unwrap_or(drawn);
+        let noise = wish.noise.unwrap_or(*plan.pick(&[0.02, 0.05, 0.1]));
+        let paper = wish.paper.unwrap_or(plan.unit() < 0.3);
+        let target = plan.log_uniform(3.0, 50.0);
+        Self {
+            kind,
+            noise,
+            paper,
+            target: wish.d.unwrap_or(target),
+            scatter: match kind {
+                Kind::None => *plan.pick(&[0.1, 0.2, 0.3]),
+                _ => *plan.pick(&[0.0, 0.1, 0.2, 0.3]),
+            },
+            datum: *plan.pick(&[0.0, 0.3]),
+        }
+    }
+}
+
+fn kind_of_law(wish: &Wish) -> Option<Kind> {
+    let (name, form) = wish.law.as_ref()?;
+    let force = |c: &&(&str, &str)| c.0 == name && form.as_deref() == Some(c.1);
+    Some(match draw::class_of(name, form.as_deref()) {
+        _ if uneven::FACE.iter().any(|c| c.0 == name) => Kind::Face,
+        _ if uneven::TEETH.iter().any(|c| c.0 == name) => Kind::Teeth,
+        _ if draw::FORCE.iter().any(|c| force(&c)) => Kind::Force,
+        Class::Single => Kind::Single,
+        Class::Foreign => Kind::Foreign,
+        Class::Outside => Kind::Outside,
+    })
+}
+
+/// The wear coefficient with which the reference test's base history is so deep (um) at its end, mm^2/N.
+fn coefficient(rig: &Rig, pair: &Mating, depth: f64) -> f64 {
+    // A first guess from the start of contact.
+    let a = &rig.tests[0];
+    let w = 1e3 * a.conditions.torque / (rig.width * rig.pinion.rb);
+    let sr = (pair.rho(1, pair.start) * pair.pinion.z as f64
+        / pair.gear.z as f64
+        / pair.rho(0, pair.start)
+        - 1.0)
+        .abs();
+    let guess = 1e-3 * depth / (0.4 * w * sr * a.cycles);
+    let (run, history) = rig.run(a, guess, &[], a.cycles * 3.0);
+    let (mut lo, mut hi) = (0.0, 3.0);
+    for _ in 0..40 {
+        let mid = 0.5 * (lo + hi);
+        if rig.deepest(a, &run, &history, mid * a.cycles) < depth {
+            lo = mid
+        } else {
+            hi = mid
+        }
+    }
+    three_digits(guess * lo)
+}
+
+/// One more test, without noise.
+fn sealed(rig: &Rig, k: f64, laws: &[Law], noise: f64) -> Vec<Row> {
+    let weigh = !laws.iter().any(Law::moves_material);
+    let (run, history) = rig.run(&rig.sealed, k, laws, rig.sealed.cycles);
+    let mut rows = rig.rows(&rig.sealed, rig.tests.len());
+    rows.retain(|r| weigh || r.quantity != Quantity::Mass);
+    let values = rig.observe(&run, &history, &rows, 1.0);
+    bench::sigmas(&mut rows, &values, noise);
+    for r in &mut rows {
+        r.value = r.free;
+        r.trace.clear();
+    }
+    rows
+}
+
+/// What a wish spoils of measured rows.
+fn spoil(wish: &Wish, rows: &mut Vec<Row>, datums: &[(String, f64)], root: &Dice, dice: &mut Dice) {
+    if wish.outlier {
+        let name = &datums[dice.below(datums.len())].0;
+        let tilt = dice.uniform(4.0, 9.0) * dice.sign();
+        let list: Vec<usize> = (0..rows.len())
+            .filter(|&i| rows[i].trace == *name)
+            .collect();
+        for (q, &i) in list.iter().enumerate() {
+            let x = q as f64 / (list.len() - 1) as f64;
+            rows[i].value += tilt * rows[i].sigma * (0.4 + x);
+        }
+    }
+    if wish.missing > 0.0 {
+        rows.retain(|r| r.position.is_none() || dice.unit() >= wish.missing);
+    }
+    for r in rows.iter_mut() {
+        r.sigma /= wish.understate;
+    }
+    if wish.messy {
+        messy::spoil(rows, &mut root.branch(53));
+    }
+}
+
 fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
-    // The plan of the set does not change between attempts, the gears and causes do.
-    let mut plan = root.branch(0);
-    let u = plan.unit();
-    let of_law =
-        wish.law
-            .as_ref()
-            .map(|(name, form)| match draw::class_of(name, form.as_deref()) {
-                _ if uneven::FACE.iter().any(|c| c.0 == name) => Kind::Face,
-                _ if uneven::TEETH.iter().any(|c| c.0 == name) => Kind::Teeth,
-                _ if draw::FORCE
-                    .iter()
-                    .any(|c| c.0 == name && form.as_deref() == Some(c.1)) =>
-                {
-                    Kind::Force
-                }
-                Class::Single => Kind::Single,
-                Class::Foreign => Kind::Foreign,
-                Class::Outside => Kind::Outside,
-            });
-    let kind = wish.kind.or(of_law).unwrap_or(if u < 0.3 {
-        Kind::None
-    } else if u < 0.45 {
-        Kind::Single
-    } else if u < 0.7 {
-        Kind::Foreign
-    } else if u < 0.85 {
-        Kind::Outside
-    } else {
-        Kind::Pair
-    });
-    let noise = wish.noise.unwrap_or(*plan.pick(&[0.02, 0.05, 0.1]));
-    let paper = wish.paper.unwrap_or(plan.unit() < 0.3);
-    let drawn = plan.log_uniform(3.0, 50.0);
-    let target = wish.d.unwrap_or(drawn);
-    let scatter = match kind {
-        Kind::None => *plan.pick(&[0.1, 0.2, 0.3]),
-        _ => *plan.pick(&[0.0, 0.1, 0.2, 0.3]),
-    };
-    let datum = *plan.pick(&[0.0, 0.3]);
+    let intent = Intent::of(wish, root);
+    let (kind, noise, scatter) = (intent.kind, intent.noise, intent.scatter);
     let mut choice = root.branch(1000 + attempt as u64);
     let named: Vec<(&'static str, &'static str)> = names(wish, kind, &mut choice);
 
     let mut d = root.branch(attempt as u64);
     // The pair 27/53 has no even number of teeth.
-    let paper = paper && !named.contains(&("pitch_error", "alternate"));
+    let paper = intent.paper && !named.contains(&("pitch_error", "alternate"));
     let mut rig = Rig::draw(paper, matches!(kind, Kind::Outside | Kind::Mixed), &mut d);
     let mut look = root.branch(4);
     let (trace, stated) = (Trace::draw(&mut look), look.unit() < 0.5);
@@ -179,28 +258,8 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         rig.fine.cells_per_half_width = 10.0;
     }
     let depth = d.log_uniform(3.0, 15.0);
-    // A first guess of k from the start of contact, corrected with the base histories.
     let pair = Mating::new(&rig.pinion, &rig.gear, rig.centre);
-    let a = &rig.tests[0];
-    let w = 1e3 * a.conditions.torque / (rig.width * rig.pinion.rb);
-    let sr = (pair.rho(1, pair.start) * pair.pinion.z as f64
-        / pair.gear.z as f64
-        / pair.rho(0, pair.start)
-        - 1.0)
-        .abs();
-    let mut k0 = 1e-3 * depth / (0.4 * w * sr * a.cycles);
-    let (first_run, first) = rig.run(a, k0, &[], a.cycles * 3.0);
-    let (mut lo, mut hi) = (0.0, 3.0);
-    for _ in 0..40 {
-        let mid = 0.5 * (lo + hi);
-        if rig.deepest(a, &first_run, &first, mid * a.cycles) < depth {
-            lo = mid
-        } else {
-            hi = mid
-        }
-    }
-    k0 *= lo;
-    let k = three_digits(k0);
+    let k = coefficient(&rig, &pair, depth);
     if k <= 0.0 {
         return None;
     }
@@ -236,7 +295,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     };
     let context = bench::context(&rig, &pair, &bench, choice);
     let (mut found, rows, dd, d_each) =
-        bench::strength(&bench, &context, &named, target, kind, &mut d)?;
+        bench::strength(&bench, &context, &named, intent.target, kind, &mut d)?;
     let top = rows
         .iter()
         .flatten()
@@ -251,41 +310,12 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
     } else {
         Vec::new()
     };
-    let weigh = !found.iter().any(Law::moves_material);
-    let (run, history) = rig.run(&rig.sealed, k, &found, rig.sealed.cycles);
-    let mut sealed: Vec<Row> = rig
-        .rows(&rig.sealed, rig.tests.len())
-        .into_iter()
-        .filter(|r| weigh || r.quantity != Quantity::Mass)
-        .collect();
-    let values = rig.observe(&run, &history, &sealed, 1.0);
-    bench::sigmas(&mut sealed, &values, noise);
-    for r in &mut sealed {
-        r.value = r.free;
-        r.trace.clear();
-    }
+    let sealed = sealed(&rig, k, &found, noise);
     let mut rows: Vec<Row> = rows.into_iter().flatten().collect();
     let mut dice = root.branch(77 + attempt as u64 * 131);
     let mut datums: Vec<(String, f64)> = Vec::new();
-    measure(&mut rows, datum, &mut datums, &mut dice);
-    if wish.outlier {
-        let name = datums[dice.below(datums.len())].0.clone();
-        let tilt = dice.uniform(4.0, 9.0) * dice.sign();
-        let list: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].trace == name).collect();
-        for (q, &i) in list.iter().enumerate() {
-            let x = q as f64 / (list.len() - 1) as f64;
-            rows[i].value += tilt * rows[i].sigma * (0.4 + x);
-        }
-    }
-    if wish.missing > 0.0 {
-        rows.retain(|r| r.position.is_none() || dice.unit() >= wish.missing);
-    }
-    for r in &mut rows {
-        r.sigma /= wish.understate;
-    }
-    if wish.messy {
-        messy::spoil(&mut rows, &mut root.branch(53));
-    }
+    measure(&mut rows, intent.datum, &mut datums, &mut dice);
+    spoil(wish, &mut rows, &datums, root, &mut dice);
     found.iter_mut().for_each(|l| l.limit = 0.0);
     let wrong = d.uniform(0.5f64.ln(), 1.5f64.ln()).exp();
     drop(bench);
@@ -299,7 +329,7 @@ fn try_make(wish: &Wish, root: &Dice, attempt: usize) -> Option<DataSet> {
         k_study: three_digits(k * wrong),
         scatter,
         k_tests,
-        datum,
+        datum: intent.datum,
         datums,
         rows,
         sealed,

@@ -102,6 +102,197 @@ impl Default for Fineness {
     }
 }
 
+/// Contact must not travel further between two positions than it is wide, nor over many stations: waves that no
+/// position sees would grow. Narrowest at the ends of the path, where a pair carries about two fifths.
+fn positions_per_pitch(pair: &Mating, e_star: f64, load: f64, dx: f64, least: usize) -> usize {
+    let mut positions = least as f64;
+    for s in [pair.start, pair.end] {
+        let (a, b) = (pair.rho(0, s), pair.rho(1, s));
+        let narrow = (4.0 * 0.4 * load * a * b / (a + b) / (std::f64::consts::PI * e_star)).sqrt();
+        let way = (a / pair.pinion.rb).max(b / pair.gear.rb) * pair.pb;
+        positions = positions.max(way / (0.6 * narrow).min(2.6 * dx));
+    }
+    (positions.ceil() as usize).min(320)
+}
+
+/// The frames of the pairs of a passage and the steps in which it is taken.
+struct Frame<'a> {
+    pair: &'a Mating,
+    /// Size of a cell, mm.
+    dx: f64,
+    /// Way along the path between two positions, mm.
+    stride: f64,
+    /// Contact is followed so far beyond the ends of the path, mm.
+    extension: f64,
+    /// Arc of each member's tip corner.
+    tip: [f64; 2],
+}
+
+impl<'a> Frame<'a> {
+    fn new(pair: &'a Mating, dx: f64, positions: usize) -> Self {
+        Self {
+            pair,
+            dx,
+            stride: pair.pb / positions as f64,
+            extension: 0.2 * pair.pb,
+            tip: [0, 1].map(|m| pair.teeth(m).arc(pair.teeth(m).rho_tip())),
+        }
+    }
+
+    fn stations(&self) -> [Stations; 2] {
+        [0, 1].map(|m| {
+            let t = self.pair.teeth(m);
+            let deepest = if m == 0 {
+                self.pair.rho(0, self.pair.start - self.extension)
+            } else {
+                self.pair.rho(1, self.pair.end + self.extension)
+            };
+            let low = t.arc(deepest.max(t.rho(t.form_radius())).max(0.02 * t.m));
+            let high = t.arc(t.rho_tip());
+            let n = ((high - low) / self.dx).ceil() as usize + 1;
+            Stations {
+                low,
+                step: (high - low) / (n - 1) as f64,
+                count: n,
+            }
+        })
+    }
+
+    /// Arc coordinate of a member's flank at path s, offset x along e.
+    fn arc(&self, m: usize, s: f64, x: f64) -> f64 {
+        let rho = self.pair.rho(m, s);
+        let sign = if m == 0 { 1.0 } else { -1.0 };
+        self.pair.teeth(m).arc(rho.abs()) * rho.signum() + sign * x
+    }
+
+    /// Offset of the frame's cells: at the corner when the path of contact has not begun or has ended.
+    fn origin(&self, s: f64) -> f64 {
+        if s < self.pair.start {
+            self.arc(1, s, 0.0) - self.tip[1]
+        } else if s > self.pair.end {
+            self.tip[0] - self.arc(0, s, 0.0)
+        } else {
+            0.0
+        }
+    }
+
+    fn gap(&self, s: f64, x: f64) -> f64 {
+        let side = |m: usize| {
+            let t = self.pair.teeth(m);
+            let rho0 = self.pair.rho(m, s);
+            let rho = t.rho_of_arc(self.arc(m, s, x));
+            let phi = (rho - rho0) / t.rb;
+            rho0 + t.rb * phi.sin() - rho * phi.cos()
+        };
+        side(0) + side(1)
+    }
+
+    /// Where a cell's pressure wears a flank while contact travels to the next position: first station and depths per pressure.
+    fn deposit(&self, m: usize, st: &Stations, s: f64, offset: f64) -> (u32, [f32; SPAN]) {
+        let (dx, stride) = (self.dx, self.stride);
+        let rate = 1.0 / self.pair.pinion.rb + 1.0 / self.pair.gear.rb;
+        let mut touched = Vec::new();
+        for q in 0..8 {
+            let tau = (q as f64 - 3.5) / 4.0;
+            let sq = s + tau * stride;
+            let time = (1.0 - tau.abs()) / 4.0;
+            for sub in [-1.0, 0.0, 1.0] {
+                let at = self.arc(m, sq, self.origin(sq) + offset + sub * dx / 3.0);
+                let (k, f) = st.place(at);
+                let amount = time * sq.abs() * rate * stride * dx / 3.0;
+                touched.push((k as usize, amount * (1.0 - f64::from(f))));
+                touched.push((k as usize + 1, amount * f64::from(f)));
+            }
+        }
+        let low = touched.iter().map(|t| t.0).min().unwrap_or(0);
+        let low = low.min(st.count - SPAN);
+        let mut w = [0f32; SPAN];
+        for (k, a) in touched {
+            // What would reach beyond the span stays on its last station.
+            let k = k.min(low + SPAN - 1);
+            w[k - low] += (a / st.width(k)) as f32;
+        }
+        (low as u32, w)
+    }
+
+    /// Stations that a cell passes over from half a stride before to half a stride after.
+    fn range(&self, m: usize, st: &Stations, s: f64, offset: f64) -> (u32, u32) {
+        let half = 0.5 * self.stride;
+        let a = self.arc(m, s - half, self.origin(s - half) + offset);
+        let b = self.arc(m, s + half, self.origin(s + half) + offset);
+        let (a, b) = (a.min(b) - 0.5 * self.dx, a.max(b) + 0.5 * self.dx);
+        (
+            (((a - st.low) / st.step).ceil().max(0.0)) as u32,
+            (((b - st.low) / st.step).floor().max(0.0) as u32).min(st.count as u32 - 1),
+        )
+    }
+}
+
+/// What the elastic coupling of a cell depends on: its pair, its place in the frame, its place on both flanks.
+type Spot = (i64, i64, [(usize, [f64; 4]); 2]);
+
+/// Elastic coupling of the cells of a position.
+struct Coupling<'a> {
+    soft: &'a [FlankCompliance; 2],
+    youngs: f64,
+    dx: f64,
+    /// Half plane's displacement under a cell, by cells between.
+    plane: Vec<f64>,
+}
+
+impl<'a> Coupling<'a> {
+    fn new(soft: &'a [FlankCompliance; 2], youngs: f64, dx: f64, reach: i64) -> Self {
+        let plane = (0..2 * reach + 2)
+            .map(|d| {
+                let f = |v: f64| if v == 0.0 { 0.0 } else { v * v.abs().ln() - v };
+                let d = d as f64;
+                2.0 * PLANE * (f((d + 0.5) * dx) - f((d - 0.5) * dx)) / youngs
+            })
+            .collect();
+        Self {
+            soft,
+            youngs,
+            dx,
+            plane,
+        }
+    }
+
+    /// Under pressure.
+    fn flexibility(&self, spots: &[Spot]) -> Vec<f64> {
+        let n = spots.len();
+        let mut out = vec![0.0; n * n];
+        for a in 0..n {
+            for b in 0..=a {
+                let ((ja, ca, wa), (jb, cb, wb)) = (&spots[a], &spots[b]);
+                // Displacement at a's tooth under b's load; ahead is +1 on the pinion, -1 on the gear.
+                let t = (ja - jb) as isize;
+                let mut v =
+                    self.soft[0].at(t, &wa[0], &wb[0]) + self.soft[1].at(-t, &wa[1], &wb[1]);
+                v *= self.dx / self.youngs;
+                if t == 0 {
+                    v += self.plane[(ca - cb).unsigned_abs() as usize];
+                }
+                out[a * n + b] = v;
+                out[b * n + a] = v;
+            }
+        }
+        out
+    }
+
+    /// Under traction.
+    fn shear(&self, spots: &[Spot]) -> Vec<f64> {
+        let pairs = spots.iter().flat_map(|a| spots.iter().map(move |b| (a, b)));
+        pairs
+            .map(|((ja, _, wa), (jb, _, wb))| {
+                let t = (ja - jb) as isize;
+                let pinion = self.soft[0].aside(t, &wa[0], &wb[0]);
+                let gear = self.soft[1].aside(-t, &wa[1], &wb[1]);
+                (pinion + gear) * self.dx / self.youngs
+            })
+            .collect()
+    }
+}
+
 impl Passage {
     /// `load`: the line load expected, N/mm; `shared`: stations of other passages of the same flanks, to be kept; `friction`: also what traction does.
     pub fn new(
@@ -118,131 +309,39 @@ impl Passage {
         let half_width = (4.0 * load * curvature / (std::f64::consts::PI * e_star)).sqrt();
         let dx = half_width / fine.cells_per_half_width;
         let reach = (fine.extent * fine.cells_per_half_width).ceil() as i64;
-        // Contact must not travel further between two positions than it is wide, nor over many stations: waves that no
-        // position sees would grow. Narrowest at the ends of the path, where a pair carries about two fifths.
-        let mut positions = fine.positions as f64;
-        for s in [pair.start, pair.end] {
-            let (a, b) = (pair.rho(0, s), pair.rho(1, s));
-            let narrow =
-                (4.0 * 0.4 * load * a * b / (a + b) / (std::f64::consts::PI * e_star)).sqrt();
-            let way = (a / pair.pinion.rb).max(b / pair.gear.rb) * pair.pb;
-            positions = positions.max(way / (0.6 * narrow).min(2.6 * dx));
-        }
-        let positions_per_pitch = (positions.ceil() as usize).min(320);
-        let stride = pair.pb / positions_per_pitch as f64;
+        let count = positions_per_pitch(&pair, e_star, load, dx, fine.positions);
+        let frame = Frame::new(&pair, dx, count);
+        let stations = shared.cloned().unwrap_or_else(|| frame.stations());
+        let coupling = Coupling::new(soft, youngs, dx, reach);
         // Deflection of a pair, generously: 8 N/(mm um) for steel, scaled with E.
         let give = load / (8.0e3 * youngs / 2.1e5);
-        let extension = 0.2 * pair.pb;
-        let own = [0, 1].map(|m| {
-            let t = pair.teeth(m);
-            let deepest = if m == 0 {
-                pair.rho(0, pair.start - extension)
-            } else {
-                pair.rho(1, pair.end + extension)
-            };
-            let low = t.arc(deepest.max(t.rho(t.form_radius())).max(0.02 * t.m));
-            let high = t.arc(t.rho_tip());
-            let n = ((high - low) / dx).ceil() as usize + 1;
-            Stations {
-                low,
-                step: (high - low) / (n - 1) as f64,
-                count: n,
-            }
-        });
-        let stations = shared.cloned().unwrap_or(own);
-        let tip = [0, 1].map(|m| pair.teeth(m).arc(pair.teeth(m).rho_tip()));
-        // Arc coordinate of a member's flank at path s, offset x along e.
-        let arc = |m: usize, s: f64, x: f64| {
-            let rho = pair.rho(m, s);
-            let sign = if m == 0 { 1.0 } else { -1.0 };
-            pair.teeth(m).arc(rho.abs()) * rho.signum() + sign * x
-        };
-        // Offset of the frame's cells: at the corner when the path of contact has not begun or has ended.
-        let origin = |s: f64| {
-            if s < pair.start {
-                arc(1, s, 0.0) - tip[1]
-            } else if s > pair.end {
-                tip[0] - arc(0, s, 0.0)
-            } else {
-                0.0
-            }
-        };
-        let gap = |s: f64, x: f64| {
-            let side = |m: usize| {
-                let t = pair.teeth(m);
-                let rho0 = pair.rho(m, s);
-                let rho = t.rho_of_arc(arc(m, s, x));
-                let phi = (rho - rho0) / t.rb;
-                rho0 + t.rb * phi.sin() - rho * phi.cos()
-            };
-            side(0) + side(1)
-        };
-        let rate = 1.0 / pair.pinion.rb + 1.0 / pair.gear.rb;
         let mut positions = Vec::new();
         let mut deposits = Vec::new();
-        for i in 0..positions_per_pitch {
-            let theta = (i as f64 + 0.5) / positions_per_pitch as f64;
-            let mut slots = Vec::new();
-            let mut cells = Vec::new();
-            let mut weights = Vec::new();
-            let mut spots = Vec::new(); // (slot's tooth, x index, compliance weights)
+        for i in 0..count {
+            let theta = (i as f64 + 0.5) / count as f64;
+            let (mut slots, mut cells) = (Vec::new(), Vec::new());
+            let (mut weights, mut spots) = (Vec::new(), Vec::new());
             for j in PLACES {
                 let s = (theta + j as f64) * pair.pb;
-                if s < pair.start - extension || s > pair.end + extension {
-                    continue;
-                }
-                if gap(s, origin(s)) > 4.0 * give {
+                let beyond = s < pair.start - frame.extension || s > pair.end + frame.extension;
+                if beyond || frame.gap(s, frame.origin(s)) > 4.0 * give {
                     continue;
                 }
                 let from = cells.len();
                 for c in -reach..reach {
                     let offset = (c as f64 + 0.5) * dx;
-                    let x = origin(s) + offset;
-                    let arcs = [arc(0, s, x), arc(1, s, x)];
-                    if (0..2).any(|m| arcs[m] > tip[m] + 1e-9 || arcs[m] <= stations[m].low) {
+                    let x = frame.origin(s) + offset;
+                    let arcs = [0, 1].map(|m| frame.arc(m, s, x));
+                    if (0..2).any(|m| arcs[m] > frame.tip[m] + 1e-9 || arcs[m] <= stations[m].low) {
                         continue;
                     }
-                    let mut first = [0u32; 2];
-                    let mut range = [(0u32, 0u32); 2];
-                    for m in 0..2 {
-                        let st = &stations[m];
-                        let mut touched = Vec::new();
-                        for q in 0..8 {
-                            let tau = (q as f64 - 3.5) / 4.0;
-                            let sq = s + tau * stride;
-                            let time = (1.0 - tau.abs()) / 4.0;
-                            for sub in [-1.0, 0.0, 1.0] {
-                                let at = arc(m, sq, origin(sq) + offset + sub * dx / 3.0);
-                                let (k, f) = st.place(at);
-                                let amount = time * sq.abs() * rate * stride * dx / 3.0;
-                                touched.push((k as usize, amount * (1.0 - f64::from(f))));
-                                touched.push((k as usize + 1, amount * f64::from(f)));
-                            }
-                        }
-                        let low = touched.iter().map(|t| t.0).min().unwrap_or(0);
-                        let low = low.min(st.count - SPAN);
-                        let mut w = [0f32; SPAN];
-                        for (k, a) in touched {
-                            // What would reach beyond the span stays on its last station.
-                            let k = k.min(low + SPAN - 1);
-                            w[k - low] += (a / st.width(k)) as f32;
-                        }
-                        first[m] = low as u32;
-                        weights.push(w);
-                        let a = arc(m, s - 0.5 * stride, origin(s - 0.5 * stride) + offset);
-                        let b = arc(m, s + 0.5 * stride, origin(s + 0.5 * stride) + offset);
-                        let (a, b) = (a.min(b) - 0.5 * dx, a.max(b) + 0.5 * dx);
-                        range[m] = (
-                            (((a - st.low) / st.step).ceil().max(0.0)) as u32,
-                            (((b - st.low) / st.step).floor().max(0.0) as u32)
-                                .min(st.count as u32 - 1),
-                        );
-                    }
+                    let both = [0, 1].map(|m| frame.deposit(m, &stations[m], s, offset));
+                    weights.extend(both.map(|b| b.1));
                     cells.push(Cell {
-                        gap: gap(s, x),
-                        station: [stations[0].place(arcs[0]), stations[1].place(arcs[1])],
-                        first,
-                        range,
+                        gap: frame.gap(s, x),
+                        station: [0, 1].map(|m| stations[m].place(arcs[m])),
+                        first: both.map(|b| b.0),
+                        range: [0, 1].map(|m| frame.range(m, &stations[m], s, offset)),
                     });
                     spots.push((j, c, [0, 1].map(|m| soft[m].weights(arcs[m]))));
                 }
@@ -255,57 +354,25 @@ impl Passage {
                     });
                 }
             }
-            let n = cells.len();
-            let plane: Vec<f64> = (0..2 * reach + 2)
-                .map(|d| {
-                    let f = |v: f64| if v == 0.0 { 0.0 } else { v * v.abs().ln() - v };
-                    let d = d as f64;
-                    2.0 * PLANE * (f((d + 0.5) * dx) - f((d - 0.5) * dx)) / youngs
-                })
-                .collect();
-            let mut flexibility = vec![0.0; n * n];
-            let mut shear = vec![0.0; if friction { n * n } else { 0 }];
-            for a in 0..n {
-                for b in 0..=a {
-                    let (ja, ca, wa) = &spots[a];
-                    let (jb, cb, wb) = &spots[b];
-                    // Displacement at a's tooth under b's load; ahead is +1 on the pinion, -1 on the gear.
-                    let t = (ja - jb) as isize;
-                    let mut v = soft[0].at(t, &wa[0], &wb[0]) + soft[1].at(-t, &wa[1], &wb[1]);
-                    v *= dx / youngs;
-                    if t == 0 {
-                        v += plane[(ca - cb).unsigned_abs() as usize];
-                    }
-                    flexibility[a * n + b] = v;
-                    flexibility[b * n + a] = v;
-                }
-            }
-            if friction {
-                for a in 0..n {
-                    for b in 0..n {
-                        let ((ja, _, wa), (jb, _, wb)) = (&spots[a], &spots[b]);
-                        let t = (ja - jb) as isize;
-                        let both =
-                            soft[0].aside(t, &wa[0], &wb[0]) + soft[1].aside(-t, &wa[1], &wb[1]);
-                        shear[a * n + b] = both * dx / youngs;
-                    }
-                }
-            }
             positions.push(Position {
                 slots,
                 cells,
-                flexibility,
-                shear,
+                flexibility: coupling.flexibility(&spots),
+                shear: if friction {
+                    coupling.shear(&spots)
+                } else {
+                    Vec::new()
+                },
             });
             deposits.push(weights);
         }
         Self {
-            pair,
             cell: dx,
             stations,
             positions,
             deposits,
             e_star,
+            pair,
         }
     }
 

@@ -20,7 +20,7 @@ pub(super) fn draw(name: &str, form: &str, c: &Context, d: &mut Dice) -> Option<
             ]
         }
         ("dynamic_load", "mean_and_ripple") => {
-            terms.limit = 1.2;
+            terms.limit = 0.5;
             terms.drivers = &["position", "speed"];
             vec![
                 ("mean_rise", d.log_uniform(0.1, 0.5)),

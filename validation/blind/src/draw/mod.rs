@@ -2,9 +2,12 @@
 
 mod added_depth;
 mod forces;
+mod in_time;
 mod mesh;
 mod outside;
-mod wear_rate;
+mod pressure;
+mod rubbing;
+mod surface;
 
 use std::f64::consts::PI;
 
@@ -142,7 +145,10 @@ impl Default for Terms {
 
 pub fn draw(name: &'static str, form: &'static str, c: &Context, d: &mut Dice) -> Law {
     let files = [
-        wear_rate::draw,
+        in_time::draw,
+        pressure::draw,
+        rubbing::draw,
+        surface::draw,
         added_depth::draw,
         mesh::draw,
         outside::draw,
