@@ -108,6 +108,9 @@ pub fn judge(name: &str, truth: &Value, found: &Value) -> Outcome {
         }
         match class.as_str() {
             "mixed" if raw.iter().flatten().any(|s| of(s) == known) => "group",
+            "none" | "outside" | "mixed" => "wrong",
+            // Something unknown beside one of a group that holds the truth, where nothing else acts.
+            _ if raw.iter().flatten().any(|s| of(s) == want) => "half",
             _ => "wrong",
         }
     };
@@ -539,6 +542,10 @@ mod tests {
             one(&t, &found("nothing_missing", Value::Null, json!([]))),
             "nothing"
         );
+        let beside = json!([["a+unknown", "c+unknown"]]);
+        assert_eq!(one(&t, &found("partial", Value::Null, beside)), "half");
+        let beside = json!([["b+unknown", "c+unknown"]]);
+        assert_eq!(one(&t, &found("partial", Value::Null, beside)), "wrong");
         let t = truth("pair", &["b", "a"]);
         assert_eq!(
             one(&t, &found("effects", json!(["a", "b"]), json!([]))),
