@@ -43,7 +43,7 @@ pub struct Workshop {
 const STEP_TOLERANCE: f64 = 4e-3;
 
 /// How much finer each refinement is: steps are of second order.
-pub(super) const REFINEMENT: f64 = 0.25;
+const REFINEMENT: f64 = 0.25;
 
 /// No refinement goes below this tolerance; measurements are made up with it.
 const FINEST_TOLERANCE: f64 = 2.5e-4;

@@ -234,7 +234,6 @@ impl Problem<'_> {
             log_posterior: -found.objective - constant,
             log_evidence: posterior.log_integral - constant,
             converged,
-            promised: found.promised,
             iterations: found.iterations,
             evaluations: evaluator.evaluations(),
         })

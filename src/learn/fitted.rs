@@ -31,8 +31,6 @@ pub struct Fit {
     pub log_evidence: f64,
     /// Whether a further step would gain nothing.
     pub converged: bool,
-    /// Gain of ln posterior that its derivatives promised where the search for it began.
-    pub promised: f64,
     /// Steps.
     pub iterations: usize,
     /// Predictions of single tests.

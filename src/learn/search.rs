@@ -108,8 +108,6 @@ pub(super) struct Found {
     /// Derivatives of the rows with respect to (θ, ln k_t), without whitening.
     pub(super) jacobian: DMatrix<f64>,
     pub(super) objective: f64,
-    /// Gain of ln posterior that the derivatives promised where the search began.
-    pub(super) promised: f64,
     pub(super) iterations: usize,
     pub(super) converged: bool,
 }
@@ -184,7 +182,6 @@ impl Search<'_> {
         let mut taken_at = state.clone();
         let mut damping = 1e-3;
         let (mut iterations, mut rounds) = (0, 0);
-        let mut promised_first = None;
         let (converged, scatter, normal) = loop {
             let model = self.selection.joined(&values);
             let covariance = &self.selection.covariance;
@@ -193,7 +190,6 @@ impl Search<'_> {
             let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
             let fresh = taken_at == state;
             let promised = quadratic.step(0.0).decrease;
-            promised_first.get_or_insert(promised);
             let beyond = 0.5 * (normal.square - self.selection.len() as f64).max(0.0);
             let tolerance = effort.tolerance + effort.share * beyond;
             let floor = effort.floor + effort.share * beyond;
@@ -260,7 +256,6 @@ impl Search<'_> {
         };
         Ok(Found {
             objective: self.layout.objective(normal.square, &state, scatter),
-            promised: promised_first.unwrap_or_default(),
             model: self.selection.joined(&values),
             state,
             scatter,

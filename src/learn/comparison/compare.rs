@@ -7,7 +7,7 @@
 use super::record::Comparison;
 use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
-use crate::learn::bench::{Bench, REFINEMENT};
+use crate::learn::bench::Bench;
 use crate::learn::fit::FitError;
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
@@ -243,7 +243,7 @@ impl Measured<'_> {
         })
     }
 
-    /// The fit with wear steps as fine as the measurements call for: ever finer, until still finer ones would not move it any more.
+    /// The fit with wear steps as fine as the measurements call for: ever finer, until they would not move it any more.
     fn refined(
         &self,
         bench: &Bench<'_>,
@@ -259,9 +259,7 @@ impl Measured<'_> {
             let Ok(next) = self.go_on(&bench, version, noise, &fit, effort, watch) else {
                 break;
             };
-            // errors of the steps fall in proportion to the tolerance, what they promise with its square
-            let left = REFINEMENT.powi(2) * next.promised;
-            let at_rest = next.iterations == 0 || next.converged && left <= effort.tolerance;
+            let at_rest = next.iterations == 0;
             fit = Fit {
                 iterations: fit.iterations + next.iterations,
                 evaluations: fit.evaluations + next.evaluations,
