@@ -53,12 +53,17 @@ pub fn fingerprint(parts: &[&[u8]]) -> Fingerprint {
     hash.finalize().into()
 }
 
+/// A checkpoint's body behind what says of which run and how whole it is.
+pub fn seal(body: &[u8], run: &Fingerprint) -> Vec<u8> {
+    let sum: [u8; 32] = Sha256::digest(body).into();
+    [&FORMAT[..], run, &sum, body].concat()
+}
+
 impl Checkpoint {
     /// The checkpoint as bytes: format, fingerprint, checksum of the body, body.
     pub fn to_bytes(&self, run: &Fingerprint) -> Vec<u8> {
         let body = postcard::to_stdvec(self).expect("plain numbers always serialise to memory");
-        let sum: [u8; 32] = Sha256::digest(&body).into();
-        [&FORMAT[..], run, &sum, &body].concat()
+        seal(&body, run)
     }
 
     /// Reads a checkpoint of the run with this fingerprint.
