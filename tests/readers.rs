@@ -32,7 +32,8 @@ enum Edit {
 
 /// Texts that readers have reason to trip over.
 const AWKWARD: [&str; 18] = [
-    "\n", "\r", "\"", "'", ",", ";", "\t", "=", "[", "]", "#", "\0", "\u{feff}", "é", "NaN", "inf", "-", "1e400",
+    "\n", "\r", "\"", "'", ",", ";", "\t", "=", "[", "]", "#", "\0", "\u{feff}", "é", "NaN", "inf",
+    "-", "1e400",
 ];
 
 fn edit() -> impl Strategy<Value = Edit> {
@@ -72,7 +73,10 @@ fn edited(mut bytes: Vec<u8>, edits: &[Edit]) -> Vec<u8> {
             Edit::Number(at, number) => {
                 // over the digits that stand there
                 let start = place(at);
-                let digits = bytes[start..].iter().take_while(|b| b.is_ascii_digit()).count();
+                let digits = bytes[start..]
+                    .iter()
+                    .take_while(|b| b.is_ascii_digit())
+                    .count();
                 bytes.splice(start..start + digits, number.to_string().into_bytes());
             }
         }
@@ -91,7 +95,10 @@ fn files(kind: &str, reader: &str) -> Vec<Vec<u8>> {
     };
     let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.sort();
-    paths.into_iter().map(|path| fs::read(path).unwrap()).collect()
+    paths
+        .into_iter()
+        .map(|path| fs::read(path).unwrap())
+        .collect()
 }
 
 fn read_soon(read: fn(&[u8]), bytes: &[u8]) {

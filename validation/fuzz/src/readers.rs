@@ -32,12 +32,12 @@ const READERS: [Reader; 10] = [
 ];
 
 /// The names of all readers.
-pub fn names() -> Vec<&'static str> {
+pub(crate) fn names() -> Vec<&'static str> {
     READERS.iter().map(|(name, _)| *name).collect()
 }
 
 /// The reader with that name.
-pub fn find(name: &str) -> Option<fn(&[u8])> {
+pub(crate) fn find(name: &str) -> Option<fn(&[u8])> {
     READERS
         .iter()
         .find(|(known, _)| *known == name)
@@ -157,7 +157,9 @@ fn in_folder(name: &str, data: &[u8], read: impl FnOnce(&PathBuf)) {
     }
     FOLDER.with_borrow_mut(|folder| {
         let folder = folder.get_or_insert_with(|| {
-            TempDir::new_in("/dev/shm").or_else(|_| TempDir::new()).expect("a folder for files")
+            TempDir::new_in("/dev/shm")
+                .or_else(|_| TempDir::new())
+                .expect("a folder for files")
         });
         let path = folder.path().join(name);
         std::fs::write(&path, data).expect("room for a file");
