@@ -80,7 +80,7 @@ pub(super) fn draw(name: &str, form: &str, c: &Context, d: &mut Dice) -> Option<
                 ("reference_power", c.torque * c.speed),
             ]
         }
-        ("dynamic_load", _) => {
+        ("dynamic_load", "harmonic" | "two_harmonics") => {
             terms.limit = 0.7;
             terms.drivers = &["position", "speed"];
             let mut v = vec![

@@ -143,19 +143,22 @@ impl Default for Terms {
     }
 }
 
+type Draw = fn(&str, &str, &Context, &mut Dice) -> Option<Terms>;
+
+const FILES: [Draw; 9] = [
+    in_time::draw,
+    pressure::draw,
+    rubbing::draw,
+    surface::draw,
+    added_depth::draw,
+    mesh::draw,
+    outside::draw,
+    forces::draw,
+    uneven_flanks,
+];
+
 pub fn draw(name: &'static str, form: &'static str, c: &Context, d: &mut Dice) -> Law {
-    let files = [
-        in_time::draw,
-        pressure::draw,
-        rubbing::draw,
-        surface::draw,
-        added_depth::draw,
-        mesh::draw,
-        outside::draw,
-        forces::draw,
-        uneven_flanks,
-    ];
-    let terms = files.iter().find_map(|draw| draw(name, form, c, d));
+    let terms = FILES.iter().find_map(|draw| draw(name, form, c, d));
     let Some(terms) = terms else {
         unreachable!("no law {name} {form}")
     };
@@ -229,4 +232,40 @@ fn uneven_flanks(name: &str, form: &str, c: &Context, d: &mut Dice) -> Option<Te
 fn sliding(c: &Context, s: f64) -> f64 {
     let w = c.speed * PI / 30.0;
     w * (1.0 + c.pair.pinion.z as f64 / c.pair.gear.z as f64) * s.abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::involute::Tooth;
+
+    /// Every form of every cause is drawn in one place.
+    #[test]
+    fn each_form_is_drawn_once() {
+        let (p, g) = (
+            Tooth::new(2.0, 27, 0.0, 12.5),
+            Tooth::new(2.0, 53, 0.0, 20.0),
+        );
+        let c = Context {
+            pair: Mating::new(&p, &g, 80.0),
+            module: 2.0,
+            torque: 100.0,
+            speed: 2000.0,
+            cycles: 1e6,
+            depth: 10.0,
+            p0: 900.0,
+            film: 0.5,
+            flash: 10.0,
+            worn: 0.1,
+            uneven: Uneven {
+                side: 1.0,
+                member: 0,
+            },
+        };
+        let known = KNOWN.iter().copied().flatten().copied();
+        for (name, form) in known.chain(OUTSIDE.iter().map(|&n| (n, "own"))) {
+            let drawn = |f: &&Draw| f(name, form, &c, &mut Dice::new(1)).is_some();
+            assert_eq!(FILES.iter().filter(drawn).count(), 1, "{name}:{form}");
+        }
+    }
 }
