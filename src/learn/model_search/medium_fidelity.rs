@@ -176,7 +176,8 @@ impl Context<'_> {
 }
 
 /// Which candidates are the best form of an effect that the leader is mistaken for, were not fitted by what the leader was, and gain more over
-/// the base model's log evidence `before` than `least` and than this `share` of what the leader gains.
+/// the base model's log evidence `before` than `least` and than this `share` of what the leader gains. Screening does not settle what changes how the
+/// teeth touch, whatever it gains there: the analytic model knows of friction only the torque, not the teeth that it bends.
 pub(super) fn look_alikes_left(
     fitted: &[FittedCandidate],
     before: f64,
@@ -193,9 +194,11 @@ pub(super) fn look_alikes_left(
     let left = |judged: &FittedCandidate| {
         let Some(leader) = leader else { return false };
         let own = &judged.candidate.effects;
+        let unsettled =
+            judged.fidelity == Fidelity::Screening && judged.candidate.changes_contact();
         judged.candidate.is_look_alike_of(&leader.candidate)
             && judged.fidelity != leader.fidelity
-            && judged.log_evidence > bar
+            && (unsettled || judged.log_evidence > bar)
             && best(&|other| other.candidate.effects == *own)
                 .is_some_and(|best| std::ptr::eq(best, judged))
     };
