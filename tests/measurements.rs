@@ -388,10 +388,7 @@ fn spans_go_over_so_many_teeth_that_the_anvils_touch_flanks() {
     for teeth in ["1", "5.5", "", &beyond.to_string()] {
         let error = parse(&row(teeth)).unwrap_err().to_string();
         let first = gear[0].to_string();
-        assert!(
-            error.contains("position") && error.contains(&format!("flanks: {first}")),
-            "{error}"
-        );
+        assert!(error.contains(&format!("flanks: {first}")), "{error}");
     }
     let pair = GOOD.to_owned() + "A,pair,250000,span_loss,6,2.1,1.0,\n";
     assert!(
