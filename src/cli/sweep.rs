@@ -8,6 +8,7 @@ mod kept;
 mod parts;
 mod picture;
 mod points;
+mod sensitivity;
 mod tables;
 
 use std::num::NonZeroUsize;
@@ -23,15 +24,17 @@ use super::{CliError, Context, Outcome};
 use crate::report::{Staging, atomic};
 use crate::study::Study;
 use design::{Design, Filling};
+use figures::{Output, Outputs};
 use grid::Axis;
 use kept::Kept;
 use parts::Shard;
 use points::{Point, Result};
+use sensitivity::Sensitivity;
 
 /// Arguments of `sweep`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Values are a list, 0,0.5,1, or a range with its number of points, 50..200:4 (50..200:4:log for equal ratios).\nSeveral --vary give every combination; with --design lhs:N or sobol:N they give ranges, 50..200 or 1e-10..1e-9:log, and N points fill them.\nA swept key may be any of the study's tables, or an effect's parameter\n(running_in.amplitude). Keys that shape the teeth (tip_relief_amount, profile_shift)\nor their material mesh both gears anew at every value; effects such as tip_relief do not.\nAn interrupted sweep goes on with --resume; points that are done are not computed again,\nalso when values were added.\nParts: the same arguments with --shard, or --emit and --point, on any number of machines; each point is a file in the part's folder, and a part\nthat is started again goes on. --merge makes the sweep of them, to the byte as one machine makes it; exit code 3 if points are missing.\n\nExamples:\n  gearwear sweep study.toml --vary operation.misalignment=0,0.25,0.5,1 --vary operation.torque=50..200:4\n  gearwear sweep study.toml --vary gears.pinion.profile_shift=-0.2..0.4:7 --resume\n  gearwear sweep study.toml --vary model.contact=fem,hertz --json\n  gearwear sweep study.toml --design sobol:256 --vary operation.torque=50..200 --vary wear.coefficient=1e-10..1e-9:log\n  gearwear sweep study.toml --points points.csv --shard 3/7 -o parts\n  gearwear sweep study.toml --points points.csv --merge parts -o whole"
+    after_help = "Values are a list, 0,0.5,1, or a range with its number of points, 50..200:4 (50..200:4:log for equal ratios).\nSeveral --vary give every combination; with --design lhs:N or sobol:N they give ranges, 50..200 or 1e-10..1e-9:log, and N points fill them.\n--design saltelli:N takes N rows of keys + 2 points and tells the share of each output's variance that each key causes, alone and with its interactions.\nA swept key may be any of the study's tables, or an effect's parameter\n(running_in.amplitude). Keys that shape the teeth (tip_relief_amount, profile_shift)\nor their material mesh both gears anew at every value; effects such as tip_relief do not.\nAn interrupted sweep goes on with --resume; points that are done are not computed again,\nalso when values were added.\nParts: the same arguments with --shard, or --emit and --point, on any number of machines; each point is a file in the part's folder, and a part\nthat is started again goes on. --merge makes the sweep of them, to the byte as one machine makes it; exit code 3 if points are missing.\n\nExamples:\n  gearwear sweep study.toml --vary operation.misalignment=0,0.25,0.5,1 --vary operation.torque=50..200:4\n  gearwear sweep study.toml --vary gears.pinion.profile_shift=-0.2..0.4:7 --resume\n  gearwear sweep study.toml --vary model.contact=fem,hertz --json\n  gearwear sweep study.toml --design sobol:256 --vary operation.torque=50..200 --vary wear.coefficient=1e-10..1e-9:log\n  gearwear sweep study.toml --design saltelli:128 --vary operation.torque=50..200 --vary operation.speed=500..3000 --outputs max_depth_gear_um,wear_profile_gear\n  gearwear sweep study.toml --points points.csv --shard 3/7 -o parts\n  gearwear sweep study.toml --points points.csv --merge parts -o whole"
 )]
 pub struct SweepArgs {
     #[command(flatten)]
@@ -39,12 +42,15 @@ pub struct SweepArgs {
     /// A key and its values; may be given several times
     #[arg(long, value_name = "KEY=VALUES", required_unless_present = "points", value_parser = grid::axis)]
     vary: Vec<Axis>,
-    /// Fill the ranges of --vary by N points: Latin hypercube or scrambled Sobol sequence
-    #[arg(long, value_name = "lhs:N|sobol:N", value_parser = design::filling, conflicts_with = "points")]
+    /// Fill the ranges of --vary by N points: Latin hypercube or scrambled Sobol sequence; or by N rows of keys + 2 points for Sobol's indices of sensitivity
+    #[arg(long, value_name = "lhs:N|sobol:N|saltelli:N", value_parser = design::filling, conflicts_with = "points")]
     design: Option<Filling>,
     /// Seed of --design; the same seed gives the same points
     #[arg(long, value_name = "N", default_value_t = 1, requires = "design")]
     seed: u64,
+    /// What to keep of each run, by name; wear_profile_pinion and wear_profile_gear are the depth along the whole flank [default: eight figures]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', value_parser = figures::output)]
+    outputs: Vec<Output>,
     /// The points of a table (CSV): keys in its first line, a point in every other
     #[arg(long, value_name = "CSV", conflicts_with = "vary")]
     points: Option<PathBuf>,
@@ -80,10 +86,11 @@ pub(super) fn execute(
     let study = Study::load(file)?;
     let design = match (&args.points, args.design) {
         (Some(table), _) => Design::table(table)?,
-        (None, Some(filling)) => Design::filled(&args.vary, filling, args.seed),
+        (None, Some(filling)) => Design::filled(&args.vary, filling, args.seed)?,
         (None, None) => Design::grid(&args.vary)?,
     };
-    let points = points::prepare(&study, &design)?;
+    let outputs = Outputs::of(&args.outputs);
+    let points = points::prepare(&study, &design, &outputs)?;
     if let Some(emit) = &args.emit {
         return emitted(emit, &points, args.per_line);
     }
@@ -93,18 +100,18 @@ pub(super) fn execute(
     };
     if let Some(shard) = args.shard {
         let mine = |point| shard.holds(point);
-        return part(&output(PARTS), &points, &mine, context);
+        return part(&output(PARTS), &points, &outputs, &mine, context);
     }
     if let Some(line) = &args.point {
         let named = parts::named(line, &points)?;
         let mine = |point| named.contains(&point);
-        return part(&output(PARTS), &points, &mine, context);
+        return part(&output(PARTS), &points, &outputs, &mine, context);
     }
     let target = output("sweep");
     folder::check(&target, file, &study)?;
     if !args.merge.is_empty() {
         let (results, others) = parts::merged(&design, &points, &args.merge)?;
-        let mut outcome = whole(&study, &design, &points, &results, &target, 0)?;
+        let mut outcome = whole(&study, &design, &outputs, &points, &results, &target, 0)?;
         if others > 0 {
             outcome.text +=
                 &format!("{others} files of the parts belong to no point of this sweep\n");
@@ -113,12 +120,14 @@ pub(super) fn execute(
     }
     let kept = Kept::open(&target, args.resume)?;
     let progress = context.progress("sweep");
-    let (results, reused) = compute::compute(&points, &|_| true, &kept, &progress)?;
+    let (results, reused) = compute::compute(&points, &outputs, &|_| true, &kept, &progress)?;
     let results: Vec<Result> = (results.into_iter())
         .map(|result| result.unwrap_or_else(|| Err("not computed".to_owned())))
         .collect();
     drop(progress);
-    let outcome = whole(&study, &design, &points, &results, &target, reused)?;
+    let outcome = whole(
+        &study, &design, &outputs, &points, &results, &target, reused,
+    )?;
     kept.discard();
     Ok(outcome)
 }
@@ -146,12 +155,13 @@ fn emitted(
 fn part(
     folder: &Path,
     points: &[Point],
+    outputs: &Outputs,
     mine: &dyn Fn(usize) -> bool,
     context: &Context,
 ) -> std::result::Result<Outcome, CliError> {
     let kept = Kept::part(folder)?;
     let progress = context.progress("sweep");
-    let (results, reused) = compute::compute(points, mine, &kept, &progress)?;
+    let (results, reused) = compute::compute(points, outputs, mine, &kept, &progress)?;
     drop(progress);
     let own = || {
         results
@@ -182,6 +192,7 @@ fn part(
 fn whole(
     study: &Study,
     design: &Design,
+    outputs: &Outputs,
     points: &[Point],
     results: &[Result],
     target: &Path,
@@ -189,18 +200,41 @@ fn whole(
 ) -> std::result::Result<Outcome, CliError> {
     let impossible = points.iter().filter(|point| !point.is_possible()).count();
     let failures = results.iter().filter(|result| result.is_err()).count() - impossible;
-    let document = tables::document(&study.title, design, points, results);
+    let mut document = tables::document(&study.title, design, points, results);
+    let sensitivity = Sensitivity::of(design, outputs, results);
+    if let Some(sensitivity) = &sensitivity {
+        document["sensitivity"] = sensitivity.document();
+    }
     let mut staging = Staging::begin(target)?;
-    staging.write("sweep.csv", tables::csv(design, points, results).as_bytes())?;
+    let mut written = vec!["sweep.csv", "sweep.json"];
+    let table = tables::csv(design, outputs, points, results);
+    staging.write("sweep.csv", table.as_bytes())?;
     staging.write(
         "sweep.json",
         &crate::report::json::text("sweep.json", &document)?,
     )?;
-    if let Some(svg) = picture::picture(&study.title, design, points, results)? {
+    if let Some(svg) = picture::picture(&study.title, design, outputs, points, results)? {
         staging.write("sweep.svg", svg.as_bytes())?;
+        written.push("sweep.svg");
+    }
+    if !outputs.profiles.is_empty() {
+        let table = tables::profiles(&outputs.profiles, results);
+        staging.write("wear_profiles.csv", table.as_bytes())?;
+        written.push("wear_profiles.csv");
+    }
+    if let Some(sensitivity) = &sensitivity {
+        staging.write("sensitivity.csv", sensitivity.csv().as_bytes())?;
+        written.push("sensitivity.csv");
+        if let Some(svg) = sensitivity.picture(&study.title, outputs)? {
+            staging.write("sensitivity.svg", svg.as_bytes())?;
+            written.push("sensitivity.svg");
+        }
     }
     let folder = staging.commit()?;
-    let mut text = tables::table(design, points, results);
+    let mut text = tables::table(design, outputs, points, results);
+    if let Some(sensitivity) = &sensitivity {
+        text += &sensitivity.text();
+    }
     if reused > 0 {
         text += &format!("{reused} of {} points were done already\n", points.len());
     }
@@ -214,8 +248,9 @@ fn whole(
         text += &format!("{failures} of {} points failed\n", points.len());
     }
     text += &format!(
-        "Written to {}\n  sweep.csv, sweep.json, sweep.svg\n",
-        folder.display()
+        "Written to {}\n  {}\n",
+        folder.display(),
+        written.join(", ")
     );
     Ok(Outcome {
         json: document,

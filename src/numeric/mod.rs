@@ -8,6 +8,7 @@ pub mod patchy;
 pub mod positive_definite;
 pub mod quadrature;
 pub mod smooth_functions;
+pub mod sobol_indices;
 pub mod sparse;
 
 /// A point or vector in the plane, mm unless said otherwise.

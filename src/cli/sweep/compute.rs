@@ -8,7 +8,7 @@ use std::fs;
 
 use rayon::prelude::*;
 
-use super::figures::Figures;
+use super::figures::{Figures, Outputs};
 use super::kept::Kept;
 use super::points::{Point, Result, load};
 use super::{CliError, Progress};
@@ -25,6 +25,7 @@ use crate::study::{self, Study};
 /// [`CliError`] if a finished point cannot be kept or a mesh of the user's not be read. A point that fails is no error.
 pub(super) fn compute(
     points: &[Point],
+    outputs: &Outputs,
     mine: &dyn Fn(usize) -> bool,
     kept: &Kept,
     progress: &Progress,
@@ -82,7 +83,8 @@ pub(super) fn compute(
                 .map(|&i| {
                     let study = points[i].study.as_ref();
                     let result = study.map_err(Clone::clone);
-                    let result = result.and_then(|study| one(study, &set, members.as_ref()));
+                    let result =
+                        result.and_then(|study| one(study, &set, members.as_ref(), outputs));
                     (i, result)
                 })
                 .collect();
@@ -136,7 +138,7 @@ fn members(
 }
 
 /// One point's run.
-fn one(study: &Study, set: &GearSet, members: Option<&Members>) -> Result {
+fn one(study: &Study, set: &GearSet, members: Option<&Members>, outputs: &Outputs) -> Result {
     let acting = study.acting(&study.operation);
     let plan = Plan {
         title: &study.title,
@@ -161,7 +163,7 @@ fn one(study: &Study, set: &GearSet, members: Option<&Members>) -> Result {
         run(&plan, members, None, &mut Silent)
     };
     let text = |error: RunError| error.to_string();
-    result.map(|run| Figures::of(&run)).map_err(text)
+    result.map(|run| Figures::of(&run, outputs)).map_err(text)
 }
 
 /// Nobody watches a single point.

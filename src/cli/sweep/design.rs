@@ -10,6 +10,8 @@ use crate::numeric::latin_hypercube::latin_hypercube;
 const MOST: usize = 100_000;
 /// Most points of a Sobol sequence, the most that `sobol_burley` has.
 const MOST_SOBOL: usize = 1 << 16;
+/// Most keys of a Saltelli design: the sequence has 256 dimensions, and each key takes two.
+const MOST_KEYS: usize = 128;
 
 /// A design that fills ranges, with its number of points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,12 +20,17 @@ pub(super) enum Filling {
     Lhs(usize),
     /// Sobol's sequence, scrambled as Owen does.
     Sobol(usize),
+    /// Saltelli's design for Sobol's indices, with its number of rows: for each row of a Sobol sequence of twice the dimensions a point of
+    /// the first half (A), one of the second (B), and A with each dimension in turn from B.
+    Saltelli(usize),
 }
 
 impl Filling {
-    fn count(self) -> usize {
+    /// Points over so many keys.
+    fn count(self, keys: usize) -> usize {
         match self {
             Self::Lhs(count) | Self::Sobol(count) => count,
+            Self::Saltelli(rows) => rows * (keys + 2),
         }
     }
 
@@ -31,6 +38,7 @@ impl Filling {
         match self {
             Self::Lhs(_) => "lhs",
             Self::Sobol(_) => "sobol",
+            Self::Saltelli(_) => "saltelli",
         }
     }
 
@@ -38,33 +46,53 @@ impl Filling {
     fn points(self, dimensions: usize, seed: u64) -> Vec<Vec<f64>> {
         match self {
             Self::Lhs(count) => latin_hypercube(count, dimensions, seed),
-            Self::Sobol(count) => {
-                let mixed = (seed ^ (seed >> 32)) as u32;
-                let at =
-                    |i: usize, d: usize| f64::from(sobol_burley::sample(i as u32, d as u32, mixed));
-                (0..count)
-                    .map(|i| (0..dimensions).map(|d| at(i, d)).collect())
-                    .collect()
-            }
+            Self::Sobol(count) => sobol(count, dimensions, seed).collect(),
+            Self::Saltelli(rows) => sobol(rows, 2 * dimensions, seed)
+                .flat_map(|row| {
+                    let (a, b) = row.split_at(dimensions);
+                    let mixed = (0..dimensions).map(|d| {
+                        let mut point = a.to_vec();
+                        point[d] = b[d];
+                        point
+                    });
+                    [a.to_vec(), b.to_vec()]
+                        .into_iter()
+                        .chain(mixed)
+                        .collect::<Vec<_>>()
+                })
+                .collect(),
         }
     }
 }
 
-/// Reads `lhs:N` or `sobol:N`.
+/// The scrambled Sobol sequence in the unit cube.
+fn sobol(count: usize, dimensions: usize, seed: u64) -> impl Iterator<Item = Vec<f64>> {
+    let mixed = (seed ^ (seed >> 32)) as u32;
+    let at = move |i: usize, d: usize| f64::from(sobol_burley::sample(i as u32, d as u32, mixed));
+    (0..count).map(move |i| (0..dimensions).map(|d| at(i, d)).collect())
+}
+
+/// Reads `lhs:N`, `sobol:N` or `saltelli:N`.
 pub(super) fn filling(text: &str) -> Result<Filling, String> {
-    let wrong = || "write lhs:N or sobol:N with N points, from 2".to_owned();
+    let wrong = || {
+        "write lhs:N or sobol:N with N points, or saltelli:N with N rows of points, from 2"
+            .to_owned()
+    };
     let (name, count) = text.split_once(':').ok_or_else(wrong)?;
     let count: usize = count.trim().parse().map_err(|_| wrong())?;
     let most = match name {
         "lhs" => MOST,
-        "sobol" => MOST_SOBOL,
+        "sobol" | "saltelli" => MOST_SOBOL,
         _ => return Err(wrong()),
     };
     match count {
         0 | 1 => Err(wrong()),
         count if count > most => Err(format!("{name} has at most {most} points")),
-        count if name == "lhs" => Ok(Filling::Lhs(count)),
-        count => Ok(Filling::Sobol(count)),
+        count => Ok(match name {
+            "lhs" => Filling::Lhs(count),
+            "sobol" => Filling::Sobol(count),
+            _ => Filling::Saltelli(count),
+        }),
     }
 }
 
@@ -126,18 +154,29 @@ impl Design {
     }
 
     /// Points that fill the axes' ranges; the values of a list stand for equal parts of its axis.
-    pub(super) fn filled(axes: &[Axis], filling: Filling, seed: u64) -> Self {
+    ///
+    /// # Errors
+    /// [`CliError::Unusable`] for too many points or keys.
+    pub(super) fn filled(axes: &[Axis], filling: Filling, seed: u64) -> Result<Self, CliError> {
+        let count = filling.count(axes.len());
+        let keys = axes.len();
+        if count > MOST || (matches!(filling, Filling::Saltelli(_)) && keys > MOST_KEYS) {
+            return Err(CliError::Unusable(format!(
+                "--design {}: {count} points over {keys} keys; at most {MOST} points and, for saltelli, {MOST_KEYS} keys are possible",
+                filling.name()
+            )));
+        }
         let points = filling.points(axes.len(), seed);
         let row = |point: Vec<f64>| {
             let each = axes.iter().zip(point);
             each.map(|(axis, share)| axis.at(share)).collect()
         };
-        Self {
+        Ok(Self {
             keys: axes.iter().map(|axis| axis.key.clone()).collect(),
             rows: points.into_iter().map(row).collect(),
             said: "--vary",
             kind: Kind::Filling(filling, seed, axes.to_vec()),
-        }
+        })
     }
 
     /// The points of a table: keys in its first line, a point in every other.
@@ -202,8 +241,11 @@ impl Design {
                     }),
                     None => listed(axis),
                 };
-                let design =
-                    json!({"kind": filling.name(), "points": filling.count(), "seed": seed});
+                let mut design =
+                    json!({"kind": filling.name(), "points": self.rows.len(), "seed": seed});
+                if let Filling::Saltelli(rows) = filling {
+                    design["rows"] = json!(rows);
+                }
                 (axes.iter().map(told).collect(), Some(design))
             }
             Kind::Table => (
@@ -249,7 +291,8 @@ mod tests {
         let axes = ["a.b=50..200", "c.d=1e-10..1e-8:log", "e=fem,hertz"];
         let axes = axes.map(|text| grid::axis(text).unwrap());
         for filling in [Filling::Lhs(64), Filling::Sobol(64)] {
-            let design = Design::filled(&axes, filling, 3);
+            let filled = |seed| Design::filled(&axes, filling, seed).unwrap();
+            let design = filled(3);
             assert_eq!(design.rows.len(), 64);
             let number = |row: &[String], i: usize| row[i].parse::<f64>().unwrap();
             for quarter in 0..4 {
@@ -261,13 +304,32 @@ mod tests {
             assert_eq!(small.count(), 32);
             let fem = design.rows.iter().filter(|row| row[2] == "fem");
             assert_eq!(fem.count(), 32);
-            assert_eq!(Design::filled(&axes, filling, 3).rows, design.rows);
-            assert_ne!(Design::filled(&axes, filling, 4).rows, design.rows);
+            assert_eq!(filled(3).rows, design.rows);
+            assert_ne!(filled(4).rows, design.rows);
         }
         assert!(Design::grid(&axes).is_err());
         for wrong in ["lhs", "lhs:1", "lhs:x", "sobol:65537", "random:10"] {
             assert!(filling(wrong).is_err(), "{wrong}");
         }
         assert_eq!(filling("sobol:128"), Ok(Filling::Sobol(128)));
+    }
+
+    /// Rows of A, B and A with each key in turn from B; A and B are different points.
+    #[test]
+    fn saltellis_design_changes_one_key_at_a_time() {
+        let axes = ["a.b=0..1", "c.d=0..1", "e=0..1"].map(|text| grid::axis(text).unwrap());
+        let design = Design::filled(&axes, Filling::Saltelli(16), 3).unwrap();
+        assert_eq!(design.rows.len(), 16 * 5);
+        for row in design.rows.chunks(5) {
+            let (a, b) = (&row[0], &row[1]);
+            assert!((0..3).all(|key| a[key] != b[key]));
+            for (key, mixed) in row[2..].iter().enumerate() {
+                for i in 0..3 {
+                    assert_eq!(mixed[i], if i == key { &b[i] } else { &a[i] }.as_str());
+                }
+            }
+        }
+        assert_eq!(filling("saltelli:16"), Ok(Filling::Saltelli(16)));
+        assert!(Design::filled(&axes, Filling::Saltelli(60_000), 3).is_err());
     }
 }

@@ -1,16 +1,17 @@
 //! The picture of a sweep: curves over the first axis of a grid; of other designs the main effect of every key.
 
 use super::design::{Design, Kind};
+use super::figures::{Column, Outputs};
 use super::grid::{self, Axis};
 use super::points::{Point, Result};
 use super::tables::with_unit;
 use crate::report::OutputError;
 use crate::report::plots::sweep_picture;
 
-/// What the picture's four panels show.
-type Figures4 = [Option<f64>; 4];
+/// What the picture's panels show.
+type Shown = Vec<Option<f64>>;
 /// A curve with its label.
-type Curve = (String, Vec<(f64, Figures4)>);
+type Curve = (String, Vec<(f64, Shown)>);
 
 /// Parts of a key's range over which a main effect is averaged, at most.
 const PARTS: usize = 8;
@@ -24,41 +25,51 @@ const POINTS_A_PART: usize = 4;
 pub(super) fn picture(
     title: &str,
     design: &Design,
+    outputs: &Outputs,
     points: &[Point],
     results: &[Result],
 ) -> std::result::Result<Option<String>, OutputError> {
+    let columns = outputs.shown();
+    let panels: Vec<(&str, &str)> = columns.iter().map(|c| (c.title, c.unit)).collect();
     match &design.kind {
         Kind::Grid(axes) => {
-            let curves = over_first(axes, points, results);
-            sweep_picture(title, &with_unit(&axes[0].key), &curves)
+            let curves = over_first(axes, &columns, points, results);
+            sweep_picture(title, &with_unit(&axes[0].key), &panels, &curves)
         }
         Kind::Filling(..) | Kind::Table => {
             let curves: Vec<Curve> = (0..design.keys.len())
-                .map(|key| (design.keys[key].clone(), main_effect(design, key, results)))
+                .map(|key| {
+                    (
+                        design.keys[key].clone(),
+                        main_effect(design, key, &columns, results),
+                    )
+                })
                 .collect();
             let over = "place in the key's range; means over all other keys";
-            sweep_picture(title, over, &curves)
+            sweep_picture(title, over, &panels, &curves)
         }
     }
 }
 
-fn shown(result: &Result) -> Option<Figures4> {
+fn shown(result: &Result, columns: &[&Column]) -> Option<Shown> {
     let figures = result.as_ref().ok()?;
-    Some([
-        figures.peak_pressure,
-        figures.te_peak_to_peak_urad,
-        Some(figures.max_depth_pinion_um),
-        Some(figures.max_depth_gear_um),
-    ])
+    Some(columns.iter().map(|column| figures.value(column)).collect())
 }
 
 /// Means over equal parts of a key's range, whatever the others are.
-fn main_effect(design: &Design, key: usize, results: &[Result]) -> Vec<(f64, Figures4)> {
+fn main_effect(
+    design: &Design,
+    key: usize,
+    columns: &[&Column],
+    results: &[Result],
+) -> Vec<(f64, Shown)> {
     let places = design.places(key);
     let parts = (results.len() / POINTS_A_PART).clamp(1, PARTS);
-    let mut sums = vec![(0.0, [(0.0, 0.0); 4], 0.0); parts];
-    for (place, figures) in places.iter().zip(results.iter().map(shown)) {
-        let Some(figures) = figures else { continue };
+    let mut sums = vec![(0.0, vec![(0.0, 0.0); columns.len()], 0.0); parts];
+    for (place, result) in places.iter().zip(results) {
+        let Some(figures) = shown(result, columns) else {
+            continue;
+        };
         let part = ((place * parts as f64) as usize).min(parts - 1);
         let (at, values, count) = &mut sums[part];
         *at += place;
@@ -73,16 +84,23 @@ fn main_effect(design: &Design, key: usize, results: &[Result]) -> Vec<(f64, Fig
     filled
         .map(|(at, values, count)| {
             let mean = |(sum, count): (f64, f64)| (count > 0.0).then(|| sum / count);
-            (at / count, values.map(mean))
+            (at / count, values.into_iter().map(mean).collect())
         })
         .collect()
 }
 
 /// Curves over the first axis: for every combination of the others, the points that are numbers.
-fn over_first(axes: &[Axis], points: &[Point], results: &[Result]) -> Vec<Curve> {
+fn over_first(
+    axes: &[Axis],
+    columns: &[&Column],
+    points: &[Point],
+    results: &[Result],
+) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     for (point, result) in points.iter().zip(results) {
-        let Some(shown) = shown(result) else { continue };
+        let Some(shown) = shown(result, columns) else {
+            continue;
+        };
         let first = &point.values[0];
         let place = axes[0].values.iter().position(|value| value == first);
         let x = grid::leading_number(first)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 use super::design::Design;
-use super::figures::Figures;
+use super::figures::{Figures, Outputs};
 use super::{CliError, grid};
 use crate::simulate::checkpoint::fingerprint;
 use crate::source_text::Fault;
@@ -42,7 +42,11 @@ pub(super) type Result = std::result::Result<Figures, String>;
 ///
 /// # Errors
 /// [`CliError`] for a key that does not exist, for values that it never takes, and if no point makes a valid study.
-pub(super) fn prepare(study: &Study, design: &Design) -> std::result::Result<Vec<Point>, CliError> {
+pub(super) fn prepare(
+    study: &Study,
+    design: &Design,
+    outputs: &Outputs,
+) -> std::result::Result<Vec<Point>, CliError> {
     for (i, key) in design.keys.iter().enumerate() {
         check_key(study, key, design.said)?;
         if design.keys[..i].contains(key) {
@@ -70,13 +74,16 @@ pub(super) fn prepare(study: &Study, design: &Design) -> std::result::Result<Vec
         all.sort_unstable();
         all.dedup();
     }
+    let outputs = outputs.told_apart();
     for point in &mut points {
         let Ok(study) = &point.study else { continue };
-        let parts = [
+        let loads = loads[&point.bodies].join(",");
+        let mut parts = vec![
             study.text().as_bytes(),
             point.bodies.as_bytes(),
-            &loads[&point.bodies].join(",").into_bytes(),
+            loads.as_bytes(),
         ];
+        parts.extend(outputs.as_deref().map(str::as_bytes));
         let hash = fingerprint(&parts);
         point.key = hash[..16].iter().map(|b| format!("{b:02x}")).collect();
     }

@@ -3,10 +3,11 @@
 use serde_json::json;
 
 use super::design::Design;
-use super::figures::COLUMNS;
+use super::figures::Outputs;
 use super::grid;
 use super::points::{Point, Result};
 use crate::report::format::{plain, significant};
+use crate::simulate::result::Member;
 
 /// The document of a sweep.
 pub(super) fn document(
@@ -40,7 +41,12 @@ pub(super) fn document(
 }
 
 /// The table of a sweep, `sweep.csv`.
-pub(super) fn csv(design: &Design, points: &[Point], results: &[Result]) -> String {
+pub(super) fn csv(
+    design: &Design,
+    outputs: &Outputs,
+    points: &[Point],
+    results: &[Result],
+) -> String {
     let quoted = |text: &str| {
         if text.contains([',', '"', '\n']) {
             format!("\"{}\"", text.replace('"', "\"\"").replace('\n', " "))
@@ -50,13 +56,17 @@ pub(super) fn csv(design: &Design, points: &[Point], results: &[Result]) -> Stri
     };
     let reason = |text: &str| quoted(text.lines().next().unwrap_or_default());
     let heads = design.keys.iter().map(|key| quoted(key));
-    let figures = COLUMNS.iter().map(|column| column.name.to_owned());
+    let columns = &outputs.columns;
+    let figures = columns.iter().map(|column| column.name.to_owned());
     let head: Vec<String> = heads.chain(figures).chain(["error".to_owned()]).collect();
     let mut out = head.join(",") + "\n";
     for (point, result) in points.iter().zip(results) {
         let mut row: Vec<String> = point.values.iter().map(|value| quoted(value)).collect();
-        row.extend(COLUMNS.iter().map(|column| {
-            let value = result.as_ref().ok().and_then(column.of);
+        row.extend(columns.iter().map(|column| {
+            let value = result
+                .as_ref()
+                .ok()
+                .and_then(|figures| figures.value(column));
             value.map_or(String::new(), |value| value.to_string())
         }));
         row.push(result.as_ref().err().map_or(String::new(), |e| reason(e)));
@@ -65,37 +75,63 @@ pub(super) fn csv(design: &Design, points: &[Point], results: &[Result]) -> Stri
     out
 }
 
+/// The wear profiles of all points, `wear_profiles.csv`; points are numbered from 1 as in `sweep.csv`.
+pub(super) fn profiles(members: &[Member], results: &[Result]) -> String {
+    let mut out =
+        "# radius: mm, depth: um normal to the flank\npoint,member,radius,depth\n".to_owned();
+    for (number, figures) in results.iter().enumerate() {
+        let Ok(figures) = figures else { continue };
+        for &member in members {
+            let Some(profile) = figures.profile(member) else {
+                continue;
+            };
+            for (radius, depth) in profile.radius.iter().zip(&profile.depth) {
+                out += &format!("{},{},{radius},{depth}\n", number + 1, member.name());
+            }
+        }
+    }
+    out
+}
+
 /// Most points that a person reads.
 const MOST_SHOWN: usize = 200;
 
 /// The table as a person reads it.
-pub(super) fn table(design: &Design, points: &[Point], results: &[Result]) -> String {
+pub(super) fn table(
+    design: &Design,
+    outputs: &Outputs,
+    points: &[Point],
+    results: &[Result],
+) -> String {
+    let columns = &outputs.columns;
     let heads = design.keys.iter().map(|key| with_unit(key));
     let mut lines: Vec<Vec<String>> = vec![
         heads
-            .chain(COLUMNS.iter().map(|column| column.head.to_owned()))
+            .chain(columns.iter().map(|column| column.head.to_owned()))
             .collect(),
     ];
     for (point, result) in points.iter().zip(results).take(MOST_SHOWN) {
         let mut line: Vec<String> = point.values.iter().map(|value| readable(value)).collect();
         match result {
-            Ok(figures) => line.extend(COLUMNS.iter().map(|column| {
-                (column.of)(figures).map_or("-".to_owned(), |value| significant(value, 4))
+            Ok(figures) => line.extend(columns.iter().map(|column| {
+                figures
+                    .value(column)
+                    .map_or("-".to_owned(), |value| significant(value, 4))
             })),
             Err(error) => line.push(reason(error)),
         }
         lines.push(line);
     }
-    let columns = lines[0].len();
+    let cells = lines[0].len();
     let width = |column: usize| {
         // a failure's words may stand out of their column
-        let cells = lines
+        let whole = lines
             .iter()
-            .filter(|line| line.len() == columns || column < design.keys.len());
-        let widths = cells.filter_map(|line| line.get(column));
+            .filter(|line| line.len() == cells || column < design.keys.len());
+        let widths = whole.filter_map(|line| line.get(column));
         widths.map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
-    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let widths: Vec<usize> = (0..cells).map(width).collect();
     let more = points.len().saturating_sub(MOST_SHOWN);
     let rest = (more > 0).then(|| format!("  ... and {more} more points in sweep.csv\n"));
     lines

@@ -8,6 +8,7 @@ mod draw;
 mod ladder;
 mod models;
 mod run;
+mod sensitivity;
 mod sliding;
 mod style;
 mod sweep;
@@ -17,6 +18,7 @@ pub use ladder::of_ladder;
 pub use models::of_models;
 pub(in crate::report) use run::depths;
 pub use run::{contact_of_run, live_states, of_run, oil_and_heat_of_run, wear_of_run};
+pub use sensitivity::{IndexBar, IndexPanel, index_picture};
 pub(in crate::report) use style::Hue;
 pub use sweep::{SweepCurve, sweep_picture};
 

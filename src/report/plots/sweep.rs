@@ -1,33 +1,27 @@
-//! One picture of a sweep: four panels over the first varied key, a curve per combination of the others.
+//! One picture of a sweep: a panel for each output over the first varied key, a curve per combination of the others.
 use super::{Plot, Style};
 use crate::report::OutputError;
 use crate::report::html::escape;
 
-/// A curve: its label, and for each value of the first key peak pressure (MPa), transmission error (µrad) and the largest depth of
-/// pinion and gear (µm).
-pub type SweepCurve = (String, Vec<(f64, [Option<f64>; 4])>);
+/// A curve: its label, and for each value of the first key a figure for every panel.
+pub type SweepCurve = (String, Vec<(f64, Vec<Option<f64>>)>);
 
 /// Most curves in a picture.
 const MOST_CURVES: usize = 8;
 
-/// The picture as SVG; none if no panel has two points to draw.
+/// The picture as SVG, a panel for each title with its unit; none if no panel has two points to draw.
 ///
 /// # Errors
 /// [`OutputError`] if a panel cannot be drawn.
 pub fn sweep_picture(
     title: &str,
     key: &str,
+    labels: &[(&str, &str)],
     curves: &[SweepCurve],
 ) -> Result<Option<String>, OutputError> {
-    let labels = [
-        ("Peak pressure, unworn", "MPa"),
-        ("Transmission error, unworn, peak to peak", "µrad"),
-        ("Largest depth worn, pinion", "µm"),
-        ("Largest depth worn, gear", "µm"),
-    ];
     let mut panels = Vec::new();
     let mut legend = Plot::new("sweep", title, "", "");
-    for (i, (name, unit)) in labels.into_iter().enumerate() {
+    for (i, &(name, unit)) in labels.iter().enumerate() {
         let mut plot = Plot::new("sweep", name, key, unit);
         for (number, (label, points)) in curves.iter().take(MOST_CURVES).enumerate() {
             let points = points.iter().filter_map(|(x, y)| Some((*x, y[i]?)));
@@ -53,7 +47,11 @@ pub fn sweep_picture(
 const HEADING: f64 = 30.0;
 
 /// Complete SVG texts under their headings as one, two in a row, the legend above.
-fn side_by_side(title: &str, legend: &(String, u32), panels: &[(&str, String)]) -> String {
+pub(super) fn side_by_side(
+    title: &str,
+    legend: &(String, u32),
+    panels: &[(&str, String)],
+) -> String {
     let (width, height) = size(&panels[0].1);
     let (columns, rows) = (panels.len().min(2), panels.len().div_ceil(2));
     let top = 8.0 + f64::from(legend.1);
