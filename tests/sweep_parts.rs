@@ -336,3 +336,91 @@ fn designs_and_tables_of_points_are_swept() {
         assert!(err.contains(says), "{table}: {err}");
     }
 }
+
+/// Depth is the law's own product of load, coefficient and cycles: on logarithmic ranges the logarithm of the depth is a sum, nearly, and a
+/// speed that the law does not know has no share. A part of the design makes the same files.
+#[test]
+fn a_saltelli_design_tells_the_share_of_every_key() {
+    let home = home(STUDY);
+    let sweep = "sweep study.toml --design saltelli:64 --vary wear.coefficient=2e-10..6e-10 --vary wear.cycles=15000..25000 \
+                 --vary operation.speed=500..3000 --outputs max_depth_gear_um,wear_profile_gear";
+    let told = succeed(&home, &format!("{sweep} -o whole"));
+    assert!(told.contains("of 64 rows"), "{told}");
+    let read = |name: &str| fs::read_to_string(home.path().join("whole").join(name)).unwrap();
+    let document: serde_json::Value = serde_json::from_str(&read("sweep.json")).unwrap();
+    assert_eq!(document["design"]["rows"], 64);
+    assert_eq!(document["points"].as_array().unwrap().len(), 64 * 5);
+    let outputs = document["sensitivity"]["outputs"].as_array().unwrap();
+    // depth = c k n with k and n uniform: in closed form, with the squares of their coefficients of variation
+    let cv2 = |low: f64, high: f64| ((high - low) / (high + low)).powi(2) / 3.0;
+    let (k, n) = (cv2(2e-10, 6e-10), cv2(15000.0, 25000.0));
+    let all = (1.0 + k) * (1.0 + n) - 1.0;
+    let exact = [
+        [k / all, k * (1.0 + n) / all],
+        [n / all, n * (1.0 + k) / all],
+        [0.0, 0.0],
+    ];
+    assert!(outputs.len() > 20, "a figure and a profile");
+    for output in outputs {
+        for (index, exact) in output["keys"].as_array().unwrap().iter().zip(exact) {
+            for (name, exact) in ["first", "total"].iter().zip(exact) {
+                let value = index[*name].as_f64().unwrap();
+                let half = index[format!("{name}_half_width")].as_f64().unwrap();
+                // the depth is not quite linear in the cycles
+                assert!(
+                    (value - exact).abs() < 1.5 * half + 0.03,
+                    "{name} {exact}: {output}"
+                );
+            }
+        }
+    }
+    // no share at all, not a small one
+    assert_eq!(outputs[0]["keys"][2]["total"], 0.0);
+    assert!(read("sensitivity.csv").contains("wear_profile_gear,"));
+    assert!(read("sensitivity.svg").starts_with("<svg"));
+    let head = read("sweep.csv").lines().next().unwrap().to_owned();
+    assert_eq!(
+        head,
+        "wear.coefficient,wear.cycles,operation.speed,max_depth_gear_um,error"
+    );
+    // the largest depth of each point's profile is its figure
+    let profiles = read("wear_profiles.csv");
+    let deepest = (profiles.lines())
+        .filter_map(|line| line.strip_prefix("1,gear,"))
+        .map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap())
+        .fold(0.0, f64::max);
+    assert_eq!(
+        document["points"][0]["figures"]["max_depth_gear_um"],
+        deepest
+    );
+    for i in 1..=2 {
+        succeed(&home, &format!("{sweep} --shard {i}/2"));
+    }
+    succeed(
+        &home,
+        &format!("{sweep} --merge study.out/sweep-points -o merged"),
+    );
+    for name in [
+        "sweep.csv",
+        "sweep.json",
+        "wear_profiles.csv",
+        "sensitivity.csv",
+        "sensitivity.svg",
+    ] {
+        let merged = fs::read_to_string(home.path().join("merged").join(name)).unwrap();
+        assert!(merged == read(name), "{name}");
+    }
+    // other outputs are other points: nothing of these is taken for them
+    let usual = sweep.split(" --outputs").next().unwrap();
+    let (code, _, err) = line(
+        &home,
+        &format!("{usual} --merge study.out/sweep-points -o usual"),
+    );
+    assert_eq!(code, Some(3), "{err}");
+    let (code, _, err) = line(
+        &home,
+        "sweep study.toml --vary wear.cycles=1,2 --outputs max_depth_gaer_um",
+    );
+    assert_eq!(code, Some(2), "{err}");
+    assert!(err.contains("nearest is max_depth_gear_um"), "{err}");
+}
