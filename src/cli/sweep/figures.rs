@@ -78,7 +78,7 @@ pub(super) struct Column {
 }
 
 /// Every column that can be asked for.
-const COLUMNS: [Column; 15] = [
+static COLUMNS: [Column; 15] = [
     Column {
         name: "peak_pressure",
         head: "peak MPa",

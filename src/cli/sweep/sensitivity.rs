@@ -71,7 +71,7 @@ impl Sensitivity {
         for &member in &outputs.profiles {
             let profiles = || {
                 let all = whole.iter().flatten();
-                all.filter_map(|figures| figures.profile(member))
+                all.filter_map(move |figures| figures.profile(member))
                     .filter(|profile| !profile.radius.is_empty())
             };
             // where all flanks are

@@ -47,7 +47,7 @@ pub fn index_picture(
     let mut legend = Plot::new("sensitivity", title, "", "");
     let mut named = |label: &str, style: Style| {
         if legend.curves.iter().all(|known| known.label != label) {
-            legend = (legend.clone()).curve(label, style, vec![(0.0, 0.0)]);
+            legend = legend.clone().curve(label, style, vec![(0.0, 0.0)]);
         }
     };
     let mut drawn = Vec::new();
