@@ -375,3 +375,29 @@ fn a_check_tells_what_was_understood_and_what_could_be_concluded() {
         "{told}"
     );
 }
+
+/// As a German spreadsheet saves it: Windows-1252, marks between thousands, a column for people.
+#[test]
+fn a_german_spreadsheet_is_read_as_it_is() {
+    let home = home();
+    let western = |text: &str| text.chars().map(|c| c as u8).collect::<Vec<u8>>();
+    let table = "Verschlei\u{df}, Versuch A\nRadius [mm];100.000 LW;1.000.000 LW;;Bemerkung\n26,0;-3,1;-9,5;;\n27,0;-1,2;-4,1;;nach Reinigung\n";
+    fs::write(home.path().join("rad.csv"), western(table)).unwrap();
+    let command =
+        "import rad.csv --study study.toml --test A --member pinion --sigma 0.2 --turn-sign";
+    succeed(&home, &format!("{command} -o m.csv"));
+    let masses = "Versuch;Rad;Lastspiele;Gr\u{f6}\u{df}e;Ort;Wert [g];Streuung [g];Spur;Kommentar\nA;Ritzel;100000;Massenverlust;;0,0042;0,0004;;ok\n";
+    fs::write(home.path().join("massen.csv"), western(masses)).unwrap();
+    succeed(&home, "import massen.csv --study study.toml -o masses.csv");
+    assert_eq!(
+        read(&home, "m.csv"),
+        "test,member,cycles,quantity,position,value,sigma,trace\n\
+         A,pinion,100000,wear_depth,26,3.1,0.2,A-pinion-100000\n\
+         A,pinion,100000,wear_depth,27,1.2,0.2,A-pinion-100000\n\
+         A,pinion,1000000,wear_depth,26,9.5,0.2,A-pinion-1000000\n\
+         A,pinion,1000000,wear_depth,27,4.1,0.2,A-pinion-1000000\n"
+    );
+    let masses = read(&home, "masses.csv");
+    assert!(!masses.to_lowercase().contains("kommentar"), "{masses}");
+    assert!(masses.contains("A,pinion,100000,mass_loss,"), "{masses}");
+}

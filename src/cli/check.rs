@@ -31,7 +31,7 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let data = study.dataset_to_fit()?;
     let default = || folder::default_path(path, "check");
     let target = args.paths.output.clone().unwrap_or_else(default);
-    folder::check(&target, path, &study)?;
+    let _reserved = folder::reserve(&target, path, &study)?;
     // the analytic model without effects: what is looked for is far larger than what they do
     let mut edit = study.edit();
     edit.put("model.contact", "\"hertz\"");
@@ -64,8 +64,13 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
             &compared.comparison,
             &prospects,
             &format!(
-                "drawn:   {}\nnext:    gearwear compare {name}\n",
-                written.folder.join("report.html").display()
+                "drawn:   {}\nnext:    {}gearwear compare {name}\n",
+                written.folder.join("report.html").display(),
+                if sanity.is_empty() {
+                    ""
+                } else {
+                    "put right what stands under `check first`, then "
+                }
             ),
         ),
         success: true,

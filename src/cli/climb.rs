@@ -43,7 +43,7 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
     context.tell_reading(&data);
     let default = || folder::default_path(path, "climb");
     let target = args.paths.output.clone().unwrap_or_else(default);
-    folder::check(&target, path, &study)?;
+    let _reserved = folder::reserve(&target, path, &study)?;
     let kept = Kept::new(&target, inputs::identity(&study)?);
     let again = (args.paths.output.as_ref()).map(|target| format!(" -o {}", target.display()));
     interrupt::tells(

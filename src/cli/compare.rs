@@ -60,7 +60,7 @@ fn one(path: &Path, target: &Path, context: &Context) -> Result<Outcome, CliErro
     contact_of(&study)?;
     let data = study.dataset_to_fit()?;
     context.tell_reading(&data);
-    folder::check(target, path, &study)?;
+    let _reserved = folder::reserve(target, path, &study)?;
     let version = ModelVersion::of(&study);
     let compared = fitting::fitted(&study, &data, &version, context, "compare")?;
     let result = comparison::Result {

@@ -87,7 +87,7 @@ fn one(
     let study = Study::load(path)?;
     let data = study.dataset_to_fit()?;
     context.tell_reading(&data);
-    folder::check(target, path, &study)?;
+    let _reserved = folder::reserve(target, path, &study)?;
     let fidelity = match args.fidelity {
         _ if args.fast || study.contact == study::ContactKind::Hertz => Fidelity::Screening,
         Some(Deciding::Screening) => Fidelity::Screening,

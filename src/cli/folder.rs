@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::CliError;
-use crate::report::atomic;
+use crate::report::atomic::{self, Reservation};
 use crate::study::Study;
 
 /// Where results go by default: `STUDYSTEM.out/COMMAND` beside the study.
@@ -13,12 +13,22 @@ pub(super) fn default_path(study: &Path, command: &str) -> PathBuf {
     study.with_file_name(name).join(command)
 }
 
-/// Whether results may go to `target`: a result folder is replaced whole, and what is read from `file` must not go with it.
+/// Reserves `target` for results until what comes back is dropped: a result folder is replaced whole, and what is read from `file`
+/// must not go with it.
 ///
 /// # Errors
-/// [`CliError`] if the folder is foreign, or holds the study or a file that it names.
-pub(super) fn check(target: &Path, file: &Path, study: &Study) -> Result<(), CliError> {
-    atomic::check(target)?;
+/// [`CliError`] if the folder is foreign, in use by another program, or holds the study or a file that it names.
+pub(super) fn reserve(target: &Path, file: &Path, study: &Study) -> Result<Reservation, CliError> {
+    let reservation = atomic::reserve(target)?;
+    apart(target, file, study)?;
+    Ok(reservation)
+}
+
+/// Whether what is read from `file` stands outside the result folder `target`.
+///
+/// # Errors
+/// [`CliError`] if it would go with an old result.
+pub(super) fn apart(target: &Path, file: &Path, study: &Study) -> Result<(), CliError> {
     let Ok(real) = target.canonicalize() else {
         return Ok(());
     };

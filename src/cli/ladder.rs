@@ -46,8 +46,9 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
     }
     let default = || folder::default_path(&args.studies[0], "ladder");
     let target = args.output.clone().unwrap_or_else(default);
-    for (file, (study, _)) in args.studies.iter().zip(&loaded) {
-        folder::check(&target, file, study)?;
+    let _reserved = folder::reserve(&target, &args.studies[0], &loaded[0].0)?;
+    for (file, (study, _)) in args.studies.iter().zip(&loaded).skip(1) {
+        folder::apart(&target, file, study)?;
     }
     let items: Vec<Item<'_>> = loaded.iter().map(|(study, data)| (study, data)).collect();
     let progress = context.progress("ladder");

@@ -33,7 +33,7 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "models"));
-    folder::check(&target, &args.paths.study, &study)?;
+    let _reserved = folder::reserve(&target, &args.paths.study, &study)?;
     if let Some(bad) = args
         .misalignment
         .iter()

@@ -40,7 +40,7 @@ pub(super) fn execute(args: &PlanArgs, context: &Context) -> Result<Outcome, Cli
     }
     let default = || folder::default_path(&args.paths.study, "plan");
     let target = args.paths.output.clone().unwrap_or_else(default);
-    folder::check(&target, &args.paths.study, &study)?;
+    let _reserved = folder::reserve(&target, &args.paths.study, &study)?;
     let progress = context.progress("plan");
     let watch = |done, what| progress.show(done, what);
     let plan = match data {

@@ -46,7 +46,7 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
         .output
         .clone()
         .unwrap_or_else(|| folder::default_path(&args.paths.study, "run"));
-    folder::check(&target, &args.paths.study, &study)?;
+    let _reserved = folder::reserve(&target, &args.paths.study, &study)?;
     let keeper = Keeper::new(&study, args, &target)?;
     let start = if args.resume { keeper.read()? } else { None };
     if args.resume && start.is_none() && keeper.made(&target) {

@@ -108,7 +108,7 @@ pub(super) fn execute(
         return part(&output(PARTS), &points, &outputs, &mine, context);
     }
     let target = output("sweep");
-    folder::check(&target, file, &study)?;
+    let _reserved = folder::reserve(&target, file, &study)?;
     if !args.merge.is_empty() {
         let (results, others) = parts::merged(&design, &points, &args.merge)?;
         let mut outcome = whole(&study, &design, &outputs, &points, &results, &target, 0)?;

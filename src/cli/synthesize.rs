@@ -49,7 +49,7 @@ pub(super) fn execute(args: &SynthesizeArgs, context: &Context) -> Result<Outcom
     let study = Study::load(&args.study)?;
     contact_of(&study)?;
     study.check_wears()?;
-    folder::check(&args.output, &args.study, &study)?;
+    let _reserved = folder::reserve(&args.output, &args.study, &study)?;
     let mut edit = study.edit();
     let folder = args.study.parent().unwrap_or(Path::new(""));
     edit.move_between(folder, &args.output)?;

@@ -19,7 +19,8 @@ pub const COLUMNS: [(&str, bool); 10] = [
 ];
 
 /// Names of columns that are for people: they are passed over.
-const FOR_PEOPLE: [&str; 6] = ["comment", "comments", "note", "notes", "remark", "remarks"];
+pub(in crate::measure) const FOR_PEOPLE: [&str; 6] =
+    ["comment", "comments", "note", "notes", "remark", "remarks"];
 
 /// Where the columns stand.
 #[derive(Debug, Clone)]

@@ -9,6 +9,7 @@
 //!                         NAME to .NAME.previous, .NAME.partial-1 to NAME; a crash between the two is undone by the next begin
 //! drop     without commit: .NAME.partial-1 is removed
 //! ```
+//! [`reserve`] keeps other programs away from NAME for as long as its holder computes (`.NAME.lock`).
 //! A killed program leaves its partial folder; the next `begin` for the same name removes it. The lock on the file beside it
 //! tells a dead folder from that of a running program: the system frees the lock with the process.
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -96,6 +97,11 @@ impl Staging {
             list.push_str(name);
             list.push('\n');
         }
+        // somebody may have emptied the folder: half a result must not get the name of a whole one
+        for name in &self.written {
+            let path = self.folder.join(name);
+            fs::metadata(&path).map_err(io_error("find what was written to", &path))?;
+        }
         let marker = self.folder.join(MARKER);
         flushed(&marker, list.as_bytes()).map_err(io_error("write", &marker))?;
         sync_folders(&self.folder).map_err(io_error("flush", &self.folder))?;
@@ -167,6 +173,78 @@ pub fn is_result(folder: &Path) -> bool {
 /// Whether results may be put at `target`: it is absent, empty, or an earlier result. Call it before a long run.
 pub fn check(target: &Path) -> Result<(), OutputError> {
     check_target(&resolved(target)?)
+}
+
+/// The right to put results at one place, from before a computation until its results stand there.
+#[derive(Debug)]
+pub struct Reservation {
+    path: PathBuf,
+    /// The lock file, once it is this program's.
+    held: Option<File>,
+    /// Folders made for the lock file, the innermost first.
+    made: Vec<PathBuf>,
+}
+
+/// Reserves `target` for this program: as [`check`], and refused while another program holds it. Parents are created.
+pub fn reserve(target: &Path) -> Result<Reservation, OutputError> {
+    let target = resolved(target)?;
+    check_target(&target)?;
+    let parent = parent_of(&target);
+    let absent = parent.ancestors().take_while(|folder| !folder.exists());
+    let made: Vec<PathBuf> = absent.map(Path::to_owned).collect();
+    fs::create_dir_all(&parent).map_err(io_error("create", &parent))?;
+    let path = sibling(&target, "lock");
+    let mut reservation = Reservation {
+        path: path.clone(),
+        held: None,
+        made,
+    };
+    for _ in 0..MOST_ATTEMPTS {
+        let mut options = OpenOptions::new();
+        let file = (options.create(true).truncate(false).write(true).open(&path))
+            .map_err(io_error("lock", &path))?;
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => return Err(OutputError::Taken { folder: target }),
+            Ok(()) if !is_at(&file, &path) => continue,
+            // a file system without locks (some network ones) still works, unguarded
+            Ok(()) | Err(TryLockError::Error(_)) => reservation.held = Some(file),
+        }
+        return Ok(reservation);
+    }
+    Err(OutputError::Taken { folder: target })
+}
+
+impl Drop for Reservation {
+    fn drop(&mut self) {
+        // while the lock is held: who opened the file before it went finds another one, or none, under its name
+        if self
+            .held
+            .as_ref()
+            .is_some_and(|file| is_at(file, &self.path))
+        {
+            let _ = fs::remove_file(&self.path);
+        }
+        self.held = None;
+        for folder in &self.made {
+            // only those that stayed empty go
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// Whether the open file still stands under its name: its former holder may have removed it between opening and locking.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), fs::metadata(path)) {
+        (Ok(open), Ok(named)) => open.ino() == named.ino() && open.dev() == named.dev(),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn is_at(_file: &File, path: &Path) -> bool {
+    path.exists()
 }
 
 const PARTIAL: &str = "partial-";
@@ -394,6 +472,47 @@ fn sync_folder(_folder: &Path) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_place_is_reserved_once() {
+        let home = tempfile::tempdir().unwrap();
+        let target = home.path().join("new").join("out");
+        let held = reserve(&target).unwrap();
+        assert!(matches!(reserve(&target), Err(OutputError::Taken { .. })));
+        drop(held);
+        assert!(!home.path().join("new").exists(), "nothing stays");
+        // a killed program's lock file is free
+        fs::create_dir(home.path().join("new")).unwrap();
+        fs::write(home.path().join("new/.out.lock"), "").unwrap();
+        let held = reserve(&target).unwrap();
+        let mut staging = Staging::begin(&target).unwrap();
+        staging.write("a", b"1").unwrap();
+        staging.commit().unwrap();
+        drop(held);
+        let left: Vec<_> = fs::read_dir(home.path().join("new")).unwrap().collect();
+        assert_eq!(left.len(), 1, "{left:?}");
+    }
+
+    #[test]
+    fn a_folder_emptied_in_the_making_is_no_result() {
+        let home = tempfile::tempdir().unwrap();
+        let target = home.path().join("out");
+        let write = |name: &str, text: &[u8]| {
+            let mut staging = Staging::begin(&target).unwrap();
+            staging.write(name, text).unwrap();
+            staging
+        };
+        write("a", b"first").commit().unwrap();
+        let mut staging = write("a", b"second");
+        fs::remove_dir_all(&staging.folder).unwrap();
+        staging.write("b", b"second").unwrap();
+        let error = staging.commit().unwrap_err();
+        assert!(
+            error.to_string().contains("cannot find what was written"),
+            "{error}"
+        );
+        assert_eq!(fs::read(target.join("a")).unwrap(), b"first");
+    }
 
     /// The two-rename way, which Linux does not take by itself, interrupted after its first rename.
     #[test]

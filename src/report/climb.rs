@@ -79,10 +79,7 @@ pub fn summary(result: &Result<'_>, study: &str, folder: &Path) -> String {
                 text,
                 "  {} = {}",
                 parameter.name,
-                super::comparison::with_unit(
-                    super::comparison::estimate(parameter),
-                    &parameter.unit
-                )
+                super::comparison::estimate(parameter)
             );
         }
     }

@@ -9,7 +9,7 @@ use super::format::{count, plain, probability, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
 use super::learned;
 use super::measured_curves;
-use crate::learn::diagnose::{Diagnosis, NextExperiment, NextTest, Ranked, Screened};
+use crate::learn::diagnose::{Diagnosis, Fidelity, NextExperiment, NextTest, Ranked, Screened};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
@@ -26,22 +26,33 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     for reason in &diagnosis.reasons {
         let _ = writeln!(text, "  {reason}");
     }
+    let shown = || diagnosis.ranking.iter().take(SHOWN);
+    let names = shown()
+        .map(name)
+        .chain([unknown_name(diagnosis).to_owned()]);
+    let width = names.map(|n| n.chars().count()).max().unwrap_or(0).max(32) + 2;
+    let decisive = diagnosis.ranking.first().map(|entry| entry.decided_by);
     let _ = writeln!(
         text,
-        "\n  {:<34}{:>12}{:>12}{:>10}",
+        "\n  {:<width$}{:>12}{:>12}{:>10}",
         "", "probability", "χ²/point", "held out"
     );
-    for entry in diagnosis.ranking.iter().take(SHOWN) {
+    for entry in shown() {
         let held = entry
             .holdout_chi2_per_point
             .map_or("-".to_owned(), |c| format!("{c:.2}"));
         let _ = writeln!(
             text,
-            "  {:<34}{:>12}{:>12.2}{:>10}",
+            "  {:<width$}{:>12}{:>12.2}{:>10}{}",
             name(entry),
             probability(entry.probability),
             entry.fit_chi2_per_point,
-            held
+            held,
+            if Some(entry.decided_by) == decisive {
+                String::new()
+            } else {
+                format!("   by {}", means(entry.decided_by))
+            }
         );
     }
     let unknown = diagnosis
@@ -51,7 +62,7 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
         .unwrap_or(0.0);
     let _ = writeln!(
         text,
-        "  {:<34}{:>12}",
+        "  {:<width$}{:>12}",
         unknown_name(diagnosis),
         probability(unknown)
     );
@@ -69,6 +80,15 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
     let _ = writeln!(text, "figures: {}", folder.join("diagnosis.json").display());
     text
+}
+
+/// What a line was fitted by. Lines by different means have errors of their own: their χ² do not compare to the last digit.
+fn means(fidelity: Fidelity) -> &'static str {
+    match fidelity {
+        Fidelity::Screening => "analytic contact",
+        Fidelity::Middle => "coarse elements",
+        Fidelity::Full => "finite elements",
+    }
 }
 
 /// The same as a page, with the whole ranking; `study` is how the commands to come name the study file.
@@ -106,7 +126,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
             Cell::number(held),
             Cell::number(angle),
             Cell::text(parameters(entry)),
-            Cell::text(entry.decided_by.name()),
+            Cell::text(means(entry.decided_by)),
         ]);
     }
     if let Some(&unknown) = diagnosis.probabilities.get("unknown") {
@@ -128,7 +148,8 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     let ranking = Section::new("Ranking").table(table).note(
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
          its free parameters counted against it. angle: between what an effect and the leading one change in these measurements, \
-         k refitted; at 90° they have nothing in common, below some 10° they do the same.",
+         k refitted; at 90° they have nothing in common, below some 10° they do the same. χ² of lines that were decided by other means than the first holds the \
+         error of those means too.",
     );
     let mut sections = vec![why];
     sections.extend(measured_curves::section(&diagnosis.residual_drivers));

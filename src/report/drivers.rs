@@ -50,15 +50,15 @@ pub fn bins(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
 
 /// `residual_rows.csv`: every fitted row with what it felt and what either model leaves of it.
 ///
-/// Columns `test,member,quantity,where`, the drivers (units in `residual_drivers.csv`; `member` once), `before,after`.
+/// Columns `test,member,quantity,position` as in a measurement file, then the drivers and what is left, each with its unit in the name.
 ///
 /// # Errors
 /// [`OutputError`] for a number that is not finite.
 pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
     let kinds = || DRIVER_KINDS.iter().filter(|kind| kind.name != MEMBER);
-    let names: Vec<&str> = kinds().map(|kind| kind.name).collect();
+    let names: Vec<String> = kinds().map(column).collect();
     let head = format!(
-        "test,member,quantity,where,{},before,after",
+        "test,member,quantity,position,{},before_sigmas,after_sigmas",
         names.join(",")
     );
     let mut table = Csv::new(ROWS, &head);
@@ -66,7 +66,7 @@ pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
         table.text(&quoted(&row.test));
         table.text(row.member);
         table.text(row.quantity);
-        optional(&mut table, "where", row.position)?;
+        optional(&mut table, "position", row.position)?;
         for (kind, value) in kinds().zip(row.values) {
             optional(&mut table, kind.name, value)?;
         }
@@ -75,6 +75,18 @@ pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
         table.end_row();
     }
     Ok(table.into_bytes())
+}
+
+/// A driver's column: its name and its unit. What the page calls position is a path here, since `position` is where it was measured.
+fn column(kind: &DriverKind) -> String {
+    let name = match kind.name {
+        "position" => "path",
+        name => name,
+    };
+    match kind.unit {
+        "-" => name.to_owned(),
+        unit => format!("{name}_{}", unit.to_lowercase().replace(['/', ' '], "_")),
+    }
 }
 
 fn optional(table: &mut Csv, name: &'static str, value: Option<f64>) -> Result<(), OutputError> {
@@ -340,8 +352,8 @@ mod tests {
         let table = lines(rows(&left(true)).unwrap());
         assert_eq!(
             table[0],
-            "test,member,quantity,where,position,sliding_speed,contact_pressure,film_ratio,flash_temperature,depth_worn,cycles,\
-             torque,speed,misalignment,before,after"
+            "test,member,quantity,position,path_mm,sliding_speed_m_s,contact_pressure_mpa,film_ratio,flash_temperature_k,depth_worn_um,\
+             cycles,torque_n_m,speed_rpm,misalignment_mm,before_sigmas,after_sigmas"
         );
         assert_eq!(
             table[1],

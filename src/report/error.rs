@@ -24,6 +24,12 @@ pub enum OutputError {
         /// The path.
         path: PathBuf,
     },
+    /// Another program computes what it will put there.
+    #[error("{} is being written by another run of gearwear; wait for its end or choose another folder with -o", folder.display())]
+    Taken {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// Too many programs write to the same folder, or too many dead partial folders could not be removed.
     #[error("{} is being written by too many other runs (hidden folders .NAME.partial-N beside it)", folder.display())]
     Busy {

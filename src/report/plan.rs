@@ -22,7 +22,7 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
             let _ = writeln!(text, "to separate: {}\n", separated(next, study));
             heading(&mut text, "measure", ["χ² mean", "χ² least"]);
             for row in next.tests.iter().take(SHOWN) {
-                let figures = [row.expected_chi2, least(row)].map(|c| significant(c, 4));
+                let figures = [mean(row, 4), significant(least(row), 4)];
                 line(&mut text, &row.test, &row.quantity, figures);
             }
             text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, each counted up to 60, which is enough\n";
@@ -163,6 +163,16 @@ fn sentence(plan: &Plan) -> &str {
     }
 }
 
+/// The mean over all pairs; where every pair counts as enough, the least that it can be.
+fn mean(row: &RankedTest, digits: usize) -> String {
+    let text = significant(row.expected_chi2, digits);
+    if row.expected_chi2 < least(row) {
+        format!("≥ {text}")
+    } else {
+        text
+    }
+}
+
 fn least(row: &RankedTest) -> f64 {
     let all = row.separates.iter().map(|s| s.chi2);
     all.reduce(f64::min).unwrap_or(0.0)
@@ -216,9 +226,9 @@ fn conditions(test: &NextTest) -> Vec<Cell> {
 
 fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
     let head = [
-        "N·m",
-        "rpm",
-        "mm",
+        "torque, N·m",
+        "speed, rpm",
+        "misalignment, mm",
         "cycles",
         "reversed",
         "measure",
@@ -231,7 +241,7 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
         let mut cells = conditions(&row.test);
         cells.extend([
             Cell::text(row.quantity.clone()),
-            Cell::number(format!("{:.1}", row.expected_chi2)),
+            Cell::number(mean(row, 3)),
             Cell::number(format!("{:.1}", least(row))),
             Cell::text(row.why.clone()),
         ]);
@@ -247,9 +257,9 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
 
 fn of_campaign(campaign: &Campaign) -> Vec<Section> {
     let head = [
-        "N·m",
-        "rpm",
-        "mm",
+        "torque, N·m",
+        "speed, rpm",
+        "misalignment, mm",
         "cycles",
         "reversed",
         "shown",
@@ -290,6 +300,30 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
 mod tests {
     use super::*;
     use crate::learn::diagnose::Separated;
+
+    /// A mean whose every part is cut off at what is enough is told as a bound, so that it does not stand below the least.
+    #[test]
+    fn a_mean_of_what_is_enough_is_a_bound() {
+        let row = |expected_chi2: f64, chi2: f64| RankedTest {
+            test: NextTest {
+                torque: 50.0,
+                speed: 2000.0,
+                misalignment: 0.0,
+                cycles: 1e6,
+                reversed: false,
+            },
+            quantity: "wear_depth".to_owned(),
+            changes: 1,
+            expected_chi2,
+            separates: vec![Separated {
+                pair: ["a".to_owned(), "b".to_owned()],
+                chi2,
+            }],
+            why: String::new(),
+        };
+        assert_eq!(mean(&row(60.0, 88.9), 3), "≥ 60.0");
+        assert_eq!(mean(&row(43.6, 43.6), 3), "43.6");
+    }
 
     #[test]
     fn the_table_has_a_row_per_test_and_quotes_reasons() {

@@ -27,8 +27,9 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
     }
     for parameter in fit.parameters.iter().filter(|p| p.at_bound) {
         warnings.push(format!(
-            "{} lies on its bound, {:.3e}",
-            parameter.name, parameter.value
+            "{} lies on its bound, {}",
+            parameter.name,
+            rounded(parameter.value)
         ));
     }
     warnings.extend(together(&fit.parameters, &correlation(fit)));
@@ -36,6 +37,15 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
     warnings.extend(repeated(data));
     warnings.extend(data.outliers_in_words());
     warnings
+}
+
+/// A bound as people write it.
+fn rounded(value: f64) -> String {
+    if (1e-2..1e6).contains(&value.abs()) {
+        format!("{}", (1e4 * value).round() / 1e4)
+    } else {
+        format!("{value:.3e}")
+    }
 }
 
 /// The correlations of a fit's parameters, on their natural scales.

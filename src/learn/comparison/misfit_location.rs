@@ -190,20 +190,21 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     )
 }
 
+/// Sizes of the measured wear against the computed one that are worth telling: beyond them the values are not what they are taken for.
+const TELLING: std::ops::Range<f64> = 0.01..100.0;
+
 /// The size of the measured wear against the computed one over the test, where that explains the misfit.
 fn factor(ratios: &[Ratio]) -> String {
     let extreme = |r: &&Ratio| (r.measured_over_computed.abs().ln().abs() * 1e6) as i64;
     let Some(first) = ratios.iter().filter(|r| r.matters()).max_by_key(extreme) else {
         return String::new();
     };
+    if !TELLING.contains(&first.measured_over_computed) {
+        return String::new();
+    }
     let told = |r: &Ratio| {
         let times = r.measured_over_computed;
-        let times = if times.abs() < 100.0 {
-            format!("{times:.2}")
-        } else {
-            format!("{times:.1e}")
-        };
-        format!("{times} times the computed at {:.0} cycles", r.cycles)
+        format!("{times:.2} times the computed at {:.0} cycles", r.cycles)
     };
     let mut text = format!(
         " In size the measured wear of that member is {}, which explains {:.0} % of the misfit then",
@@ -214,7 +215,7 @@ fn factor(ratios: &[Ratio]) -> String {
     if let Some(second) = ratios
         .iter()
         .max_by_key(far)
-        .filter(|r| r.cycles != first.cycles)
+        .filter(|r| r.cycles != first.cycles && TELLING.contains(&r.measured_over_computed))
     {
         text += &format!(", and {}", told(second));
     }
@@ -306,6 +307,24 @@ mod tests {
             bias_um: None,
             rms_um: None,
         }
+    }
+
+    #[test]
+    fn no_sentence_is_made_of_a_factor_that_no_wear_has() {
+        let ratio = |measured_over_computed: f64| Ratio {
+            test: "A".to_owned(),
+            role: "fit".to_owned(),
+            member: "pinion".to_owned(),
+            cycles: 1e5,
+            measured_over_computed,
+            sigma: 1e-3,
+            points: 50,
+            chi2_per_point: 400.0,
+            chi2_scaled: 1.0,
+        };
+        assert!(factor(&[ratio(1.61)]).contains("1.61 times the computed"));
+        assert_eq!(factor(&[ratio(-1.1e5)]), "");
+        assert_eq!(factor(&[ratio(2e3)]), "");
     }
 
     /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.

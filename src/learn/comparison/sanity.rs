@@ -24,6 +24,8 @@ const NEAR: f64 = 0.25;
 /// Specific wear coefficients that a gear may have, mm²/N (a thousandth of the figure in mm³/(N m)): steel under a full film lies at the
 /// lower end, unlubricated adhesive wear of metals at 1e-7 to 1e-6.
 const COEFFICIENTS: [f64; 2] = [1e-13, 1e-5];
+/// Factor between the fitted k and the stated one from which a unit is likelier than a poor guess.
+const FAR_FROM_STATED: f64 = 300.0;
 /// Misfit beyond the noise, in its standard deviations, and share of it that constants must explain to be told.
 const REAL: f64 = 10.0;
 const CONSTANTS: f64 = 0.85;
@@ -39,6 +41,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         said.extend(depths_and_masses(study, &rows));
         said.extend(other_units(study, &rows));
         said.extend(coefficient(fit.coefficient));
+        if said.is_empty() {
+            said.extend(far_from_stated(fit.coefficient, study.wear.coefficient));
+        }
         said.extend(constants(&fitted(data, fit)));
     }
     said
@@ -263,6 +268,21 @@ fn coefficient(k: f64) -> Option<String> {
     ))
 }
 
+/// A wear coefficient that gears may have, but hundreds of times from what the study states: between g and mg lies a thousand.
+fn far_from_stated(k: f64, stated: f64) -> Option<String> {
+    if k <= 0.0 || stated <= 0.0 || (k / stated).ln().abs() < FAR_FROM_STATED.ln() {
+        return None;
+    }
+    let (word, by) = match k / stated {
+        ratio if ratio > 1.0 => ("above", ratio),
+        ratio => ("below", ratio.recip()),
+    };
+    Some(format!(
+        "k = {k:.1e} mm²/N comes out {by:.0} times {word} the wear.coefficient that the study states, {stated:.1e}: unless that is a mere guess, look \
+         at the units of the measured values (µm, mg), of cycles (pinion revolutions) and of the torque"
+    ))
+}
+
 /// Curves without a named trace that a constant each would bring to the model.
 fn constants(rows: &[Fitted<'_>]) -> Option<String> {
     let mut curves: BTreeMap<_, Vec<(f64, f64, f64)>> = BTreeMap::new();
@@ -316,6 +336,21 @@ fn rounded(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_coefficient_is_held_against_the_stated_one() {
+        assert_eq!(far_from_stated(1.6e-8, 1.6e-10), None);
+        let masses_in_grams = far_from_stated(3.2e-13, 1.6e-10).unwrap();
+        assert!(
+            masses_in_grams.contains("500 times below"),
+            "{masses_in_grams}"
+        );
+        assert!(
+            far_from_stated(1.6e-7, 1.6e-10)
+                .unwrap()
+                .contains("1000 times above")
+        );
+    }
 
     #[test]
     fn a_coefficient_is_doubted_outside_what_is_known() {

@@ -40,8 +40,21 @@ pub fn sheets(path: &Path) -> Result<Vec<Sheet>, ImportError> {
         return xlsx::sheets(&bytes).map_err(cannot);
     }
     let text = String::from_utf8(bytes)
-        .map_err(|_| cannot("it is not UTF-8 text; save it as UTF-8 or as .xlsx".to_owned()))?;
+        .or_else(|error| windows_1252(error.as_bytes()))
+        .map_err(|()| cannot("it is not UTF-8 text; save it as UTF-8 or as .xlsx".to_owned()))?;
     Ok(vec![of_text(&text)])
+}
+
+/// Text as spreadsheets of western Europe save it: a byte a character, those from 0xA0 on as in Unicode. The letters and signs that
+/// stand between 0x80 and 0x9F there (dashes, quotes, the euro) can only be in words for people, and become question marks; a zero byte
+/// stands in no text of this kind.
+fn windows_1252(bytes: &[u8]) -> std::result::Result<String, ()> {
+    let character = |&byte: &u8| match byte {
+        0 => Err(()),
+        0x80..=0x9f => Ok('?'),
+        byte => Ok(char::from(byte)),
+    };
+    bytes.iter().map(character).collect()
 }
 
 /// A text with the separator that most of its lines have most of; `#` begins comments, a line `sep=;` states the separator.

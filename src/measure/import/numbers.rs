@@ -2,6 +2,7 @@
 
 use super::{ImportError, Sheet, cell_name};
 use crate::measure::dialect::in_thousands;
+use crate::measure::header::FOR_PEOPLE;
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -104,6 +105,29 @@ pub(super) fn plain_cycles(text: &str, row: usize, column: usize) -> Result<()> 
             cell_name(row, column)
         ))),
     }
+}
+
+/// A header row without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are.
+pub(super) fn without_thousands(header: &mut [String]) {
+    let marked = |text: &String, least: usize| {
+        let words = number_words(text).into_iter();
+        let several = |word: &&str| in_thousands(word) && word.matches(['.', ',']).count() >= least;
+        words.filter(several).map(str::to_owned).next()
+    };
+    if header.iter().any(|text| marked(text, 2).is_some()) {
+        for text in header {
+            if let Some(word) = marked(text, 1) {
+                *text = text.replacen(&word, &word.replace(['.', ','], ""), 1);
+            }
+        }
+    }
+}
+
+/// Whether a column is named as one for people.
+pub(super) fn is_for_people(header: &str) -> bool {
+    const GERMAN: [&str; 5] = ["kommentar", "bemerkung", "bemerkungen", "notiz", "hinweis"];
+    let name = header.trim().to_lowercase();
+    GERMAN.contains(&name.as_str()) || FOR_PEOPLE.contains(&name.as_str())
 }
 
 /// The words of a text that hold digits.

@@ -1,6 +1,7 @@
 //! Sheets that have the columns of a measurement file, under English or German names.
 
 use super::Sheet;
+use super::numbers::is_for_people;
 use super::wide::quoted;
 
 /// Names of columns and of what stands in them, and what they are in a measurement file.
@@ -39,7 +40,7 @@ const CONTENTS: [(&str, &[&str]); 6] = [
             "wear depth",
         ],
     ),
-    ("mass_loss", &["masseverlust", "mass loss"]),
+    ("mass_loss", &["massenverlust", "masseverlust", "mass loss"]),
     (
         "transmission_error",
         &[
@@ -62,14 +63,18 @@ pub fn as_measurements(sheet: &Sheet) -> Option<String> {
     };
     let head = sheet.rows.iter().position(|row| is_header(&row))?;
     let header = &sheet.rows[head];
-    let mut text = fields(header.iter().map(|cell| match column(cell) {
+    // what is for people stays in the sheet
+    let kept: Vec<(usize, &String)> = (header.iter().enumerate())
+        .filter(|(_, name)| !is_for_people(name))
+        .collect();
+    let mut text = fields(kept.iter().map(|(_, cell)| match column(cell) {
         // the measurement file's reader knows its own names, units and all
         Some(name) if !cell.to_lowercase().starts_with(name) => name.to_owned(),
-        _ => cell.clone(),
+        _ => (*cell).clone(),
     }));
     let rows = sheet.rows[head + 1..].iter();
     for row in rows.filter(|row| !row.iter().all(String::is_empty)) {
-        text += &fields(header.iter().enumerate().map(|(i, name)| {
+        text += &fields(kept.iter().map(|&(i, name)| {
             let cell = row.get(i).map_or("", String::as_str);
             match column(name) {
                 Some(name) if NAMED.contains(&name) => {
@@ -115,14 +120,16 @@ mod tests {
             name: String::new(),
             rows: vec![
                 row("Messung vom Montag"),
-                row("Versuch;Rad;Lastspiele;Gr\u{f6}\u{df}e;Ort [mm];Wert;Streuung"),
-                row("A;Ritzel;250000;Verschlei\u{df};26.5;1.2;0.1"),
+                row("Versuch;Rad;Lastspiele;Gr\u{f6}\u{df}e;Ort [mm];Wert;Kommentar;Streuung"),
+                row("A;Ritzel;250000;Verschlei\u{df};26.5;1.2;nach Reinigung;0.1"),
+                row("A;Rad;250000;Massenverlust;;4.5;;0.1"),
             ],
             plain_decimals: true,
         };
         assert_eq!(
             as_measurements(&sheet).unwrap(),
-            "test,member,cycles,quantity,position,value,sigma\nA,pinion,250000,wear_depth,26.5,1.2,0.1\n"
+            "test,member,cycles,quantity,position,value,sigma\nA,pinion,250000,wear_depth,26.5,1.2,0.1\n\
+             A,gear,250000,mass_loss,,4.5,0.1\n"
         );
         let other = Sheet {
             rows: vec![row("radius;100000"), row("26;1")],

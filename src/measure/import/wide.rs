@@ -1,7 +1,8 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
 use super::numbers::{
-    Decimal, header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
+    Decimal, header_number, is_for_people, number, number_words, plain_cycles, pointed, rounded,
+    with_points, without_thousands,
 };
 use super::{ImportError, Sheet, cell_name, units};
 use crate::gear::{Gear, Member};
@@ -132,8 +133,11 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
-    let sheet = &with_points(sheet, wanted.decimal)?;
-    let head = header(sheet)?;
+    let mut sheet = with_points(sheet, wanted.decimal)?;
+    let head = header(&sheet)?;
+    without_thousands(&mut sheet.rows[head]);
+    leave_out_what_is_for_people(&mut sheet, head);
+    let sheet = &sheet;
     let across: Vec<(usize, f64)> = sheet.rows[head]
         .iter()
         .enumerate()
@@ -294,10 +298,23 @@ fn unit<'h>(headers: impl Iterator<Item = &'h str>, wanted: &Wanted<'_>) -> Resu
     }
 }
 
+/// Empties the columns whose header says that they are for people.
+fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) {
+    for column in 1..sheet.rows[head].len() {
+        if is_for_people(&sheet.rows[head][column]) {
+            let cells = sheet.rows[head..].iter_mut();
+            for cell in cells.filter_map(|row| row.get_mut(column)) {
+                cell.clear();
+            }
+        }
+    }
+}
+
 /// The first row with something in the first column and a number in the header of another: titles stand above it.
 fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
-        let cells = row.iter().skip(1).filter(|text| !text.is_empty());
+        let cells = row.iter().skip(1);
+        let cells = cells.filter(|text| !text.is_empty() && !is_for_people(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
             (all + 1, good + usize::from(!number_words(text).is_empty()))
         });

@@ -94,10 +94,10 @@ pub fn summary(result: &super::Result<'_>, folder: &Path) -> String {
     }
     if let Some(first) = c.outliers.first() {
         lines.push(format!(
-            "outliers: {} further off than 4 sigma, the furthest {} ({} sigma)",
+            "far off: {} more than 4 sigma from the model, the furthest {} ({} sigma)",
             match c.outliers.len() {
-                1 => "1 row".to_owned(),
-                n => format!("{n} rows"),
+                1 => "1 row lies".to_owned(),
+                n => format!("{} rows lie", whole(n)),
             },
             first.place,
             significant(first.standardised, 3)
@@ -165,7 +165,7 @@ fn parameters(lines: &mut Vec<String>, c: &Comparison) {
         lines.push(format!(
             "  {:<longest$}  {}{}",
             parameter.name,
-            with_unit(estimate(parameter), &parameter.unit),
+            estimate(parameter),
             if parameter.at_bound {
                 "   on its bound"
             } else {
@@ -178,13 +178,13 @@ fn parameters(lines: &mut Vec<String>, c: &Comparison) {
 /// Where an interval would stand that the fit does not support.
 pub(crate) const NO_INTERVAL: &str = "no interval: the fit does not support one";
 
-/// A fitted value with its standard deviation, or alone where the fit supports none.
+/// A fitted value with its standard deviation and unit, or without the deviation where the fit supports none.
 pub(crate) fn estimate(parameter: &ParameterRecord) -> String {
     match parameter.interval_95 {
-        Some(_) => uncertain(parameter.value, parameter.sigma),
+        Some(_) => with_unit(uncertain(parameter.value, parameter.sigma), &parameter.unit),
         None => format!(
             "{} (uncertainty not known)",
-            significant(parameter.value, 4)
+            with_unit(significant(parameter.value, 4), &parameter.unit)
         ),
     }
 }

@@ -56,7 +56,7 @@ fn figures(result: &Result<'_>) -> Section {
         let [low, high] = interval(p);
         fitted = fitted.row([
             Cell::Code(p.name.clone()),
-            Cell::number(with_unit(estimate(p), &p.unit)),
+            Cell::number(estimate(p)),
             Cell::number(low),
             Cell::number(high),
             if p.at_bound {
@@ -169,7 +169,7 @@ fn places(result: &Result<'_>) -> Section {
                 ),
                 &cell.unit,
             )),
-            Cell::number(significant(cell.rms, 2)),
+            Cell::number(with_unit(significant(cell.rms, 2), &cell.unit)),
         ]);
     }
     let section = Section::new("Where it is furthest off").table(table);

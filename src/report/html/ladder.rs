@@ -2,7 +2,7 @@
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::learn::Improvement;
-use crate::report::comparison::{estimate, interval, with_unit};
+use crate::report::comparison::{estimate, interval};
 use crate::report::format::significant;
 use crate::report::ladder::{Result, conclusion, effects, factor};
 use crate::report::plots;
@@ -83,7 +83,7 @@ fn parameters(result: &Result<'_>) -> Section {
             table = table.row([
                 Cell::number((i + 1).to_string()),
                 Cell::Code(parameter.name.clone()),
-                Cell::number(with_unit(estimate(parameter), &parameter.unit)),
+                Cell::number(estimate(parameter)),
                 Cell::number(low),
                 Cell::number(high),
                 Cell::text(if parameter.at_bound {

@@ -1,7 +1,7 @@
 //! The ladder in words: the sentence at the top of its page, and the table for the terminal.
 use std::path::Path;
 
-use super::super::comparison::{estimate, with_unit};
+use super::super::comparison::estimate;
 use super::super::format::significant;
 use super::{Result, effects, factor};
 use crate::learn::LadderStep;
@@ -10,6 +10,9 @@ use crate::learn::LadderStep;
 fn judge(step: &LadderStep) -> Option<f64> {
     step.holdout_chi2_per_point.or(step.fit_chi2_per_point)
 }
+
+/// An error that falls to no less than this share of what it was has not fallen.
+const NO_BETTER: f64 = 0.98;
 
 /// Which version predicts best, and which steps do not help: of the versions that can be judged against the first.
 pub fn conclusion(result: &Result<'_>) -> String {
@@ -43,9 +46,15 @@ pub fn conclusion(result: &Result<'_>) -> String {
                 significant(first, 3)
             )
         };
-        said.push(format!(
-            "Least error on {of}: {with}, {change}; 1 is the noise floor."
-        ));
+        said.push(if best != steps[0] && least > NO_BETTER * first {
+            format!(
+                "No version does better on {of} than {}, χ² per point {}; 1 is the noise floor.",
+                steps[0].study,
+                significant(first, 3)
+            )
+        } else {
+            format!("Least error on {of}: {with}, {change}; 1 is the noise floor.")
+        });
     }
     for pair in result.steps.windows(2) {
         let (before, after) = (&pair[0], &pair[1]);
@@ -55,7 +64,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
         let (Some(a), Some(b)) = (judge(before), judge(after)) else {
             continue;
         };
-        if b > 0.98 * a {
+        if b > NO_BETTER * a {
             said.push(format!(
                 "From {} to {} the error on {} does not fall ({} to {}): that step explains nothing new.",
                 before.study,
@@ -119,7 +128,7 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
         let values: Vec<String> = step
             .parameters
             .iter()
-            .map(|p| format!("{} = {}", p.name, with_unit(estimate(p), &p.unit)))
+            .map(|p| format!("{} = {}", p.name, estimate(p)))
             .collect();
         lines.push(format!("  {}: {}", step.study, values.join(", ")));
     }
