@@ -122,6 +122,7 @@ fn a_full_disk_leaves_the_earlier_result() {
 
 /// As root every folder can be written to: there only the system's own, which take no file, are tried.
 #[test]
+#[expect(clippy::print_stderr, reason = "says what was not tested")]
 fn a_folder_that_takes_no_file_is_told_before_anything_is_computed() {
     use std::os::unix::fs::PermissionsExt;
     let home = Home::new();
