@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::{CliError, Context, Outcome};
-use crate::measure::import::{self, Mapping, Sheet, Wanted};
+use crate::measure::import::{self, Decimal, Mapping, Sheet, Wanted};
 use crate::measure::{Dataset, Place, Quantity, Subject};
 use crate::study::Study;
 
@@ -109,6 +109,15 @@ enum Mark {
     Comma,
 }
 
+impl From<Mark> for Decimal {
+    fn from(mark: Mark) -> Self {
+        match mark {
+            Mark::Point => Decimal::Point,
+            Mark::Comma => Decimal::Comma,
+        }
+    }
+}
+
 /// Columns of the file that is written.
 const HEADER: &str = "test,member,cycles,quantity,position,value,sigma,trace";
 
@@ -127,7 +136,8 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
     }
     let sheets = import::sheets(&args.table).map_err(|error| unusable(error.to_string()))?;
     let sheet = chosen(&sheets, args)?;
-    let (rows, mut text, document) = match import::as_measurements(sheet) {
+    let table = import::as_measurements(sheet, args.decimal.map(Decimal::from));
+    let (rows, mut text, document) = match table.map_err(|error| unusable(error.to_string()))? {
         Some(table) => {
             let idle = [
                 (args.turn_sign, "--turn-sign"),
@@ -135,7 +145,6 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
                 (args.sigma.is_some(), "--sigma"),
                 (args.position.is_some(), "--position"),
                 (args.columns.is_some(), "--columns"),
-                (args.decimal.is_some(), "--decimal"),
                 (args.repeat.is_some(), "--repeat"),
             ];
             if let Some((_, option)) = idle.iter().find(|(given, _)| *given) {
@@ -303,10 +312,7 @@ fn wide(
         }),
         unit: args.unit.as_deref(),
         turn_sign: args.turn_sign,
-        decimal: args.decimal.map(|decimal| match decimal {
-            Mark::Point => import::Decimal::Point,
-            Mark::Comma => import::Decimal::Comma,
-        }),
+        decimal: args.decimal.map(Decimal::from),
         sigma,
         relative_sigma: args.relative_sigma,
         traces: !args.no_traces,

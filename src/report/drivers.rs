@@ -11,11 +11,14 @@ use crate::learn::diagnose::{
     BinMean, DRIVER_KINDS, Diagnosis, Driver, DriverBin, DriverKind, Explained, Hypothesis,
     ResidualDriver, ResidualDrivers,
 };
+use crate::measure::{Place, Quantity};
 
 const BINS: &str = "residual_drivers.csv";
 const ROWS: &str = "residual_rows.csv";
 /// The driver that is no number.
 const MEMBER: &str = "member";
+/// Where the distance along the path of contact stands in the values of a row.
+const PATH: usize = 0;
 
 /// `residual_drivers.csv`: the mean residual in each bin of each driver.
 ///
@@ -50,15 +53,16 @@ pub fn bins(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
 
 /// `residual_rows.csv`: every fitted row with what it felt and what either model leaves of it.
 ///
-/// Columns `test,member,quantity,position` as in a measurement file, then the drivers and what is left, each with its unit in the name.
+/// Columns `test,member,quantity,where`, the drivers (units in `residual_drivers.csv`; `member` once), `before,after`; then, with
+/// units in their names, where it was measured (`radius_mm` or `rotation_base_pitches`) and the driver `position` again (`path_mm`).
 ///
 /// # Errors
 /// [`OutputError`] for a number that is not finite.
 pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
     let kinds = || DRIVER_KINDS.iter().filter(|kind| kind.name != MEMBER);
-    let names: Vec<String> = kinds().map(column).collect();
+    let names: Vec<&str> = kinds().map(|kind| kind.name).collect();
     let head = format!(
-        "test,member,quantity,position,{},before_sigmas,after_sigmas",
+        "test,member,quantity,where,{},before,after,radius_mm,rotation_base_pitches,path_mm",
         names.join(",")
     );
     let mut table = Csv::new(ROWS, &head);
@@ -66,27 +70,23 @@ pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
         table.text(&quoted(&row.test));
         table.text(row.member);
         table.text(row.quantity);
-        optional(&mut table, "position", row.position)?;
+        optional(&mut table, "where", row.position)?;
         for (kind, value) in kinds().zip(row.values) {
             optional(&mut table, kind.name, value)?;
         }
         table.number("before", row.before)?;
         optional(&mut table, "after", row.after)?;
+        let place = Quantity::ALL
+            .into_iter()
+            .find(|quantity| quantity.name() == row.quantity)
+            .map(Quantity::place);
+        let at = |wanted: Place| row.position.filter(|_| place == Some(wanted));
+        optional(&mut table, "radius_mm", at(Place::Flank))?;
+        optional(&mut table, "rotation_base_pitches", at(Place::Rotation))?;
+        optional(&mut table, "path_mm", row.values[PATH])?;
         table.end_row();
     }
     Ok(table.into_bytes())
-}
-
-/// A driver's column: its name and its unit. What the page calls position is a path here, since `position` is where it was measured.
-fn column(kind: &DriverKind) -> String {
-    let name = match kind.name {
-        "position" => "path",
-        name => name,
-    };
-    match kind.unit {
-        "-" => name.to_owned(),
-        unit => format!("{name}_{}", unit.to_lowercase().replace(['/', ' '], "_")),
-    }
 }
 
 fn optional(table: &mut Csv, name: &'static str, value: Option<f64>) -> Result<(), OutputError> {
@@ -349,16 +349,27 @@ mod tests {
         assert!(table[3].starts_with("member,\"1 pinion, 2 gear, 3 both\",0.5,1,1,20,0.5,"));
         let table = lines(bins(&left(false)).unwrap());
         assert_eq!(table[1], "cycles,-,99999.5,100000,100000,20,2,0.1,,");
-        let table = lines(rows(&left(true)).unwrap());
+        let mut measured = left(true);
+        let mut on_a_flank = measured.rows[0].clone();
+        (on_a_flank.quantity, on_a_flank.position) = ("wear_depth", Some(26.5));
+        on_a_flank.values[0] = Some(-1.5);
+        let mut turned = on_a_flank.clone();
+        (turned.quantity, turned.position) = ("transmission_error", Some(0.25));
+        measured.rows.extend([on_a_flank, turned]);
+        let table = lines(rows(&measured).unwrap());
         assert_eq!(
             table[0],
-            "test,member,quantity,position,path_mm,sliding_speed_m_s,contact_pressure_mpa,film_ratio,flash_temperature_k,depth_worn_um,\
-             cycles,torque_n_m,speed_rpm,misalignment_mm,before_sigmas,after_sigmas"
+            "test,member,quantity,where,position,sliding_speed,contact_pressure,film_ratio,flash_temperature,depth_worn,cycles,\
+             torque,speed,misalignment,before,after,radius_mm,rotation_base_pitches,path_mm"
         );
         assert_eq!(
             table[1],
-            "\"A, first\",pair,mass_loss,,,,,,,,100000,,,,2.5,-0.5"
+            "\"A, first\",pair,mass_loss,,,,,,,,100000,,,,2.5,-0.5,,,"
         );
+        assert!(table[2].contains(",wear_depth,26.5,-1.5,"));
+        assert!(table[2].ends_with(",2.5,-0.5,26.5,,-1.5"));
+        assert!(table[3].ends_with(",2.5,-0.5,,0.25,-1.5"));
+        assert_eq!(DRIVER_KINDS[PATH].name, "position");
     }
 
     #[test]

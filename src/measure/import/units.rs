@@ -15,7 +15,7 @@ fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
         Quantity::ContactPressure => &[("MPa", 1.0), ("GPa", 1e3), ("N/mm2", 1.0)],
         Quantity::LoadShare => &[("1", 1.0), ("%", 0.01)],
         Quantity::MeshStiffness => &[("N/(mm um)", 1.0), ("N/mm/um", 1.0)],
-        Quantity::MassLoss => &[],
+        Quantity::MassLoss => &[("mg", 1.0), ("g", 1e3), ("ug", 1e-3), ("kg", 1e6)],
     }
 }
 
@@ -94,7 +94,7 @@ fn plain(unit: &str) -> String {
 }
 
 /// What stands in the last brackets.
-fn bracketed(header: &str) -> Option<&str> {
+pub(super) fn bracketed(header: &str) -> Option<&str> {
     let open = header.rfind(['[', '('])?;
     let rest = &header[open + 1..];
     let unit = &rest[..rest.find([']', ')'])?];
