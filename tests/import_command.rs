@@ -254,7 +254,7 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         ("radius;100 h\n26;1\n", table, "a multiple or a time"),
         ("radius;N1\n26;1\n", table, "a number with a letter"),
         (
-            "radius;1.000.000\n26;1\n",
+            "radius;1.00.000\n26;1\n",
             table,
             "marks between thousands are left out",
         ),
