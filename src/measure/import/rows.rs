@@ -152,7 +152,7 @@ fn numbers(sheet: &Sheet, head: usize, decimal: Option<Decimal>) -> Result<Sheet
     Ok(sheet)
 }
 
-fn quantity(cell: &String) -> Option<Quantity> {
+fn quantity(cell: &str) -> Option<Quantity> {
     let name = known(&CONTENTS, cell).unwrap_or(cell);
     Quantity::ALL.into_iter().find(|known| known.name() == name)
 }
