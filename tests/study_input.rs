@@ -104,11 +104,11 @@ refusals! {
     unknown_table: format!("{SHORT}[measurement]\nfile = \"m.csv\"\n")
         => UnknownKey "measurement" at 21:2, "`measurement`", "measurements", "the nearest valid key is `measurements`";
     key_of_another_table: with("coefficient = 6e-10", "coefficient = 6e-10\ntorque = 1.0")
-        => UnknownKey "wear.torque" at 20:1, "`torque`", "coefficient, cycles", "`torque` stands in [operation]";
+        => UnknownKey "wear.torque" at 20:1, "`torque`", "coefficient, material, cycles", "`torque` stands in [operation]";
     missing_key: with("module = 2.0\n", "")
         => MissingKey "gears.module" at 1:1, "no key `module`", "0.05 to 100 mm", "gears.module is missing";
     missing_table: with("[wear]\ncoefficient = 6e-10\ncycles = 50000\n", "")
-        => MissingKey "wear" at 17:15, "nothing", "coefficient, cycles", "the table [wear] is missing";
+        => MissingKey "wear" at 17:15, "nothing", "coefficient, material, cycles", "the table [wear] is missing";
     text_for_a_number: with("module = 2.0", "module = \"2.0\"")
         => WrongType "gears.module" at 2:10, "the text \"2.0\"", "a number, 0.05 to 100 mm", "without quotes";
     text_with_a_unit_of_another_kind: with("module = 2.0", "module = \"2 deg\"")
