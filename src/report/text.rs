@@ -3,7 +3,7 @@ use std::path::Path;
 
 use super::format::{count, duration, percent, plain, significant, whole};
 use crate::gear::JAM_TOLERANCE;
-use crate::simulate::result::{Member, Run, State};
+use crate::simulate::result::{Member, Run, State, ToothClass};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
 pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
@@ -62,6 +62,19 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             Some(factors.0),
             Some(factors.1),
         ));
+    }
+    for member in Member::BOTH {
+        let own = |class: &&ToothClass| class.member == member;
+        let classes: Vec<&ToothClass> = last.teeth.iter().filter(own).collect();
+        let deepest = |a: &&&ToothClass, b: &&&ToothClass| a.deepest().total_cmp(&b.deepest());
+        if let (Some(worst), true) = (classes.iter().max_by(deepest), classes.len() > 1) {
+            let name = format!("  worst {} tooth", member.name());
+            let number = worst.teeth[0];
+            let depth = worst.deepest();
+            lines.push(format!(
+                "  {name:<20}{depth:.3} µm, tooth {number}; the figures above are the mean tooth's"
+            ));
+        }
     }
     lines.push(format!(
         "  {:<20}{}",

@@ -16,6 +16,7 @@ use crate::contact::cycle::{Cycle, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactModel, PositionContact};
+use crate::contact::sequence::Sequence;
 use crate::contact::slices::Slices;
 use crate::effects::Hook;
 use crate::simulate::blanks::Blanks;
@@ -79,6 +80,8 @@ pub struct Forward<'a> {
     altered: Option<Altered>,
     /// The face, where it has more than one slice.
     slices: Option<Slices>,
+    /// Which tooth meets which, where teeth differ.
+    sequence: Option<Sequence>,
 }
 
 impl<'a> Forward<'a> {
@@ -180,6 +183,7 @@ impl<'a> Forward<'a> {
             acting,
             altered: None,
             slices: None,
+            sequence: None,
         };
         out.cover()?;
         out.project()?;
@@ -202,11 +206,25 @@ impl<'a> Forward<'a> {
         self.slices.as_ref()
     }
 
-    /// The mean over the face of depths `u` of all slices (mm at the stations of pinion and gear).
+    /// Which tooth meets which; none: all teeth of each member are alike.
+    pub fn sequence(&self) -> Option<&Sequence> {
+        self.sequence.as_ref()
+    }
+
+    /// Shares of the slices of the face, or of the passages of teeth that differ, in the mean of all contacts; none: there is but one.
+    pub fn weights(&self) -> Option<Vec<f64>> {
+        match (&self.sequence, &self.slices) {
+            (Some(sequence), _) => Some(sequence.contact_weights()),
+            (None, slices) => slices.as_ref().map(|slices| slices.weight.clone()),
+        }
+    }
+
+    /// The mean over the face, or over all teeth, of the depths `u` of all slices or passages (mm at the stations of pinion and gear).
     pub fn mean_depths<'u>(&self, u: &'u [f64]) -> Cow<'u, [f64]> {
-        match &self.slices {
-            Some(slices) => Cow::Owned(slices.mean_of(u)),
-            None => Cow::Borrowed(u),
+        match (&self.sequence, &self.slices) {
+            (Some(sequence), _) => Cow::Owned(sequence.mean_of(u)),
+            (None, Some(slices)) => Cow::Owned(slices.mean_of(u)),
+            (None, None) => Cow::Borrowed(u),
         }
     }
 
@@ -255,7 +273,8 @@ impl<'a> Forward<'a> {
             (None, ContactKind::Fem) => return Err(ForwardError::Unprepared),
             (Some(compliance), ContactKind::Fem) => {
                 let model = FemContact::new(&self.cycle, compliance, self.torque())
-                    .across(self.slices.as_ref());
+                    .across(self.slices.as_ref())
+                    .in_turn(self.sequence.as_ref());
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration, a.opened.as_deref())),
                     None => work(&model),
@@ -273,7 +292,8 @@ impl<'a> Forward<'a> {
                 let modulus = self.set.modulus();
                 let torque = self.torque();
                 let model =
-                    HertzContact::new(&self.cycle, &self.points, torque, modulus, stiffness);
+                    HertzContact::new(&self.cycle, &self.points, torque, modulus, stiffness)
+                        .in_turn(self.sequence.as_ref());
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration)),
                     None => work(&model),

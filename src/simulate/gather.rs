@@ -11,8 +11,8 @@ use crate::simulate::history::{SliceState, WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
 use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
-    Conditions, FaceSlice, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile,
-    State, WheelGeometry,
+    self, Conditions, FaceSlice, FieldFrame, Geometry, MemberField, PairState, PositionState,
+    Profile, State, ToothClass, WheelGeometry,
 };
 use crate::simulate::run::Plan;
 use crate::simulate::touching_strip::TouchingStrip;
@@ -112,6 +112,13 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         slices: (state.slices.iter())
             .map(|slice| face_slice(plan, forward, slice))
             .collect(),
+        teeth: (state.teeth.iter())
+            .map(|class| ToothClass {
+                member: result::Member::BOTH[class.side],
+                teeth: class.teeth.iter().map(|i| i + 1).collect(),
+                depth: class.depth.iter().map(|h| 1e3 * h).collect(),
+            })
+            .collect(),
     }
 }
 
@@ -152,8 +159,9 @@ fn by_rotation(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<Positio
         .enumerate()
         .map(|(q, contact)| {
             let mut mean = position(plan, forward, q, contact);
-            for slice in &state.slices {
-                let own = position(plan, forward, q, &slice.contacts[q]);
+            let of_slices = state.slices.iter().map(|slice| &slice.contacts);
+            for contacts in of_slices.chain(&state.passages) {
+                let own = position(plan, forward, q, &contacts[q]);
                 for (mean, own) in mean.pairs.iter_mut().zip(own.pairs) {
                     mean.peak_pressure = mean.peak_pressure.max(own.peak_pressure);
                     mean.half_width = mean.half_width.max(own.half_width);

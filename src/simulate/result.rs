@@ -206,6 +206,27 @@ pub struct State {
     /// Slices across the face, ascending; empty where one section stands for all of it. Flanks and mesh cycle are then the mean over the
     /// face, pressures and widths of contact those of the slice where they are largest.
     pub slices: Vec<FaceSlice>,
+    /// Classes of teeth, the pinion's first; empty where all teeth of each member are alike. Flanks and mesh cycle are then those of the
+    /// mean tooth, pressures and widths of contact the largest of all.
+    pub teeth: Vec<ToothClass>,
+}
+
+/// Teeth of a member that wear alike, in one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothClass {
+    /// Whose.
+    pub member: Member,
+    /// Their numbers, from 1 in the order in which they come into mesh.
+    pub teeth: Vec<usize>,
+    /// Depth at the radii of the member's profile, µm.
+    pub depth: Vec<f64>,
+}
+
+impl ToothClass {
+    /// Largest depth, µm.
+    pub fn deepest(&self) -> f64 {
+        self.depth.iter().fold(0.0, |m: f64, h| m.max(*h))
+    }
 }
 
 /// One slice of the face in one state.

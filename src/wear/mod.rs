@@ -3,6 +3,7 @@
 pub mod acting;
 pub mod archard;
 pub mod factors;
+mod in_turn;
 pub mod integrator;
 mod law;
 pub mod passage;

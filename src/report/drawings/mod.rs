@@ -1,4 +1,5 @@
 //! Drawings that are no plots: the pair to scale, worn teeth, stresses in the mesh.
+mod around;
 mod base64;
 mod field;
 mod pair;
@@ -10,6 +11,7 @@ mod view;
 
 use super::html::escape;
 
+pub use around::around;
 pub use field::stresses;
 pub use pair::of_pair;
 pub(super) use stress_files::stress_pictures;

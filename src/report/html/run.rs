@@ -20,7 +20,7 @@ pub fn run(run: &Run, pair: Option<&Pair>) -> Result<Page, OutputError> {
     let (worn, tooth) = worn.map_or((Vec::new(), None), |w| (w.drawings, Some(w.data)));
     let mut sections = vec![key_figures(run)];
     sections.extend(pair.map(|pair| Section::new("The gears").drawings(drawings::of_pair(pair))));
-    sections.push(wear(run).drawings(worn));
+    sections.push(wear(run).drawings(worn).drawings(drawings::around(run)));
     sections.push(contact(run));
     sections.push(oil_and_heat(run));
     let stresses = drawings::stresses(run)?;
