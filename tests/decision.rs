@@ -5,8 +5,8 @@
 
 use gearwear::effects::CATALOGUE;
 use gearwear::learn::diagnose::{
-    CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis, RemainderEvidence,
-    Verdict, decide,
+    BesideLaw, CandidateEvidence, Decision, DecisionRule, EffectSet, Evidence, Hypothesis,
+    LawEvidence, RemainderEvidence, Verdict, decide,
 };
 use proptest::prelude::*;
 
@@ -31,6 +31,19 @@ fn evidence(candidates: Vec<CandidateEvidence>, attainable: f64, unknown: f64) -
         attainable_spread: 6.0,
         unknown_evidence_gain: unknown,
         beside_unknown: Vec::new(),
+        learned: None,
+    }
+}
+
+/// A learned law that brings `drop` of χ², and an effect that was fitted together with it.
+fn law(drop: f64, place: usize, own_drop: f64, gain_over_law: f64) -> LawEvidence {
+    LawEvidence {
+        chi2_drop: drop,
+        beside: vec![BesideLaw {
+            effects: EffectSet::new([CATALOGUE[place]]),
+            chi2_drop: own_drop,
+            gain_over_law,
+        }],
     }
 }
 
@@ -76,12 +89,14 @@ prop_compose! {
         attainable in 0.0..8000.0_f64,
         unknown in -50.0..4000.0_f64,
         remainders in prop::collection::btree_map(0..CATALOGUE.len(), (-5.0..300.0_f64, 0.0..1.0_f64), 0..=6),
+        learned in prop::option::of((0..CATALOGUE.len(), 0.0..8000.0_f64, 0.0..1.5_f64, -50.0..400.0_f64)),
     ) -> Evidence {
         let of = |(place, (gain, left)): (usize, (f64, f64))| {
             beside(place, gain, attainable * (1.0 - left), attainable * left)
         };
         Evidence {
             beside_unknown: remainders.into_iter().map(of).collect(),
+            learned: learned.map(|(place, drop, share, gain)| law(drop, place, share * drop, gain)),
             ..evidence(candidates, attainable, unknown)
         }
     }
@@ -272,6 +287,33 @@ fn an_effect_that_leaves_half_is_established_beside_something_unknown() {
     assert_eq!(partial.group, [Hypothesis::EffectsAndUnknown(own)]);
     assert_eq!(with(-1.0).verdict, Verdict::Unknown);
     assert_eq!(decided(&figures).verdict, Verdict::Unknown);
+}
+
+/// A decay follows most of the first period of a rhythm. Where a law of the cycles brings all that there is, and the decay is not needed beside it, the
+/// name does not stand; where it accounts for as much, or is needed beside a law of something else, it does.
+#[test]
+fn a_name_does_not_stand_for_what_a_law_of_one_driver_does_better() {
+    let own = place("running_in");
+    let with = |learned| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(own, 60.0, 1400.0, 600.0)],
+            learned,
+            ..evidence(vec![candidate(&[own], 690.0, 1400.0)], 2000.0, 850.0)
+        })
+    };
+    assert_eq!(with(None).verdict, Verdict::Partial);
+    assert_eq!(
+        with(Some(law(1990.0, own, 1400.0, -1.0))).verdict,
+        Verdict::Unknown
+    );
+    assert_eq!(
+        with(Some(law(1420.0, own, 1400.0, -1.0))).verdict,
+        Verdict::Partial
+    );
+    assert_eq!(
+        with(Some(law(1990.0, own, 1400.0, 80.0))).verdict,
+        Verdict::Partial
+    );
 }
 
 /// An effect that accounts for nine tenths is one; what it leaves beyond another form of it is said, what another form leaves is not.

@@ -4,14 +4,15 @@
 //! study -> fit -> diagnosis -> effect -> fit -> pays? -> … -> climbed study, ladder, last diagnosis
 //! ```
 
+mod curve;
 mod kept;
 mod version;
 
 use self::kept::{Kept, State};
-use self::version::{Fitter, Rung};
+use self::version::{Fitted, Fitter, Laws, Rung};
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, folder, inputs, interrupt};
-use crate::learn::climb::{DoesNotPay, proposals};
+use crate::learn::climb::{Standing, proposals};
 use crate::learn::diagnose::{Diagnosis, Fidelity, Verdict, diagnose};
 use crate::learn::{Measured, contact_of};
 use crate::report;
@@ -21,7 +22,7 @@ use clap::Args;
 /// Arguments of `climb`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Diagnoses, adds the effect that the diagnosis names, fits everything again, takes out what is no longer needed, and diagnoses\nagain. A step is kept if it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is\nheld out, each fit test left out in turn.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
+    after_help = "Diagnoses, adds the effect that the diagnosis names, or the law of one driver that it has learned where the catalogue holds\nnothing better, fits everything again, takes out what is no longer needed, and diagnoses again. A step is kept if it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is\nheld out, each fit test left out in turn.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
 )]
 pub struct ClimbArgs {
     #[command(flatten)]
@@ -71,7 +72,7 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
     };
     let (diagnosis, stopped) = loop {
         let rungs = state.rungs.len();
-        let version = fitter.version(&state.rungs, &state.values)?;
+        let version = fitter.version(&state.rungs, &state.values, Laws::Fixed)?;
         let diagnosis = diagnosis(&version, &fitter, &|done, what| {
             show(rungs, 0.6 * done, what);
         })?;
@@ -136,44 +137,59 @@ fn step(
     most: usize,
     watch: &(dyn Fn(String) + Sync),
 ) -> Result<Option<String>, CliError> {
-    match diagnosis.verdict {
-        Verdict::NothingMissing => return Ok(Some("nothing more is missing".to_owned())),
-        Verdict::Unknown => {
-            return Ok(Some(
-                "what remains is nothing that the catalogue holds".to_owned(),
-            ));
-        }
-        Verdict::Effect | Verdict::Effects | Verdict::Partial | Verdict::Ambiguous => {}
+    if diagnosis.verdict == Verdict::NothingMissing {
+        return Ok(Some("nothing more is missing".to_owned()));
     }
-    if state.rungs.len() >= most {
-        let stopped = format!("--most {most} allows no more; something is still missing");
-        return Ok(Some(stopped));
-    }
+    let mut added = false;
     for effect in proposals(diagnosis) {
-        if state.has(&effect) {
+        if state.has(&effect) || state.rungs.len() >= most {
             continue;
         }
-        let added = fitter.with_effect(&state.rungs, &state.values, &effect, watch)?;
-        let paid = added.standing.pays_over(&state.standing);
-        let mut told = added
-            .standing
-            .step(Some(&state.standing), names(&added.rungs));
-        told.added = Some(effect);
-        refused(&mut told, paid);
-        let kept = told.kept;
-        state.steps.push(told);
-        if kept {
-            state.go_on(added);
-            drop_needless(state, fitter, watch)?;
-            return Ok(None);
+        let fitted = fitter.with_effect(&state.rungs, &state.values, &effect, watch)?;
+        let kept = try_step(state, fitted, effect);
+        added |= kept;
+        // of a set that is named as one the others are tried at once; of what cannot be told apart one is enough
+        if kept && diagnosis.verdict != Verdict::Effects {
+            break;
         }
     }
-    Ok(Some(
-        "no effect that the diagnosis proposes pays".to_owned(),
-    ))
+    if let Some(law) = (diagnosis.learned.as_ref()).filter(|law| !added && !state.has(&law.name))
+        && state.rungs.len() < most
+    {
+        let fitted = fitter.with_law(&state.rungs, &state.values, law, watch)?;
+        added = try_step(state, fitted, law.name.clone());
+    }
+    if added {
+        drop_needless(state, fitter, watch)?;
+        return Ok(None);
+    }
+    Ok(Some(if state.rungs.len() >= most {
+        format!("--most {most} allows no more; something is still missing")
+    } else if diagnosis.verdict == Verdict::Unknown && diagnosis.learned.is_none() {
+        "what remains is nothing that the catalogue holds, and no law of one driver is worth its freedom"
+            .to_owned()
+    } else {
+        "nothing that the diagnosis proposes pays".to_owned()
+    }))
 }
 
-/// Takes out effects, the newest excepted, without which the version stands as well.
+/// Goes on from a version with one effect more if it pays.
+fn try_step(state: &mut State, fitted: Fitted, added: String) -> bool {
+    let mut told = (fitted.standing).step(Some(&state.standing), names(&fitted.rungs));
+    told.added = Some(added);
+    if let Err(why) = fitted.standing.pays_over(&state.standing) {
+        told.kept = false;
+        told.why = Some(why.to_string());
+    }
+    let kept = told.kept;
+    state.steps.push(told);
+    if kept {
+        state.go_on(fitted);
+    }
+    kept
+}
+
+/// Takes out effects, the newest excepted, without which the evidence is as good.
 fn drop_needless(
     state: &mut State,
     fitter: &Fitter<'_>,
@@ -183,26 +199,19 @@ fn drop_needless(
     while place + 1 < state.rungs.len() {
         let mut rungs = state.rungs.clone();
         let removed = rungs.remove(place);
-        let without = fitter.fit(rungs, &state.values, &|doing| {
-            watch(format!("without {}: {doing}", removed.effect));
-        })?;
-        if state.standing.pays_over(&without.standing).is_ok() {
+        let watch = |doing| watch(format!("without {}: {doing}", removed.effect));
+        let without = fitter.compared(&rungs, &state.values, &watch)?;
+        if (state.standing).is_needed_beside(&Standing::new(&without, None)) {
             place += 1;
             continue;
         }
+        let without = fitter.judged(rungs, without, &watch)?;
         let mut told = (without.standing).step(Some(&state.standing), names(&without.rungs));
         told.removed = Some(removed.effect);
         state.steps.push(told);
         state.go_on(without);
     }
     Ok(())
-}
-
-fn refused(step: &mut crate::learn::climb::ClimbStep, paid: Result<(), DoesNotPay>) {
-    if let Err(why) = paid {
-        step.kept = false;
-        step.why = Some(why.to_string());
-    }
 }
 
 fn names(rungs: &[Rung]) -> Vec<String> {

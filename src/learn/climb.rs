@@ -3,6 +3,9 @@
 //! ```text
 //! diagnosis -> proposals -> fit -> pays?  -> still needed, each of those before? -> diagnosis …
 //! ```
+//! Where nothing that the catalogue holds pays, the law that the diagnosis has learned is tried. An effect that was added before stays as long as the
+//! evidence pays for it.
+//!
 //! An effect pays if the evidence outweighs the prior odds of nothing more against one effect of the catalogue, and the error on tests that
 //! it was not fitted to does not rise beyond its own standard error:
 //!
@@ -97,9 +100,9 @@ impl Standing {
     /// # Errors
     /// [`DoesNotPay`]: why not.
     pub fn pays_over(&self, before: &Self) -> Result<(), DoesNotPay> {
-        let gain = self.log_evidence - before.log_evidence;
-        let least = least_gain(&DecisionRule::default());
-        if gain <= least {
+        if !self.is_needed_beside(before) {
+            let gain = self.log_evidence - before.log_evidence;
+            let least = least_gain(&DecisionRule::default());
             return Err(DoesNotPay::Evidence { gain, least });
         }
         let errors = [
@@ -116,6 +119,11 @@ impl Standing {
             }
         }
         Ok(())
+    }
+
+    /// Whether the effect that this version has, and the version `without` has not, is worth its prior odds by evidence.
+    pub fn is_needed_beside(&self, without: &Self) -> bool {
+        self.log_evidence - without.log_evidence > least_gain(&DecisionRule::default())
     }
 
     /// As a step to this version from the one `before`.
@@ -168,8 +176,10 @@ pub fn proposals(diagnosis: &Diagnosis) -> Vec<String> {
             effects.push(effect);
         }
     }
-    // of several the strongest first: the others are looked for again with it in
-    effects.sort_by(|a, b| alone(b).total_cmp(&alone(a)));
+    // of several that are named together the strongest first; of what cannot be told apart the most probable stands first
+    if matches!(diagnosis.effect, Some(Named::Several(_))) {
+        effects.sort_by(|a, b| alone(b).total_cmp(&alone(a)));
+    }
     effects.truncate(PROPOSED);
     effects
 }

@@ -7,6 +7,7 @@
 //! data checks   is the stated noise right, is one curve at fault, is there enough
 //! model search  all by the analytic model, leaders by coarse and by fine finite elements, pairs
 //! beside        every effect fitted together with a smooth discrepancy, where something smooth is missed
+//! laws          of one driver, learned where the catalogue leaves something, and the effects beside the best of them
 //! decision      nothing | effect | effects | partial | ambiguous | unknown: one function of the evidence
 //! experiment    the test that would separate what is left
 //! explanation   the document and its sentences
@@ -16,7 +17,8 @@
 //! its own form (`OWN_FORM` in `likelihood`).
 
 pub use super::decision::{
-    CandidateEvidence, Decision, DecisionRule, Evidence, RemainderEvidence, Verdict, decide,
+    CandidateEvidence, Decision, DecisionRule, Evidence, LawEvidence, RemainderEvidence, Verdict,
+    decide,
 };
 pub use super::discrepancy::{
     BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
@@ -31,7 +33,7 @@ pub use super::fidelity::Fidelity;
 pub use super::hypothesis::candidate::NotJudged;
 pub use super::hypothesis::{EffectSet, Hypothesis};
 pub use super::model_search::context::{DiagnoseError, Watch};
-pub use super::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
+pub use super::model_search::learned_drivers::{BesideLaw, LearnedAnswer, OtherDriver};
 
 use super::bench::Workshop;
 use super::checks::noise_level;
@@ -176,8 +178,21 @@ fn search(
     } else {
         Vec::new()
     };
-    let posterior = Posterior::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
-    watch(0.95, "held-out tests and the next experiment".to_owned());
+    let mut posterior = Posterior::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
+    let learned = match posterior.decision.verdict {
+        Verdict::Unknown | Verdict::Partial => {
+            watch(
+                0.9,
+                "laws of one driver for what the catalogue does not explain".to_owned(),
+            );
+            learned_drivers::learned_driver(context, base, &posterior.leaders())
+        }
+        Verdict::NothingMissing | Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => None,
+    };
+    if let Some(law) = &learned {
+        posterior = posterior.with_law(law);
+    }
+    watch(0.97, "held-out tests and the next experiment".to_owned());
     let diagnosis = Diagnosis::new(Findings {
         context,
         workshop,
@@ -188,16 +203,6 @@ fn search(
         not_judged,
         not_fitted,
     });
-    // beside an established effect that comes first: with it in, the next diagnosis learns what is left
-    let learned = if posterior.decision.verdict == Verdict::Unknown {
-        watch(
-            0.97,
-            "laws of one driver for what the catalogue does not explain".to_owned(),
-        );
-        learned_drivers::learned_driver(context, &base.fitted)
-    } else {
-        None
-    };
     watch(1.0, "done".to_owned());
     diagnosis.with_learned(learned)
 }

@@ -6,10 +6,12 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::CliError;
+use super::curve::Curve;
 use crate::cli::add::drafts::{forms, with_form};
 use crate::cli::fitting;
 use crate::effects::find;
 use crate::learn::climb::Standing;
+use crate::learn::diagnose::LearnedAnswer;
 use crate::learn::{AddedForm, Comparison, Doing, ModelVersion, compare, left_out};
 use crate::measure::Dataset;
 use crate::study::{Study, rounded};
@@ -17,12 +19,21 @@ use crate::study::{Study, rounded};
 /// Form of an effect that its card's own values make.
 const OWN: &str = "own";
 
-/// An effect that was added, in one of its forms.
+/// An effect that was added, in one of its forms, or a learned law.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Rung {
-    /// Name in the catalogue.
+    /// Name in the catalogue, or `learned:DRIVER`.
     pub(super) effect: String,
     form: String,
+    curve: Option<Curve>,
+}
+
+/// Whether the values of learned laws are adjusted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Laws {
+    Free,
+    /// A diagnosis asks what is missing beside them, and has ten parameters less in every fit.
+    Fixed,
 }
 
 /// A version of the study with its fit.
@@ -47,8 +58,9 @@ impl Fitter<'_> {
         &self,
         rungs: &[Rung],
         values: &[(String, f64)],
+        laws: Laws,
     ) -> Result<Study, CliError> {
-        self.with_values(rungs, values, None)
+        self.with_values(rungs, values, laws, None)
     }
 
     /// The same for the folder `target`, as `climbed.toml`.
@@ -58,18 +70,28 @@ impl Fitter<'_> {
         values: &[(String, f64)],
         target: &Path,
     ) -> Result<Study, CliError> {
-        self.with_values(rungs, values, Some(target))
+        self.with_values(rungs, values, Laws::Free, Some(target))
     }
 
     fn with_values(
         &self,
         rungs: &[Rung],
         values: &[(String, f64)],
+        laws: Laws,
         target: Option<&Path>,
     ) -> Result<Study, CliError> {
         let name = self.path.display().to_string();
         let mut study = self.study.edit().finish(&name)?;
         for rung in rungs {
+            if let Some(curve) = &rung.curve {
+                let mut edit = study.edit();
+                edit.add_learned(&curve.law(&rung.effect, values)?)?;
+                if laws == Laws::Free {
+                    edit.free(std::slice::from_ref(&rung.effect));
+                }
+                study = edit.finish(&name)?;
+                continue;
+            }
             let card = find(&rung.effect)?;
             let form = card.forms.iter().find(|form| form.name == rung.form);
             study = with_form(&study, card, form, &name)?;
@@ -101,11 +123,41 @@ impl Fitter<'_> {
         values: &[(String, f64)],
         watch: &(dyn Fn(String) + Sync),
     ) -> Result<Fitted, CliError> {
-        let study = self.version(&rungs, values)?;
+        let comparison = self.compared(&rungs, values, watch)?;
+        self.judged(rungs, comparison, watch)
+    }
+
+    /// The same without its error on tests that are left out.
+    pub(super) fn compared(
+        &self,
+        rungs: &[Rung],
+        values: &[(String, f64)],
+        watch: &(dyn Fn(String) + Sync),
+    ) -> Result<Comparison, CliError> {
+        let study = self.version(rungs, values, Laws::Free)?;
         let compared = compare(&study, self.data, &ModelVersion::of(&study), &|doing| {
             watch(said(doing));
         })?;
-        self.judged(rungs, compared.comparison, watch)
+        Ok(compared.comparison)
+    }
+
+    /// Fits the study with a law more, from what a diagnosis of these effects has learned.
+    pub(super) fn with_law(
+        &self,
+        rungs: &[Rung],
+        values: &[(String, f64)],
+        learned: &LearnedAnswer,
+        watch: &(dyn Fn(String) + Sync),
+    ) -> Result<Fitted, CliError> {
+        let mut rungs = rungs.to_vec();
+        rungs.push(Rung {
+            effect: learned.name.clone(),
+            form: OWN.to_owned(),
+            curve: Some(Curve::of(learned)),
+        });
+        self.fit(rungs, values, &|doing| {
+            watch(format!("with {}: {doing}", learned.name));
+        })
     }
 
     /// Fits the study with one effect more, in the form of it that fits best.
@@ -116,7 +168,7 @@ impl Fitter<'_> {
         effect: &str,
         watch: &(dyn Fn(String) + Sync),
     ) -> Result<Fitted, CliError> {
-        let study = self.version(rungs, values)?;
+        let study = self.version(rungs, values, Laws::Free)?;
         let card = find(effect)?;
         let name = self.path.display().to_string();
         let all = forms(card, None, false, &study)?;
@@ -135,12 +187,13 @@ impl Fitter<'_> {
         rungs.push(Rung {
             effect: effect.to_owned(),
             form: all[addition.form].map_or(OWN, |form| form.name).to_owned(),
+            curve: None,
         });
         self.judged(rungs, addition.compared.comparison, watch)
     }
 
     /// A fit with its error on tests that it was not fitted to.
-    fn judged(
+    pub(super) fn judged(
         &self,
         rungs: Vec<Rung>,
         comparison: Comparison,
@@ -151,7 +204,7 @@ impl Fitter<'_> {
         let error = if comparison.holdout.points > 0 {
             None
         } else {
-            let study = self.version(&rungs, &values)?;
+            let study = self.version(&rungs, &values, Laws::Free)?;
             left_out(&study, self.data, &|doing| {
                 watch(format!("leaving tests out: {}", said(doing)));
             })?

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::learn::discrepancy::smooth::is_significant;
 use crate::learn::hypothesis::EffectSet;
+use crate::learn::model_search::learned_drivers::BesideLaw;
 
 /// All that the decision rule knows of the fits to a set of measurements. It can be read from a `diagnosis.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -20,6 +21,20 @@ pub struct Evidence {
     /// Effects fitted together with a discrepancy; none where nothing smooth is missed.
     #[serde(default)]
     pub beside_unknown: Vec<RemainderEvidence>,
+    /// A law of one driver learned from the measurements; None where none was looked for, or none is worth its freedom.
+    #[serde(default)]
+    pub learned: Option<LawEvidence>,
+}
+
+/// A learned law of one driver, judged by the model that the effects are judged by.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LawEvidence {
+    /// Fall of χ² by the law alone.
+    #[serde(default)]
+    pub chi2_drop: f64,
+    /// Effects that were fitted together with the law.
+    #[serde(default)]
+    pub beside: Vec<BesideLaw>,
 }
 
 /// An effect judged beside something unknown.

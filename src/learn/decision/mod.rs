@@ -5,6 +5,6 @@ pub(in crate::learn) mod posterior;
 mod rule;
 mod verdict;
 
-pub use evidence::{CandidateEvidence, Evidence, RemainderEvidence};
+pub use evidence::{CandidateEvidence, Evidence, LawEvidence, RemainderEvidence};
 pub use rule::DecisionRule;
 pub use verdict::{Decision, Verdict, decide};

@@ -1,6 +1,6 @@
 //! All fitted candidates with what the decision says of them.
 
-use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
+use super::evidence::{CandidateEvidence, Evidence, LawEvidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
 use crate::learn::checks::identifiability::unidentified;
@@ -9,6 +9,7 @@ use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::likelihood::Likelihood;
 use crate::learn::model_search::beside_unknown::BesideUnknown;
+use crate::learn::model_search::learned_drivers::LearnedAnswer;
 
 /// Everything fitted, and the decision on it.
 pub(in crate::learn) struct Posterior {
@@ -50,6 +51,7 @@ impl Posterior {
             beside_unknown: (beside_unknown.iter())
                 .map(|beside| remainder(likelihood, beside))
                 .collect(),
+            learned: None,
         };
         Self {
             decision: decide(&evidence, &rule),
@@ -58,6 +60,27 @@ impl Posterior {
             evidence,
             rule,
         }
+    }
+
+    /// What the data cannot tell apart, or what leads, each in its best form.
+    pub(in crate::learn) fn leaders(&self) -> Vec<&FittedCandidate> {
+        let effects = |hypothesis: &Hypothesis| match hypothesis {
+            Hypothesis::Effects(effects) | Hypothesis::EffectsAndUnknown(effects) => {
+                self.best_form(effects)
+            }
+            Hypothesis::NothingMissing | Hypothesis::Unknown => None,
+        };
+        self.decision.group.iter().filter_map(effects).collect()
+    }
+
+    /// Decides again, with a learned law beside the effects.
+    pub(in crate::learn) fn with_law(mut self, law: &LearnedAnswer) -> Self {
+        self.evidence.learned = Some(LawEvidence {
+            chi2_drop: law.chi2_drop,
+            beside: law.beside.clone(),
+        });
+        self.decision = decide(&self.evidence, &self.rule);
+        self
     }
 
     /// The form of effects with the largest evidence.

@@ -53,6 +53,10 @@ pub struct DecisionRule {
     pub remainder_share: f64,
     /// Its width.
     pub remainder_share_width: f64,
+    /// Share of what a learned law of one driver brings from which an effect accounts for as much: another form of it may leave the rest.
+    pub law_share: f64,
+    /// Its width.
+    pub law_share_width: f64,
     /// Probability from which a single effect or set is named.
     pub claim: f64,
     /// Probability of nothing missing from which no effect is claimed; of that or of the unknown, from which a group holds it.
@@ -82,6 +86,8 @@ impl Default for DecisionRule {
             remainder_odds: 0.5,
             remainder_share: 0.08,
             remainder_share_width: 0.012,
+            law_share: 0.85,
+            law_share_width: 0.03,
             claim: 0.85,
             doubt: 0.2,
             alike: 0.03,

@@ -29,6 +29,12 @@
 //! unknown: W/(1 + Σ v),  R and unknown: W v/(1 + Σ v)          of which o/(1 + o) is unknown's if R is not identified
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
+//! A cause outside the catalogue may have been learned as a law L of one driver. Where R brings less than that law, and is needed no more once
+//! the law is in, its name stands for the law and what it has, alone and beside something unknown, is the unknown's but for
+//!
+//! ```text
+//! 1 − S(−z) S(Δ ln Z_RL/T + ln o_R/n),   z = (l_min − Δχ²_R/Δχ²_L)/width          Δ ln Z_RL = ln Z(R and L) − ln Z(L)
+//! ```
 //! With p(0), p(u), and the effects' p of which p₁ is the largest and Σ the sum, the first that holds is the verdict:
 //!
 //! ```text
@@ -47,6 +53,7 @@ use serde::{Deserialize, Serialize};
 use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
+use crate::learn::model_search::learned_drivers::BesideLaw;
 use crate::numeric::logarithm::{log_sum_exp, softplus};
 
 /// What is missing.
@@ -323,6 +330,7 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
         .map(|(hypothesis, logs)| (hypothesis, log_sum_exp(&logs)))
         .collect();
     share_with_remainders(&mut logs, evidence, rule, count);
+    yield_to_the_law(&mut logs, evidence, rule, count);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
     let all: Vec<f64> = logs.values().copied().collect();
@@ -372,6 +380,36 @@ fn share_with_remainders(
         let beside = log_sum_exp(&beside);
         logs.insert(Hypothesis::EffectsAndUnknown(r.effects.clone()), beside);
     }
+}
+
+/// Takes from effects, for the unknown, what a learned law of one driver does better and without them.
+fn yield_to_the_law(
+    logs: &mut BTreeMap<Hypothesis, f64>,
+    evidence: &Evidence,
+    rule: &DecisionRule,
+    singles: f64,
+) {
+    let Some(law) = &evidence.learned else { return };
+    let mut beside: Vec<&BesideLaw> = law.beside.iter().collect();
+    beside.sort_by(|a, b| a.effects.cmp(&b.effects));
+    let mut taken = vec![logs[&Hypothesis::Unknown]];
+    for own in beside {
+        let share = own.chi2_drop / law.chi2_drop.max(f64::MIN_POSITIVE);
+        let behind = (rule.law_share - share) / rule.law_share_width;
+        let needed = own.gain_over_law / rule.temper + (rule.remainder_odds / singles).ln();
+        // ln of the part that the law takes, and of the part that it leaves
+        let part = -softplus(-behind) - softplus(needed);
+        let rest = log_sum_exp(&[-softplus(behind), -softplus(-behind) - softplus(-needed)]);
+        let alone = Hypothesis::Effects(own.effects.clone());
+        let with = Hypothesis::EffectsAndUnknown(own.effects.clone());
+        for hypothesis in [alone, with] {
+            if let Some(log) = logs.get_mut(&hypothesis) {
+                taken.push(*log + part);
+                *log += rest;
+            }
+        }
+    }
+    logs.insert(Hypothesis::Unknown, log_sum_exp(&taken));
 }
 
 /// The candidates in an order that does not depend on theirs, so that sums are the same to the last bit.

@@ -88,6 +88,19 @@ impl Candidate {
         (judged, not_judged)
     }
 
+    /// With a law of its own that the catalogue does not hold, whose parameters come last.
+    pub(in crate::learn) fn with_law(&self, law: EffectSpec) -> Self {
+        let version = self.version.with(law);
+        Self {
+            parameters: parameters(&version.free),
+            version,
+            starts: Vec::new(),
+            quarters: Vec::new(),
+            strengths: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// Whether its free parameters are those of another.
     pub(in crate::learn) fn has_parameters_of(&self, other: &Self) -> bool {
         let names = self.parameters.iter().map(|p| &p.name);
