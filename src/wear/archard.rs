@@ -11,20 +11,16 @@
 //! dh/dn = ∫ k f p |v| dy + a
 //! ```
 
-use std::ops::Range;
+mod jacobian;
+mod local;
 
-use faer::Mat;
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::contact::cycle::{PairContact, Position};
-use crate::contact::model::{ContactError, ContactModel, PositionContact, SlicedContact};
+use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::effects::{Effect, Hook};
-use crate::numeric::patchy::{PatchyMatrix, Rows};
-use crate::numeric::sparse::SparseRows;
 use crate::wear::acting::Acting;
 use crate::wear::integrator::{Jacobian, WearSystem};
-use crate::wear::law::{AddedReads, Factors, Law, Solved};
+use crate::wear::law::{Factors, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
 
 /// How far the average of the largest pressure that effects are told reaches, mm: half of its weight lies within 12 µm, about the length of a micropit in all, and
@@ -269,71 +265,6 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         let depths: Vec<[&[f64]; 2]> = law.each(u);
         Some(self.mean(|slice| acting.worn_volume(law.cycle, depths[slice])))
     }
-
-    /// The Jacobian of all slices: each by itself at a given approach, and what the common approach of each position adds.
-    fn jacobian_of_slices(
-        &self,
-        model: &dyn SlicedContact,
-        n: f64,
-        u: &[f64],
-    ) -> Result<(Jacobian, Vec<Vec<Factors>>), WearError> {
-        let (law, joint) = (self.law_at(u), self.known(u));
-        let cycle = law.cycle;
-        let positions = cycle.positions.len();
-        let size = cycle.stations.count();
-        let sensitivities = (0..positions)
-            .into_par_iter()
-            .map(|q| {
-                let contacts: Vec<&PositionContact> =
-                    (joint.slices.iter()).map(|s| &s.contacts[q]).collect();
-                model.sensitivities(q, &contacts)
-            })
-            .collect::<Result<Vec<_>, _>>()?;
-        let weights = &model.slices().weight;
-        let of_slice = |(i, solved): (usize, &Solved)| {
-            let view = law.view(n, &solved.u);
-            let reads = law.added_reads(&view, solved, &law.reads(solved));
-            let mut block = PatchyMatrix::new(size);
-            let mut drive = Mat::zeros(size, positions);
-            let mut follow = Mat::zeros(size, positions);
-            let mut all_factors = Vec::with_capacity(positions);
-            for (q, (contact, reads)) in solved.contacts.iter().zip(reads).enumerate() {
-                let position = &cycle.positions[q];
-                let [factors, slopes] = law.factors_and_slopes(&view, position, contact);
-                all_factors.push(factors);
-                let local = Local {
-                    position,
-                    active: &contact.active,
-                    shift: [0, cycle.stations.arc[0].len()],
-                    scale: law.scale(),
-                    slopes,
-                    reads,
-                };
-                let sensitivity = &sensitivities[q][i];
-                local.add(&sensitivity.fixed, &mut block);
-                local.drives(&sensitivity.drive, drive.col_as_slice_mut(q));
-                local.follows(&sensitivity.follow, weights[i], follow.col_as_slice_mut(q));
-            }
-            (block, drive, follow, all_factors)
-        };
-        let parts: Vec<_> = (joint.slices.par_iter().enumerate())
-            .map(of_slice)
-            .collect();
-        let (mut blocks, mut drive, mut follow) = (Vec::new(), Vec::new(), Vec::new());
-        let mut factors = Vec::new();
-        for part in parts {
-            blocks.push(part.0);
-            drive.push(part.1);
-            follow.push(part.2);
-            factors.push(part.3);
-        }
-        let jacobian = Jacobian::Blocks {
-            blocks,
-            drive,
-            follow,
-        };
-        Ok((jacobian, factors))
-    }
 }
 
 /// Contacts by position and slice as contacts by slice and position.
@@ -374,177 +305,18 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
 
     fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Jacobian>, WearError> {
         self.solved(u)?;
-        if let Some(model) = self.model.sliced() {
-            let (jacobian, factors) = self.jacobian_of_slices(model, n, u)?;
-            self.factors = Some(KnownFactors {
-                n,
-                u: u.to_vec(),
-                factors,
-            });
-            return Ok(Some(jacobian));
-        }
-        let (law, solved) = (self.law(), &self.known(u).slices[0]);
-        let (cycle, contacts) = (law.cycle, &solved.contacts);
-        let blocks: Vec<Option<DMatrix<f64>>> = contacts
-            .par_iter()
-            .enumerate()
-            .map(|(q, contact)| self.model.sensitivity(q, contact))
-            .collect::<Result<_, _>>()?;
-        let Some(blocks) = blocks.into_iter().collect::<Option<Vec<_>>>() else {
+        let (jacobian, factors) = if let Some(model) = self.model.sliced() {
+            self.jacobian_of_slices(model, n, u)?
+        } else if let Some((jacobian, factors)) = self.jacobian_of_section(n, u)? {
+            (jacobian, vec![factors])
+        } else {
             return Ok(None);
         };
-        let view = law.view(n, u);
-        let mut jacobian = PatchyMatrix::new(u.len());
-        let mut all_factors = Vec::with_capacity(contacts.len());
-        let reads = law.added_reads(&view, solved, &law.reads(solved));
-        for (q, ((contact, block), reads)) in contacts.iter().zip(blocks).zip(reads).enumerate() {
-            let position = &cycle.positions[q];
-            let [factors, slopes] = law.factors_and_slopes(&view, position, contact);
-            all_factors.push(factors);
-            let local = Local {
-                position,
-                active: &contact.active,
-                shift: [0, cycle.stations.arc[0].len()],
-                scale: law.scale(),
-                slopes,
-                reads,
-            };
-            local.add(&block, &mut jacobian);
-        }
         self.factors = Some(KnownFactors {
             n,
             u: u.to_vec(),
-            factors: vec![all_factors],
+            factors,
         });
-        Ok(Some(Jacobian::Full(jacobian)))
-    }
-}
-
-/// One position's part of the Jacobian, −Dᵀ S G: D deposits, S is the sensitivity of the pressures, G opens the gaps.
-struct Local<'a> {
-    position: &'a Position,
-    active: &'a [usize],
-    /// First unknown of each flank.
-    shift: [usize; 2],
-    /// Depth rate per pressure of pinion and gear: k per pinion cycle.
-    scale: [f64; 2],
-    /// Change of f p with p at the unknowns.
-    slopes: Factors,
-    /// What effects add.
-    reads: AddedReads,
-}
-
-impl Local<'_> {
-    /// Entries (station, value) of an operator's row for unknown `k`, both flanks.
-    fn row<'b>(
-        &'b self,
-        k: usize,
-        operator: impl Fn(&'b PairContact) -> &'b [SparseRows; 2] + 'b,
-    ) -> impl Iterator<Item = (usize, f64, usize)> + 'b {
-        let pair = &self.position.pairs[self.position.owner(k)];
-        operator(pair)
-            .iter()
-            .enumerate()
-            .flat_map(move |(side, rows)| {
-                let (columns, values) = rows.row(k - pair.offset);
-                columns
-                    .iter()
-                    .zip(values)
-                    .map(move |(&c, &v)| (self.shift[side] + c as usize, v, side))
-            })
-    }
-
-    /// Where the pressure at each unknown of the active set wears, by its rate of depth.
-    fn deposits(&self) -> Deposits {
-        let mut deposits = Deposits::default();
-        for &k in self.active {
-            let slope = |side: usize| self.slopes.as_ref().map_or(1.0, |s| s[side][k]);
-            let read = self.reads.iter().filter(|read| read.0 == k);
-            let worn = self
-                .row(k, |pair| &pair.wear)
-                .map(|(at, v, side)| (at, self.scale[side] * slope(side) * v));
-            deposits.push(worn.chain(read.map(|&(_, at, value)| (at, value))));
-        }
-        deposits
-    }
-
-    /// Rates per approach, where `pressure` is that on the active set per approach.
-    fn drives(&self, pressure: &DVector<f64>, rate: &mut [f64]) {
-        let deposits = self.deposits();
-        for (i, p) in pressure.iter().enumerate() {
-            for (first, values) in deposits.of(i) {
-                let rates = rate[first..].iter_mut().zip(values);
-                rates.for_each(|(rate, value)| *rate += value * p);
-            }
-        }
-    }
-
-    /// Approach per depth, where `gap` times `share` is that per weighted gap on the active set.
-    fn follows(&self, gap: &DVector<f64>, share: f64, depth: &mut [f64]) {
-        for (&k, f) in self.active.iter().zip(gap.iter()) {
-            for (station, opening, _) in self.row(k, |pair| &pair.opening) {
-                depth[station] += share * f * opening;
-            }
-        }
-    }
-
-    fn add(&self, sensitivity: &DMatrix<f64>, jacobian: &mut PatchyMatrix) {
-        let deposits = self.deposits();
-        let touched = Rows::new(deposits.stations());
-        let mut column = vec![0.0; jacobian.size()];
-        for (j, &l) in self.active.iter().enumerate() {
-            for range in touched.ranges() {
-                column[range.clone()].fill(0.0);
-            }
-            for i in 0..self.active.len() {
-                let sensitivity = sensitivity[(i, j)];
-                for (first, values) in deposits.of(i) {
-                    let entries = column[first..].iter_mut().zip(values);
-                    entries.for_each(|(entry, value)| *entry -= value * sensitivity);
-                }
-            }
-            for (station, opening, _) in self.row(l, |pair| &pair.opening) {
-                jacobian.add(station, &touched, opening, &column);
-            }
-        }
-    }
-}
-
-/// Rates of depth per pressure at the unknowns of an active set, by runs of neighbouring stations: loops over a run are loops over slices.
-#[derive(Default)]
-struct Deposits {
-    values: Vec<f64>,
-    /// First station of each run, and its place in `values`.
-    runs: Vec<(usize, Range<usize>)>,
-    /// Where each unknown's runs end.
-    ends: Vec<usize>,
-}
-
-impl Deposits {
-    /// Takes the next unknown's entries (joint station, value).
-    fn push(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
-        let own = self.runs.len();
-        for (station, value) in entries {
-            let at = self.values.len();
-            match self.runs[own..].last_mut() {
-                Some((first, run)) if *first + run.len() == station => run.end += 1,
-                _ => self.runs.push((station, at..at + 1)),
-            }
-            self.values.push(value);
-        }
-        self.ends.push(self.runs.len());
-    }
-
-    /// First station and values of every run of the unknown number `i` of the set.
-    fn of(&self, i: usize) -> impl Iterator<Item = (usize, &[f64])> + '_ {
-        let begin = if i == 0 { 0 } else { self.ends[i - 1] };
-        let runs = self.runs[begin..self.ends[i]].iter();
-        runs.map(|(first, run)| (*first, &self.values[run.clone()]))
-    }
-
-    /// The stations of all.
-    fn stations(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        let runs = self.runs.iter();
-        runs.map(|(first, run)| *first..*first + run.len())
+        Ok(Some(jacobian))
     }
 }
