@@ -7,18 +7,18 @@
 
 pub(super) mod drafts;
 mod learned;
+mod outcome;
 mod target;
 #[cfg(test)]
 mod tests;
-mod told;
 
 use std::path::PathBuf;
 
 use clap::Args;
 
 use self::drafts::{Draft, card, draft, forms, setting, settings};
+use self::outcome::{Fitted, Report, fitted};
 use self::target::{target, writable, write_whole};
-use self::told::{Fitted, Report, told};
 use super::{CliError, Context, Outcome};
 use crate::learn::{AddedForm, ModelVersion};
 use crate::measure::Dataset;
@@ -80,7 +80,7 @@ fn fit(drafts: &[Draft], data: &Dataset, context: &Context) -> Result<Fitted, Cl
     let addition = crate::learn::add(&drafts[0].study, data, &forms, &|doing, form| {
         super::fitting::show_form(&progress, doing, drafts[form].form());
     })?;
-    Ok(told(drafts, &addition))
+    Ok(fitted(drafts, &addition))
 }
 
 /// The command with its fit, which is asked only if a parameter has no set value.

@@ -155,13 +155,13 @@ fn step(
         }
         let added = fitter.with_effect(&state.rungs, &state.values, &effect, watch)?;
         let paid = added.standing.pays_over(&state.standing);
-        let mut told = added
+        let mut step = added
             .standing
             .step(Some(&state.standing), names(&added.rungs));
-        told.added = Some(effect);
-        refused(&mut told, paid);
-        let kept = told.kept;
-        state.steps.push(told);
+        step.added = Some(effect);
+        refused(&mut step, paid);
+        let kept = step.kept;
+        state.steps.push(step);
         if kept {
             state.go_on(added);
             drop_needless(state, fitter, watch)?;
@@ -190,9 +190,9 @@ fn drop_needless(
             place += 1;
             continue;
         }
-        let mut told = (without.standing).step(Some(&state.standing), names(&without.rungs));
-        told.removed = Some(removed.effect);
-        state.steps.push(told);
+        let mut step = (without.standing).step(Some(&state.standing), names(&without.rungs));
+        step.removed = Some(removed.effect);
+        state.steps.push(step);
         state.go_on(without);
     }
     Ok(())

@@ -24,7 +24,7 @@ pub struct MaterialsArgs {
 /// mm²/N in 1e-6 mm³/(N m).
 const PER_METRE: f64 = 1e9;
 
-/// Lists the pairs, or tells all about one.
+/// Lists the pairs, or shows all about one.
 pub(super) fn execute(args: &MaterialsArgs) -> Result<Outcome, CliError> {
     let (pairs, text) = match &args.pair {
         Some(name) => {
@@ -76,7 +76,7 @@ fn overview() -> String {
     }
     let _ = writeln!(
         text,
-        "\n{} pairs; `gearwear materials PAIR` tells conditions, scatter and source of one",
+        "\n{} pairs; `gearwear materials PAIR` gives conditions, scatter and source of one",
         WEAR_PAIRS.len()
     );
     text

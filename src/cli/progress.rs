@@ -49,7 +49,7 @@ impl Progress {
     }
 }
 
-/// Share of the work from which the time left can be told.
+/// Share of the work from which the time left is shown.
 const TELLS: f32 = 0.04;
 
 /// The time left in words.

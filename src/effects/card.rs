@@ -47,12 +47,12 @@ pub struct Param {
     pub default: f64,
     /// Smallest and largest value allowed.
     pub range: (f64, f64),
-    /// What is thought of it before any measurement.
+    /// Its prior.
     pub prior: Prior,
     /// The value at which the effect does nothing; it may lie outside the range. With every such parameter at its neutral
     /// value all hooks are neutral to the last bit.
     pub neutral: Option<f64>,
-    /// Whether a fit adjusts it unless told otherwise.
+    /// Whether a fit adjusts it by default.
     pub fitted: bool,
     /// What a fit has to know of it beside its value.
     pub role: ParamRole,

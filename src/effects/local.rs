@@ -1,4 +1,4 @@
-//! What an effect is told about a place on a flank.
+//! The state of a place on a flank, as an effect sees it.
 
 use crate::gear::Member;
 

@@ -1,4 +1,4 @@
-//! What is thought of a parameter before any measurement.
+//! The prior of a parameter.
 
 use std::f64::consts::PI;
 use std::fmt;

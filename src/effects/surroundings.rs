@@ -16,7 +16,7 @@ pub struct Surroundings {
     pub pressure_viscosity_per_gpa: Option<f64>,
     /// Composite roughness Rq, µm.
     pub roughness_um: Option<f64>,
-    /// Stated coefficient of friction: heats the contact, and stands for the local one where that cannot be told.
+    /// Stated coefficient of friction: heats the contact, and stands for the local one where that is not known.
     pub friction_coefficient: Option<f64>,
     /// Thermal contact coefficient B_M, N/(m s^½ K).
     pub contact_coefficient: Option<f64>,

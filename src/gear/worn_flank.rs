@@ -7,7 +7,7 @@
 //! x(s) = R(−h(s)/r_b) x₀(s)          (x₀: unworn involute, R: rotation about the gear's centre, r_b: base radius)
 //! ```
 //! All involutes of one base circle have the same normals and lie at equal distances along them, so h is the distance to the
-//! unworn flank along its normal (to second order where the depth varies). Said this way the shape holds at any depth:
+//! unworn flank along its normal (to second order where the depth varies). In this form the shape holds at any depth:
 //!
 //! - a flank worn evenly is the involute turned back: exact, and the tip corner stays on the tip circle;
 //! - radii are kept, so the profile is a graph over the radius and cannot cross itself, whatever ledge a mate's corner digs;

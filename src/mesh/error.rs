@@ -93,7 +93,7 @@ pub enum MeshError {
 }
 
 impl MeshError {
-    /// The same, said of a member where that helps.
+    /// The same with the member's name, where that helps.
     #[must_use]
     pub fn of(self, member: Member) -> Self {
         match self {

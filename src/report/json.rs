@@ -181,10 +181,10 @@ fn check_numbers(run: &Run) -> Result<(), OutputError> {
             ),
             ("friction_power_w", state.friction_power()),
         ];
-        let told = figures_of_oil
+        let known = figures_of_oil
             .into_iter()
             .filter_map(|(name, figure)| Some((format!("contact.{name} at {at} cycles"), figure?)));
-        figures.extend(told);
+        figures.extend(known);
         figures.extend(
             state
                 .peak_pressure()

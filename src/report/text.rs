@@ -158,7 +158,7 @@ fn failed_checks(run: &Run) -> Option<String> {
     let failed = run.checks.iter().filter(|check| !check.passed());
     let failed: Vec<String> = failed
         .map(|check| {
-            let said = format!(
+            let value = format!(
                 "{} is {} {}",
                 check.name,
                 significant(check.value, 3),
@@ -166,7 +166,7 @@ fn failed_checks(run: &Run) -> Option<String> {
             );
             format!(
                 "{}, allowed {}",
-                said.trim_end(),
+                value.trim_end(),
                 significant(check.limit, 3)
             )
         })
@@ -182,7 +182,7 @@ fn failed_checks(run: &Run) -> Option<String> {
 /// What came out, in two or three sentences.
 pub fn conclusion(run: &Run) -> String {
     let (first, last) = (run.first(), run.last());
-    let mut said: Vec<String> = failed_checks(run).into_iter().collect();
+    let mut sentences: Vec<String> = failed_checks(run).into_iter().collect();
     if last.cycles > 0.0 {
         let wear = Member::BOTH.map(|member| {
             let flank = last.profile(member);
@@ -196,7 +196,7 @@ pub fn conclusion(run: &Run) -> String {
                 significant(flank.max_depth(), 3)
             )
         });
-        said.push(format!(
+        sentences.push(format!(
             "After {} pinion revolutions wear has lowered {} and {}.",
             count(last.cycles),
             wear[0],
@@ -205,34 +205,34 @@ pub fn conclusion(run: &Run) -> String {
     }
     if let (Some(new), Some(worn)) = (first.peak_pressure(), last.peak_pressure()) {
         if run.states.len() > 1 {
-            said.push(format!(
+            sentences.push(format!(
                 "The largest contact pressure on the flanks went from {} to {} MPa.",
                 significant(new.0, 4),
                 significant(worn.0, 4)
             ));
         } else {
             let place = region(run, new.1);
-            said.push(format!(
+            sentences.push(format!(
                 "The largest contact pressure on the flanks is {} MPa ({place}).",
                 significant(new.0, 4)
             ));
         }
     }
     if let Some((new, worn)) = corner_pressure(run) {
-        said.push(format!(
+        sentences.push(format!(
             "Where a tip corner touches, its mean over 0.02 modules is {}; under the sharp corner itself it has no bound.",
             new_and_worn(run, new, worn, "MPa")
         ));
     }
     if let (Some(new), Some(worn)) = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad()) {
         if run.states.len() > 1 {
-            said.push(format!(
+            sentences.push(format!(
                 "The transmission error, peak to peak at the pinion, went from {} to {} µrad.",
                 significant(new, 4),
                 significant(worn, 4)
             ));
         } else {
-            said.push(format!(
+            sentences.push(format!(
                 "The transmission error is {} µrad peak to peak at the pinion.",
                 significant(new, 4)
             ));
@@ -245,11 +245,11 @@ pub fn conclusion(run: &Run) -> String {
         } else {
             "checks of the run on itself failed"
         };
-        said.push(format!(
+        sentences.push(format!(
             "{failed} {verb}: see Checks before using these figures."
         ));
     }
-    said.join(" ")
+    sentences.join(" ")
 }
 
 /// Largest pressures at a tip corner in the first and in the last state, 0 where none touches; none if none does in either.

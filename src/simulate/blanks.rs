@@ -281,8 +281,8 @@ mod tests {
             });
             let depth = [&depth[0][..], &depth[1][..]];
             let error = blanks.worn_meshes(&pair, &stations, depth).err().unwrap();
-            let said = format!("a tooth of the {name} is worn to a point: 4.0000 mm deep");
-            assert!(error.to_string().starts_with(&said), "{error}");
+            let start = format!("a tooth of the {name} is worn to a point: 4.0000 mm deep");
+            assert!(error.to_string().starts_with(&start), "{error}");
         }
     }
 }

@@ -50,7 +50,7 @@ impl WearState {
     }
 }
 
-/// What an observer is told after each accepted wear step.
+/// What an observer gets after each accepted wear step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepReport<'a> {
     /// Where the integration stands.
@@ -83,7 +83,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// What an observer is told of it.
+    /// What an observer gets of it.
     pub fn report(&self) -> StepReport<'_> {
         StepReport {
             stand: &self.stand,

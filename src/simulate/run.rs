@@ -66,7 +66,7 @@ pub const FIELDS_STAGE: &str = "stress fields of the last state";
 
 /// Who watches a run.
 pub trait Observer {
-    /// Told of every event; `false` stops the run.
+    /// Called at every event; `false` stops the run.
     fn event(&mut self, event: Event) -> bool;
     /// Given the state after each wear step.
     ///
@@ -125,10 +125,10 @@ fn failed_checks(checks: &[Check]) -> String {
             c.name, c.value, c.limit
         )
     });
-    let said: Vec<String> = failed.collect();
+    let faults: Vec<String> = failed.collect();
     format!(
         "the result fails its own check and is not written: {}",
-        said.join("; ")
+        faults.join("; ")
     )
 }
 

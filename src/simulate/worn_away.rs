@@ -31,7 +31,7 @@ impl WornAway {
     /// Whether `plan` ends so, from what its first steps took.
     ///
     /// Each revolution takes the same area off a flank, whatever its shape (k ∮ F' |v| dt, the load being that of the torque). Effects
-    /// may change it, so nothing is said of them.
+    /// may change it, so they are left out.
     pub(super) fn by_the_end(plan: &Plan, pair: &Pair, progress: &Progress) -> Option<Self> {
         if plan.acting.is_some() || progress.stand.n <= 0.0 {
             return None;

@@ -1,4 +1,4 @@
-//! Physical effects in a run: what they are told at each place of the mesh cycle, and what they change.
+//! Physical effects in a run: the state that they see at each place of the mesh cycle, and what they change.
 
 use std::f64::consts::TAU;
 

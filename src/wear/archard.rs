@@ -23,7 +23,7 @@ use crate::wear::integrator::{Jacobian, WearSystem};
 use crate::wear::law::{Factors, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
 
-/// How far the average of the largest pressure that effects are told reaches, mm: half of its weight lies within 12 µm, about the length of a micropit in all, and
+/// How far the average of the largest pressure that effects see reaches, mm: half of its weight lies within 12 µm, about the length of a micropit in all, and
 /// its second moment is that of an even average over 30 µm.
 const PEAK_REACH: f64 = 0.0212;
 

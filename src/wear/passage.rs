@@ -7,7 +7,7 @@
 //! p(s, t) = (1 − t) p_m(s − c(t) + c_m) + t p_{m+1}(s − c(t) + c_{m+1}),   c(t) = (1 − t) c_m + t c_{m+1}
 //! ```
 //! A law that takes the largest of it to a high power has no limit on finer grids: the largest pressure sees the crests of waves
-//! and not their troughs, and waves shorter than the sliding during a passage grow. What such a law is told is therefore the
+//! and not their troughs, and waves shorter than the sliding during a passage grow. What such a law sees is therefore the
 //! pressure averaged around the point, by weights that fade out linearly: an even average turns waves between a half and once its length upside down,
 //! troughs are then worn as crests, and they grow where sliding does not level them, from the pitch point on.
 

@@ -49,7 +49,7 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
     edit.move_between(folder(&args.study), folder(&target))?;
     let new = edit.finish(&target.display().to_string())?;
     write_whole(&target, new.text()).map_err(io)?;
-    Ok(told(&found, &wanted, &target.display().to_string()))
+    Ok(outcome(&found, &wanted, &target.display().to_string()))
 }
 
 /// What is asked for.
@@ -91,7 +91,7 @@ fn refuse_what_it_lacks(study: &Study, wanted: &WantedLaw) -> Result<(), CliErro
 }
 
 /// What was learned, in words and in the command's document.
-fn told(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome {
+fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome {
     let (law, name) = (&found.law, wanted.name());
     let knots = law.law.knots();
     let (first, last) = (knots[0], knots[knots.len() - 1]);

@@ -148,11 +148,11 @@ impl Sensitivity {
                     "total_half_width": indices.total.half_width,
                 })
             });
-            let mut told = json!({"output": output.name, "keys": keys.collect::<Vec<_>>()});
+            let mut document = json!({"output": output.name, "keys": keys.collect::<Vec<_>>()});
             if let Some(radius) = output.radius {
-                told["radius"] = json!(radius);
+                document["radius"] = json!(radius);
             }
-            told
+            document
         });
         json!({
             "rows": self.rows.0,

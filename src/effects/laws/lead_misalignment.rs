@@ -5,7 +5,7 @@
 //! ```text
 //! e(η) = −F_βy η/2        µm missing along the path of contact; η = 2y/b from −1 to 1, 1 is the loaded end
 //! ```
-//! The analytic model has one section, and is told the load of a rigid wedge on new flanks:
+//! The analytic model has one section; there the load is that of a rigid wedge on new flanks:
 //!
 //! ```text
 //! X = F_βy c_γ/(2w)        F_βy µm over the face, c_γ N/(mm µm), w N/mm mean normal load

@@ -5,7 +5,7 @@ use super::super::format::{percent, significant, uncertain, whole};
 use crate::learn::{Comparison, ParameterRecord, TestRecord};
 use crate::study::Study;
 
-/// χ² per point above which the model is told to lack something: three standard deviations √(2/n) above 1.
+/// χ² per point above which the model is reported to lack something: three standard deviations √(2/n) above 1.
 fn noise_floor(points: usize) -> f64 {
     1.0 + 3.0 * (2.0 / points.max(1) as f64).sqrt()
 }
@@ -19,7 +19,7 @@ pub(super) fn lacks(comparison: &Comparison) -> bool {
 
 /// How wrong the model is, and where it fails worst.
 pub fn conclusion(comparison: &Comparison) -> String {
-    let mut said: Vec<String> = (comparison.sanity.iter())
+    let mut sentences: Vec<String> = (comparison.sanity.iter())
         .map(|suspect| format!("Check first: {suspect}."))
         .collect();
     let shares = [
@@ -32,19 +32,19 @@ pub fn conclusion(comparison: &Comparison) -> String {
             Some(format!("{} on {of}", significant(share.chi2_per_point?, 3)))
         })
         .collect();
-    said.push(format!(
+    sentences.push(format!(
         "χ² per point is {} (1 is the noise floor).",
         parts.join(", ")
     ));
     if let (Some(rms), Some(noise)) = (comparison.rms_um, comparison.noise_rms_um) {
-        said.push(format!(
+        sentences.push(format!(
             "Worn depths are off by {} µm (root mean square); the measurements' own noise is {} µm.",
             significant(rms, 3),
             significant(noise, 3)
         ));
     }
-    said.push(comparison.worst.clone());
-    said.join(" ")
+    sentences.push(comparison.worst.clone());
+    sentences.join(" ")
 }
 
 /// What was compared: contact model, effects, tests, measurements.

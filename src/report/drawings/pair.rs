@@ -35,7 +35,7 @@ pub fn of_pair(pair: &Pair) -> Vec<Drawing> {
         scale: WIDTH / (2.0 * half),
         height: 1.6 * half,
     };
-    let said = [
+    let drawings = [
         (
             "gear_pair",
             "The pair to scale: pinion left, driving; pitch circles dashed, line of action dotted, path of contact thick",
@@ -49,7 +49,8 @@ pub fn of_pair(pair: &Pair) -> Vec<Drawing> {
             true,
         ),
     ];
-    said.into_iter()
+    drawings
+        .into_iter()
         .map(|(name, title, view, letters)| Drawing {
             name: name.to_owned(),
             title: title.to_owned(),

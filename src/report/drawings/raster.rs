@@ -91,7 +91,7 @@ impl Raster {
         depth: png::BitDepth,
         packed: &[u8],
     ) -> Result<Vec<u8>, OutputError> {
-        let said = |error: png::EncodingError| OutputError::Plot {
+        let encoding_error = |error: png::EncodingError| OutputError::Plot {
             title: "stresses".to_owned(),
             message: error.to_string(),
         };
@@ -103,9 +103,9 @@ impl Raster {
         encoder.set_trns(opacity.to_vec());
         encoder.set_compression(png::Compression::Balanced);
         encoder.set_filter(png::Filter::NoFilter);
-        let mut writer = encoder.write_header().map_err(said)?;
-        writer.write_image_data(packed).map_err(said)?;
-        writer.finish().map_err(said)?;
+        let mut writer = encoder.write_header().map_err(encoding_error)?;
+        writer.write_image_data(packed).map_err(encoding_error)?;
+        writer.finish().map_err(encoding_error)?;
         Ok(bytes)
     }
 }

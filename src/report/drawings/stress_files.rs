@@ -180,7 +180,7 @@ fn bar(view: View, [x, y]: [f64; 2]) -> String {
         .map(|digit| digit * power)
         .find(|length| *length >= least)
         .unwrap_or(10.0 * power);
-    let said = if length < 0.0995 {
+    let label = if length < 0.0995 {
         format!("{:.0} µm", 1e3 * length)
     } else {
         format!("{} mm", (100.0 * length).round() / 100.0)
@@ -189,7 +189,7 @@ fn bar(view: View, [x, y]: [f64; 2]) -> String {
     format!(
         "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"34\" rx=\"4\" fill=\"#ffffff\" fill-opacity=\"0.85\"/><path \
          d=\"M{x:.1} {y:.1}h{pixels:.1}\" stroke=\"#1c1f23\" stroke-width=\"4\"/><text x=\"{:.1}\" y=\"{:.1}\" font-size=\"16\" \
-         text-anchor=\"middle\" fill=\"#1c1f23\">{said}</text>\n",
+         text-anchor=\"middle\" fill=\"#1c1f23\">{label}</text>\n",
         x - 8.0,
         y - 26.0,
         pixels + 16.0,

@@ -38,8 +38,8 @@ pub fn models(title: &str, comparison: &Comparison) -> Page {
 fn mounting(mounted: &Mounted) -> Section {
     let heading = format!("Misalignment {} mm", mounted.misalignment);
     let mut section = Section::new(&heading);
-    for said in of_mounting(mounted) {
-        section = section.paragraph(unbroken(&said));
+    for sentence in of_mounting(mounted) {
+        section = section.paragraph(unbroken(&sentence));
     }
     for quantity in [
         Quantity::DepthPinion,
@@ -91,9 +91,9 @@ fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
     head.push("A–E");
     let mut table = Table::new(&caption, head);
     let digits = decimals(quantity);
-    let numbers = |means: &Means, said: fn(f64, usize) -> String| {
+    let numbers = |means: &Means, written: fn(f64, usize) -> String| {
         let all = means.regions.iter().chain(std::iter::once(&means.whole));
-        all.map(|v| Cell::number(said(*v, digits)))
+        all.map(|v| Cell::number(written(*v, digits)))
             .collect::<Vec<_>>()
     };
     let model = |kind: Kind, means: &Means| {

@@ -64,17 +64,17 @@ pub(super) fn oil_and_heat(run: &Run) -> Section {
             .key_figures
             .push(("friction between the teeth, new → worn".to_owned(), value));
     }
-    let told = [
+    let stated = [
         last.least_film_ratio().is_some(),
         last.largest_flash_temperature().is_some(),
         last.friction_power().is_some(),
     ];
-    let missing = MISSING.iter().zip(told).filter(|(_, told)| !told);
+    let missing = MISSING.iter().zip(stated).filter(|(_, stated)| !stated);
     let missing: Vec<String> = missing
         .map(|((what, keys), _)| format!("{what}: {keys}"))
         .collect();
     if run.conditions.model == "paper" {
-        return section.note("The published model tells nothing of film, heat and losses.");
+        return section.note("The published model has no film, heat or losses.");
     }
     if !missing.is_empty() {
         section = section.paragraph(format!("Not stated in the study: {}.", missing.join("; ")));

@@ -27,7 +27,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
     } else {
         "the tests it is fitted to (none is held out, so nothing here guards against fitting noise)"
     };
-    let mut said = Vec::new();
+    let mut sentences = Vec::new();
     let best = steps
         .iter()
         .filter_map(|step| Some((*step, judge(step)?)))
@@ -46,7 +46,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
                 significant(first, 3)
             )
         };
-        said.push(if best != steps[0] && least > NO_BETTER * first {
+        sentences.push(if best != steps[0] && least > NO_BETTER * first {
             format!(
                 "No version does better on {of} than {}, χ² per point {}; 1 is the noise floor.",
                 steps[0].study,
@@ -65,7 +65,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
             continue;
         };
         if b > NO_BETTER * a {
-            said.push(format!(
+            sentences.push(format!(
                 "From {} to {} the error on {} does not fall ({} to {}): that step explains nothing new.",
                 before.study,
                 after.study,
@@ -75,8 +75,8 @@ pub fn conclusion(result: &Result<'_>) -> String {
             ));
         }
     }
-    said.extend(notes(result));
-    said.join(" ")
+    sentences.extend(notes(result));
+    sentences.join(" ")
 }
 
 /// What keeps versions from being judged against the first.

@@ -6,7 +6,7 @@ use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity}
 /// What holds over all misalignments.
 pub fn conclusions(comparison: &Comparison) -> Vec<String> {
     let all = &comparison.mounted;
-    let mut said = Vec::new();
+    let mut sentences = Vec::new();
     for (quantity, member) in [
         (Quantity::DepthPinion, "pinion"),
         (Quantity::DepthGear, "gear"),
@@ -19,7 +19,7 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
             let ways = all
                 .iter()
                 .map(|m| m.causes(quantity, Kind::Hertz, Kind::Fem));
-            said.push(format!(
+            sentences.push(format!(
                 "On the {member} the Hertz model's mean depth is {range} off that of finite elements, {}.",
                 blame(ways)
             ));
@@ -30,7 +30,7 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
         .filter_map(|m| m.single)
         .map(|s| s.largest_difference.abs());
     if let Some(largest) = single.max_by(f64::total_cmp) {
-        said.push(format!(
+        sentences.push(format!(
             "Where one pair alone carries the load, peak pressures by finite elements and by Hertz agree within {}.",
             percent(largest, 2)
         ));
@@ -46,31 +46,31 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
         let ways = published
             .iter()
             .map(|m| m.causes(Quantity::DepthPinion, Kind::Paper, Kind::Fem));
-        said.push(format!(
+        sentences.push(format!(
             "The published model wears the pinion {range} times as deep as finite elements do, {}.",
             blame(ways)
         ));
     }
     for out in &comparison.left_out {
-        said.push(format!(
+        sentences.push(format!(
             "A misalignment of {} mm is left out: {}.",
             out.misalignment, out.reason
         ));
     }
     if let Some(reason) = all.iter().find_map(|m| m.absent.as_ref()) {
-        said.push(format!(
+        sentences.push(format!(
             "The published model is left out where its rules do not reach: {reason}."
         ));
     }
-    said
+    sentences
 }
 
 /// What holds at one misalignment.
 pub fn of_mounting(mounted: &Mounted) -> Vec<String> {
-    let mut said = Vec::new();
+    let mut sentences = Vec::new();
     if let Some(single) = mounted.single {
         let [_, b, d, _] = mounted.geometry.path_limits;
-        said.push(format!(
+        sentences.push(format!(
             "One pair alone carries the load from {} to {} mm along the path of contact (nominally {} to {} mm); there the \
              finite elements' peak pressure is within {} of Hertz's, {} on average.",
             significant(single.from, 3),
@@ -81,31 +81,31 @@ pub fn of_mounting(mounted: &Mounted) -> Vec<String> {
             percent(single.mean_difference, 2)
         ));
     }
-    said.extend(of_way(
+    sentences.extend(of_way(
         mounted,
         Quantity::DepthPinion,
         Kind::Paper,
         "the pinion",
     ));
-    said.extend(of_way(
+    sentences.extend(of_way(
         mounted,
         Quantity::DepthPinion,
         Kind::Hertz,
         "the pinion",
     ));
-    said.extend(of_way(
+    sentences.extend(of_way(
         mounted,
         Quantity::DepthGear,
         Kind::Hertz,
         "the gear",
     ));
-    said.extend(
+    sentences.extend(
         mounted
             .absent
             .as_ref()
             .map(|reason| format!("The published model cannot be run here: {reason}.")),
     );
-    said
+    sentences
 }
 
 /// How much deeper `from` wears than finite elements, and what makes it so.
@@ -121,7 +121,7 @@ fn of_way(mounted: &Mounted, quantity: Quantity, from: Kind, member: &str) -> Op
     let turned = from == Kind::Paper;
     causes.sort_by(|a, b| b.1.whole.abs().total_cmp(&a.1.whole.abs()));
     let total = end.whole - start.whole;
-    let told: Vec<String> = causes
+    let parts: Vec<String> = causes
         .iter()
         .take(4)
         .filter(|(_, change)| change.whole.abs() >= 0.005 * start.whole.abs().min(end.whole.abs()))
@@ -143,10 +143,10 @@ fn of_way(mounted: &Mounted, quantity: Quantity, from: Kind, member: &str) -> Op
         significant(start.whole, 3),
         significant(end.whole, 3)
     );
-    Some(match (told.is_empty(), turned) {
+    Some(match (parts.is_empty(), turned) {
         (true, _) => format!("{what}."),
-        (false, true) => format!("{what}. Parts of the difference: {}.", told.join(", ")),
-        (false, false) => format!("{what}; on the way there: {}.", told.join(", ")),
+        (false, true) => format!("{what}. Parts of the difference: {}.", parts.join(", ")),
+        (false, false) => format!("{what}; on the way there: {}.", parts.join(", ")),
     })
 }
 
@@ -159,11 +159,11 @@ fn ratio(mounted: &Mounted, quantity: Quantity, kind: Kind) -> Option<f64> {
 }
 
 /// Smallest to largest, or the one value.
-fn range(values: impl Iterator<Item = f64>, said: impl Fn(f64) -> String) -> Option<String> {
+fn range(values: impl Iterator<Item = f64>, written: impl Fn(f64) -> String) -> Option<String> {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
         (l.min(v), h.max(v))
     });
-    let (low, high) = (low.is_finite().then(|| said(low))?, said(high));
+    let (low, high) = (low.is_finite().then(|| written(low))?, written(high));
     Some(if low == high {
         low
     } else {

@@ -72,9 +72,9 @@ fn table(lines: &mut Vec<String>, mounted: &Mounted, quantity: Quantity) {
         format!("{first:<FIRST$}{cells}")
     };
     let digits = decimals(quantity);
-    let numbers = |means: &Means, said: fn(f64, usize) -> String| {
+    let numbers = |means: &Means, written: fn(f64, usize) -> String| {
         let all = means.regions.iter().chain(std::iter::once(&means.whole));
-        all.map(|v| said(*v, digits)).collect::<Vec<_>>()
+        all.map(|v| written(*v, digits)).collect::<Vec<_>>()
     };
     let mut head: Vec<String> = mounted
         .spans

@@ -56,7 +56,7 @@ impl Plot {
     }
 
     fn draw(&self, area: &Area<'_>) -> Result<(), String> {
-        let said = |error: &dyn std::fmt::Display| error.to_string();
+        let plot_error = |error: &dyn std::fmt::Display| error.to_string();
         let legend_rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
         let (legend, below) = area.split_vertically(legend_rows * LEGEND_ROW + 8 * FINE);
         let mut x = self.horizontal();
@@ -70,8 +70,8 @@ impl Plot {
         } else {
             self.panel(area, &below, x, true)?;
         }
-        self.draw_legend(&legend).map_err(|e| said(&e))?;
-        area.present().map_err(|e| said(&e))
+        self.draw_legend(&legend).map_err(|e| plot_error(&e))?;
+        area.present().map_err(|e| plot_error(&e))
     }
 
     /// Axes, marks and curves in `place`, a part of `area`; without `named` the horizontal axis has neither numbers nor name.
@@ -82,7 +82,7 @@ impl Plot {
         x: (f64, f64),
         named: bool,
     ) -> Result<(), String> {
-        let said = |error: &dyn std::fmt::Display| error.to_string();
+        let plot_error = |error: &dyn std::fmt::Display| error.to_string();
         let y = self.vertical();
         let top = if self.marks.iter().all(|mark| mark.1.is_empty()) {
             10 * FINE
@@ -97,7 +97,7 @@ impl Plot {
             .x_label_area_size(if named { 52 * FINE } else { 4 * FINE })
             .y_label_area_size(80 * FINE)
             .build_cartesian_2d(x.0..x.1, y.0..y.1)
-            .map_err(|e| said(&e))?;
+            .map_err(|e| plot_error(&e))?;
         let (x_digits, y_digits) = (digits(x), digits(y));
         let short = self.residuals;
         let x_tick = |v: &f64| match (named, self.names.is_empty()) {
@@ -131,7 +131,7 @@ impl Plot {
             .x_label_formatter(&x_tick)
             .y_label_formatter(&y_tick)
             .draw()
-            .map_err(|e| said(&e))?;
+            .map_err(|e| plot_error(&e))?;
         let mark_text = TextStyle::from((FONT, TEXT).into_font())
             .color(&MARK)
             .pos(Pos::new(HPos::Center, VPos::Bottom));
@@ -144,7 +144,7 @@ impl Plot {
                     line.to_vec(),
                     MARK.stroke_width(FINE as u32),
                 )])
-                .map_err(|e| said(&e))?;
+                .map_err(|e| plot_error(&e))?;
         }
         for (at, letter) in upright.filter(|mark| !mark.1.is_empty()) {
             let (px, py) = chart.backend_coord(&(*at, y.1));
@@ -153,7 +153,7 @@ impl Plot {
                 (px, py - 4 * FINE),
                 mark_text.clone(),
             ))
-            .map_err(|e| said(&e))?;
+            .map_err(|e| plot_error(&e))?;
         }
         for (number, curve) in self.curves.iter().enumerate() {
             let color = curve.style.color();
@@ -164,7 +164,7 @@ impl Plot {
                         shown.clone(),
                         color.stroke_width((width * f64::from(FINE)) as u32),
                     ))
-                    .map_err(|e| said(&e))?;
+                    .map_err(|e| plot_error(&e))?;
             }
             for (&(at, value), sigma) in curve.points.iter().zip(&curve.errors) {
                 let bar = [(at, value - sigma), (at, value + sigma)];
@@ -172,11 +172,11 @@ impl Plot {
                     self.seen(&bar).collect::<Vec<_>>(),
                     color.stroke_width(FINE as u32),
                 );
-                chart.draw_series([bar]).map_err(|e| said(&e))?;
+                chart.draw_series([bar]).map_err(|e| plot_error(&e))?;
             }
             for at in curve.marker_places(&shown, x.1 - x.0, number) {
                 let (px, py) = chart.backend_coord(&at);
-                draw_marker(area, curve.style, (px, py)).map_err(|e| said(&e))?;
+                draw_marker(area, curve.style, (px, py)).map_err(|e| plot_error(&e))?;
             }
         }
         Ok(())

@@ -62,7 +62,7 @@ pub struct Task<'a> {
     pub own: [Option<Mesh>; 2],
 }
 
-/// Told how much is done (0 to 1) and what comes next, from any thread.
+/// Called with how much is done (0 to 1) and what comes next, from any thread.
 pub type Watch<'a> = &'a (dyn Fn(f64, &'static str) + Sync);
 
 /// Compares the models.

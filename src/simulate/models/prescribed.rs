@@ -1,4 +1,4 @@
-//! A contact model that is told the load of each tooth pair: Hertz's ellipse on the line of action, given pressures off it.
+//! A contact model with a prescribed load of each tooth pair: Hertz's ellipse on the line of action, given pressures off it.
 //!
 //! With it one assumption of another model can be replaced while the rest stays.
 

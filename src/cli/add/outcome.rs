@@ -1,4 +1,4 @@
-//! What `add` tells of a fit, in words and in its document.
+//! A fit of `add`, in words and in its document.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -25,7 +25,7 @@ pub(super) struct Fitted {
 }
 
 /// A fit in words and in the command's document.
-pub(super) fn told(drafts: &[Draft], addition: &Addition) -> Fitted {
+pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
     let chosen = drafts[addition.form].form();
     let mut text = String::new();
