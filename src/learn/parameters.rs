@@ -1,4 +1,4 @@
-//! Free parameters: where a fit starts, how far it may go, what is thought of them before, what is known after.
+//! Free parameters: where a fit starts, how far it may go, their priors and what is known after a fit.
 
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ pub struct Parameter {
     pub lower: f64,
     /// Largest value allowed.
     pub upper: f64,
-    /// What is thought of it before any measurement.
+    /// Its prior.
     pub prior: Prior,
 }
 

@@ -321,7 +321,7 @@ impl Parameter {
         self.card.map_or("-", |param| param.unit)
     }
 
-    /// What is thought of it before any measurement.
+    /// Its prior.
     pub fn prior(&self) -> Prior {
         self.free().prior
     }

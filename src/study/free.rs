@@ -8,7 +8,7 @@ use crate::effects::{Param, ParamRole, Prior};
 /// The name of the wear coefficient among the free parameters.
 pub const WEAR_COEFFICIENT: &str = "wear.coefficient";
 
-/// What is thought of the wear coefficient, mm²/N: two standard deviations reach from 1e-12 to 1e-7, mild wear of metals.
+/// Prior of the wear coefficient, mm²/N: two standard deviations reach from 1e-12 to 1e-7, mild wear of metals.
 pub const COEFFICIENT_PRIOR: Prior = Prior::LogNormal {
     median: 3.2e-10,
     spread: 18.0,
@@ -23,7 +23,7 @@ const FORMULA_SPREAD: f64 = 5.0;
 /// Bounds that nobody states stand this many standard deviations from the prior's middle.
 const REACH: i32 = 6;
 
-/// Bounds of a positive parameter this far apart are thought of in powers of ten.
+/// Bounds of a positive parameter this far apart make its prior even in the logarithm.
 const DECADES: f64 = 100.0;
 
 /// A parameter that a fit may adjust. The bounds are finite, and the value lies between them.
@@ -39,7 +39,7 @@ pub struct FreeParameter {
     pub lower: f64,
     /// Largest value a fit may try.
     pub upper: f64,
-    /// What is thought of it before any measurement.
+    /// Its prior.
     pub prior: Prior,
     /// The value at which its effect does nothing; it may lie outside the bounds.
     pub neutral: Option<f64>,

@@ -58,7 +58,7 @@ pub struct Wear {
 }
 
 impl Wear {
-    /// What is thought of the coefficient before any measurement.
+    /// Prior of the coefficient.
     pub fn prior(&self) -> Prior {
         self.material
             .map_or(COEFFICIENT_PRIOR, |pair| Prior::LogNormal {
