@@ -17,7 +17,8 @@ pub struct Reservation {
     made: Vec<PathBuf>,
 }
 
-/// Reserves `target` for this program: as [`check`], and refused while another program holds it. Parents are created.
+/// Reserves `target` for this program. Refused, as by [`check`](super::check), where something else stands, and while
+/// another program holds it. Parents are created.
 pub fn reserve(target: &Path) -> Result<Reservation, OutputError> {
     let target = resolved(target)?;
     check_target(&target)?;
