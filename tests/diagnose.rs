@@ -18,6 +18,7 @@ use gearwear::study::Study;
 mod diagnosis {
     pub(crate) mod climb;
     pub(crate) mod command;
+    pub(crate) mod look_alikes;
     pub(crate) mod partial;
     pub(crate) mod plan;
     pub(crate) mod spoiled;
