@@ -684,19 +684,24 @@ fn the_command_writes_its_folder_the_same_with_any_number_of_threads() {
         );
         output.stdout
     };
-    let said = String::from_utf8(run("2", &["-o", "two"])).unwrap();
+    let said = String::from_utf8(run("2", &["-o", "two", "--misalignment", "0,0.5"])).unwrap();
     assert!(
         said.contains("misalignment 1.4 mm") && said.contains("two/report.html"),
         "{said}"
     );
-    let json: Value = serde_json::from_slice(&run("1", &["--json"])).unwrap();
+    // nobody asked for more than the study's own
+    let own: Value = serde_json::from_slice(&run("2", &["--json"])).unwrap();
+    assert_eq!(own["misalignments"].as_array().unwrap().len(), 1);
+    assert_eq!(own["misalignments"][0]["misalignment"], 1.4);
+    let asked = ["--json", "--misalignment", "0,0.5"];
+    let json: Value = serde_json::from_slice(&run("1", &asked)).unwrap();
     let written = std::fs::read(home.path().join("two/models.json")).unwrap();
     assert_eq!(json, serde_json::from_slice::<Value>(&written).unwrap());
     assert_eq!(
         written,
         std::fs::read(home.path().join("study.out/models/models.json")).unwrap()
     );
-    assert_eq!(json["misalignments"].as_array().unwrap().len(), 4);
+    assert_eq!(json["misalignments"].as_array().unwrap().len(), 3);
     // at another speed the gear's follows from the tooth numbers, and no cause is left in it
     assert!(
         json["published_gear_speed"]

@@ -18,8 +18,7 @@ use crate::study::Study;
 pub struct ModelsArgs {
     #[command(flatten)]
     paths: StudyAndOutput,
-    /// Radial misalignments, mm, at which to compare beside the study's own [default: none; of the published pair those that its
-    /// paper states]
+    /// Radial misalignments, mm, at which to compare beside the study's own; of the published pair its paper has results at 0, 0.5 and 1
     #[arg(long, value_name = "MM", value_delimiter = ',')]
     misalignment: Vec<f64>,
 }
@@ -52,23 +51,13 @@ pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, C
     })
 }
 
-/// Radial misalignments at which the paper states results, mm.
-const PUBLISHED: [f64; 3] = [0.0, 0.5, 1.0];
-
-/// Teeth of the pair for which it does.
-const PUBLISHED_TEETH: [u32; 2] = [27, 53];
-
-/// The models at the study's own misalignment, at those asked for, and at the paper's where the pair is the paper's.
+/// The models at the study's own misalignment and at those asked for.
 fn compare_models(
     study: &Study,
     asked: &[f64],
     progress: &Progress,
 ) -> Result<Comparison, CliError> {
     let mut misalignments = asked.to_vec();
-    let teeth = [&study.gears.pinion, &study.gears.gear].map(|gear| gear.spec.teeth);
-    if asked.is_empty() && teeth == PUBLISHED_TEETH {
-        misalignments.extend(PUBLISHED);
-    }
     misalignments.push(study.operation.misalignment_mm);
     misalignments.sort_by(f64::total_cmp);
     misalignments.dedup();

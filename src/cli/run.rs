@@ -10,7 +10,7 @@ use super::folder;
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
 use crate::contact::model::ContactError;
-use crate::report::{self, atomic};
+use crate::report::{self, FieldsWritten, atomic};
 use crate::simulate::checkpoint::{Checkpoint, CheckpointError, Fingerprint, fingerprint};
 use crate::simulate::forward::ForwardError;
 use crate::simulate::members::Members;
@@ -70,7 +70,9 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
     let result = simulate(&study, conditions, test, start, &keeper, &progress)?;
     progress.stage_at(WRITING, "tables, fields and report");
     let pair = study.gears.pair(conditions.misalignment_mm).ok();
-    let written = report::write_run_with(&result, pair.as_ref(), &keeper.inputs(&study), &target)?;
+    let inputs = keeper.inputs(&study);
+    let watch = |fields: FieldsWritten| progress.show(written_by(fields), doing(fields));
+    let written = report::write_run_with(&result, pair.as_ref(), &inputs, &target, &watch)?;
     drop(progress);
     keeper.discard();
     let json = report::json::summary(&result)?;
@@ -81,8 +83,23 @@ pub(super) fn execute(args: &RunArgs, context: &Context) -> Result<Outcome, CliE
     })
 }
 
+/// Share of a run that is done when so much of its fields is written.
+fn written_by(fields: FieldsWritten) -> f64 {
+    WRITING + (1.0 - WRITING) * fields.files as f64 / (fields.of + 1) as f64
+}
+
+/// What goes on while fields are written.
+fn doing(fields: FieldsWritten) -> String {
+    format!(
+        "tables, fields and report: {} of {} field files, {:.0} MB in all",
+        fields.files,
+        fields.of,
+        fields.bytes as f64 / 1e6
+    )
+}
+
 /// Share of a run's time by which its stages begin: meshes and compliance, wear, stress fields, writing. Of the reference pair with
-/// four drawn positions and five states; where more is drawn the later stages take longer than told.
+/// four drawn positions and five states; where more is drawn the later stages take longer than that.
 const WEAR: f64 = 0.12;
 const FIELDS: f64 = 0.6;
 const WRITING: f64 = 0.85;

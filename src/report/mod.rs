@@ -32,6 +32,6 @@ pub mod vtk;
 pub use atomic::{Staging, write_file};
 pub use error::OutputError;
 pub use run::{
-    Written, write_comparison, write_ladder, write_models, write_page, write_page_with, write_run,
-    write_run_with, write_validation,
+    FieldsWritten, Written, write_comparison, write_ladder, write_models, write_page,
+    write_page_with, write_run, write_run_with, write_validation,
 };

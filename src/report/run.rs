@@ -22,15 +22,27 @@ pub struct Written {
     pub files: Vec<String>,
 }
 
+/// How far the files of the fields are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldsWritten {
+    /// Files that stand.
+    pub files: usize,
+    /// Files that there will be.
+    pub of: usize,
+    /// Bytes of all together, by the size of those that stand.
+    pub bytes: u64,
+}
+
 /// Writes the result of `run`.
 ///
 /// # Errors
 /// [`OutputError`]; then nothing stands under the folder's name.
 pub fn write_run(run: &Run, folder: &Path) -> Result<Written, OutputError> {
-    write_run_with(run, None, &[], folder)
+    write_run_with(run, None, &[], folder, &|_| {})
 }
 
 /// Writes the result of `run`, its gears drawn from `pair`, with further files (name, content), such as what it was made from.
+/// `watch` sees the files of the fields, which take longest, as they are written.
 ///
 /// # Errors
 /// [`OutputError`]; then nothing stands under the folder's name.
@@ -39,6 +51,7 @@ pub fn write_run_with(
     pair: Option<&Pair>,
     further: &[(&str, &[u8])],
     folder: &Path,
+    watch: &(dyn Fn(FieldsWritten) + Sync),
 ) -> Result<Written, OutputError> {
     let mut staging = Staging::begin(folder)?;
     for (name, content) in further {
@@ -53,7 +66,7 @@ pub fn write_run_with(
     staging.write("transmission_error.csv", &csv::transmission_error(run)?)?;
     // drawing takes a core, writing fields mostly waits
     let (written, drawn) = rayon::join(
-        || write_fields(run, &mut staging),
+        || write_fields(run, &mut staging, watch),
         || {
             let page = html::run(run, pair)?;
             let mut pictures = pictures(&page)?;
@@ -181,12 +194,17 @@ pub fn write_page_with(
     finish(staging)
 }
 
-fn write_fields(run: &Run, staging: &mut Staging) -> Result<(), OutputError> {
+fn write_fields(
+    run: &Run,
+    staging: &mut Staging,
+    watch: &(dyn Fn(FieldsWritten) + Sync),
+) -> Result<(), OutputError> {
     if run.fields.is_empty() {
         return Ok(());
     }
     let files = vtk::names(&run.fields);
     let all: Vec<_> = files.iter().zip(&run.fields).collect();
+    let (mut stand, mut bytes_standing) = (0, 0);
     // a few at a time: compressing takes a core, and not all need to be in memory at once
     for some in all.chunks(rayon::current_num_threads().max(1)) {
         let written: Result<Vec<(String, Vec<u8>)>, OutputError> = some
@@ -199,7 +217,14 @@ fn write_fields(run: &Run, staging: &mut Staging) -> Result<(), OutputError> {
             .collect();
         for (name, bytes) in written? {
             staging.write(&name, &bytes)?;
+            stand += 1;
+            bytes_standing += bytes.len() as u64;
         }
+        watch(FieldsWritten {
+            files: stand,
+            of: all.len(),
+            bytes: bytes_standing * all.len() as u64 / stand as u64,
+        });
     }
     staging.write(
         "fields/wear.pvd",

@@ -2,7 +2,11 @@
 use std::fs;
 use std::path::Path;
 
-use gearwear::report::{OutputError, Staging, atomic, write_file, write_run};
+use std::sync::Mutex;
+
+use gearwear::report::{
+    FieldsWritten, OutputError, Staging, atomic, write_file, write_run, write_run_with,
+};
 
 use super::synthetic;
 
@@ -35,6 +39,30 @@ fn a_failure_midway_leaves_nothing_under_the_final_name() {
         fs::read_dir(dir.path().join("study.out")).unwrap().count(),
         1
     );
+}
+
+#[test]
+fn the_files_of_the_fields_are_announced_with_their_size() {
+    let dir = tempfile::tempdir().unwrap();
+    let seen: Mutex<Vec<FieldsWritten>> = Mutex::default();
+    let watch = |fields| seen.lock().unwrap().push(fields);
+    let run = synthetic::run();
+    let target = dir.path().join("run");
+    write_run_with(&run, None, &[], &target, &watch).unwrap();
+    let sizes: Vec<u64> = fs::read_dir(target.join("fields"))
+        .unwrap()
+        .map(Result::unwrap)
+        .filter(|file| file.path().extension().is_some_and(|e| e == "vtu"))
+        .map(|file| file.metadata().unwrap().len())
+        .collect();
+    let seen = seen.into_inner().unwrap();
+    assert!(seen.windows(2).all(|two| two[0].files < two[1].files));
+    assert!(seen.iter().all(|fields| fields.of == sizes.len()));
+    let (first, last) = (seen[0], seen.last().unwrap());
+    let all: u64 = sizes.iter().sum();
+    assert_eq!((last.files, last.bytes), (sizes.len(), all));
+    // the first files speak for the others
+    assert!((first.bytes as f64 / all as f64 - 1.0).abs() < 0.1);
 }
 
 #[test]

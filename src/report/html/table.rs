@@ -12,6 +12,9 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
 }
 
+/// Characters beyond which a cell's text is a sentence, and keeps a width that reads well beside columns of numbers.
+const SENTENCE: usize = 40;
+
 /// One cell.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
@@ -140,6 +143,9 @@ impl Cell {
 
     fn html(&self) -> String {
         match self {
+            Cell::Text(text) if text.chars().count() > SENTENCE => {
+                format!("<td class=\"sentence\">{}</td>", escape(text))
+            }
             Cell::Text(text) => format!("<td>{}</td>", escape(text)),
             Cell::Number(text) => format!("<td class=\"n\">{}</td>", escape(text)),
             Cell::Code(text) => format!("<td><code>{}</code></td>", escape(text)),

@@ -44,29 +44,8 @@ pub(crate) fn find(name: &str) -> Option<fn(&[u8])> {
         .map(|(_, read)| *read)
 }
 
-/// The pair of `meshes/`, with two tests.
-const STUDY: &str = r#"
-[gears]
-module = 2.0
-pressure_angle = 20.0
-face_width = 33.0
-[gears.pinion]
-teeth = 27
-bore_diameter = 25.0
-[gears.gear]
-teeth = 53
-bore_diameter = 40.0
-[material]
-youngs_modulus = 2.1e5
-poisson_ratio = 0.3
-density = 7850.0
-[operation]
-torque = 100.0
-speed = 2000.0
-[wear]
-coefficient = 6e-10
-cycles = 1e6
-"#;
+/// The paper's pair, which the files that a study names are read for.
+const STUDY: &str = include_str!("../../paper/study.toml");
 
 fn pair() -> &'static Study {
     static PAIR: OnceLock<Study> = OnceLock::new();
