@@ -16,8 +16,9 @@ use crate::study::{Role, Scatter};
 const LISTED: usize = 12;
 /// Rise of χ² from which an entry is left out: its parameters are where the search began.
 const WORSE: f64 = 20.0;
-/// Leaders whose held-out error is computed.
+/// Leaders whose held-out error is computed, and the log probability from which those behind the first are worth that: e^-14 is about a millionth.
 const JUDGED_ON_HOLDOUT: usize = 3;
+const WORTH_JUDGING: f64 = -14.0;
 
 /// One entry of the ranking.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -103,7 +104,8 @@ pub(in crate::learn) fn ranked(
     let entry =
         |(i, &(hypothesis, log, fitted)): (usize, &(&Hypothesis, f64, &FittedCandidate))| {
             let is_base = nothing(hypothesis);
-            let wanted = !held.tests.is_empty() && (i < JUDGED_ON_HOLDOUT || is_base);
+            let leads = i == 0 || i < JUDGED_ON_HOLDOUT && log > WORTH_JUDGING;
+            let wanted = !held.tests.is_empty() && (leads || is_base);
             Ranked {
                 effect: hypothesis.clone(),
                 form: form(fitted),

@@ -24,6 +24,9 @@ use crate::learn::search::Found;
 
 /// Effects whose evidence is taken with every kind of discrepancy.
 const JUDGED: usize = 6;
+/// Log evidence by which a discrepancy alone must be behind a leader that leaves nothing, for the effects to be fitted beside it only from where they
+/// stand: an effect would have to gain as much over the discrepancy to matter.
+const FAR_BEHIND: f64 = 50.0;
 
 /// An effect fitted beside a smooth discrepancy.
 pub(in crate::learn) struct BesideUnknown {
@@ -52,6 +55,8 @@ impl Context<'_> {
         alone: &[FittedCandidate],
     ) -> Vec<BesideUnknown> {
         let plain = &self.likelihood;
+        let unknown = with_discrepancy(plain, &base.fitted);
+        let few = decided_without(plain, unknown, alone);
         let singles = worth_fitting(plain, singles, alone);
         let discrepancy = gaussian_process::most_probable(
             plain,
@@ -66,10 +71,16 @@ impl Context<'_> {
         let Some(base) = context.base_beside(base) else {
             return Vec::new();
         };
-        let mut fitted = context.screen(&base, &singles);
-        if context.fidelity != Fidelity::Screening {
-            fitted = context.refine(&base, fitted, true);
-        }
+        let mut fitted = if let Some(few) = few {
+            let anew = |alone| context.fitted_from(&base, alone);
+            few.into_par_iter().filter_map(anew).collect()
+        } else {
+            let screened = context.screen(&base, &singles);
+            match context.fidelity {
+                Fidelity::Screening => screened,
+                Fidelity::Middle | Fidelity::Full => context.refine(&base, screened, true),
+            }
+        };
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let mut chosen: Vec<FittedCandidate> = Vec::new();
         for candidate in fitted {
@@ -78,7 +89,6 @@ impl Context<'_> {
                 chosen.push(candidate);
             }
         }
-        let unknown = with_discrepancy(plain, &base.fitted);
         let mut found: Vec<BesideUnknown> = (chosen.into_par_iter())
             .filter_map(|fitted| {
                 // what the effect brings without the discrepancy: its form of the largest evidence
@@ -101,6 +111,25 @@ impl Context<'_> {
             .collect();
         found.sort_by(|a, b| b.gain_over_unknown.total_cmp(&a.gain_over_unknown));
         found
+    }
+
+    /// An effect fitted beside the discrepancy of this context, by the model that changes are fitted by, from where its fit without one ended.
+    fn fitted_from(&self, base: &BaseFit, alone: &FittedCandidate) -> Option<FittedCandidate> {
+        let (bench, offset) = match self.fidelity {
+            Fidelity::Screening => (self.hertz, &base.hertz_offset),
+            Fidelity::Middle | Fidelity::Full => (self.middle, &base.fitted.offset),
+        };
+        let predictor = Anchored::new(model(bench, &alone.candidate), offset.clone());
+        let (parameters, start) = (&alone.candidate.parameters, alone.found.state.clone());
+        let found = self.likelihood.fit(&predictor, parameters, start, &SCREEN);
+        Some(FittedCandidate::new(
+            &self.likelihood,
+            alone.candidate.clone(),
+            found.ok()?,
+            offset.clone(),
+            Some(base),
+            self.fidelity.min(Fidelity::Middle),
+        ))
     }
 
     /// The base model fitted beside the discrepancy of this context.
@@ -129,6 +158,35 @@ impl Context<'_> {
             base.hertz_offset.clone(),
         ))
     }
+}
+
+/// What is worth fitting beside a discrepancy where the leader leaves nothing that one would account for, and is far ahead of a discrepancy alone: its
+/// own effects, and of those that come next the ones that a discrepancy, added to their fits without it, brings near, each in its best form. None in
+/// other cases.
+fn decided_without<'f>(
+    plain: &Likelihood<'_>,
+    unknown: f64,
+    alone: &'f [FittedCandidate],
+) -> Option<Vec<&'f FittedCandidate>> {
+    let leader = alone.first()?;
+    let bar = leader.log_evidence - FAR_BEHIND;
+    if remainder_gain(plain, leader) > 0.0 || unknown > bar {
+        return None;
+    }
+    let mut best_forms: Vec<&FittedCandidate> = Vec::new();
+    for fitted in alone {
+        let effects = &fitted.candidate.effects;
+        let known = |c: &&FittedCandidate| c.candidate.effects == *effects;
+        if effects.single().is_some() && !best_forms.iter().any(known) {
+            best_forms.push(fitted);
+        }
+    }
+    let of_leader = |c: &FittedCandidate| leader.candidate.effects.contains(&c.candidate.effects);
+    let near = |c: &FittedCandidate| with_discrepancy(plain, c) > bar;
+    let wanted = (best_forms.iter().enumerate())
+        .filter(|(place, c)| of_leader(c) || *place < JUDGED && near(c))
+        .map(|(_, c)| *c);
+    Some(wanted.collect())
 }
 
 /// All effects; where the leader leaves nothing that a discrepancy would account for, its own and those that come next: no other could stand
