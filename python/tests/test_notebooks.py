@@ -1,6 +1,8 @@
 """The notebooks run from the first cell to the last; skipped without jupyter, and each without what it imports."""
 
+import base64
 import importlib.util
+import io
 import re
 from pathlib import Path
 
@@ -22,7 +24,25 @@ def test_it_runs(path, tmp_path):
     missing = sorted({name for name in IMPORTS.findall(code) if importlib.util.find_spec(name) is None})
     if missing:
         pytest.skip(f"not installed: {', '.join(missing)} (pip install './python[notebooks]')")
-    nbclient.NotebookClient(notebook, timeout=900, resources={"metadata": {"path": str(tmp_path)}}).execute()
+    run(notebook, tmp_path)
+
+
+def run(notebook, folder):
+    nbclient.NotebookClient(notebook, timeout=900, resources={"metadata": {"path": str(folder)}}).execute()
+
+
+def test_the_first_study_draws_its_fields(tmp_path):
+    """Stress, pressure and worn flanks: pictures that show more than a ground and a body of one colour."""
+    pytest.importorskip("pyvista")
+    image = pytest.importorskip("PIL.Image")
+    notebook = nbformat.read(NOTEBOOKS[0].parent / "first_wear_study.ipynb", as_version=4)
+    run(notebook, tmp_path)
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    drawn = [output.data["image/png"] for output in outputs if "image/png" in output.get("data", {})]
+    assert len(drawn) == 3
+    for text in drawn:
+        picture = image.open(io.BytesIO(base64.b64decode(text))).convert("RGB")
+        assert len(set(picture.getdata())) > 100
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
