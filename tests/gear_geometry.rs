@@ -819,6 +819,26 @@ fn interference_is_the_same_without_shortcuts() {
             })
         })
     };
+    // between the distance where contact begins at the form point and a module more; the former if the answer does not change between
+    let least_free = |own: &Gear, mate: &Gear, a: f64| {
+        let reach = (own.rho_form + mate.rho_end).hypot(own.base_radius + mate.base_radius);
+        let (mut low, mut high) = (a.max(reach), a.max(reach) + own.rack.module);
+        let at_low = plainly_free(own, mate, low);
+        if plainly_free(own, mate, high) == at_low {
+            return low;
+        }
+        loop {
+            let mid = 0.5 * (low + high);
+            if mid == low || mid == high {
+                return mid;
+            }
+            if plainly_free(own, mate, mid) == at_low {
+                low = mid;
+            } else {
+                high = mid;
+            }
+        }
+    };
     let (mut free, mut meeting) = ([0; 2], [0; 2]);
     for draw in latin_hypercube(4000, 9, 1) {
         let within = |i: usize, low: f64, high: f64| low + (high - low) * draw[i];
@@ -856,10 +876,7 @@ fn interference_is_the_same_without_shortcuts() {
                     Member::Gear => (&wheel, &pinion),
                 };
                 assert!(!plainly_free(own, mate, a));
-                // free from there on and not before; or not within a module, and then the least looked at is told
-                let change = plainly_free(own, mate, min * (1.0 + 1e-15))
-                    && !plainly_free(own, mate, min - 1e-6);
-                assert!(change || !plainly_free(own, mate, min), "{min}");
+                assert_eq!(min, least_free(own, mate, a));
                 count(&mut meeting, pinion.undercut);
             }
             Err(_) => {}
