@@ -45,6 +45,30 @@ def test_the_first_study_draws_its_fields(tmp_path):
         assert len(set(picture.getdata())) > 100
 
 
+def test_a_cell_tells_how_far_it_is(tmp_path):
+    """The program's own progress stands below the cell, and an error of its own is the exception as ever."""
+    source = """
+import gearwear as gw
+from pathlib import Path
+command = gw._program.sys.executable, "-m", "gearwear", "init", "study"
+gw._run.subprocess.run(command, check=True)
+study = gw.Study.read("study/study.toml")
+study["model.contact"] = "hertz"
+run = study.run()
+try:
+    study.compare()
+except gw.GearwearError as error:
+    print(error.code, error)
+"""
+    cell = nbformat.v4.new_code_cell(source)
+    run(nbformat.v4.new_notebook(cells=[cell]), tmp_path)
+    told = {}
+    for output in cell.outputs:
+        told[output.name] = told.get(output.name, "") + output.text
+    assert "%" in told["stderr"] and "\x1b" not in told["stderr"], told
+    assert told["stdout"].startswith("2 error: ") and "\x1b" not in told["stdout"], told
+
+
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_it_is_kept_without_outputs(path):
     for cell in nbformat.read(path, as_version=4).cells:
