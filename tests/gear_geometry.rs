@@ -15,6 +15,7 @@ use gearwear::gear::{
     BasicRack, Gear, GearError, Member, Pair, PairError, ProfileResolution, Region, ToothSpec,
     Trochoid, contacts_at, inv, polygon_area,
 };
+use gearwear::numeric::latin_hypercube::latin_hypercube;
 use gearwear::numeric::{Vec2, cross, rotate};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -787,6 +788,104 @@ fn impossible_pairs_are_refused() {
     );
     let at_min = Pair::new(thin.pinion.clone(), thin.gear.clone(), min, 0.0).unwrap();
     close("backlash there", at_min.backlash, 0.0, 1e-11);
+}
+
+/// Interference is found by bounds where these decide and by few of the samples; as told by all samples, each to the last bit. Random
+/// racks, sharp and rounded tips, undercut or not, and the least free distance too.
+#[test]
+fn interference_is_the_same_without_shortcuts() {
+    let plainly_free = |own: &Gear, mate: &Gear, a: f64| {
+        let module = own.rack.module;
+        let base_sum = own.base_radius + mate.base_radius;
+        let line = ((a - base_sum) * (a + base_sum)).sqrt();
+        let start = line - mate.rho_end;
+        if !own.undercut && start < own.rho_form - 1e-9 * module {
+            return false;
+        }
+        let alpha = line.atan2(base_sum);
+        let corner = match mate.tip_rounding_arc() {
+            Some(arc) => arc.points(4),
+            None => vec![mate.involute_point(mate.rho_tip)],
+        };
+        (0..=300).all(|i| {
+            let rho = start + (-1.0 + 3.0 * f64::from(i) / 300.0) * own.rack.base_pitch();
+            let own_angle = -alpha - own.tangent_angle(rho);
+            let mate_angle = PI - alpha - mate.tangent_angle(line - rho);
+            corner.iter().all(|&point| {
+                let p = rotate(rotate(point, mate_angle) + Vec2::new(a, 0.0), -own_angle);
+                let r = p.norm();
+                let gap = || r * (p.y.atan2(p.x) - own.solid_half_angle(r));
+                r >= own.form_radius || r > own.root_radius && gap() >= -1e-5 * module
+            })
+        })
+    };
+    // between the distance where contact begins at the form point and a module more; the former if the answer does not change between
+    let least_free = |own: &Gear, mate: &Gear, a: f64| {
+        let reach = (own.rho_form + mate.rho_end).hypot(own.base_radius + mate.base_radius);
+        let (mut low, mut high) = (a.max(reach), a.max(reach) + own.rack.module);
+        let at_low = plainly_free(own, mate, low);
+        if plainly_free(own, mate, high) == at_low {
+            return low;
+        }
+        loop {
+            let mid = 0.5 * (low + high);
+            if mid == low || mid == high {
+                return mid;
+            }
+            if plainly_free(own, mate, mid) == at_low {
+                low = mid;
+            } else {
+                high = mid;
+            }
+        }
+    };
+    let (mut free, mut meeting) = ([0; 2], [0; 2]);
+    for draw in latin_hypercube(4000, 9, 1) {
+        let within = |i: usize, low: f64, high: f64| low + (high - low) * draw[i];
+        let rack = BasicRack {
+            addendum: within(0, 0.95, 1.3),
+            dedendum: within(1, 1.2, 1.45),
+            fillet_radius: within(2, 0.1, 0.45),
+            ..BasicRack::iso53_a(2.0)
+        };
+        let rounding = within(3, -0.1, 0.1).max(0.0);
+        let member = |teeth: f64, profile_shift| {
+            let teeth = teeth.round() as u32;
+            let spec = ToothSpec {
+                profile_shift,
+                tip_rounding: rounding,
+                ..ToothSpec::plain(teeth, 2.0)
+            };
+            Gear::new(rack, spec).ok()
+        };
+        let pinion = member(within(4, 9.0, 30.0), within(5, -0.4, 0.8));
+        let wheel = member(within(6, 20.0, 120.0), within(7, -0.4, 0.5));
+        let (Some(pinion), Some(wheel)) = (pinion, wheel) else {
+            continue;
+        };
+        let a = Pair::zero_backlash_centre_distance(&pinion, &wheel) + within(8, 0.0, 0.15);
+        let count = |counts: &mut [u32; 2], undercut| counts[usize::from(undercut)] += 1;
+        match Pair::new(pinion.clone(), wheel.clone(), a, 0.0) {
+            Ok(_) => {
+                assert!(plainly_free(&pinion, &wheel, a) && plainly_free(&wheel, &pinion, a));
+                count(&mut free, pinion.undercut);
+            }
+            Err(PairError::Interference { member, min, .. }) => {
+                let (own, mate) = match member {
+                    Member::Pinion => (&pinion, &wheel),
+                    Member::Gear => (&wheel, &pinion),
+                };
+                assert!(!plainly_free(own, mate, a));
+                assert_eq!(min, least_free(own, mate, a));
+                count(&mut meeting, pinion.undercut);
+            }
+            Err(_) => {}
+        }
+    }
+    assert!(
+        free[0].min(free[1]) > 300 && meeting[0] > 100 && meeting[1] > 10,
+        "{free:?} {meeting:?}"
+    );
 }
 
 /// Contact on an undercut pinion begins at its form point, not where a full involute would begin it.

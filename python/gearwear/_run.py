@@ -4,15 +4,21 @@ import re
 import subprocess
 import sys
 
+from . import _progress
 from ._errors import GearwearError, StudyError
 
 PLACE = re.compile(r"--> (?P<file>.*?):(?P<line>\d+):(?P<column>\d+)")
 
 
 def run(arguments, progress):
-    """Runs the program; returns what it prints on standard output. `progress` leaves standard error to the terminal."""
+    """Runs the program; returns what it prints on standard output. `progress` shows its progress in a terminal or a notebook."""
     command = [sys.executable, "-m", "gearwear", *arguments]
-    err = None if progress and sys.stderr is sys.__stderr__ and sys.stderr.isatty() else subprocess.PIPE
+    if progress and _progress.in_notebook():
+        code, out, message = _progress.told_below_the_cell(command)
+        if code != 0:
+            raise error(message, code)
+        return out
+    err = None if progress and _progress.in_terminal() else subprocess.PIPE
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=err, text=True, encoding="utf-8")
     try:
         out, message = process.communicate()

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy
 import pandas
 
-from . import _gearwear
+from . import _gearwear, _progress
 
 
 @dataclass
@@ -32,7 +32,7 @@ def simulate(study, names, theta, jacobian=False, progress=None):
     """The measured rows of `study` at every row of `theta` (N x p: a column for each of `names`, such as "wear.coefficient" or
     "running_in.amplitude", in their units), on all cores.
 
-    `progress(done, count)` is told how far it is; Ctrl-C stops it after the histories under way. Raises `StudyError` if the study cannot be used;
+    `progress(done, count)` is told how far it is, True shows a line of it; Ctrl-C stops it after the histories under way. Raises `StudyError` if the study cannot be used;
     single histories that fail are NaN rows with reasons.
     """
     names = list(names)
@@ -41,6 +41,8 @@ def simulate(study, names, theta, jacobian=False, progress=None):
         theta = theta[:, None]
     if theta.ndim != 2 or theta.shape[1] != len(names):
         raise ValueError(f"theta has the shape {theta.shape}; it is N x {len(names)}, a column for each of {names}")
+    if isinstance(progress, bool):
+        progress = _progress.line if progress else None
     found = _gearwear.simulate(study.text, str(study.path), names, theta.tobytes(), jacobian, progress)
     rows = pandas.DataFrame(found["rows"])
     shape = (len(theta), len(rows))

@@ -176,6 +176,15 @@ def test_failures_are_rows_with_reasons(measured):
 
 
 def test_others_run_meanwhile_and_ctrl_c_stops(measured):
+    # also where the tests themselves run in the background of a shell, which leaves Ctrl-C ignored
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        ctrl_c_stops(measured)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def ctrl_c_stops(measured):
     theta = numpy.tile([3e-10, 3.0], (100_000, 1))
     told = []
     ticks = []
@@ -195,6 +204,14 @@ def test_others_run_meanwhile_and_ctrl_c_stops(measured):
     assert time.monotonic() - begun < 20
     assert told and told[-1][1] == 100_000 and told[-1][0] < 100_000
     assert len(ticks) == 5
+
+
+def test_progress_is_a_line(measured, capsys):
+    gw.simulate(measured, NAMES, [[3e-10, 3.0]] * 3, progress=True)
+    told = capsys.readouterr().err
+    assert told.startswith("\r") and told.endswith("3 of 3 histories [==============================]\n")
+    gw.simulate(measured, NAMES, [[3e-10, 3.0]], progress=False)
+    assert capsys.readouterr().err == ""
 
 
 def test_the_program_is_on_the_path():

@@ -63,6 +63,48 @@ impl Trochoid {
         bisect(self.beta_end, Self::BETA_ROOT, |beta| self.radius(beta) - r)
     }
 
+    /// What `known` says of `angle(beta_at_radius(r))`, for a `known` that changes with the angle at most once: by the steps of the same
+    /// bisection, which ends as soon as both bounds of the angle say the same.
+    ///
+    /// ```text
+    /// angle = φ(β) + atan(t/ρ):   φ rises with β, ρ and t fall, where v_c <= r
+    /// ```
+    pub fn decide_at_radius(&self, r: f64, known: impl Fn(f64) -> bool) -> bool {
+        // far above what rounding does to the bounds
+        const DOUBT: f64 = 1e-12;
+        let bounded = self.centre_v <= self.rolling_radius && self.rounding >= 0.0;
+        let place = |beta: f64| {
+            let (radial, tangential) = self.local(beta);
+            Place {
+                beta,
+                radial,
+                tangential,
+                roll: self.roll_angle(beta),
+                beyond: radial.hypot(tangential) - r,
+            }
+        };
+        let (mut out, mut root) = (place(self.beta_end), place(Self::BETA_ROOT));
+        let side = out.beyond.signum();
+        if side == root.beyond.signum() || !bounded {
+            return known(self.angle(self.beta_at_radius(r)));
+        }
+        loop {
+            let least = known(out.roll + root.tangential.atan2(out.radial) - DOUBT);
+            if least == known(root.roll + out.tangential.atan2(root.radial) + DOUBT) {
+                return least;
+            }
+            let mid = place(0.5 * (out.beta + root.beta));
+            if mid.beta == out.beta || mid.beta == root.beta || mid.beyond == 0.0 {
+                return known(self.angle(mid.beta));
+            }
+            if mid.beyond.signum() == side {
+                out = mid;
+            } else {
+                root = mid;
+            }
+        }
+    }
+
     /// Unit normal of the point, from the gear's material into the space, in the frame of the tooth space.
     pub fn normal(&self, beta: f64) -> Vec2 {
         let (s, c) = self.roll_angle(beta).sin_cos();
@@ -111,6 +153,16 @@ impl Trochoid {
             self.rounding * c - (self.centre_v - self.rolling_radius) * cot(beta),
         )
     }
+}
+
+/// A point of the fillet on the way to the one at a given radius.
+struct Place {
+    beta: f64,
+    radial: f64,
+    tangential: f64,
+    roll: f64,
+    /// How far it stands beyond that radius, mm.
+    beyond: f64,
 }
 
 /// The zero of `f` between `lo` and `hi` by bisection to the last bit; an end if there is no change of sign.

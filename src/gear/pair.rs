@@ -377,17 +377,25 @@ fn free_of_interference(own: &Gear, mate: &Gear, a: f64) -> bool {
         Some(arc) => arc.points(4),
         None => vec![mate.involute_point(mate.rho_tip)],
     };
+    // Farther out than this the corner is off the fillet, whatever rounding does to its distance.
+    let far = (own.form_radius * (1.0 + 1e-9)).powi(2);
+    let reach: Vec<f64> = corner.iter().map(|point| point.norm_squared()).collect();
     // Seen from either member the pair looks the same, so `own` stands at the origin. The corner is on the line of action
     // at `start` and deepest soon after.
     (0..=STEPS).all(|i| {
         let rho = start + (-1.0 + 3.0 * f64::from(i) / f64::from(STEPS)) * own.rack.base_pitch();
-        let own_angle = -alpha - own.tangent_angle(rho);
         let mate_angle = std::f64::consts::PI - alpha - mate.tangent_angle(line_length - rho);
-        corner.iter().all(|&point| {
+        let (sin, cos) = mate_angle.sin_cos();
+        corner.iter().zip(&reach).all(|(&point, &reach)| {
+            // the law of cosines
+            if reach + a * (a + 2.0 * (point.x * cos - point.y * sin)) > far {
+                return true;
+            }
+            let own_angle = -alpha - own.tangent_angle(rho);
             let p = rotate(rotate(point, mate_angle) + Vec2::new(a, 0.0), -own_angle);
             let r = p.norm();
-            let gap = || r * (p.y.atan2(p.x) - own.solid_half_angle(r));
-            r >= own.form_radius || r > own.root_radius && gap() >= -1e-5 * module
+            r >= own.form_radius
+                || r > own.root_radius && own.is_off_fillet(r, p.y.atan2(p.x), 1e-5 * module)
         })
     })
 }

@@ -185,6 +185,14 @@ impl Gear {
         }
     }
 
+    /// Whether the point at radius `r` below the form circle, mm, and polar angle `polar`, rad, stands off the fillet of tooth 0, or stands in it by
+    /// `depth` along the arc at most, mm.
+    pub(super) fn is_off_fillet(&self, r: f64, polar: f64, depth: f64) -> bool {
+        let half_pitch = 0.5 * self.pitch_angle();
+        self.trochoid
+            .decide_at_radius(r, |angle| r * (polar - (half_pitch - angle)) >= -depth)
+    }
+
     /// Point of the loaded flank of tooth 0 with curvature radius `rho`, mm, on the nominal involute, member frame.
     pub fn involute_point(&self, rho: f64) -> Vec2 {
         let (s, c) = self.tangent_angle(rho).sin_cos();

@@ -1,11 +1,12 @@
 """2,000 points by every way of guide/cluster.md: one machine, 7 shards, HyperQueue, Slurm. The same bytes? How efficient?
 
-    python3 validation/cluster/efficiency.py target/release/gearwear [POINTS]
+    python3 validation/cluster/efficiency.py target/release/gearwear [POINTS [shards] [hyperqueue] [slurm]]
     validation/cluster/one_node_slurm.sh python3 validation/cluster/efficiency.py target/release/gearwear
 
 HyperQueue's server and workers come with its Python package (pip install hyperqueue). Slurm runs the job file of the guide as it stands there, but for
 the number of cores of a task. What is not installed is skipped, and that is said. Times are of whole ways, merge included: by the clock, and processor time
-(user and system) of all calls of the program, which other work on the machine does not change much.
+(user and system) of all calls of the program. Other work on the machine changes both, processor time up to a half where cores share their units; so each way
+stands against a plain sweep right before it.
 """
 
 import os
@@ -121,17 +122,19 @@ with tempfile.TemporaryDirectory() as home:
     Path("bin/gearwear").write_text(NOTING.format(program=PROGRAM, folder=Path.cwd() / "noted"))
     Path("bin/gearwear").chmod(0o755)
     os.environ["PATH"] = f"{Path.cwd() / 'bin'}:{os.environ['PATH']}"
-    whole = measured(plain)
-    print(f"{'plain sweep':14} {POINTS} points, 2 threads: {whole[0]:6.1f} s, {whole[1]:6.1f} s of processor time", flush=True)
-    for way in (shards, hyperqueue, slurm):
+    ways = [way for way in (shards, hyperqueue, slurm) if len(sys.argv) < 4 or way.__name__ in sys.argv[3:]]
+    for way in ways:
         name = way.__name__
         if why := possible(way):
-            print(f"{name:14} skipped: {why}")
+            print(f"{name:11} skipped: {why}")
             continue
+        shutil.rmtree("plain", ignore_errors=True)
+        whole = measured(plain)
+        print(f"plain sweep {POINTS} points, 2 threads: {whole[0]:6.1f} s, {whole[1]:6.1f} s of processor time", flush=True)
         found = measured(way)
         bytes_are = "the same bytes" if same(f"by-{name}") else "OTHER BYTES"
         print(
-            f"{name:14} {found[0]:6.1f} s, {found[1]:6.1f} s of processor time; efficiency {whole[0] / found[0]:.2f} by the clock, "
+            f"{name:11} {found[0]:6.1f} s, {found[1]:6.1f} s of processor time; efficiency {whole[0] / found[0]:.2f} by the clock, "
             f"{whole[1] / found[1]:.2f} by processor time; {bytes_are}",
             flush=True,
         )

@@ -6,6 +6,7 @@ use super::grid::{self, Axis};
 use super::points::{Point, Result};
 use super::tables::with_unit;
 use crate::report::OutputError;
+use crate::report::format::significant;
 use crate::report::plots::sweep_picture;
 
 /// What the picture's panels show.
@@ -40,7 +41,7 @@ pub(super) fn picture(
             let curves: Vec<Curve> = (0..design.keys.len())
                 .map(|key| {
                     (
-                        design.keys[key].clone(),
+                        named(design, key),
                         main_effect(design, key, &columns, results),
                     )
                 })
@@ -49,6 +50,29 @@ pub(super) fn picture(
             sweep_picture(title, over, &panels, &curves)
         }
     }
+}
+
+/// A key with the least and the largest of its numbers, between which the picture tells places.
+fn named(design: &Design, key: usize) -> String {
+    let name = &design.keys[key];
+    let numbers = design
+        .rows
+        .iter()
+        .map(|row| grid::leading_number(&row[key]));
+    let Some(numbers) = numbers.collect::<Option<Vec<f64>>>() else {
+        return name.clone();
+    };
+    let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let unit = match crate::study::unit_of(name) {
+        None | Some("" | "-" | "1") => String::new(),
+        Some(unit) => format!(" {unit}"),
+    };
+    format!(
+        "{name}: {} to {}{unit}",
+        significant(least, 3),
+        significant(largest, 3)
+    )
 }
 
 fn shown(result: &Result, columns: &[&Column]) -> Option<Shown> {

@@ -6,7 +6,7 @@ use std::fs;
 use super::design::Design;
 use super::figures::{Figures, Outputs};
 use super::{CliError, grid};
-use crate::simulate::checkpoint::fingerprint;
+use crate::simulate::checkpoint::{Fingerprint, fingerprint};
 use crate::source_text::Fault;
 use crate::study::{self, KEYS, Study, nearest};
 
@@ -74,14 +74,20 @@ pub(super) fn prepare(
         all.sort_unstable();
         all.dedup();
     }
+    let loads: BTreeMap<String, Fingerprint> = loads
+        .into_iter()
+        .map(|(bodies, loads)| {
+            let told = fingerprint(&[loads.join(",").as_bytes()]);
+            (bodies, told)
+        })
+        .collect();
     let outputs = outputs.told_apart();
     for point in &mut points {
         let Ok(study) = &point.study else { continue };
-        let loads = loads[&point.bodies].join(",");
         let mut parts = vec![
             study.text().as_bytes(),
             point.bodies.as_bytes(),
-            loads.as_bytes(),
+            &loads[&point.bodies],
         ];
         parts.extend(outputs.as_deref().map(str::as_bytes));
         let hash = fingerprint(&parts);

@@ -166,11 +166,16 @@ impl Plot {
                     ))
                     .map_err(|e| plot_error(&e))?;
             }
+            // bars with curves or among many points stand back, few points alone need theirs seen
+            let width = match curve.style {
+                Style::Points(_) => 2 * FINE,
+                _ => FINE,
+            };
             for (&(at, value), sigma) in curve.points.iter().zip(&curve.errors) {
                 let bar = [(at, value - sigma), (at, value + sigma)];
                 let bar = PathElement::new(
                     self.seen(&bar).collect::<Vec<_>>(),
-                    color.stroke_width(FINE as u32),
+                    color.stroke_width(width as u32),
                 );
                 chart.draw_series([bar]).map_err(|e| plot_error(&e))?;
             }

@@ -64,12 +64,12 @@ pub fn index_picture(
                 };
                 let (first, first_widths) = each(|bar| bar.first, -APART);
                 let (total, total_widths) = each(|bar| bar.total, APART);
-                named("first, alone", Style::Measured(0));
-                named("total, with interactions", Style::Measured(1));
+                named("first, alone", Style::Points(0));
+                named("total, with interactions", Style::Points(1));
                 let plot = Plot::new("sensitivity", title, "", "share of the variance")
                     .with_names(keys.iter().map(|key| short(key)).collect())
-                    .with_errors("", Style::Measured(0), first, first_widths)
-                    .with_errors("", Style::Measured(1), total, total_widths);
+                    .with_errors("", Style::Points(0), first, first_widths)
+                    .with_errors("", Style::Points(1), total, total_widths);
                 (title, plot)
             }
             IndexPanel::Along { title, places } => {

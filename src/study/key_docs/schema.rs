@@ -111,7 +111,8 @@ fn material() -> Json {
 /// A coefficient, or a pair of materials in its place.
 fn wear(table: &str) -> Json {
     let mut own = table_of(table);
-    if let Some(needed) = own["required"].as_array_mut() {
+    // indexing would put a null in place of what is not there
+    if let Some(needed) = own.get_mut("required").and_then(Json::as_array_mut) {
         needed.retain(|key| key != "coefficient");
     }
     own["oneOf"] = json!([
@@ -194,6 +195,24 @@ fn with_unit(number: Json) -> Json {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A null where an editor expects a list makes it drop the whole schema.
+    #[test]
+    fn it_holds_no_nulls() {
+        fn nulls(at: &Json, path: &str, found: &mut Vec<String>) {
+            match at {
+                Json::Null => found.push(path.to_owned()),
+                Json::Array(list) => list.iter().for_each(|one| nulls(one, path, found)),
+                Json::Object(map) => map
+                    .iter()
+                    .for_each(|(key, one)| nulls(one, &format!("{path}.{key}"), found)),
+                _ => {}
+            }
+        }
+        let mut found = Vec::new();
+        nulls(&schema(), "", &mut found);
+        assert_eq!(found, Vec::<String>::new());
+    }
 
     #[test]
     fn every_key_stands_in_its_table() {
