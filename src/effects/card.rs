@@ -1,6 +1,6 @@
 //! A card tells all there is to know about one effect of the catalogue: to a person, to the study reader and to a fit.
 
-use super::effect::{Effect, Hook};
+use super::effect::{Effect, FaceAt, Hook};
 use super::error::EffectError;
 use super::formula::{Formula, FormulaError};
 use super::prior::Prior;
@@ -158,6 +158,16 @@ impl Param {
 }
 
 impl Card {
+    /// Whether it acts through slices of the face.
+    pub fn acts_across_the_face(&self) -> bool {
+        let end = FaceAt {
+            place: 1.0,
+            width: 1.0,
+            normal_force: 1.0,
+        };
+        (self.build)(&self.defaults()).lead(&end).is_some()
+    }
+
     /// The default values.
     pub fn defaults(&self) -> Vec<f64> {
         self.params.iter().map(|param| param.default).collect()

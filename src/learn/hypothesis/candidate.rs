@@ -185,10 +185,12 @@ impl Candidate {
     }
 
     /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
-    /// corners with which a tooth's neighbours touch where it stands back.
+    /// corners with which a tooth's neighbours touch where it stands back, nor anything across the face.
     pub(in crate::learn) fn may_be_unseen(&self) -> bool {
-        let all = |hook: Hook| self.effects.cards().iter().all(|card| card.hook == hook);
-        !self.quarters.is_empty() && all(Hook::Profile) || all(Hook::ToothOffset)
+        let cards = self.effects.cards();
+        let all = |hook: Hook| cards.iter().all(|card| card.hook == hook);
+        let across_the_face = cards.iter().all(|card| card.acts_across_the_face());
+        !self.quarters.is_empty() && all(Hook::Profile) || all(Hook::ToothOffset) || across_the_face
     }
 
     /// Whether every added effect has its card's own form.
