@@ -85,6 +85,8 @@ pub struct Form {
     pub frees: &'static [&'static str],
     /// Parameters that it does not use, which a fit leaves alone although the card says otherwise.
     pub idle: &'static [&'static str],
+    /// Parameters of which both signs do the same in this form: a fit keeps to the side above the value without effect.
+    pub even: &'static [&'static str],
     /// Values of those that it frees, which stand behind all that the own form fits, each a place from which this form is tried beside what the
     /// own one was fitted to. None: it is fitted for itself.
     pub grown: &'static [&'static [f64]],
@@ -97,6 +99,7 @@ impl Form {
         settings: &[],
         frees: &[],
         idle: &[],
+        even: &[],
         grown: &[],
     };
 }

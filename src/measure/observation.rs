@@ -20,7 +20,7 @@ pub enum FacePlace {
 }
 
 impl FacePlace {
-    /// What tells places apart in keys.
+    /// A number of its own for each place, for keys.
     pub fn key(self) -> u64 {
         match self {
             FacePlace::At(face) => face.to_bits(),

@@ -589,6 +589,21 @@ fn lead_misalignment() {
     // √(2 F c/w) where only part of the face carries; a slice in the middle carries less than the mean
     same(wide(1.0).load_factor(&at), 3.175_536_744_149_779);
     same(wide(0.0).load_factor(&at), 0.654_528_340_788_434_4);
+    // with the other sign the other end is loaded
+    for position in [-1.0, -0.3, 0.0, 0.8] {
+        let other = [("slope", -30.0), ("face_position", -position)];
+        let other = effect("lead_misalignment", &other);
+        same(other.load_factor(&at), wide(position).load_factor(&at));
+        let place = |place| FaceAt {
+            place,
+            width: 30.0,
+            normal_force: 0.0,
+        };
+        assert_eq!(
+            other.lead(&place(-position)),
+            wide(position).lead(&place(position))
+        );
+    }
     // the mean over the face is 1: loads of all slices sum to the whole
     let n = 20_000;
     for slope in [6.0, 30.0] {
@@ -687,6 +702,11 @@ fn shaft_deflection() {
         let expected = 0.5 * 1e3 * 30.0 * slope(load_at, load_at).abs();
         let found = end(&stated);
         close(found, expected, 2e-4 * expected);
+    }
+    // on the other side of mid-span, or beyond the other bearing, the other end is loaded
+    for overhung in [0.0, 1.0] {
+        let of = |offset| end(&[("offset", offset), ("overhung", overhung)]);
+        same(of(-22.0), -of(22.0));
     }
     let law = effect("shaft_deflection", &[("offset", 15.0)]);
     let at = |load| {

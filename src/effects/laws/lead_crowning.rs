@@ -6,7 +6,7 @@
 //! ```text
 //! e(η) = C η²             µm missing along the path of contact; η = 2y/b from −1 to 1
 //! ```
-//! The analytic model has one section, and is told the load of a rigid crown on new flanks, on linear bedding:
+//! The analytic model has one section; there the load is that of a rigid crown on new flanks, on linear bedding:
 //!
 //! ```text
 //! X = C c_γ/w             c_γ N/(mm µm), w N/mm mean normal load
@@ -24,7 +24,7 @@ pub(super) const CARD: Card = Card {
     formula: "load_factor = face_mean + (1 - face_mean)*max(0.05, 1 + amount*mesh_stiffness/max(normal_load, 0.001)*(1/3 - face_position^2) + step(amount*mesh_stiffness/max(normal_load, 0.001) - 1.5)*(1.5^(2/3)*(amount*mesh_stiffness/max(normal_load, 0.001))^(1/3) - 1 - amount*mesh_stiffness/max(normal_load, 0.001)/3))",
     source: "linear bedding under a parabola (own derivation from the balance of forces); the shape is crowning, C_b, as ISO 21771 defines it.",
     signature: "more wear at mid-face than at its ends, most at low torque; it evens out with time; in one plane of analytic contact only a load factor",
-    confounded_with: &["lead_misalignment", "shaft_deflection", "pressure_exponent", "film_thickness"],
+    confounded_with: &["lead_misalignment", "shaft_deflection", "pressure_exponent", "film_thickness", "roughness_polish"],
     separated_by: "traces at mid-face and near an end: a wedge changes the two ends alike and the other way",
     left_out: "in the analytic model the gap that wear closes: one section with a factor on its load",
     needs: &[],

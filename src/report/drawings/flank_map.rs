@@ -70,7 +70,7 @@ pub fn flank_maps(run: &Run) -> Vec<Drawing> {
 /// Values of a slice at the radii of one member's profile.
 type Values = fn(&FaceSlice, usize) -> &Vec<f64>;
 
-/// The largest value that the colours tell apart.
+/// The largest value that has a colour of its own.
 type End = fn(&FaceSlice) -> f64;
 
 fn drawn(state: &State, title: &str, unit: &str, (values, end): (Values, End)) -> String {
@@ -84,10 +84,10 @@ fn drawn(state: &State, title: &str, unit: &str, (values, end): (Values, End)) -
     out + "</svg>\n"
 }
 
-fn text(x: f64, y: f64, anchor: &str, said: &str) -> String {
+fn text(x: f64, y: f64, anchor: &str, words: &str) -> String {
     format!(
         "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"13\" text-anchor=\"{anchor}\" fill=\"{INK}\">{}</text>\n",
-        escape(said)
+        escape(words)
     )
 }
 
