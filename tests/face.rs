@@ -8,7 +8,7 @@
 use gearwear::contact::alteration::Alteration;
 use gearwear::contact::fem::FemContact;
 use gearwear::contact::model::ContactModel;
-use gearwear::gear::{Face, Lead};
+use gearwear::gear::{Coupling, Face, Lead};
 use gearwear::simulate::forward::{Conditions, Forward, GearSet, Variation};
 use gearwear::simulate::history::{HistoryTangents, Progress, WearState};
 use gearwear::simulate::members::Members;
@@ -29,9 +29,14 @@ fn numerics() -> Numerics {
 }
 
 fn set(slices: usize, lead: Lead) -> GearSet {
+    coupled(slices, lead, Coupling::None)
+}
+
+fn coupled(slices: usize, lead: Lead, coupling: Coupling) -> GearSet {
     GearSet {
         face: Face {
             slices,
+            coupling,
             lead: [lead, Lead::default()],
         },
         ..Study::parse(STUDY, "study.toml").unwrap().gear_set()
@@ -101,8 +106,15 @@ fn shares(forward: &Forward<'_>, state: &WearState, q: usize) -> Vec<f64> {
 
 #[test]
 fn slices_without_a_lead_deviation_are_one_section() {
+    for coupling in [Coupling::None, Coupling::Teeth] {
+        even_slices_are_one_section(coupling);
+    }
+}
+
+fn even_slices_are_one_section(coupling: Coupling) {
     let members = members();
-    let (plane, even) = (set(1, Lead::default()), set(5, Lead::default()));
+    let plane = set(1, Lead::default());
+    let even = coupled(5, Lead::default(), coupling);
     let (mut one, mut five) = (forward(&plane, &members), forward(&even, &members));
     let (alone, first) = states(&mut one, &[0.0, CYCLES]);
     let (all, second) = states(&mut five, &[0.0, CYCLES]);
@@ -192,8 +204,14 @@ fn the_slices_balance_the_torque_and_the_worn_area_and_a_wedge_wears_even() {
 
 #[test]
 fn a_mirrored_lead_wears_mirrored_flanks() {
+    for coupling in [Coupling::None, Coupling::Teeth] {
+        mirrored_leads(coupling);
+    }
+}
+
+fn mirrored_leads(coupling: Coupling) {
     let members = members();
-    let (left, right) = (set(5, slope(20.0)), set(5, slope(-20.0)));
+    let [left, right] = [20.0, -20.0].map(|um| coupled(5, slope(um), coupling));
     let worn = |set| {
         states(&mut forward(set, &members), &[0.3 * CYCLES])
             .0
@@ -269,8 +287,14 @@ fn more_slices_change_little() {
 /// Along given steps the error falls with their square, and the derivatives by ln k are those of differences.
 #[test]
 fn steps_are_of_second_order_and_derivatives_those_of_differences() {
+    for coupling in [Coupling::None, Coupling::Teeth] {
+        order_and_derivatives(coupling);
+    }
+}
+
+fn order_and_derivatives(coupling: Coupling) {
     let members = members();
-    let set = set(5, slope(12.0));
+    let set = coupled(5, slope(12.0), coupling);
     let template = forward(&set, &members);
     let end = 0.1 * CYCLES;
     let along = |coefficient: f64, count: usize| {
@@ -332,4 +356,28 @@ fn steps_are_of_second_order_and_derivatives_those_of_differences() {
     let worst = apart(&tangents.depth[0], &difference);
     eprintln!("derivative {worst:e}");
     assert!(worst < 1e-4, "{worst:e}");
+}
+
+/// Teeth that hang together share a wedge's load more unevenly than slices cut from one another, which bend each for themselves: the
+/// tied slices are stiffer against one another. Torque and worn area balance as before.
+#[test]
+fn tied_slices_resist_a_wedge() {
+    let members = members();
+    let factor = |coupling| {
+        let set = coupled(11, slope(12.0), coupling);
+        let mut forward = forward(&set, &members);
+        let (states, progress) = states(&mut forward, &[0.0, 0.2 * CYCLES]);
+        assert!(progress.balance.error() < 3e-3);
+        let largest: Vec<f64> = (0..states[0].contacts.len())
+            .map(|q| {
+                let shares = shares(&forward, &states[0], q);
+                assert!((shares.iter().sum::<f64>() / 11.0 - 1.0).abs() < 1e-9);
+                shares[0]
+            })
+            .collect();
+        largest.iter().sum::<f64>() / largest.len() as f64
+    };
+    let (free, tied) = (factor(Coupling::None), factor(Coupling::Teeth));
+    eprintln!("load of the outermost of 11 slices over the mean: {free} free, {tied} tied");
+    assert!(tied > 1.02 * free && tied < 1.6 * free, "{free}, {tied}");
 }

@@ -7,7 +7,7 @@
 //! and a mass loss each. Tolerance: none.
 
 use gearwear::gear::Member;
-use gearwear::measure::{COLUMNS, Dataset, Known, Place, Quantity, Subject};
+use gearwear::measure::{COLUMNS, Dataset, FacePlace, Known, Place, Quantity, Subject};
 use gearwear::source_text::{Fault, TextError};
 use gearwear::study::Study;
 use proptest::prelude::*;
@@ -286,7 +286,10 @@ fn line_ends_marks_blanks_quotes_and_column_order_change_nothing() {
         (a.value, a.sigma, a.position),
         (b.value, b.sigma, b.position)
     );
-    assert_eq!((a.face, a.tooth.as_deref()), (Some(-2.5), Some("7, left")));
+    assert_eq!(
+        (a.face, a.tooth.as_deref()),
+        (Some(FacePlace::At(-2.5)), Some("7, left"))
+    );
 }
 
 /// `GOOD` as a spreadsheet of central Europe writes it.

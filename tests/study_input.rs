@@ -87,8 +87,8 @@ refusals! {
         => BadValue "face.slices" at 22:10, "0", "1 to 201", "out of range";
     half_a_slice: format!("{SHORT}[face]\nslices = 2.5\n")
         => WrongType "face.slices" at 22:10, "2.5", "1 to 201", "whole number";
-    a_coupling_through_the_teeth: format!("{SHORT}[face]\nslices = 3\ncoupling = \"teeth\"\n")
-        => BadValue "face.coupling" at 23:12, "\"teeth\"", "\"none\"", "not modelled";
+    an_unknown_coupling: format!("{SHORT}[face]\nslices = 3\ncoupling = \"springs\"\n")
+        => BadValue "face.coupling" at 23:12, "\"springs\"", "\"none\"", "not known";
     a_lead_without_slices: format!("{SHORT}[face.gear]\ncrowning = 5.0\n")
         => Inconsistent "face.gear.crowning" at 22:12, "5.0", "2 or more", "needs slices";
     negative_module: with("module = 2.0", "module = -2.0")

@@ -4,6 +4,7 @@ mod compliance;
 mod face;
 mod flanks;
 mod tangent;
+mod ties;
 
 use std::ops::Range;
 
@@ -17,6 +18,7 @@ use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
 pub use compliance::{CycleCompliance, FlankCoupling, member_tooth, member_turns};
 pub use flanks::{ElasticFlanks, ToothFlank};
+pub use ties::{ToothWaves, WaveError};
 
 /// Flanks that give way by more than this under load, in modules, have left their path of contact: the turn is then no longer
 /// small against the tooth, and gaps taken at the unloaded position no longer hold. What the turn makes up for in wear does
@@ -38,6 +40,8 @@ pub struct FemContact<'a> {
     alteration: Option<&'a Alteration>,
     /// More than one slice of the face.
     slices: Option<&'a Slices>,
+    /// What ties the slices, by position.
+    ties: Option<&'a [DMatrix<f64>]>,
 }
 
 impl<'a> FemContact<'a> {
@@ -50,12 +54,19 @@ impl<'a> FemContact<'a> {
             opened: None,
             alteration: None,
             slices: None,
+            ties: None,
         }
     }
 
     /// The same with the face in slices; none: one section.
     pub fn across(mut self, slices: Option<&'a Slices>) -> Self {
         self.slices = slices;
+        self
+    }
+
+    /// The same with the slices tied ([`ToothWaves::ties`]).
+    pub fn tied(mut self, ties: Option<&'a [DMatrix<f64>]>) -> Self {
+        self.ties = ties;
         self
     }
 

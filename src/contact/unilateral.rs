@@ -20,6 +20,7 @@ mod factor;
 mod joint;
 mod one_by_one;
 mod sensitivity;
+mod tied;
 mod trial;
 
 use nalgebra::DMatrix;
@@ -29,6 +30,7 @@ use factor::ridged;
 pub use joint::{JointLinearised, JointProblem, JointSolution, SliceSensitivity, solve_joint};
 use one_by_one::one_by_one;
 pub use sensitivity::{Linearised, sensitivity};
+pub use tied::{Ties, solve_tied};
 use trial::Trial;
 
 /// The rigid motion that presses the bodies together.

@@ -1,6 +1,6 @@
 //! A card tells all there is to know about one effect of the catalogue: to a person, to the study reader and to a fit.
 
-use super::effect::{Effect, Hook};
+use super::effect::{Effect, FaceAt, Hook};
 use super::error::EffectError;
 use super::formula::{Formula, FormulaError};
 use super::prior::Prior;
@@ -85,6 +85,8 @@ pub struct Form {
     pub frees: &'static [&'static str],
     /// Parameters that it does not use, which a fit leaves alone although the card says otherwise.
     pub idle: &'static [&'static str],
+    /// Parameters of which both signs do the same in this form: a fit keeps to the side above the value without effect.
+    pub even: &'static [&'static str],
     /// Values of those that it frees, which stand behind all that the own form fits, each a place from which this form is tried beside what the
     /// own one was fitted to. None: it is fitted for itself.
     pub grown: &'static [&'static [f64]],
@@ -97,6 +99,7 @@ impl Form {
         settings: &[],
         frees: &[],
         idle: &[],
+        even: &[],
         grown: &[],
     };
 }
@@ -158,6 +161,16 @@ impl Param {
 }
 
 impl Card {
+    /// Whether it acts through slices of the face.
+    pub fn acts_across_the_face(&self) -> bool {
+        let end = FaceAt {
+            place: 1.0,
+            width: 1.0,
+            normal_force: 1.0,
+        };
+        (self.build)(&self.defaults()).lead(&end).is_some()
+    }
+
     /// The default values.
     pub fn defaults(&self) -> Vec<f64> {
         self.params.iter().map(|param| param.default).collect()

@@ -1,6 +1,6 @@
 //! Several effects at once: factors multiply, depths and lengths add, in the order in which they were put in.
 
-use super::effect::{Effect, Hook, OperationChange, OperationState};
+use super::effect::{Effect, FaceAt, Hook, OperationChange, OperationState, UsualTrace};
 use super::local::{Local, ProfileAt};
 
 /// The effects of one model.
@@ -50,17 +50,27 @@ impl Combined {
         depths
     }
 
-    /// Whether material is missing somewhere across the face.
-    pub fn has_lead(&self) -> bool {
-        let asked = [-1.0, -0.5, 0.0, 0.5, 1.0];
-        asked
-            .iter()
-            .any(|face| self.lead(*face).is_some_and(|lead| lead != 0.0))
+    /// Whether material is missing somewhere across a face `width` mm wide under a normal force (N).
+    pub fn has_lead(&self, width: f64, normal_force: f64) -> bool {
+        [-1.0, -0.5, 0.0, 0.5, 1.0].into_iter().any(|place| {
+            let at = FaceAt {
+                place,
+                width,
+                normal_force,
+            };
+            self.lead(&at).is_some_and(|lead| lead != 0.0)
+        })
     }
 
     /// The load factor of the effects that know nothing of the face.
     pub fn load_factor_of_sections(&self, at: &Local) -> f64 {
-        let of_sections = self.of(Hook::LoadFactor).filter(|e| e.lead(0.0).is_none());
+        let anywhere = FaceAt {
+            place: 0.0,
+            width: 1.0,
+            normal_force: 0.0,
+        };
+        let knows_no_face = |effect: &&dyn Effect| effect.lead(&anywhere).is_none();
+        let of_sections = self.of(Hook::LoadFactor).filter(knows_no_face);
         of_sections.fold(1.0, |f, effect| f * effect.load_factor(at))
     }
 
@@ -112,18 +122,18 @@ impl Effect for Combined {
             .fold(0.0, |sum, effect| sum + effect.tooth_offset(tooth))
     }
 
-    fn lead(&self, face: f64) -> Option<f64> {
+    fn lead(&self, at: &FaceAt) -> Option<f64> {
         let leads = self
             .entries
             .iter()
-            .filter_map(|(_, effect)| effect.lead(face));
+            .filter_map(|(_, effect)| effect.lead(at));
         leads.reduce(|sum, lead| sum + lead)
     }
 
-    fn trace_face(&self) -> Option<f64> {
+    fn usual_trace(&self) -> Option<UsualTrace> {
         self.entries
             .iter()
-            .find_map(|(_, effect)| effect.trace_face())
+            .find_map(|(_, effect)| effect.usual_trace())
     }
 
     /// Every effect sees the state as it is without the others.

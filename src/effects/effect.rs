@@ -124,17 +124,16 @@ pub trait Effect: Send + Sync {
         0.0
     }
 
-    /// Material missing across the face, µm along the path of contact on both flanks together, at the place `face` from −1 to 1 (half face
-    /// widths from its middle). None: the effect knows nothing of the face.
+    /// Material missing across the face, µm along the path of contact on both flanks together. None: the effect knows nothing of the face.
     ///
     /// Where contacts are solved an effect that does acts through slices of the face ([`crate::contact::slices`]), and its load factor is
     /// not asked.
-    fn lead(&self, _face: f64) -> Option<f64> {
+    fn lead(&self, _at: &FaceAt) -> Option<f64> {
         None
     }
 
-    /// Where on the face, from −1 to 1, a trace was taken that does not say; none: at mid-face.
-    fn trace_face(&self) -> Option<f64> {
+    /// Where across the face a trace was taken that does not say; none: at mid-face.
+    fn usual_trace(&self) -> Option<UsualTrace> {
         None
     }
 
@@ -158,6 +157,26 @@ pub trait Effect: Send + Sync {
     fn fault(&self) -> Option<String> {
         None
     }
+}
+
+/// A place across the face, and the load that bends what carries it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FaceAt {
+    /// From the middle of the face, in half face widths, −1 to 1.
+    pub place: f64,
+    /// Face width, mm.
+    pub width: f64,
+    /// Normal force of all pairs together, N.
+    pub normal_force: f64,
+}
+
+/// Where across the face traces are taken that do not say: at one place, as a mean over the face, or a blend of both.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct UsualTrace {
+    /// From the middle of the face, in half face widths.
+    pub place: f64,
+    /// Share of the mean over the face in what is measured, 0 to 1.
+    pub mean: f64,
 }
 
 /// Conditions of a whole run or test.

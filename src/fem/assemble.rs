@@ -148,15 +148,19 @@ pub(super) struct StiffnessPattern {
 }
 
 impl StiffnessPattern {
-    /// `equation[node]` numbers the two unknowns of each node, or says `FIXED`.
-    pub(super) fn new(cells: &Cells, equation: &[[u32; 2]], unknowns: usize) -> StiffnessPattern {
+    /// `equation[node]` numbers the unknowns of each node, or says `FIXED`.
+    pub(super) fn new<const D: usize>(
+        cells: &Cells,
+        equation: &[[u32; D]],
+        unknowns: usize,
+    ) -> StiffnessPattern {
         let count = element_count(cells);
         let mut column_start = vec![0u32; unknowns + 1];
         let mut rows: Vec<Vec<u32>> = vec![Vec::new(); unknowns];
         for index in 0..count {
             let dofs = element_dofs(cells, index, equation);
-            for &i in dofs.as_slice() {
-                for &j in dofs.as_slice() {
+            for &i in &dofs {
+                for &j in &dofs {
                     if i != FIXED && j != FIXED && i >= j {
                         rows[j as usize].push(i);
                     }
@@ -172,7 +176,6 @@ impl StiffnessPattern {
         let mut scatter = Vec::with_capacity(count * 78);
         for index in 0..count {
             let dofs = element_dofs(cells, index, equation);
-            let dofs = dofs.as_slice();
             for (p, &i) in dofs.iter().enumerate() {
                 for &j in &dofs[..=p] {
                     if i == FIXED || j == FIXED {
@@ -193,20 +196,21 @@ impl StiffnessPattern {
         }
     }
 
-    /// Fills `values` with the stiffness of the mesh, in element order.
-    pub(super) fn fill(
+    /// Fills `values` with the `stiffness` of the elements of the mesh (and their numbers), in their order.
+    pub(super) fn fill<const S: usize>(
         &self,
         mesh: &Mesh,
-        material: Elastic,
         values: &mut Vec<f64>,
+        stiffness: impl Fn(&Element, usize) -> Result<[[f64; S]; S], FemError>,
     ) -> Result<(), FemError> {
         values.clear();
         values.resize(self.row.len(), 0.0);
         let mut place = self.scatter.iter();
         for index in 0..element_count(&mesh.cells) {
             let element = Element::of(mesh, index);
-            let k = element_stiffness(&element, material, index)?;
-            for (i, row) in k.iter().enumerate().take(2 * element.len) {
+            let k = stiffness(&element, index)?;
+            // as many unknowns at each of an element's nodes as at each of six
+            for (i, row) in k.iter().enumerate().take(S / 6 * element.len) {
                 for (&value, &target) in row[..=i].iter().zip(place.by_ref()) {
                     if target != FIXED {
                         values[target as usize] += value;
@@ -234,24 +238,9 @@ impl StiffnessPattern {
     }
 }
 
-/// The up to 12 equation numbers of an element.
-struct ElementDofs {
-    dofs: [u32; 12],
-    len: usize,
-}
-
-impl ElementDofs {
-    fn as_slice(&self) -> &[u32] {
-        &self.dofs[..self.len]
-    }
-}
-
-fn element_dofs(cells: &Cells, index: usize, equation: &[[u32; 2]]) -> ElementDofs {
+/// The equation numbers of an element.
+fn element_dofs<const D: usize>(cells: &Cells, index: usize, equation: &[[u32; D]]) -> Vec<u32> {
     let (len, nodes) = nodes_of(cells, index);
-    let mut dofs = [FIXED; 12];
-    for (a, &node) in nodes[..len].iter().enumerate() {
-        dofs[2 * a] = equation[node as usize][0];
-        dofs[2 * a + 1] = equation[node as usize][1];
-    }
-    ElementDofs { dofs, len: 2 * len }
+    let of_nodes = nodes[..len].iter();
+    of_nodes.flat_map(|&node| equation[node as usize]).collect()
 }

@@ -2,7 +2,7 @@
 
 use faer::Par;
 
-use super::assemble::{FIXED, StiffnessPattern, internal_forces};
+use super::assemble::{FIXED, StiffnessPattern, element_stiffness, internal_forces};
 use super::cholesky::{BadPivot, Factor};
 use super::compliance::Compliance;
 use super::dirichlet::{Axis, check_support, fixed_flags, number_equations};
@@ -175,8 +175,11 @@ impl Body {
     }
 
     fn refill(&mut self) -> Result<(), FemError> {
+        let material = self.material;
         self.pattern
-            .fill(&self.mesh, self.material, &mut self.stiffness)?;
+            .fill(&self.mesh, &mut self.stiffness, |element, number| {
+                element_stiffness(element, material, number)
+            })?;
         self.factor
             .factor(&self.pattern, &self.stiffness)
             .map_err(|BadPivot { column, ratio }| {

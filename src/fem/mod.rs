@@ -7,7 +7,7 @@
 //! condensed      C = (K⁻¹)_ii = L_ii⁻ᵀ L_ii⁻¹                       what contact and wear work with
 //! ```
 //! All quantities are per mm of width. Small strain, one homogeneous isotropic material, no thermal strain, no inertia;
-//! nothing varies across the width.
+//! nothing varies across the width, but in `waves`: loads that vary across it as a cosine.
 
 mod assemble;
 mod body;
@@ -20,6 +20,7 @@ mod ordering;
 mod stress;
 pub mod structured;
 mod triangle;
+mod waves;
 
 pub use assemble::{
     ElementStiffness, element_stiffness, internal_forces, lame_constants, plane_stress_equivalent,
@@ -32,6 +33,7 @@ pub use error::FemError;
 pub use loads::{body_force, edge_traction};
 pub use stress::{Stress, element_stress, largest_principal, nodal_stress, stress_at};
 pub use triangle::{Element, ShapeAt, element_count, elements, shape};
+pub use waves::{Prism, Wave};
 
 /// Largest accepted relative residual ‖K u − f‖ / ‖f‖ of a linear solution.
 ///

@@ -45,11 +45,23 @@ impl Lead {
     }
 }
 
+/// What ties the slices of a face besides their common turn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Coupling {
+    /// The teeth and the bodies that they are cut from.
+    Teeth,
+    /// Nothing.
+    #[default]
+    None,
+}
+
 /// The face: in how many slices it is computed, and what both members' flanks lack across it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
     /// Slices, 1 for one section.
     pub slices: usize,
+    /// What ties them.
+    pub coupling: Coupling,
     /// Of pinion and gear.
     pub lead: [Lead; 2],
 }
@@ -58,6 +70,7 @@ impl Default for Face {
     fn default() -> Self {
         Self {
             slices: 1,
+            coupling: Coupling::default(),
             lead: [Lead::default(), Lead::default()],
         }
     }

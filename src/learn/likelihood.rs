@@ -13,6 +13,7 @@ use crate::learn::quadratic::{Layout, Normal, State};
 use crate::learn::scatter::marginal;
 use crate::learn::search::{Effort, Found, Search};
 use crate::learn::selection::Selection;
+use crate::measure::{Observation, Quantity};
 use crate::study::{Role, Scatter, WEAR_COEFFICIENT};
 
 /// How far an effect's own contribution may differ from its formula, relative: nature does not use our formulas.
@@ -142,6 +143,16 @@ impl<'a> Likelihood<'a> {
     /// Whether another k would do more than scale all rows: something is measured that is no wear, or wear meets a changed contact.
     pub(super) fn k_does_more_than_scale(&self, contact_changes: bool) -> bool {
         self.coefficient.is_some() && (contact_changes || self.others() > 0)
+    }
+
+    /// Whether all that is measured at places of a flank says where across the face, so that no form of an effect has to.
+    pub(super) fn states_places_across_the_face(&self) -> bool {
+        let all = &self.measured.data.observations;
+        let across = |o: &&Observation| {
+            matches!(o.quantity, Quantity::WearDepth | Quantity::ContactPressure)
+        };
+        let mut of_flanks = all.iter().filter(across);
+        of_flanks.all(|o| o.face.is_some())
     }
 
     /// Whether what is measured besides wear is missed by more than its noise.

@@ -6,7 +6,7 @@ mod thickness;
 use crate::effects::{Effect, Local};
 use crate::gear::Member;
 use crate::learn::trajectory::Node;
-use crate::measure::{Observation, Place, Quantity, Subject};
+use crate::measure::{FacePlace, Observation, Place, Quantity, Subject};
 use crate::numeric::interpolate;
 use crate::simulate::forward::{Forward, ForwardError, GearSet, Variation};
 use crate::simulate::history::worn_area;
@@ -239,14 +239,24 @@ impl<'r, 'f> Reading<'r, 'f> {
         }
     }
 
-    /// The slices that what is measured at the place `face` (mm from mid-face; none: where the effects say that traces are taken, else there) lies between, with their weights.
-    fn slices_at(&self, face: Option<f64>) -> Vec<(usize, f64)> {
-        let effects = self.forward.acting().map(|acting| &acting.effects);
-        let usual = || effects.and_then(|e| e.trace_face()).unwrap_or(0.0);
-        let place = || face.unwrap_or_else(|| 0.5 * self.set.face_width * usual());
-        match self.forward.slices() {
-            Some(slices) => slices.weights_at(place()).to_vec(),
-            None => vec![(0, 1.0)],
+    /// The slices of which what is measured at `face` is a sum, with their weights; where the row does not say, it is where the effects say that
+    /// traces are taken, else at mid-face.
+    fn slices_at(&self, face: Option<FacePlace>) -> Vec<(usize, f64)> {
+        let Some(slices) = self.forward.slices() else {
+            return vec![(0, 1.0)];
+        };
+        let mean = slices.weight.iter().copied().enumerate();
+        match face {
+            Some(FacePlace::At(face)) => slices.weights_at(face).to_vec(),
+            Some(FacePlace::Mean) => mean.collect(),
+            None => {
+                let effects = self.forward.acting().map(|acting| &acting.effects);
+                let usual = effects.and_then(|e| e.usual_trace()).unwrap_or_default();
+                let at = slices.weights_at(0.5 * self.set.face_width * usual.place);
+                let at = at.into_iter().map(|(i, w)| (i, (1.0 - usual.mean) * w));
+                let mean = mean.map(|(i, w)| (i, usual.mean * w));
+                at.chain(mean).filter(|(_, w)| *w != 0.0).collect()
+            }
         }
     }
 
@@ -264,8 +274,8 @@ impl<'r, 'f> Reading<'r, 'f> {
         )
     }
 
-    /// µm, at the place `face` across the face (mm; none: mid-face).
-    fn depth(&self, member: Member, radius: f64, face: Option<f64>) -> f64 {
+    /// µm, at the place `face` across the face.
+    fn depth(&self, member: Member, radius: f64, face: Option<FacePlace>) -> f64 {
         let arc = self.arc(member, radius);
         let at = |slice| {
             let depths = self.of_slice(&self.worn.u, slice, member);
@@ -344,7 +354,7 @@ impl<'r, 'f> Reading<'r, 'f> {
         &mut self,
         member: Member,
         radius: f64,
-        face: Option<f64>,
+        face: Option<FacePlace>,
     ) -> Result<f64, ForwardError> {
         let (arc, slices) = (self.arc(member, radius), self.slices_at(face));
         let meshing = self.meshing()?.0;

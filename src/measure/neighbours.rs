@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::Observation;
+use super::{FacePlace, Observation};
 
 /// Points on each side.
 const SIDE: usize = 4;
@@ -30,7 +30,7 @@ pub fn curves(rows: &[&Observation]) -> Vec<Vec<usize>> {
     let mut curves: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for (i, o) in rows.iter().enumerate() {
         if o.position.is_some() {
-            let cut = (o.trace, o.face.map(f64::to_bits), o.tooth.as_deref());
+            let cut = (o.trace, o.face.map(FacePlace::key), o.tooth.as_deref());
             let key = (o.test, o.member, o.quantity, o.cycles.to_bits(), cut);
             curves.entry(key).or_default().push(i);
         }

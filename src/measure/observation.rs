@@ -10,6 +10,26 @@ use super::quantity::{Place, Quantity, Subject};
 use crate::gear::Member;
 use crate::source_text::{Diagnostic, Fault, list};
 
+/// Where across the face something was measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FacePlace {
+    /// At this distance from mid-face, mm.
+    At(f64),
+    /// The mean over the face: of a tactile profile along many lines, of replicas, of weighed volume.
+    Mean,
+}
+
+impl FacePlace {
+    /// A number of its own for each place, for keys.
+    pub fn key(self) -> u64 {
+        match self {
+            FacePlace::At(face) => face.to_bits(),
+            // the bits of no finite number
+            FacePlace::Mean => u64::MAX,
+        }
+    }
+}
+
 /// One measured value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observation {
@@ -29,13 +49,16 @@ pub struct Observation {
     pub sigma: f64,
     /// Which trace it belongs to, by its place in the data set's.
     pub trace: Option<usize>,
-    /// Distance from mid-face, mm.
-    pub face: Option<f64>,
+    /// Where across the face; none where the row does not say.
+    pub face: Option<FacePlace>,
     /// Label of the tooth.
     pub tooth: Option<String>,
     /// Line in the file, counted from 1.
     pub line: usize,
 }
+
+/// The word of [`FacePlace::Mean`] in measurement files.
+const MEAN: &str = "mean";
 
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
@@ -299,19 +322,22 @@ impl<'k> Reader<'k> {
         Err(fault.with_hint(format!("this looks like {larger}")).into())
     }
 
-    fn face(&self, cell: Cell<'_, '_>) -> Result<Option<f64>> {
+    fn face(&self, cell: Cell<'_, '_>) -> Result<Option<FacePlace>> {
         if cell.is_empty() {
             return Ok(None);
         }
+        if cell.text() == MEAN {
+            return Ok(Some(FacePlace::Mean));
+        }
         let half = 0.5 * self.known.face_width;
-        let allowed = format!("mm from mid-face, {} to {half}", -half);
+        let allowed = format!("mm from mid-face, {} to {half}, or `{MEAN}`", -half);
         let face = cell.number(&allowed)?;
         if face.abs() > half {
             return Err(cell
                 .fault(Fault::BadValue, "face is off the face width", &allowed)
                 .into());
         }
-        Ok(Some(face))
+        Ok(Some(FacePlace::At(face)))
     }
 
     fn trace(

@@ -66,7 +66,10 @@ pub fn write_run_with(
     staging.write("transmission_error.csv", &csv::transmission_error(run)?)?;
     // drawing takes a core, writing fields mostly waits
     let (written, drawn) = rayon::join(
-        || write_fields(run, &mut staging, watch),
+        || {
+            write_fields(run, &mut staging, watch)?;
+            write_flanks(run, &mut staging)
+        },
         || {
             let page = html::run(run, pair)?;
             let mut pictures = pictures(&page)?;
@@ -241,6 +244,19 @@ fn write_fields(
         "fields/loads.json",
         &documents::text("fields/loads.json", &loads)?,
     )
+}
+
+/// The flanks over the face, by state.
+fn write_flanks(run: &Run, staging: &mut Staging) -> Result<(), OutputError> {
+    let mut series = Vec::new();
+    for (cycles, name, bytes) in vtk::flank_surfaces(run) {
+        staging.write(&format!("fields/{name}"), &bytes)?;
+        series.push((cycles, name));
+    }
+    if series.is_empty() {
+        return Ok(());
+    }
+    staging.write("fields/flanks.pvd", &vtk::pvd(&series))
 }
 
 fn finish(staging: Staging) -> Result<Written, OutputError> {

@@ -1,10 +1,12 @@
 //! Both gears meshed but not factored: what elastic members are made from, new and worn.
 
-use std::sync::Arc;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::join;
 
 use crate::contact::cycle::Stations;
+use crate::contact::fem::ToothWaves;
 use crate::contact::strips::Strips;
 use crate::gear::{self, Gear, Pair, WornFlank};
 use crate::material::Elastic;
@@ -25,6 +27,8 @@ pub struct Blanks {
     pub strips: Strips,
     spacing: f64,
     of_user: bool,
+    /// By the bits of the face width and the number of slices.
+    waves: Mutex<HashMap<(u64, usize), Arc<ToothWaves>>>,
 }
 
 /// The mesh of a worn member.
@@ -83,6 +87,7 @@ impl Blanks {
             strips,
             spacing,
             of_user,
+            waves: Mutex::default(),
         })
     }
 
@@ -99,6 +104,27 @@ impl Blanks {
     /// Length of a flank edge, mm.
     pub fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// How the flanks of `gears`, of which these are the blanks, give way less under loads that vary across a face `width` (mm) in so many `slices`.
+    ///
+    /// # Errors
+    /// [`MemberError`].
+    pub fn waves(
+        &self,
+        gears: [&Gear; 2],
+        width: f64,
+        slices: usize,
+    ) -> Result<Arc<ToothWaves>, MemberError> {
+        let known = || self.waves.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = (width.to_bits(), slices);
+        let found = known().get(&key).cloned();
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        // not made under the lock: a thread that waits for parts of it may turn to work that asks for them too
+        let made = Arc::new(ToothWaves::new(gears, self.materials, width, slices)?);
+        Ok(Arc::clone(known().entry(key).or_insert(made)))
     }
 
     /// The new members, factored and condensed where `strips` can touch (their own or wider ones).

@@ -10,6 +10,8 @@ mod running;
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use nalgebra::DMatrix;
+
 use crate::analytic::iso6336;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, Stations};
@@ -79,6 +81,8 @@ pub struct Forward<'a> {
     altered: Option<Altered>,
     /// The face, where it has more than one slice.
     slices: Option<Slices>,
+    /// What ties its slices, by position.
+    ties: Option<Arc<Vec<DMatrix<f64>>>>,
 }
 
 impl<'a> Forward<'a> {
@@ -180,6 +184,7 @@ impl<'a> Forward<'a> {
             acting,
             altered: None,
             slices: None,
+            ties: None,
         };
         out.cover()?;
         out.project()?;
@@ -255,7 +260,8 @@ impl<'a> Forward<'a> {
             (None, ContactKind::Fem) => return Err(ForwardError::Unprepared),
             (Some(compliance), ContactKind::Fem) => {
                 let model = FemContact::new(&self.cycle, compliance, self.torque())
-                    .across(self.slices.as_ref());
+                    .across(self.slices.as_ref())
+                    .tied(self.ties.as_ref().map(|ties| ties.as_slice()));
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration, a.opened.as_deref())),
                     None => work(&model),

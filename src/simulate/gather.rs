@@ -16,6 +16,7 @@ use crate::simulate::result::{
 };
 use crate::simulate::run::Plan;
 use crate::simulate::touching_strip::TouchingStrip;
+use crate::wear::passage::Passage;
 
 /// What was asked for.
 pub fn conditions(plan: &Plan) -> Conditions {
@@ -136,7 +137,14 @@ fn face_slice(plan: &Plan, forward: &Forward, slice: &SliceState) -> FaceSlice {
     let positions = slice.contacts.iter().enumerate();
     let pairs = positions.flat_map(|(q, contact)| position(plan, forward, q, contact).pairs);
     let on_flanks = pairs.filter(|pair| !pair.at_corner);
+    let cycle = forward.cycle();
+    let passage = Passage::new(cycle);
+    let pressure = [0, 1].map(|side| {
+        let moments = passage.moments(cycle, &slice.contacts, side);
+        moments.into_iter().map(|moment| moment.pressure).collect()
+    });
     FaceSlice {
+        pressure,
         face: slice.face,
         load: slice_load(forward, slice),
         peak_pressure: on_flanks.fold(0.0, |most, pair| most.max(pair.peak_pressure)),

@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::contact::fem::{ElasticFlanks, ToothFlank};
+use crate::contact::fem::{ElasticFlanks, ToothFlank, WaveError};
 use crate::contact::strips::Strips;
 use crate::fem::{Body, FemError};
 use crate::gear::Gear;
@@ -33,6 +33,15 @@ pub enum MemberError {
     /// The stiffness could not be factored.
     #[error(transparent)]
     Fem(#[from] FemError),
+}
+
+impl From<WaveError> for MemberError {
+    fn from(error: WaveError) -> Self {
+        match error {
+            WaveError::Mesh(error) => Self::Mesh(error),
+            WaveError::Fem(error) => Self::Fem(error),
+        }
+    }
 }
 
 /// Pinion and gear as elastic bodies.

@@ -219,6 +219,8 @@ pub struct FaceSlice {
     pub peak_pressure: f64,
     /// Depth of pinion and gear at the radii of their profiles, µm.
     pub depth: [Vec<f64>; 2],
+    /// The largest pressure that these points see in a passage, MPa.
+    pub pressure: [Vec<f64>; 2],
 }
 
 impl State {

@@ -120,6 +120,7 @@ fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
         span: table.header(),
         freed: &[],
         idle: &[],
+        even: &[],
     })
 }
 

@@ -32,6 +32,8 @@ pub struct EffectSpec {
     pub freed: &'static [&'static str],
     /// Short names of parameters that a fit leaves alone although their card says otherwise.
     pub idle: &'static [&'static str],
+    /// Short names of parameters that a fit keeps above their value without effect, as below it they do the same.
+    pub even: &'static [&'static str],
 }
 
 /// What an effect computes.
@@ -240,6 +242,7 @@ impl EffectSpec {
             span: 0..0,
             freed: &[],
             idle: &[],
+            even: &[],
         })
     }
 
@@ -261,6 +264,7 @@ impl EffectSpec {
         Ok(Self {
             freed: form.frees,
             idle: form.idle,
+            even: form.even,
             ..Self::of_card(card, &all)?
         })
     }
@@ -275,7 +279,18 @@ impl EffectSpec {
                     fitted && !self.idle.contains(&card.name)
                 })
             })
-            .map(Parameter::free)
+            .map(|parameter| {
+                let free = parameter.free();
+                let even = (parameter.card).is_some_and(|card| self.even.contains(&card.name));
+                match free.neutral.filter(|_| even) {
+                    Some(neutral) => FreeParameter {
+                        lower: neutral,
+                        value: free.value.max(neutral),
+                        ..free
+                    },
+                    None => free,
+                }
+            })
             .collect()
     }
 

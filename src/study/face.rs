@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::quantity as q;
 use super::reader::Table;
 use super::relative;
-use crate::gear::{Face, Lead, Member};
+use crate::gear::{Coupling, Face, Lead, Member};
 use crate::source_text::{Diagnostic, Fault};
 
 pub(super) const KEYS: &[&str] = &["slices", "coupling", "pinion", "gear"];
@@ -18,7 +18,7 @@ pub(super) const MEMBER_KEYS: &[&str] = &[
 ];
 
 /// What couples slices, but for the common turn.
-pub(super) const COUPLINGS: &[&str] = &["none"];
+pub(super) const COUPLINGS: &[&str] = &["teeth", "none"];
 
 /// The most slices; a slice is then thinner than any measurement resolves.
 pub(super) const MOST_SLICES: usize = 201;
@@ -41,16 +41,11 @@ pub(super) fn read(
     };
     let why = "sections across the face; 11 are enough for straight and crowned leads";
     face.slices = table.count("slices", 1..=MOST_SLICES, why)?.unwrap_or(1);
-    let couplings: Vec<(&str, ())> = COUPLINGS.iter().map(|word| (*word, ())).collect();
-    let coupling = table.choice("coupling", &couplings);
-    coupling.map_err(|refusal| {
-        let mut refusal = *refusal;
-        refusal.hints = vec![
-            "slices share the common turn alone: a coupling through the teeth is not modelled"
-                .to_owned(),
-        ];
-        Box::new(refusal)
-    })?;
+    let couplings = [
+        (COUPLINGS[0], Coupling::Teeth),
+        (COUPLINGS[1], Coupling::None),
+    ];
+    face.coupling = table.choice("coupling", &couplings)?.unwrap_or_default();
     for (side, which) in Member::BOTH.into_iter().enumerate() {
         let Some(member) = table.table(which.name(), MEMBER_KEYS)? else {
             continue;

@@ -74,6 +74,7 @@ pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
         span: table.header(),
         freed: &[],
         idle: &[],
+        even: &[],
     })
 }
 

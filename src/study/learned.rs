@@ -157,6 +157,7 @@ impl LearnedLaw {
             span: 0..0,
             freed: &[],
             idle: &[],
+            even: &[],
         }
     }
 

@@ -8,6 +8,7 @@ pub mod challenge;
 pub mod contact_and_wear;
 pub mod convergence;
 pub mod elasticity;
+pub mod face_slices;
 pub mod flat_punch;
 pub mod gear_condensation;
 pub mod gear_contact;

@@ -57,6 +57,9 @@ pub fn question(family: &str) -> &'static str {
             "Are explicit steps unstable where theory says so, and do ours stay accurate there?"
         }
         "F9" => "Is a gear's wear per pass the closed form k·F'·|sliding| along the whole flank?",
+        "S1" => {
+            "Do slices of the face share a load as closed forms say, and do waves across it bend a plate as they should?"
+        }
         "X1" => {
             "Does CalculiX, a program of others with its own contact, find the same transmission error and peak pressure?"
         }

@@ -5,8 +5,8 @@ use crate::paper::reference::ReferenceError;
 use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
 use crate::verify::{
-    CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, gears, paper_rows,
-    runner::Row, worn_corner,
+    CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, face_slices, gears,
+    paper_rows, runner::Row, worn_corner,
 };
 
 /// Cases that belong together, as the runner takes them.
@@ -69,6 +69,14 @@ pub fn entries() -> Vec<Entry> {
         reason: challenge::REASON,
         work: Work::Challenge(name),
     }));
+    all.push(Entry {
+        ids: vec![face_slices::ID.to_owned()],
+        group: "Gear contact",
+        title: "the face in slices",
+        source: face_slices::SOURCE,
+        reason: face_slices::REASON,
+        work: Work::Family(face_slices::all),
+    });
     all.push(Entry {
         ids: vec![calculix::ID.to_owned()],
         group: "Gear contact",

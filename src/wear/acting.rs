@@ -9,7 +9,8 @@ use crate::contact::deposit::tributary;
 use crate::contact::model::PositionContact;
 use crate::contact::slices::Slices;
 use crate::effects::{
-    Combined, Effect, Hook, Local, OperationState, ProfileAt, REFERENCE_TEMPERATURE, Surroundings,
+    Combined, Effect, FaceAt, Hook, Local, OperationState, ProfileAt, REFERENCE_TEMPERATURE,
+    Surroundings,
 };
 use crate::gear::{Member, Pair};
 
@@ -86,12 +87,23 @@ impl Acting {
         self.effects.acts(hook)
     }
 
+    /// Normal force of all pairs together, N.
+    fn normal_force(&self, pair: &Pair) -> f64 {
+        1e3 * self.torque / pair.pinion.base_radius
+    }
+
+    /// Whether the effects leave something missing across the face of `pair`.
+    pub fn acts_across_the_face(&self, pair: &Pair) -> bool {
+        let force = self.normal_force(pair);
+        self.effects.has_lead(self.face_width, force)
+    }
+
     /// What the effects add to the centre distance of `pair`, mm.
     pub fn added_centre_distance(&self, pair: &Pair) -> f64 {
         let state = OperationState {
             torque: self.torque,
             speed: self.speed,
-            normal_force: 1e3 * self.torque / pair.pinion.base_radius,
+            normal_force: self.normal_force(pair),
             working_pressure_angle: pair.working_pressure_angle,
             centre_distance: pair.centre_distance,
             bulk_temperature: self
@@ -104,7 +116,7 @@ impl Acting {
 
     /// What the effects change about the contact over `cycle`; `slices`: those of the face, if it has more than one.
     pub fn alteration(&self, cycle: &Cycle, slices: Option<&Slices>) -> Alteration {
-        let across = slices.filter(|_| self.effects.has_lead());
+        let across = slices.filter(|_| self.acts_across_the_face(&cycle.pair));
         let acts = |hook| self.acts(hook).then_some(());
         Alteration {
             profile: acts(Hook::Profile).map(|()| Member::BOTH.map(|m| self.profile(cycle, m))),
@@ -116,8 +128,14 @@ impl Acting {
             tooth_offset: acts(Hook::ToothOffset)
                 .map(|()| [-2, -1, 0, 1, 2].map(|tooth| 1e-3 * self.effects.tooth_offset(tooth))),
             lead: across.map(|slices| {
-                let half = 0.5 * self.face_width;
-                let lead = |y: &f64| 1e-3 * self.effects.lead(y / half).unwrap_or(0.0);
+                let lead = |y: &f64| {
+                    let at = FaceAt {
+                        place: 2.0 * y / self.face_width,
+                        width: self.face_width,
+                        normal_force: self.normal_force(&cycle.pair),
+                    };
+                    1e-3 * self.effects.lead(&at).unwrap_or(0.0)
+                };
                 slices.place.iter().map(lead).collect()
             }),
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearwear::effects::{CATALOGUE, Hook, Local};
+use gearwear::effects::{CATALOGUE, FaceAt, Hook, Local};
 use gearwear::gear::Member;
 
 use super::places::{operation, ordinary, profile};
@@ -589,6 +589,21 @@ fn lead_misalignment() {
     // √(2 F c/w) where only part of the face carries; a slice in the middle carries less than the mean
     same(wide(1.0).load_factor(&at), 3.175_536_744_149_779);
     same(wide(0.0).load_factor(&at), 0.654_528_340_788_434_4);
+    // with the other sign the other end is loaded
+    for position in [-1.0, -0.3, 0.0, 0.8] {
+        let other = [("slope", -30.0), ("face_position", -position)];
+        let other = effect("lead_misalignment", &other);
+        same(other.load_factor(&at), wide(position).load_factor(&at));
+        let place = |place| FaceAt {
+            place,
+            width: 30.0,
+            normal_force: 0.0,
+        };
+        assert_eq!(
+            other.lead(&place(-position)),
+            wide(position).lead(&place(position))
+        );
+    }
     // the mean over the face is 1: loads of all slices sum to the whole
     let n = 20_000;
     for slope in [6.0, 30.0] {
@@ -610,6 +625,98 @@ fn lead_misalignment() {
         };
         close(sum, 1.0 + 0.05 * bare, 1e-6);
     }
+}
+
+/// 6 µm at 119 N/mm and 20 N/(mm µm): the middle carries 1 + X/3 of the mean, the ends 1 − 2X/3; where only part of the face carries the
+/// loads of all slices still sum to the whole.
+#[test]
+fn lead_crowning() {
+    let at = Local {
+        normal_load: 119.0,
+        ..ordinary()
+    };
+    let law = |amount: f64, position: f64| {
+        effect(
+            "lead_crowning",
+            &[("amount", amount), ("face_position", position)],
+        )
+        .load_factor(&at)
+    };
+    same(law(6.0, 0.0), 1.336_134_453_781_512_6);
+    same(law(6.0, 1.0), 0.327_731_092_436_974_8);
+    let n = 20_000;
+    let place = |i: i32| (f64::from(i) + 0.5) / f64::from(n) * 2.0 - 1.0;
+    for amount in [6.0, 12.0, 40.0] {
+        let x = amount * 20.0 / 119.0;
+        let sum: f64 = (0..n).map(|i| law(amount, place(i)) / f64::from(n)).sum();
+        let reach = (1.5f64 / x).cbrt().min(1.0);
+        // slices off the contact carry the floor of 0.05, and those near its end as much at least
+        let floor = 0.05 * (1.0 - reach) + 0.05 * 0.05 / (4.0 * x * reach);
+        close(sum, 1.0 + f64::from(u8::from(reach < 1.0)) * floor, 2e-5);
+    }
+    let mean = effect("lead_crowning", &[("amount", 40.0), ("face_mean", 1.0)]);
+    assert_eq!(mean.load_factor(&at), 1.0);
+}
+
+/// A shaft of 25 mm, 100 mm between its bearings: the slope is the derivative of the textbook's bending line (here integrated numerically from the bending
+/// moments), and the load factor does not depend on the torque.
+#[test]
+fn shaft_deflection() {
+    let (span, diameter, force) = (100.0, 25.0, 2500.0);
+    let bending = 206_000.0 * std::f64::consts::PI * f64::powi(diameter, 4) / 64.0;
+    // slope at `at` of a beam on supports at 0 and `span`: deflection by Mohr's double integral, zero at both supports
+    let slope = |load_at: f64, at: f64| {
+        let right = force * load_at / span;
+        let moment = |x: f64| {
+            let from_left = (force - right) * x - force * (x - load_at).max(0.0);
+            from_left + right * (x - span).max(0.0)
+        };
+        let n = 200_000;
+        let h = load_at.max(span) / f64::from(n);
+        let (mut turn, mut down, mut at_span, mut found) = (0.0, 0.0, 0.0, 0.0);
+        for i in 0..n {
+            let x = (f64::from(i) + 0.5) * h;
+            turn -= h * moment(x) / bending;
+            down += h * turn;
+            if x < span {
+                at_span = down;
+            }
+            if x < at {
+                found = turn;
+            }
+        }
+        found - at_span / span
+    };
+    let end = |stated: &[(&str, f64)]| {
+        let at = FaceAt {
+            place: 1.0,
+            width: 30.0,
+            normal_force: force,
+        };
+        -effect("shaft_deflection", stated).lead(&at).unwrap()
+    };
+    for (stated, load_at) in [
+        (vec![("offset", 15.0)], 65.0),
+        (vec![("offset", 22.0), ("overhung", 1.0)], 122.0),
+    ] {
+        let expected = 0.5 * 1e3 * 30.0 * slope(load_at, load_at).abs();
+        let found = end(&stated);
+        close(found, expected, 2e-4 * expected);
+    }
+    // on the other side of mid-span, or beyond the other bearing, the other end is loaded
+    for overhung in [0.0, 1.0] {
+        let of = |offset| end(&[("offset", offset), ("overhung", overhung)]);
+        same(of(-22.0), -of(22.0));
+    }
+    let law = effect("shaft_deflection", &[("offset", 15.0)]);
+    let at = |load| {
+        law.load_factor(&Local {
+            normal_load: load,
+            ..ordinary()
+        })
+    };
+    assert!(at(100.0) > 1.01);
+    assert_eq!(at(100.0), at(300.0));
 }
 
 #[test]

@@ -1,18 +1,47 @@
 //! Elastic contact of all slices of the face: one compliance for all of them, one approach between them.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::FemContact;
 use crate::contact::alteration::{Alteration, set_back};
+use crate::contact::cycle::Position;
 use crate::contact::model::{ContactError, PositionContact, SlicedContact};
 use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::{AlterationChange, ContactTangent, LinearSlices, SliceChange};
 use crate::contact::unilateral::{
-    JointLinearised, JointProblem, JointSolution, SliceSensitivity, UnilateralError, solve_joint,
+    JointLinearised, JointProblem, JointSolution, SliceSensitivity, Ties, UnilateralError,
+    solve_joint, solve_tied,
 };
+
+/// The groups of a position's unknowns that slices are tied by: tooth pairs.
+struct TiedPairs {
+    groups: Vec<Range<usize>>,
+    length: Vec<f64>,
+}
+
+impl TiedPairs {
+    fn of(position: &Position) -> Self {
+        let pairs = position.pairs.iter();
+        Self {
+            groups: (pairs.clone())
+                .map(|pair| pair.offset..pair.offset + pair.xi.len())
+                .collect(),
+            length: pairs.flat_map(|pair| &pair.length).copied().collect(),
+        }
+    }
+
+    fn by<'b>(&'b self, change: &'b DMatrix<f64>) -> Ties<'b> {
+        Ties {
+            change,
+            groups: &self.groups,
+            length: &self.length,
+        }
+    }
+}
 
 impl FemContact<'_> {
     fn joint<'b>(&'b self, q: usize, gaps: &'b [Vec<f64>]) -> JointProblem<'b> {
@@ -60,7 +89,18 @@ impl FemContact<'_> {
             theta: position.theta,
             source,
         };
-        let solution = solve_joint(&self.joint(q, gaps), start).map_err(failed)?;
+        let problem = self.joint(q, gaps);
+        let (solution, gaps) = match self.ties {
+            Some(ties) => {
+                let pairs = TiedPairs::of(position);
+                let tied = solve_tied(&problem, &pairs.by(&ties[q]), start).map_err(failed)?;
+                (tied.0, Cow::Owned(tied.1))
+            }
+            None => {
+                let solution = solve_joint(&problem, start).map_err(failed)?;
+                (solution, Cow::Borrowed(gaps))
+            }
+        };
         for (i, (gap, pressure)) in gaps.iter().zip(&solution.pressure).enumerate() {
             let own = self.slices().offset[i];
             let mut corners = [f64::INFINITY; 2];
@@ -122,12 +162,15 @@ impl FemContact<'_> {
     ) -> Result<JointLinearised, ContactError> {
         let active: Vec<&[usize]> = contacts.iter().map(|c| c.active.as_slice()).collect();
         let gaps = vec![self.cycle.positions[q].gap.clone(); contacts.len()];
-        JointLinearised::new(&self.joint(q, &gaps), &active).map_err(|source: UnilateralError| {
-            ContactError::Unilateral {
-                theta: self.cycle.positions[q].theta,
+        let position = &self.cycle.positions[q];
+        let pairs = TiedPairs::of(position);
+        let ties = self.ties.map(|ties| pairs.by(&ties[q]));
+        JointLinearised::new(&self.joint(q, &gaps), ties.as_ref(), &active).map_err(
+            |source: UnilateralError| ContactError::Unilateral {
+                theta: position.theta,
                 source,
-            }
-        })
+            },
+        )
     }
 }
 
@@ -353,7 +396,8 @@ impl LinearSlices for FaceLinear<'_> {
         });
         let right = (self.joint.active.iter().zip(&gaps))
             .map(|(active, gap)| DVector::from_fn(active.len(), |i, _| gap[active[i]]));
-        let (x, _) = self.joint.linear.solve(right.collect(), 0.0);
+        // as the Jacobian of a wear step has it
+        let (x, _) = self.joint.linear.solve_untied(right.collect(), 0.0);
         x.iter().map(|x| x.as_slice().to_vec()).collect()
     }
 
@@ -367,7 +411,7 @@ impl LinearSlices for FaceLinear<'_> {
             return None;
         }
         let (right, load) = self.altered(&self.joint, responses, alteration);
-        let (x, _) = self.joint.linear.solve(right, load);
+        let (x, _) = self.joint.linear.solve_untied(right, load);
         Some(x.iter().map(|x| x.as_slice().to_vec()).collect())
     }
 }

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 use super::factor::{Factor, ridged};
+use super::tied::{TiedSystem, Ties};
 use super::trial::{CLOSED, Trial};
 use super::{Drive, Problem, UnilateralError};
 
@@ -232,7 +233,7 @@ fn first_sets(problem: &JointProblem) -> Vec<Vec<usize>> {
 }
 
 /// W⁻¹ on one set, and W⁻¹ a.
-struct SetFactor {
+pub(super) struct SetFactor {
     active: Arc<Vec<usize>>,
     factor: Option<Factor>,
     of_arm: DVector<f64>,
@@ -259,17 +260,37 @@ impl SetFactor {
     }
 
     fn solve(&self, right: DVector<f64>) -> DVector<f64> {
-        let mut columns = DMatrix::from_column_slice(right.len(), 1, right.as_slice());
+        let columns = DMatrix::from_column_slice(right.len(), 1, right.as_slice());
+        self.solved(columns).column(0).into_owned()
+    }
+
+    /// W⁻¹ of columns.
+    pub(super) fn solved(&self, mut columns: DMatrix<f64>) -> DMatrix<f64> {
         if let Some(factor) = &self.factor {
             factor.solve(&mut columns);
         }
-        columns.column(0).into_owned()
+        columns
+    }
+
+    /// The set.
+    pub(super) fn active(&self) -> &[usize] {
+        &self.active
+    }
+
+    /// W⁻¹ a.
+    pub(super) fn of_arm(&self) -> &DVector<f64> {
+        &self.of_arm
+    }
+
+    /// b on the set.
+    pub(super) fn lever(&self) -> &DVector<f64> {
+        &self.lever
     }
 }
 
 /// Factors of the sets met so far.
 #[derive(Default)]
-struct Factors(Vec<Arc<SetFactor>>);
+pub(super) struct Factors(Vec<Arc<SetFactor>>);
 
 impl Factors {
     fn of(
@@ -287,7 +308,7 @@ impl Factors {
 }
 
 /// One slice on a set.
-struct OnSet {
+pub(super) struct OnSet {
     active: Arc<Vec<usize>>,
     factor: Arc<SetFactor>,
     /// W⁻¹ g.
@@ -306,6 +327,16 @@ impl OnSet {
         }
     }
 
+    /// Its factor.
+    pub(super) fn factor(&self) -> &SetFactor {
+        &self.factor
+    }
+
+    /// W⁻¹ g.
+    pub(super) fn of_gap(&self) -> &DVector<f64> {
+        &self.of_gap
+    }
+
     /// At the approach of the slice's own problem.
     fn trial(&self, slice: &Problem, approach: f64) -> Trial {
         let pressure = &self.factor.of_arm * approach - &self.of_gap;
@@ -313,7 +344,7 @@ impl OnSet {
     }
 }
 
-fn on_sets(
+pub(super) fn on_sets(
     problem: &JointProblem,
     factors: &mut Factors,
     sets: &[Vec<usize>],
@@ -363,13 +394,14 @@ fn joined(
 /// A joint contact linearised on its active sets: small changes cost one back-substitution for each slice.
 ///
 /// ```text
-/// W x_i − a ψ = r_i,   Σ w_i b·x_i = s
+/// W x_i + L v_i − a ψ = r_i,   Σ w_i b·x_i = s          v = E Lᵀx where slices are tied, else 0
 /// ```
 pub struct JointLinearised {
     slices: Vec<Arc<SetFactor>>,
     weights: Vec<f64>,
     /// Σ w_i b·W⁻¹a.
     stiffness: f64,
+    tied: Option<TiedSystem>,
 }
 
 impl JointLinearised {
@@ -377,7 +409,11 @@ impl JointLinearised {
     ///
     /// # Errors
     /// [`UnilateralError::Singular`] if a set's compliance cannot be inverted.
-    pub fn new(problem: &JointProblem, active: &[&[usize]]) -> Result<Self, UnilateralError> {
+    pub fn new(
+        problem: &JointProblem,
+        ties: Option<&Ties>,
+        active: &[&[usize]],
+    ) -> Result<Self, UnilateralError> {
         let mut factors = Factors::default();
         let build = |factors: &mut Factors, problem: &JointProblem| {
             (active.iter().map(|set| factors.of(problem, set))).collect::<Result<Vec<_>, _>>()
@@ -389,18 +425,42 @@ impl JointLinearised {
         let stiffness = (slices.iter().zip(problem.weights))
             .map(|(slice, weight)| weight * slice.lever.dot(&slice.of_arm))
             .sum();
+        let factors: Vec<&SetFactor> = slices.iter().map(Arc::as_ref).collect();
+        let tied = ties
+            .filter(|_| active.iter().any(|set| !set.is_empty()))
+            .map(|ties| TiedSystem::new(&factors, problem.weights, ties))
+            .transpose()?;
         Ok(Self {
             slices,
             weights: problem.weights.to_vec(),
             stiffness,
+            tied,
         })
     }
 
     /// x by slice and ψ for `right` by slice and `load`.
     pub fn solve(&self, right: Vec<DVector<f64>>, load: f64) -> (Vec<DVector<f64>>, f64) {
-        let mut x: Vec<DVector<f64>> = (self.slices.iter().zip(right))
-            .map(|(slice, right)| slice.solve(right))
-            .collect();
+        let Some(tied) = &self.tied else {
+            return self.solve_untied(right, load);
+        };
+        let factors: Vec<&SetFactor> = self.slices.iter().map(Arc::as_ref).collect();
+        let mut x = self.each_solved(right);
+        let (shifts, psi) = tied.shifts(&factors, &self.weights, &x, load);
+        for (i, (x, slice)) in x.iter_mut().zip(&self.slices).enumerate() {
+            *x -= slice.solve(tied.shift(i, &shifts));
+            x.axpy(psi, &slice.of_arm, 1.0);
+        }
+        (x, psi)
+    }
+
+    fn each_solved(&self, right: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+        let all = self.slices.iter().zip(right);
+        all.map(|(slice, right)| slice.solve(right)).collect()
+    }
+
+    /// The same without ties, as [`JointLinearised::sensitivities`] has it.
+    pub fn solve_untied(&self, right: Vec<DVector<f64>>, load: f64) -> (Vec<DVector<f64>>, f64) {
+        let mut x = self.each_solved(right);
         let carried: f64 = (self.slices.iter().zip(&x).zip(&self.weights))
             .map(|((slice, x), weight)| weight * slice.lever.dot(x))
             .sum();
@@ -412,7 +472,7 @@ impl JointLinearised {
     }
 
     /// How the pressures of each slice follow its own gaps at a fixed approach and the approach that is common:
-    /// dλ_i = −S dg_i + x dφ, dφ = Σ_j f_j·dg_j. Slices with the same set share one.
+    /// dλ_i = −S dg_i + x dφ, dφ = Σ_j f_j·dg_j, as if slices were not tied. Slices with the same set share one.
     pub fn sensitivities(&self) -> Vec<Arc<SliceSensitivity>> {
         let mut known: Vec<(Arc<SetFactor>, Arc<SliceSensitivity>)> = Vec::new();
         let of_slice = |slice: &Arc<SetFactor>| {

@@ -437,7 +437,7 @@ fn joint_linearisation_is_that_of_differences() {
         };
         let found = solve_joint(&problem, &[]).unwrap();
         let active: Vec<&[usize]> = found.active.iter().map(Vec::as_slice).collect();
-        let linear = JointLinearised::new(&problem, &active).unwrap();
+        let linear = JointLinearised::new(&problem, None, &active).unwrap();
         (found, linear)
     };
     let (base, linear) = at(&gaps);

@@ -11,6 +11,7 @@ mod extra_flexibility;
 mod film_thickness;
 mod flash_temperature;
 mod friction_load;
+mod lead_crowning;
 mod lead_misalignment;
 mod lubricant_ageing;
 mod member_hardness;
@@ -25,6 +26,7 @@ mod radial_misalignment;
 mod roughness_polish;
 mod running_in;
 mod severe_transition;
+mod shaft_deflection;
 mod sliding_speed_exponent;
 mod surface_layer;
 mod thermal_expansion;
@@ -58,6 +60,8 @@ pub static CATALOGUE: &[&Card] = &[
     &bearing_compliance::CARD,
     &thermal_expansion::CARD,
     &lead_misalignment::CARD,
+    &lead_crowning::CARD,
+    &shaft_deflection::CARD,
     &radial_misalignment::CARD,
     &tip_relief::CARD,
     &profile_slope::CARD,

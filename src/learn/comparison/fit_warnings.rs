@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 
 use crate::learn::fitted::Fit;
 use crate::learn::parameters::Estimate;
-use crate::measure::{Dataset, Observation};
+use crate::measure::{Dataset, FacePlace, Observation};
 
 /// Least eigenvalue of the correlation of parameters that are badly known; of two it is 1 − |correlation|.
 const TOGETHER: f64 = 0.02;
@@ -132,10 +132,13 @@ fn repeated(data: &Dataset) -> Option<String> {
 
 /// All that a row says but its line.
 fn contents(o: &Observation) -> impl Eq + std::hash::Hash + use<> {
-    let bits = |x: Option<f64>| x.map(f64::to_bits);
     (
         (o.test, o.member, o.quantity, o.trace),
-        (o.cycles.to_bits(), bits(o.position), bits(o.face)),
+        (
+            o.cycles.to_bits(),
+            o.position.map(f64::to_bits),
+            o.face.map(FacePlace::key),
+        ),
         (o.value.to_bits(), o.sigma.to_bits(), o.tooth.clone()),
     )
 }

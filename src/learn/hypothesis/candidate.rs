@@ -43,6 +43,8 @@ pub struct NotJudged {
 
 /// How many places of the priors are looked at besides.
 const SPREAD: usize = 8;
+/// How many standard deviations a large amount is.
+const LARGE: f64 = 4.0;
 /// How many lengths of waves are looked at, which have a valley each, and how weak, as a share of the prior's median: changes are to be linear.
 const WAVES: usize = 12;
 const WEAK_WAVE: f64 = 0.25;
@@ -185,10 +187,18 @@ impl Candidate {
     }
 
     /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
-    /// corners with which a tooth's neighbours touch where it stands back.
+    /// corners with which a tooth's neighbours touch where it stands back, nor anything across the face.
     pub(in crate::learn) fn may_be_unseen(&self) -> bool {
-        let all = |hook: Hook| self.effects.cards().iter().all(|card| card.hook == hook);
-        !self.quarters.is_empty() && all(Hook::Profile) || all(Hook::ToothOffset)
+        let cards = self.effects.cards();
+        let all = |hook: Hook| cards.iter().all(|card| card.hook == hook);
+        let waves = !self.quarters.is_empty() && all(Hook::Profile);
+        waves || all(Hook::ToothOffset) || self.acts_across_the_face()
+    }
+
+    /// Whether it acts through slices of the face alone.
+    pub(in crate::learn) fn acts_across_the_face(&self) -> bool {
+        let cards = self.effects.cards();
+        !cards.is_empty() && cards.iter().all(|card| card.acts_across_the_face())
     }
 
     /// Whether every added effect has its card's own form.
@@ -400,6 +410,10 @@ fn far(free: &FreeParameter) -> Vec<f64> {
             };
             let sigmas = [-1, 1].iter().chain(small);
             sigmas.map(|&sigmas| median * spread.powi(sigmas)).collect()
+        }
+        // of what acts in one way only, a small amount may do nothing at all
+        Prior::Normal { sd, .. } if free.neutral == Some(free.lower) => {
+            vec![free.lower + LARGE * sd]
         }
         Prior::Normal { .. } | Prior::HalfNormal { .. } => Vec::new(),
     };

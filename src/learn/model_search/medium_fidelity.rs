@@ -34,6 +34,8 @@ const SHARP_SHARE: f64 = 0.15;
 const BEHIND_FORM: f64 = 0.15;
 /// Share of the attainable fall of χ² below which nothing explains what is there.
 const EXPLAINED: f64 = 0.85;
+/// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face is too little for a fit.
+const ACROSS_SHARE: f64 = 0.25;
 
 impl Context<'_> {
     /// Fits by coarse finite elements those of the screened candidates that may matter: the leaders, and where the discrepancy is real what
@@ -133,8 +135,8 @@ impl Context<'_> {
             .collect()
     }
 
-    /// Looks by coarse finite elements, from the first starts on, for what the analytic model may not see, where no candidate explains what
-    /// is there.
+    /// Looks by coarse finite elements, from the first starts on, for what the analytic model may not see: where no candidate explains what
+    /// is there, and across the face also where the leader is what that is mistaken for.
     pub(in crate::learn) fn with_unseen(
         &self,
         base: &BaseFit,
@@ -143,23 +145,41 @@ impl Context<'_> {
     ) -> Vec<FittedCandidate> {
         let fallen = |j: &FittedCandidate| base.fitted.square - j.square;
         let most = refined.iter().map(fallen).fold(0.0, f64::max);
-        if smooth.drop < smooth.spread() || most > EXPLAINED * smooth.drop {
+        if smooth.drop < smooth.spread() {
             return refined;
         }
+        let explained = most > EXPLAINED * smooth.drop;
+        let leader = (refined.iter()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
+        let forms_are_one = self.likelihood.states_places_across_the_face();
+        let looked_at = |judged: &FittedCandidate| {
+            let candidate = &judged.candidate;
+            if !candidate.acts_across_the_face() {
+                return !explained && candidate.may_be_unseen();
+            }
+            let alike = leader.is_some_and(|l| candidate.is_look_alike_of(&l.candidate));
+            let settled = explained && judged.fidelity != Fidelity::Screening;
+            (!explained || alike) && !settled && (candidate.is_own_form() || !forms_are_one)
+        };
+        let bar = ACROSS_SHARE * 0.5 * smooth.drop;
         let anew = |judged: &FittedCandidate| {
             let candidate = &judged.candidate;
             let predictor =
                 Anchored::new(model(self.middle, candidate), base.fitted.offset.clone());
             let starts = self.starts(base, candidate, &predictor);
+            // slices cost many times a section
+            if candidate.acts_across_the_face() && starts.first()?.0 < bar {
+                return None;
+            }
             let found = self.look(candidate, &predictor, starts, &SCREEN)?;
             let found = self.refined(base, candidate.clone(), found);
             (found.log_evidence > judged.log_evidence).then_some(found)
         };
-        let all = refined.into_par_iter().map(|judged| {
-            let unseen = judged.candidate.may_be_unseen();
-            unseen.then(|| anew(&judged)).flatten().unwrap_or(judged)
-        });
-        all.collect()
+        let better: Vec<Option<FittedCandidate>> = (refined.par_iter())
+            .map(|judged| looked_at(judged).then(|| anew(judged)).flatten())
+            .collect();
+        (refined.into_iter().zip(better))
+            .map(|(judged, better)| better.unwrap_or(judged))
+            .collect()
     }
 
     fn refined(&self, base: &BaseFit, candidate: Candidate, found: Found) -> FittedCandidate {

@@ -1,6 +1,7 @@
 //! Drawings that are no plots: the pair to scale, worn teeth, stresses in the mesh.
 mod base64;
 mod field;
+mod flank_map;
 mod pair;
 mod palette;
 mod raster;
@@ -11,6 +12,7 @@ mod view;
 use super::html::escape;
 
 pub use field::stresses;
+pub use flank_map::flank_maps;
 pub use pair::of_pair;
 pub(super) use stress_files::stress_pictures;
 pub use tooth::{Worn, worn_teeth};

@@ -9,7 +9,8 @@ pub(super) fn table(files: &[String]) -> Table {
             table = table.row([Cell::Link(name.clone()), Cell::text(what)]);
         }
     }
-    let frames = files.iter().filter(|name| name.ends_with(".vtu")).count();
+    let is_field = |name: &&String| name.ends_with(".vtu") && !name.starts_with("fields/flanks");
+    let frames = files.iter().filter(is_field).count();
     if frames > 0 {
         let what =
             format!("{frames} field files: both members at one wear state and mesh position each");
@@ -40,6 +41,9 @@ fn meaning(name: &str) -> Option<&'static str> {
             "lag of the gear at each mesh position: cycles, position in base pitches, angle µrad"
         }
         "fields/wear.pvd" => "ParaView series over pinion revolutions",
+        "fields/flanks.pvd" => {
+            "ParaView series of the loaded flanks over the face: worn depth (warp by wear_vector), largest pressure"
+        }
         "fields/loads.json" => "loads and areas that the field files must give when integrated",
         _ if name.starts_with("fields/mesh_cycle") => {
             "ParaView series over one base pitch at one wear state"

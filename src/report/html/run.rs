@@ -21,7 +21,7 @@ pub fn run(run: &Run, pair: Option<&Pair>) -> Result<Page, OutputError> {
     let mut sections = vec![key_figures(run)];
     sections.extend(pair.map(|pair| Section::new("The gears").drawings(drawings::of_pair(pair))));
     sections.push(wear(run).drawings(worn));
-    sections.push(contact(run));
+    sections.push(contact(run).drawings(drawings::flank_maps(run)));
     sections.push(oil_and_heat(run));
     let stresses = drawings::stresses(run)?;
     sections.extend(stresses.map(|drawing| stress(run).drawings([drawing])));

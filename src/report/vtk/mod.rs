@@ -11,12 +11,14 @@
 //!
 //! Points, pressure, contact force are doubles, so that load and area can be recomputed from the file; the other arrays are
 //! single precision (7 digits), which halves the file. Arrays are compressed and appended in binary: a third of the size of base 64.
+mod flanks;
 mod grid;
 mod loads;
 mod series;
 mod state;
 mod xml;
 
+pub use flanks::flank_surfaces;
 pub use grid::{vtu, xml};
 pub use loads::loads;
 pub use series::{FieldFile, mesh_cycle_series, names, pvd, wear_series};

@@ -37,6 +37,7 @@ impl<'a> Forward<'a> {
             acting: self.acting,
             altered: None,
             slices: None,
+            ties: None,
         };
         out.alter()?;
         Ok(out)
@@ -114,6 +115,7 @@ impl<'a> Forward<'a> {
             acting,
             altered: None,
             slices: None,
+            ties: None,
         };
         out.alter()?;
         Ok(out)

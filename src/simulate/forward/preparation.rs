@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use nalgebra::DMatrix;
+
 use super::{ContactKind, Forward, ForwardError, Fresh};
 use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
@@ -12,6 +14,7 @@ use crate::contact::model::ContactError;
 use crate::contact::slices::Slices;
 use crate::contact::strips::Strips;
 use crate::effects::Effect;
+use crate::gear::Coupling;
 use crate::simulate::blanks::Blanks;
 use crate::simulate::history::Progress;
 use crate::simulate::members::{MemberError, Members};
@@ -383,7 +386,8 @@ impl Forward<'_> {
     /// make missing across the face is not in them yet.
     fn slices_of_the_face(&self) -> Option<Slices> {
         let (face, width) = (&self.set.face, self.set.face_width);
-        let wanted = self.acting.is_some_and(|acting| acting.effects.has_lead());
+        let wanted =
+            (self.acting).is_some_and(|acting| acting.acts_across_the_face(&self.cycle.pair));
         let count = match face.slices {
             0 | 1 if wanted => SLICES_OF_EFFECTS,
             stated => stated,
@@ -398,10 +402,24 @@ impl Forward<'_> {
         Some(slices)
     }
 
+    /// What the teeth tie the slices of the face by, if they are to.
+    fn ties_of_slices(&self) -> Result<Option<Arc<Vec<DMatrix<f64>>>>, ForwardError> {
+        let tied = self.set.face.coupling == Coupling::Teeth;
+        let (Some(slices), Some(blanks)) = (self.slices.as_ref().filter(|_| tied), self.blanks())
+        else {
+            return Ok(None);
+        };
+        let pair = &self.cycle.pair;
+        let gears = [&pair.pinion, &pair.gear];
+        let waves = blanks.waves(gears, self.set.face_width, slices.count())?;
+        Ok(Some(Arc::new(waves.ties(&self.cycle))))
+    }
+
     /// Lets the effects change the contact.
     pub(super) fn alter(&mut self) -> Result<(), ForwardError> {
         self.altered = None;
         self.slices = self.slices_of_the_face();
+        self.ties = self.ties_of_slices()?;
         if let Some(acting) = self.acting {
             let alteration = self.alteration(acting);
             if let Some(fault) = acting.effects.fault() {
