@@ -57,6 +57,14 @@ pub struct Observation {
     pub line: usize,
 }
 
+impl Observation {
+    /// What rows that may lie on one smooth surface over position and cycles have in common: test, member, quantity and place across the face.
+    pub fn surface(&self) -> (usize, Subject, Quantity, Option<u64>) {
+        let face = self.face.map(FacePlace::key);
+        (self.test, self.member, self.quantity, face)
+    }
+}
+
 /// The word of [`FacePlace::Mean`] in measurement files.
 const MEAN: &str = "mean";
 

@@ -1,7 +1,7 @@
 //! Log evidence of a smooth discrepancy of unknown cause, a Gaussian process beside the base model.
 //!
 //! ```text
-//! of every curve its own:   m ~ GP(0, r² a_i a_j exp(−Δs²/2l²) exp(−Δln n²/2g²)) within one test, member and quantity
+//! of every curve its own:   m ~ GP(0, r² a_i a_j exp(−Δs²/2l²) exp(−Δln n²/2g²)) within one test, member, quantity and place across the face
 //! common to all tests:      m = g Σ_j a_j φ_j(driver),  a_j ~ N(0, r² w_j)       driver: the position on a member, or the cycles;
 //!                           of the cycles also (1/n) ∫₀ⁿ φ_j dn', what a factor φ_j on the wear rate leaves on a depth worn evenly
 //! ln Z(r) = ½ bᵀ (A + V⁻¹)⁻¹ b − ½ ln det(I + V A)       A = XᵀX, b = Xᵀz whitened, freed of what k and the model's parameters do

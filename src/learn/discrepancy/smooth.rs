@@ -1,7 +1,7 @@
 //! A smooth discrepancy: how much of a misfit anything smooth could explain, and on what that depends.
 //!
 //! ```text
-//! m(test, member, quantity; s, n) = g Σ_p Σ_c a_pc cos(p π s) T_c(n)      one set of a per test, member and quantity
+//! m(test, member, quantity; s, n) = g Σ_p Σ_c a_pc cos(p π s) T_c(n)      one set of a per test, member, quantity and place across the face
 //! ```
 //! s: position in shares of the measured range; T: Chebyshev's polynomials of the share of the test; g: 1, or the model's own value,
 //! of which most missing effects are a smooth share. The discrepancy shown is that of the least Bayesian information criterion. What
@@ -162,7 +162,7 @@ fn best(
         .expect("some numbers of terms are tried")
 }
 
-/// Rows of one test, member and quantity.
+/// Rows of one test, member, quantity and place across the face.
 struct Group {
     rows: Vec<usize>,
     /// Position and time of each, 0 to 1.
@@ -191,7 +191,7 @@ fn groups(likelihood: &Likelihood<'_>) -> Vec<Group> {
     let mut rows = BTreeMap::new();
     for i in 0..likelihood.len() {
         let o = likelihood.observation(i);
-        let of: &mut Vec<usize> = rows.entry((o.test, o.member, o.quantity)).or_default();
+        let of: &mut Vec<usize> = rows.entry(o.surface()).or_default();
         of.push(i);
     }
     let range = |values: &[f64]| {

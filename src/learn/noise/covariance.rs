@@ -1,7 +1,7 @@
 //! The covariance of measured rows, by the blocks it falls into.
 //!
 //! With z = e/σ and X = M/σ = U s Vᵀ, the inverse root of `I + X Xᵀ` is `I − U (1 − 1/√(1 + s²)) Uᵀ` (Sherman, Morrison and Woodbury), so
-//! whitening costs one pass. With K, rows of one test, member and quantity make one dense block with its Cholesky factor.
+//! whitening costs one pass. With K, rows of one test, member, quantity and place across the face make one dense block with its Cholesky factor.
 
 use faer::Mat;
 use nalgebra::{DMatrix, DVector};

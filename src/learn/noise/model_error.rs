@@ -8,7 +8,8 @@ use super::trace::TraceErrors;
 use crate::measure::Observation;
 use crate::numeric::positive_definite::Factor;
 
-/// An error of the model, proportional to each curve's largest measured magnitude (a curve: same test, member, quantity and cycles).
+/// An error of the model, proportional to each curve's largest measured magnitude (a curve: same test, member,
+/// quantity, place across the face and cycles).
 ///
 /// ```text
 /// K_ij = r² a_i a_j exp(−(s_i − s_j)²/(2 l²)) exp(−(ln(n_i/n_j))²/(2 g²))
@@ -37,7 +38,7 @@ impl Default for ModelError {
 /// Rows with the factor of their covariance.
 pub(super) type Dense = (Vec<usize>, Factor);
 
-/// One block per test, member and quantity; traces that reach over several tie them together.
+/// One block per test, member, quantity and place across the face; traces that reach over several tie them together.
 pub(super) fn dense_blocks(
     picked: &[&Observation],
     sigma: &[f64],
@@ -46,7 +47,7 @@ pub(super) fn dense_blocks(
 ) -> Vec<Dense> {
     let mut groups = BTreeMap::new();
     for (i, o) in picked.iter().enumerate() {
-        let rows: &mut Vec<usize> = groups.entry((o.test, o.member, o.quantity)).or_default();
+        let rows: &mut Vec<usize> = groups.entry(o.surface()).or_default();
         rows.push(i);
     }
     let groups: Vec<Vec<usize>> = groups.into_values().collect();
@@ -170,7 +171,7 @@ fn factor(matrix: &Mat<f64>) -> Factor {
 
 /// The largest magnitude measured in each row's curve.
 pub(in crate::learn) fn amplitudes(picked: &[&Observation]) -> Vec<f64> {
-    let key = |o: &Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
+    let key = |o: &Observation| (o.surface(), o.cycles.to_bits());
     let mut largest = BTreeMap::new();
     for o in picked {
         let entry: &mut f64 = largest.entry(key(o)).or_insert(0.0);
