@@ -16,6 +16,7 @@ use gearwear::simulate::forward::ContactKind;
 use gearwear::study::Study;
 
 mod diagnosis {
+    pub(crate) mod across_the_face;
     pub(crate) mod climb;
     pub(crate) mod command;
     pub(crate) mod look_alikes;

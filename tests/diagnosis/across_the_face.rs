@@ -1,0 +1,34 @@
+//! Claim: what differs from place to place across the face is a discrepancy, and a wedge is named with its size.
+//!
+//! Source: two tests of the independent program (`validation/blind`, a wedge of 3.0 µm, traces at three places, 2 % noise; the command and
+//! the truth are in `tests/data/wedge/README.md`). With one smooth surface for all places the misfits of both ends cancel, and the answer
+//! is that nothing is missing.
+//! Tolerance: the name; the slope within two of its standard deviations, which are below a quarter of it.
+
+use std::path::Path;
+
+use gearwear::learn::Measured;
+use gearwear::learn::diagnose::{Fidelity, Verdict, diagnose};
+use gearwear::study::Study;
+
+use crate::{names, says};
+
+const SLOPE_UM: f64 = 3.0;
+
+#[test]
+fn a_wedge_measured_at_three_places_is_named() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/wedge/study.toml");
+    let study = Study::load(&path).unwrap();
+    let measured = Measured::new(&study, study.dataset().unwrap());
+    let found = diagnose(&measured, Fidelity::Middle, &|_, _| {}).unwrap();
+    assert_eq!(found.verdict, Verdict::Effect, "{}", says(&found));
+    assert!(names(&found, "lead_misalignment"), "{}", says(&found));
+    // the verdict is the ranking's first
+    let slope = &found.ranking[0].parameters[0];
+    assert_eq!(slope.name, "slope");
+    assert!(slope.sigma < 0.25 * SLOPE_UM, "{slope:?}");
+    assert!(
+        (slope.value.abs() - SLOPE_UM).abs() < 2.0 * slope.sigma,
+        "{slope:?}"
+    );
+}
