@@ -188,8 +188,9 @@ fn search(
         not_judged,
         not_fitted,
     });
-    // beside an established effect that comes first: with it in, the next diagnosis learns what is left
-    let learned = if posterior.decision.verdict == Verdict::Unknown {
+    // beside an established effect that comes first: with it in, the next diagnosis learns what is left; and by the analytic model a law would
+    // learn that one's own error
+    let learned = if posterior.decision.verdict == Verdict::Unknown && !context.approximate {
         watch(
             0.97,
             "laws of one driver for what the catalogue does not explain".to_owned(),
