@@ -91,10 +91,10 @@ fn written_by(fields: FieldsWritten) -> f64 {
 /// What goes on while fields are written.
 fn doing(fields: FieldsWritten) -> String {
     format!(
-        "tables, fields and report: {} of {} field files, {:.0} MB in all",
+        "{:.0} MB of fields, {} of {} files, and report",
+        fields.bytes as f64 / 1e6,
         fields.files,
-        fields.of,
-        fields.bytes as f64 / 1e6
+        fields.of
     )
 }
 

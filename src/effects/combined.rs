@@ -130,10 +130,14 @@ impl Effect for Combined {
         leads.reduce(|sum, lead| sum + lead)
     }
 
+    /// Traces are taken at one place: where effects differ, at the one farthest from mid-face, in whatever order they stand.
     fn usual_trace(&self) -> Option<UsualTrace> {
-        self.entries
-            .iter()
-            .find_map(|(_, effect)| effect.usual_trace())
+        let traces = self.entries.iter().filter_map(|(_, e)| e.usual_trace());
+        traces.max_by(|a, b| {
+            (a.mean.total_cmp(&b.mean))
+                .then(a.place.abs().total_cmp(&b.place.abs()))
+                .then(a.place.total_cmp(&b.place))
+        })
     }
 
     /// Every effect sees the state as it is without the others.

@@ -26,7 +26,7 @@ use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted};
 
 pub use header::COLUMNS;
 pub use known::{Known, KnownTest};
-pub use observation::{FacePlace, Observation};
+pub use observation::{FacePlace, Observation, Surface, surfaces};
 pub use outliers::Outlier;
 pub use quantity::{Place, Quantity, Subject};
 

@@ -100,7 +100,7 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
         lines.push("Next: read Checks in report.html before using the figures".to_owned());
     } else if last.cycles > 0.0 {
         let what = if run.conditions.model == "fem" {
-            "what the analytic models would have said, and why"
+            "how the analytic models differ, and why"
         } else {
             "what solving the contact by finite elements changes, and why"
         };

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearwear::effects::{CATALOGUE, FaceAt, Hook, Local};
+use gearwear::effects::{CATALOGUE, Combined, Effect, FaceAt, Hook, Local};
 use gearwear::gear::Member;
 
 use super::places::{operation, ordinary, profile};
@@ -570,6 +570,20 @@ fn dynamic_load() {
 }
 
 /// 6 µm at 119 N/mm and 20 N/(mm µm) give K_Hβ = 1.5.
+#[test]
+fn where_traces_are_taken_does_not_depend_on_the_order_of_effects() {
+    let pair = |names: [&str; 2]| {
+        let mut both = Combined::default();
+        for name in names {
+            both.push(Hook::LoadFactor, effect(name, &[]));
+        }
+        both.usual_trace().unwrap()
+    };
+    let trace = pair(["lead_misalignment", "lead_crowning"]);
+    assert_eq!(trace, pair(["lead_crowning", "lead_misalignment"]));
+    assert_eq!((trace.place, trace.mean), (1.0, 0.0));
+}
+
 #[test]
 fn lead_misalignment() {
     let at = Local {

@@ -15,6 +15,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::learn::likelihood::Likelihood;
+use crate::measure::{Observation, surfaces};
 use crate::numeric::chebyshev;
 
 /// Terms along the position and over the cycles that are tried.
@@ -189,9 +190,10 @@ impl Group {
 
 fn groups(likelihood: &Likelihood<'_>) -> Vec<Group> {
     let mut rows = BTreeMap::new();
-    for i in 0..likelihood.len() {
-        let o = likelihood.observation(i);
-        let of: &mut Vec<usize> = rows.entry(o.surface()).or_default();
+    let observations = (0..likelihood.len()).map(|i| likelihood.observation(i));
+    let observations: Vec<&Observation> = observations.collect();
+    for (i, surface) in surfaces(&observations).into_iter().enumerate() {
+        let of: &mut Vec<usize> = rows.entry(surface).or_default();
         of.push(i);
     }
     let range = |values: &[f64]| {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use faer::Mat;
 
 use super::trace::TraceErrors;
-use crate::measure::Observation;
+use crate::measure::{Observation, Surface, surfaces};
 use crate::numeric::positive_definite::Factor;
 
 /// An error of the model, proportional to each curve's largest measured magnitude (a curve: same test, member,
@@ -46,8 +46,8 @@ pub(super) fn dense_blocks(
     errors: &[(Vec<f64>, ModelError)],
 ) -> Vec<Dense> {
     let mut groups = BTreeMap::new();
-    for (i, o) in picked.iter().enumerate() {
-        let rows: &mut Vec<usize> = groups.entry(o.surface()).or_default();
+    for (i, surface) in surfaces(picked).into_iter().enumerate() {
+        let rows: &mut Vec<usize> = groups.entry(surface).or_default();
         rows.push(i);
     }
     let groups: Vec<Vec<usize>> = groups.into_values().collect();
@@ -171,13 +171,16 @@ fn factor(matrix: &Mat<f64>) -> Factor {
 
 /// The largest magnitude measured in each row's curve.
 pub(in crate::learn) fn amplitudes(picked: &[&Observation]) -> Vec<f64> {
-    let key = |o: &Observation| (o.surface(), o.cycles.to_bits());
+    let surfaces = surfaces(picked).into_iter();
+    let keys: Vec<(Surface, u64)> = (surfaces.zip(picked))
+        .map(|(surface, o)| (surface, o.cycles.to_bits()))
+        .collect();
     let mut largest = BTreeMap::new();
-    for o in picked {
-        let entry: &mut f64 = largest.entry(key(o)).or_insert(0.0);
+    for (key, o) in keys.iter().zip(picked) {
+        let entry: &mut f64 = largest.entry(key).or_insert(0.0);
         *entry = entry.max(o.value.abs());
     }
-    picked.iter().map(|o| largest[&key(o)]).collect()
+    keys.iter().map(|key| largest[key]).collect()
 }
 
 /// Each row's position as a share of its group's measured range, 0 where there is none.
