@@ -16,7 +16,9 @@ pub mod neighbours;
 mod observation;
 pub mod outliers;
 mod quantity;
+mod row_reader;
 mod sigma;
+mod surface;
 mod table;
 mod units;
 
@@ -26,13 +28,14 @@ use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted};
 
 pub use header::COLUMNS;
 pub use known::{Known, KnownTest};
-pub use observation::{FacePlace, Observation, Surface, surfaces};
+pub use observation::{FacePlace, Observation};
 pub use outliers::Outlier;
 pub use quantity::{Place, Quantity, Subject};
+pub use surface::{Surface, surfaces};
 
 use dialect::Dialect;
 use header::Columns;
-use observation::{LEAST_SIGMA, Reader};
+use row_reader::{LEAST_SIGMA, Reader};
 use table::Table;
 
 /// Every measurement of a file, in its order.
