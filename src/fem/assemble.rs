@@ -48,14 +48,7 @@ pub fn element_stiffness(
     let mut k = [[0.0; 12]; 12];
     let n = element.len;
     for point in element.stiffness_rule() {
-        let at = element.at(point.xi, point.eta);
-        if at.jacobian.is_nan() || at.jacobian <= 0.0 {
-            return Err(FemError::Inverted {
-                element: number,
-                jacobian: at.jacobian,
-                at: at.position,
-            });
-        }
+        let at = element.upright_at(point, number)?;
         let weight = point.weight * at.jacobian;
         for a in 0..n {
             let ga = weight * at.gradient[a];

@@ -11,6 +11,7 @@
 //! Zienkiewicz, Taylor & Zhu, The Finite Element Method (6th ed., 2005), section 4.7. Isoparametric: the geometry uses the
 //! same functions, so an edge of a T6 is a parabola through its three nodes.
 
+use super::FemError;
 use crate::mesh::{Cells, Mesh};
 use crate::numeric::Vec2;
 use crate::numeric::quadrature::{TRIANGLE_1, TRIANGLE_3, TRIANGLE_7, TrianglePoint};
@@ -53,6 +54,22 @@ impl Element {
     /// Node numbers.
     pub fn nodes(&self) -> &[u32] {
         &self.nodes[..self.len]
+    }
+
+    /// As [`Element::at`] at a point of a quadrature rule, of the element with this `number` in its mesh.
+    ///
+    /// # Errors
+    /// [`FemError::Inverted`] where the Jacobian is not positive.
+    pub fn upright_at(&self, point: &TrianglePoint, number: usize) -> Result<ShapeAt, FemError> {
+        let at = self.at(point.xi, point.eta);
+        if at.jacobian.is_nan() || at.jacobian <= 0.0 {
+            return Err(FemError::Inverted {
+                element: number,
+                jacobian: at.jacobian,
+                at: at.position,
+            });
+        }
+        Ok(at)
     }
 
     /// Shape functions, their derivatives in the plane and the Jacobian at a reference point.

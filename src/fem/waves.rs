@@ -122,14 +122,7 @@ fn element_stiffness(
     let n = element.len;
     // products of the shape functions themselves are of the fourth degree
     for point in &TRIANGLE_7 {
-        let at = element.at(point.xi, point.eta);
-        if at.jacobian.is_nan() || at.jacobian <= 0.0 {
-            return Err(FemError::Inverted {
-                element: number,
-                jacobian: at.jacobian,
-                at: at.position,
-            });
-        }
+        let at = element.upright_at(point, number)?;
         let weight = point.weight * at.jacobian;
         for a in 0..n {
             let (ga, na) = (at.gradient[a], wave_number * at.value[a]);

@@ -301,10 +301,8 @@ mod tests {
     use super::*;
     use crate::learn::diagnose::Separated;
 
-    /// A mean whose every part is cut off at what is enough is told as a bound, so that it does not stand below the least.
-    #[test]
-    fn a_mean_of_what_is_enough_is_a_bound() {
-        let row = |expected_chi2: f64, chi2: f64| RankedTest {
+    fn row(expected_chi2: f64, chi2: f64, why: &str) -> RankedTest {
+        RankedTest {
             test: NextTest {
                 torque: 50.0,
                 speed: 2000.0,
@@ -319,31 +317,20 @@ mod tests {
                 pair: ["a".to_owned(), "b".to_owned()],
                 chi2,
             }],
-            why: String::new(),
-        };
-        assert_eq!(mean(&row(60.0, 88.9), 3), "≥ 60.0");
-        assert_eq!(mean(&row(43.6, 43.6), 3), "43.6");
+            why: why.to_owned(),
+        }
+    }
+
+    /// A mean whose every part is cut off at what is enough is a bound, so that it does not stand below the least.
+    #[test]
+    fn a_mean_of_what_is_enough_is_a_bound() {
+        assert_eq!(mean(&row(60.0, 88.9, ""), 3), "≥ 60.0");
+        assert_eq!(mean(&row(43.6, 43.6, ""), 3), "43.6");
     }
 
     #[test]
     fn the_table_has_a_row_per_test_and_quotes_reasons() {
-        let row = RankedTest {
-            test: NextTest {
-                torque: 50.0,
-                speed: 2000.0,
-                misalignment: 0.0,
-                cycles: 1e6,
-                reversed: false,
-            },
-            quantity: "wear_depth".to_owned(),
-            changes: 1,
-            expected_chi2: 12.0,
-            separates: vec![Separated {
-                pair: ["a".to_owned(), "b".to_owned()],
-                chi2: 9.0,
-            }],
-            why: "say \"so\", plainly".to_owned(),
-        };
+        let row = row(12.0, 9.0, "say \"so\", plainly");
         let plan = Plan::NextTests(NextTests {
             sentence: "Next.".to_owned(),
             basis: "the leaders of STUDY".to_owned(),
