@@ -378,6 +378,5 @@ fn tied_slices_resist_a_wedge() {
         largest.iter().sum::<f64>() / largest.len() as f64
     };
     let (free, tied) = (factor(Coupling::None), factor(Coupling::Teeth));
-    eprintln!("load of the outermost of 11 slices over the mean: {free} free, {tied} tied");
     assert!(tied > 1.02 * free && tied < 1.6 * free, "{free}, {tied}");
 }

@@ -1,6 +1,7 @@
 //! Claim: slices that are tied are one contact problem with a full compliance, and a prism under an even load is in plane strain.
 //!
-//! Sources: the plain contact solver on the full compliance; differences; the plane-strain solver. Tolerance: rounding, and that of differences.
+//! Sources: the plain contact solver on the full compliance; differences; the plane-strain solver; the closed forms of `gearwear validate S1`. Tolerance:
+//! rounding, that of differences, that of the family.
 
 use gearwear::contact::unilateral::{
     Drive, JointLinearised, JointProblem, Problem, Ties, solve, solve_tied,
@@ -9,6 +10,8 @@ use gearwear::fem::structured::{Order, Patch};
 use gearwear::fem::{Body, Prism};
 use gearwear::material::Elastic;
 use gearwear::numeric::Vec2;
+use gearwear::verify::contact_and_wear::Effort;
+use gearwear::verify::face_slices;
 use nalgebra::{DMatrix, DVector};
 
 /// Numbers from 0 to 1 (a linear congruence).
@@ -141,5 +144,15 @@ fn without_a_wave_a_prism_is_in_plane_strain() {
     let scale = moved.iter().fold(0.0, |m: f64, u| m.max(u.norm()));
     for (a, b) in moved.iter().zip(&waved) {
         assert!((a - b).norm() < 1e-9 * scale);
+    }
+}
+
+/// The stiffness that ties slices against Kirchhoff's plate, and slices on springs against their closed forms.
+#[test]
+fn the_validation_family_of_slices_passes() {
+    let figures = face_slices::all(Effort::Quick).unwrap();
+    assert_eq!(figures.len(), 11);
+    for figure in &figures {
+        assert!(figure.passed(), "{figure}");
     }
 }
