@@ -241,3 +241,50 @@ fn compliance(
     }
     Ok(out)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::cycle::{CycleSpec, Stations};
+    use crate::contact::frame::tests::reference;
+
+    /// A body that gives way by c under an even load and not at all under a wave moves as one: the slices give way by c of their mean load, so the ties are
+    /// −c (δ_ij − 1/N) from each member (the cosines are orthogonal, and with the even load complete).
+    #[test]
+    fn where_no_wave_bends_the_teeth_all_slices_move_by_their_mean_load() {
+        const N: usize = 5;
+        let pair = reference();
+        let stations = Stations::new(&pair, 0.05);
+        let spec = CycleSpec {
+            positions: 8,
+            spacing: 0.05,
+            even: 0.2,
+            window: 0.3,
+            reach: 0.02,
+        };
+        let cycle = Cycle::new(&pair, &stations, spec);
+        let stiff = |c: f64| WaveChange {
+            rho: vec![0.0, 100.0],
+            change: vec![DMatrix::from_element(2, 2, -c); 5],
+        };
+        let c = [3e-6, 2e-6];
+        let waves = ToothWaves {
+            slices: N,
+            waves: (1..N).map(|_| c.map(stiff)).collect(),
+        };
+        let all = waves.ties(&cycle);
+        assert!(
+            all.iter()
+                .zip(&cycle.positions)
+                .any(|(_, p)| p.pairs.len() > 1)
+        );
+        for (ties, position) in all.iter().zip(&cycle.positions) {
+            let pairs = position.pairs.len();
+            for (i, j) in (0..N * pairs).flat_map(|i| (0..N * pairs).map(move |j| (i, j))) {
+                let own = f64::from(u8::from(i / pairs == j / pairs));
+                let expected = -(c[0] + c[1]) * (own - 1.0 / N as f64);
+                assert!((ties[(i, j)] - expected).abs() < 1e-18);
+            }
+        }
+    }
+}
