@@ -30,6 +30,10 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             significant(flank.max_depth(), 4),
             significant(flank.mass_loss_mg, 4)
         ));
+        lines.extend(
+            deepest_on_the_face(last, member)
+                .map(|words| format!("  {:<20}{words}", "  across the face")),
+        );
     }
     let change = |name: &str, unit: &str, first: Option<f64>, last: Option<f64>| {
         let (first, last) = (first?, last?);
@@ -58,7 +62,7 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
         let factors = (first.face_load_factor(), last.face_load_factor());
         lines.extend(change(
             "face load factor",
-            "-",
+            "",
             Some(factors.0),
             Some(factors.1),
         ));
@@ -95,10 +99,15 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     lines.push("  report.html          open in a browser".to_owned());
     if !run.fields.is_empty() {
         lines.push("  fields/wear.pvd      open in ParaView".to_owned());
+        if !last.slices.is_empty() {
+            lines.push(
+                "  fields/flanks.pvd    the same, depth and pressure over both flanks".to_owned(),
+            );
+        }
     }
     if failed_checks(run).is_some() {
         lines.push("Next: read Checks in report.html before using the figures".to_owned());
-    } else if last.cycles > 0.0 {
+    } else if last.cycles > 0.0 && last.slices.is_empty() {
         let what = if run.conditions.model == "fem" {
             "how the analytic models differ, and why"
         } else {
@@ -202,6 +211,15 @@ pub fn conclusion(run: &Run) -> String {
             wear[0],
             wear[1]
         ));
+        let across = |member: Member| {
+            let words = deepest_on_the_face(last, member)?;
+            Some(format!("the {} by {words}", member.name()))
+        };
+        if let (Some(pinion), Some(gear)) = (across(Member::Pinion), across(Member::Gear)) {
+            sentences.push(format!(
+                "These are means over the face: across it wear has lowered {pinion} and {gear}."
+            ));
+        }
     }
     if let (Some(new), Some(worn)) = (first.peak_pressure(), last.peak_pressure()) {
         if run.states.len() > 1 {
@@ -259,13 +277,25 @@ fn corner_pressure(run: &Run) -> Option<(f64, f64)> {
     (new > 0.0 || worn > 0.0).then_some((new, worn))
 }
 
-/// A figure of the first and of the last state, or the one figure of a run without wear.
+/// How deep `member` is worn where it is worn most across the face, in words; None for one section.
+fn deepest_on_the_face(state: &State, member: Member) -> Option<String> {
+    let (depth, face) = state.deepest_on_the_face(member)?;
+    let (depth, face) = (significant(depth, 4), plain((100.0 * face).round() / 100.0));
+    Some(format!("up to {depth} µm at {face} mm from mid-face"))
+}
+
+/// A figure of the first and of the last state, or the one figure of a run without wear; no `unit` for a plain number.
 fn new_and_worn(run: &Run, new: f64, worn: f64, unit: &str) -> String {
     let [new, worn] = [new, worn].map(|figure| significant(figure, 4));
-    if run.states.len() > 1 {
-        format!("{new} {unit} new, {worn} {unit} worn")
+    let unit = if unit.is_empty() {
+        String::new()
     } else {
-        format!("{new} {unit}")
+        format!(" {unit}")
+    };
+    if run.states.len() > 1 {
+        format!("{new}{unit} new, {worn}{unit} worn")
+    } else {
+        format!("{new}{unit}")
     }
 }
 

@@ -232,6 +232,14 @@ impl State {
         }
     }
 
+    /// The largest depth of `member` on any slice of the face, µm, and the middle of that slice, mm from mid-face; None for one section.
+    pub fn deepest_on_the_face(&self, member: Member) -> Option<(f64, f64)> {
+        let side = usize::from(member == Member::Gear);
+        let deepest = |slice: &FaceSlice| slice.depth[side].iter().copied().fold(0.0, f64::max);
+        (self.slices.iter().map(|slice| (deepest(slice), slice.face)))
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     /// Load per width of the slice that carries most over the mean of the face (K_Hβ), the mean over the mesh cycle; 1 for one section.
     pub fn face_load_factor(&self) -> f64 {
         (self.slices.iter().map(|slice| slice.load))

@@ -6,6 +6,7 @@ use std::path::Path;
 use gearwear::report::html::{self, Case, Verdict};
 use gearwear::report::plots::{Plot, Style};
 use gearwear::report::{text, write_validation};
+use gearwear::simulate::result::FaceSlice;
 use serde_json::Value;
 
 use super::{read, synthetic, written};
@@ -318,4 +319,29 @@ fn many_cases_of_a_kind_are_one_line_that_shows_the_worst_and_hides_no_failure()
     let summary = fs::read_to_string(done.folder.join("RESULTS.md")).unwrap();
     let row = summary.lines().find(|l| l.contains("cases/B1.md")).unwrap();
     assert!(row.contains("**fail**") && row.contains("| 21 |"), "{row}");
+}
+
+/// Of slices the flanks are means over the face: text and page say so, and how deep the worst slice is worn.
+#[test]
+fn depths_of_slices_are_means_and_the_deepest_slice_is_named() {
+    let mut run = synthetic::run();
+    for state in &mut run.states {
+        let profiles = [&state.pinion, &state.gear];
+        let slice = |face: f64, factor: f64| FaceSlice {
+            face,
+            load: factor,
+            peak_pressure: 900.0,
+            depth: profiles.map(|p| p.depth.iter().map(|d| factor * d).collect()),
+            pressure: profiles.map(|p| vec![900.0; p.depth.len()]),
+        };
+        state.slices = vec![slice(-11.0, 1.6), slice(0.0, 1.0), slice(11.0, 0.4)];
+    }
+    let deepest = 1.6 * run.last().pinion.max_depth();
+    let said = text::summary(&run, Path::new("s.toml"), Path::new("out"));
+    let across = format!("up to {deepest:.3} µm at −11 mm from mid-face");
+    assert!(said.contains(&across), "{across} not in\n{said}");
+    // `models` refuses slices
+    assert!(!said.contains("gearwear models"), "{said}");
+    let page = html::run(&run, None).unwrap();
+    assert!(page.conclusion.contains(&across) && page.conclusion.contains("means over the face"));
 }

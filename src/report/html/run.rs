@@ -48,7 +48,19 @@ fn key_figures(run: &Run) -> Section {
     for member in Member::BOTH {
         let flank = run.last().profile(member);
         let value = format!("{} µm", significant(flank.max_depth(), 4));
-        say(format!("largest depth, {}", member.name()), value);
+        let across = run.last().deepest_on_the_face(member);
+        let of = match across {
+            Some(_) => ", mean over the face",
+            None => "",
+        };
+        say(format!("largest depth, {}{of}", member.name()), value);
+        if let Some((depth, _)) = across {
+            let value = format!("{} µm", significant(depth, 4));
+            say(
+                format!("largest depth across the face, {}", member.name()),
+                value,
+            );
+        }
         let value = format!("{} mg", significant(flank.mass_loss_mg, 4));
         say(format!("mass lost, {}", member.name()), value);
     }
@@ -69,6 +81,13 @@ fn key_figures(run: &Run) -> Section {
         (
             "transmission error peak to peak, new → worn",
             from_to(&|s| s.te_peak_to_peak_urad(), "µrad"),
+        ),
+        (
+            "face load factor K_Hβ, new → worn",
+            from_to(
+                &|s| (!s.slices.is_empty()).then(|| s.face_load_factor()),
+                "",
+            ),
         ),
     ] {
         if let Some(value) = value {
