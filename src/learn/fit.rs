@@ -51,17 +51,20 @@ pub enum FitError {
     NoObservations,
 }
 
+/// χ² above the number of points, in standard deviations of noise's own, up to which a start is within the noise.
+const WITHIN_NOISE: f64 = 3.0;
+
 impl Problem<'_> {
-    /// The fit from the parameters' starts.
+    /// The fit from the parameters' starts, the held-out tests judged.
     ///
     /// # Errors
     /// [`FitError`].
     pub fn fit(&self, effort: &Effort) -> Result<Fit, FitError> {
         let start: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
-        self.fit_from(&[start], effort)
+        self.judged(self.fit_from(&[start], effort)?, effort)
     }
 
-    /// The best fit from several starts: each the values of all effect parameters.
+    /// The best fit from several starts: each the values of all effect parameters. The held-out tests are left for [`Problem::judged`].
     ///
     /// # Errors
     /// [`FitError`] if no start leads to a fit.
@@ -92,7 +95,7 @@ impl Problem<'_> {
             (None, Some(error)) => return Err(error.into()),
             (None, None) => return Err(FitError::NoObservations),
         };
-        self.finish(&fit, found, &mut evaluator, effort)
+        Ok(self.finish(&fit, found, &evaluator))
     }
 
     /// Places spread over the priors.
@@ -146,21 +149,27 @@ impl Problem<'_> {
         Ok((state.log_k.exp(), all))
     }
 
-    /// The fit from where another to the same measurements ended, with the derivatives that it ended with.
+    /// Whether the model at `start`, with k (if free) scaled to fit, is as near to the measurements as their noise lets it be: nothing is to be found
+    /// elsewhere then.
+    pub(super) fn is_within_noise(&self, start: &[f64]) -> bool {
+        let selection = self.selection(Role::Fit);
+        let search = self.search(&selection, Some(&self.coefficient));
+        let state = self.state(start, selection.tests.len());
+        let misfit = search.misfit(&mut selection.evaluator(self.predictor), state);
+        let points = selection.len() as f64;
+        misfit.is_ok_and(|square| square < points + WITHIN_NOISE * (2.0 * points).sqrt())
+    }
+
+    /// The fit from where another to the same measurements ended, with the derivatives that it ended with. The held-out tests are left for
+    /// [`Problem::judged`].
     ///
     /// # Errors
     /// [`FitError`].
     pub fn go_on(&self, from: &Fit, effort: &Effort) -> Result<Fit, FitError> {
         let selection = self.selection(Role::Fit);
         let fit = self.search(&selection, Some(&self.coefficient));
-        let mut theta: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
-        for (value, parameter) in theta.iter_mut().zip(&self.parameters) {
-            let known = from.parameters.iter().find(|p| p.name == parameter.name);
-            *value = known.map_or(*value, |known| known.value);
-        }
-        let params = theta.len();
-        let mut state = self.state(&theta, selection.tests.len());
-        state.log_k = from.coefficient.ln();
+        let mut state = self.state_of(from, selection.tests.len());
+        let params = self.parameters.len();
         let mut jacobian = DMatrix::zeros(selection.len(), params + selection.tests.len());
         for (i, test) in selection.tests.iter().enumerate() {
             let Some(known) = from.tests.iter().find(|known| known.test == *test) else {
@@ -179,32 +188,46 @@ impl Problem<'_> {
         let before: Vec<f64> = numbers.map(|&row| from.rows[row].model).collect();
         let mut evaluator = selection.evaluator(self.predictor);
         let found = fit.go_on(&mut evaluator, state, jacobian, &before, effort)?;
-        self.finish(&fit, found, &mut evaluator, effort)
+        Ok(self.finish(&fit, found, &evaluator))
     }
 
-    /// Adds the held-out tests to what was found and puts it all together.
-    fn finish(
-        &self,
-        fit: &Search<'_>,
-        found: Found,
-        evaluator: &mut Evaluator<'_>,
-        effort: &Effort,
-    ) -> Result<Fit, FitError> {
-        let held_out = self.selection(Role::Holdout);
-        let mut held = self.search(&held_out, None);
-        held.scatter = Scatter::Relative(found.scatter);
-        let mut converged = found.converged;
-        let mut parts = vec![(fit, &found)];
-        let held_found;
-        if !held_out.tests.is_empty() {
-            let state = State {
-                epsilon: vec![0.0; held_out.tests.len()],
-                ..found.state.clone()
-            };
-            held_found = held.run(evaluator, state, effort)?;
-            converged &= held_found.converged;
-            parts.push((&held, &held_found));
+    /// The state at which `fit` ended, its tests' own coefficients aside.
+    fn state_of(&self, fit: &Fit, tests: usize) -> State {
+        let mut theta: Vec<f64> = self.parameters.iter().map(|p| p.start).collect();
+        for (value, parameter) in theta.iter_mut().zip(&self.parameters) {
+            let known = fit.parameters.iter().find(|p| p.name == parameter.name);
+            *value = known.map_or(*value, |known| known.value);
         }
+        let mut state = self.state(&theta, tests);
+        state.log_k = fit.coefficient.ln();
+        state
+    }
+
+    /// `fit` with the held-out tests: their predictions, each with its own most probable wear coefficient and datums.
+    ///
+    /// # Errors
+    /// [`FitError`] if the model has no answer for one of them.
+    pub fn judged(&self, mut fit: Fit, effort: &Effort) -> Result<Fit, FitError> {
+        let held_out = self.selection(Role::Holdout);
+        if held_out.tests.is_empty() {
+            return Ok(fit);
+        }
+        let mut held = self.search(&held_out, None);
+        held.scatter = Scatter::Relative(fit.scatter);
+        let mut evaluator = held_out.evaluator(self.predictor);
+        let state = self.state_of(&fit, held_out.tests.len());
+        let found = held.run(&mut evaluator, state, effort)?;
+        self.rows_of(&held, &found, &mut fit.rows, &mut fit.datums);
+        self.tests_of(&held, &found, &mut fit.tests);
+        fit.tests.sort_by_key(|test| test.test);
+        fit.datums.sort_by_key(|datum| datum.trace);
+        fit.converged &= found.converged;
+        fit.evaluations += evaluator.evaluations();
+        Ok(fit)
+    }
+
+    /// What was found, put together.
+    fn finish(&self, fit: &Search<'_>, found: Found, evaluator: &Evaluator<'_>) -> Fit {
         let posterior = marginal(self.noise.scatter, &fit.layout, &found.normal, &found.state);
         let constant = fit.selection.log_norm(&fit.selection.covariance);
         let nothing = RowFit {
@@ -216,13 +239,9 @@ impl Problem<'_> {
         let mut rows = vec![nothing; self.data.observations.len()];
         let mut tests = Vec::new();
         let mut datums = Vec::new();
-        for (search, part) in parts {
-            self.rows_of(search, part, &mut rows, &mut datums);
-            self.tests_of(search, part, &mut tests);
-        }
-        tests.sort_by_key(|test| test.test);
-        datums.sort_by_key(|datum| datum.trace);
-        Ok(Fit {
+        self.rows_of(fit, &found, &mut rows, &mut datums);
+        self.tests_of(fit, &found, &mut tests);
+        Fit {
             parameters: self.estimates(fit, &found, &posterior.covariance),
             coefficient: found.state.log_k.exp(),
             covariance: posterior.covariance,
@@ -233,10 +252,10 @@ impl Problem<'_> {
             rows,
             log_posterior: -found.objective - constant,
             log_evidence: posterior.log_integral - constant,
-            converged,
+            converged: found.converged,
             iterations: found.iterations,
             evaluations: evaluator.evaluations(),
-        })
+        }
     }
 
     fn estimates(

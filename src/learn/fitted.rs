@@ -19,7 +19,7 @@ pub struct Fit {
     pub scatter: f64,
     /// Where 16 and 84 % of its posterior lie.
     pub scatter_interval: [f64; 2],
-    /// Every test that has observations.
+    /// Every test that has observations; held-out ones once they have been judged.
     pub tests: Vec<TestFit>,
     /// Every trace's most probable datum.
     pub datums: Vec<Datum>,
@@ -35,6 +35,13 @@ pub struct Fit {
     pub iterations: usize,
     /// Predictions of single tests.
     pub evaluations: usize,
+}
+
+impl Fit {
+    /// Whether it converged with no parameter on a bound.
+    pub fn is_settled(&self) -> bool {
+        self.converged && self.parameters.iter().all(|p| !p.at_bound)
+    }
 }
 
 /// One test in a fit.

@@ -106,25 +106,7 @@ impl<'a> Measured<'a> {
         watch: &(dyn Fn(usize) + Sync),
     ) -> Result<Fit, FitError> {
         self.with_problem(bench, version, noise, watch, |problem| {
-            problem.fit_from(starts, effort)
-        })
-    }
-
-    /// Goes on from `fit`, made on a bench with coarser steps; without a step if these histories call for none.
-    ///
-    /// # Errors
-    /// [`FitError`]
-    pub fn go_on(
-        &self,
-        bench: &Bench,
-        version: &ModelVersion,
-        noise: NoiseModel,
-        fit: &Fit,
-        effort: &Effort,
-        watch: &(dyn Fn(usize) + Sync),
-    ) -> Result<Fit, FitError> {
-        self.with_problem(bench, version, noise, watch, |problem| {
-            problem.go_on(fit, effort)
+            problem.judged(problem.fit_from(starts, effort)?, effort)
         })
     }
 

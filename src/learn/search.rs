@@ -214,6 +214,15 @@ impl Search<'_> {
                 break (false, scatter, normal);
             }
             iterations += 1;
+            if effort.settle > 0
+                && settled
+                && promised <= floor
+                && let Some(next) = self.short_step(&quadratic, &state, scatter)
+            {
+                values = self.along(&jacobian, [&state, &next], &values);
+                state = next;
+                continue;
+            }
             let tried = self.improve(
                 evaluator,
                 &quadratic,
@@ -264,6 +273,12 @@ impl Search<'_> {
             iterations,
             converged,
         })
+    }
+
+    /// The full step, if it goes no farther than a forward difference: so near, derivatives say as much as predictions do.
+    fn short_step(&self, quadratic: &Quadratic, state: &State, scatter: f64) -> Option<State> {
+        let next = (self.layout).moved(state, &quadratic.step(0.0).x, scatter);
+        self.near(state, &next).then_some(next)
     }
 
     /// Derivatives taken anew, the model's `own` as far as it has them, and where a search has settled: exact ones leave nothing to be taken once more.

@@ -4,7 +4,7 @@
 //! at a hundredth of the price of finite elements, and what it is fitted to is most of the way there.
 
 use super::anchored::Anchored;
-use super::bench::{Bench, Workshop, for_looks};
+use super::bench::{Workshop, for_looks};
 use super::fit::Problem;
 use super::hypothesis::version::ModelVersion;
 use super::measured::Measured;
@@ -34,20 +34,18 @@ const WEAK: f64 = 0.25;
 const KEEP: usize = 6;
 
 impl Measured<'_> {
-    /// Where a fit of a version on `bench` is to start, a value for each free parameter but k: where the analytic model's own fit to the
+    /// Where a fit of a version's `problem` is to start, a value for each free parameter but k: where the analytic model's own fit to the
     /// measurements ends, from the best of `places` and of others spread over the priors of the effect that joined last, or at the study's
-    /// values if the model on `bench` is nearer to the measurements there.
+    /// values if the problem's own model is nearer to the measurements there.
     ///
     /// The analytic model is anchored: it differs from finite elements by more than a weak effect does.
     pub(super) fn start(
         &self,
-        bench: &Bench<'_>,
+        problem: &Problem<'_>,
         version: &ModelVersion,
-        noise: NoiseModel,
         places: Vec<Vec<f64>>,
-        watch: &(dyn Fn(usize) + Sync),
     ) -> Vec<f64> {
-        let own: Vec<f64> = effects(version).map(|free| free.value).collect();
+        let own = own_values(version);
         let spread = match of_last(version).count() {
             0 => return own,
             // the coefficients of a smooth function have no valleys to be told apart
@@ -56,28 +54,26 @@ impl Measured<'_> {
             n if n >= MANY => n * SPREAD,
             _ => 0,
         };
-        self.with_problem(bench, version, noise, watch, |problem| {
-            let found = self.analytic(version, noise, |analytic| {
-                let (k, fine) = problem.scaled(&own).ok()?;
-                let anchored = Problem {
-                    predictor: &Anchored::at(analytic.predictor, k, &own, fine).ok()?,
-                    parameters: analytic.parameters.clone(),
-                    coefficient: analytic.coefficient.clone(),
-                    ..*analytic
-                };
-                let mut all = analytic.places(spread);
-                all.iter_mut().for_each(|place| settle(version, place));
-                all.extend(places);
-                let mut starts = anchored.nearest(all, KEEP);
-                starts.push(own.clone());
-                let fit = anchored.fit_from(&starts, &LOOK).ok()?;
-                let parameters = fit.parameters.into_iter();
-                let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
-                Some(values.map(|p| p.value).collect())
-            });
-            let mut nearer = problem.nearest(found.into_iter().collect(), 1);
-            nearer.pop().unwrap_or(own)
-        })
+        let found = self.analytic(version, problem.noise, |analytic| {
+            let (k, fine) = problem.scaled(&own).ok()?;
+            let anchored = Problem {
+                predictor: &Anchored::at(analytic.predictor, k, &own, fine).ok()?,
+                parameters: analytic.parameters.clone(),
+                coefficient: analytic.coefficient.clone(),
+                ..*analytic
+            };
+            let mut all = analytic.places(spread);
+            all.iter_mut().for_each(|place| settle(version, place));
+            all.extend(places);
+            let mut starts = anchored.nearest(all, KEEP);
+            starts.push(own.clone());
+            let fit = anchored.fit_from(&starts, &LOOK).ok()?;
+            let parameters = fit.parameters.into_iter();
+            let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
+            Some(values.map(|p| p.value).collect())
+        });
+        let mut nearer = problem.nearest(found.into_iter().collect(), 1);
+        nearer.pop().unwrap_or(own)
     }
 
     /// The analytic model's problem, coarsely resolved.
@@ -95,6 +91,11 @@ impl Measured<'_> {
         let bench = self.bench(&workshop).ok()?;
         self.with_problem(&bench, version, noise, &|_| {}, act)
     }
+}
+
+/// A version's own values of its free parameters but k.
+pub(super) fn own_values(version: &ModelVersion) -> Vec<f64> {
+    effects(version).map(|free| free.value).collect()
 }
 
 /// The free parameters but k.

@@ -8,12 +8,13 @@ use super::record::Comparison;
 use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
 use crate::learn::bench::Bench;
-use crate::learn::fit::FitError;
+use crate::learn::fit::{FitError, Problem};
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::measured::Measured;
 use crate::learn::noise::NoiseModel;
 use crate::learn::search::Effort;
+use crate::learn::starts;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
 use crate::study::{ContactKind, FreeParameter, Role, Study, StudyError, WEAR_COEFFICIENT};
@@ -155,49 +156,76 @@ impl Measured<'_> {
             });
         };
         told(0);
-        let start = self.start(bench, version, noise, places, &told);
-        let first = match missed {
-            None => self.fit(bench, version, noise, &[start], &effort, &told)?,
-            Some(missed) => {
-                let look = Effort {
-                    iterations: LOOK_STEPS,
-                    ..effort
-                };
-                let mut first = self.fit(bench, version, noise, &[start], &look, &told)?;
-                let hopeless = |fit: &Fit| missed.explained(self, fit).filter(|s| *s < HOPELESS);
-                if hopeless(&first).is_some() {
-                    // not without a look from elsewhere
-                    let medians = [medians(version)];
-                    if let Ok(second) = self.fit(bench, version, noise, &medians, &look, &told)
-                        && second.log_posterior > first.log_posterior
-                    {
-                        first = second;
+        self.with_problem(bench, version, noise, &told, |problem| {
+            if let Some(fit) = self.from_within_noise(bench, version, problem, &effort, &told) {
+                return Ok(self.said(bench, version, fit, None));
+            }
+            let start = self.start(problem, version, places);
+            let first = match missed {
+                None => problem.fit_from(&[start], &effort)?,
+                Some(missed) => {
+                    let look = Effort {
+                        iterations: LOOK_STEPS,
+                        ..effort
+                    };
+                    let mut first = problem.fit_from(&[start], &look)?;
+                    let hopeless =
+                        |fit: &Fit| missed.explained(self, fit).filter(|s| *s < HOPELESS);
+                    if hopeless(&first).is_some() {
+                        // not without a look from elsewhere
+                        if let Ok(second) = problem.fit_from(&[medians(version)], &look)
+                            && second.log_posterior > first.log_posterior
+                        {
+                            first = second;
+                        }
+                    }
+                    match hopeless(&first) {
+                        Some(share) => {
+                            let first = problem.judged(first, &effort)?;
+                            return Ok(self.said(bench, version, first, Some(share)));
+                        }
+                        None if first.converged => first,
+                        None => problem.go_on(&first, &effort)?,
                     }
                 }
-                match hopeless(&first) {
-                    Some(share) => return Ok(self.judged(bench, version, first, Some(share))),
-                    None if first.converged => first,
-                    None => self.go_on(bench, version, noise, &first, &effort, &told)?,
-                }
-            }
-        };
-        let settled = first.converged && first.parameters.iter().all(|p| !p.at_bound);
-        let fit = if settled || version.effects.is_empty() || one_valley {
-            first
-        } else {
-            let medians = [medians(version)];
-            let second = self.fit(bench, version, noise, &medians, &effort, &told);
-            second
-                .ok()
-                .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
-                .unwrap_or(first)
-        };
-        let fit = self.refined(bench, version, noise, fit, &effort, &told);
-        Ok(self.judged(bench, version, fit, None))
+            };
+            let fit = if first.is_settled() || version.effects.is_empty() || one_valley {
+                first
+            } else {
+                let second = problem.fit_from(&[medians(version)], &effort);
+                second
+                    .ok()
+                    .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
+                    .unwrap_or(first)
+            };
+            let fit = self.refined(bench, version, problem, fit, &effort, &told)?;
+            Ok(self.said(bench, version, fit, None))
+        })
+    }
+
+    /// The fit with the finest steps at once, where the version's own values are within the noise: there is nothing to look for then. None where they
+    /// are not, or where that fit comes to no end.
+    fn from_within_noise(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        problem: &Problem<'_>,
+        effort: &Effort,
+        watch: &(dyn Fn(usize) + Sync),
+    ) -> Option<Fit> {
+        let own: Vec<f64> = starts::own_values(version);
+        if own.is_empty() || !problem.is_within_noise(&own) {
+            return None;
+        }
+        let finest = bench.finest().ok()??;
+        let fit = self.with_problem(&finest, version, problem.noise, watch, |problem| {
+            problem.judged(problem.fit_from(&[own], effort)?, effort)
+        });
+        fit.ok().filter(Fit::is_settled)
     }
 
     /// A fit with what it says of the model.
-    fn judged(
+    fn said(
         &self,
         bench: &Bench<'_>,
         version: &ModelVersion,
@@ -243,20 +271,24 @@ impl Measured<'_> {
         })
     }
 
-    /// The fit with wear steps as fine as the measurements call for: ever finer, until they would not move it any more.
+    /// The fit with wear steps as fine as the measurements call for, ever finer until they would not move it any more; then the held-out tests.
     fn refined(
         &self,
         bench: &Bench<'_>,
         version: &ModelVersion,
-        noise: NoiseModel,
+        problem: &Problem<'_>,
         mut fit: Fit,
         effort: &Effort,
         watch: &(dyn Fn(usize) + Sync),
-    ) -> Fit {
+    ) -> Result<Fit, FitError> {
+        let mut last: Option<Bench<'_>> = None;
         let mut finer = bench.finer();
         while let Ok(Some(bench)) = finer {
             // finer steps that fail say nothing against the coarser ones
-            let Ok(next) = self.go_on(&bench, version, noise, &fit, effort, watch) else {
+            let next = self.with_problem(&bench, version, problem.noise, watch, |problem| {
+                problem.go_on(&fit, effort)
+            });
+            let Ok(next) = next else {
                 break;
             };
             let at_rest = next.iterations == 0;
@@ -265,12 +297,15 @@ impl Measured<'_> {
                 evaluations: fit.evaluations + next.evaluations,
                 ..next
             };
-            if at_rest {
-                break;
-            }
-            finer = bench.finer();
+            finer = if at_rest { Ok(None) } else { bench.finer() };
+            last = Some(bench);
         }
-        fit
+        match &last {
+            None => problem.judged(fit, effort),
+            Some(bench) => self.with_problem(bench, version, problem.noise, watch, |problem| {
+                problem.judged(fit, effort)
+            }),
+        }
     }
 }
 
@@ -329,14 +364,9 @@ impl Missed<'_> {
                 settle: 0,
                 ..Effort::for_simulations()
             };
-            let base = measured.fit(
-                self.bench,
-                self.without,
-                noise,
-                &[Vec::new()],
-                &effort,
-                &|_| {},
-            );
+            let base = measured.with_problem(self.bench, self.without, noise, &|_| {}, |problem| {
+                problem.fit_from(&[Vec::new()], &effort)
+            });
             base.ok().map(|base| chi2(&base).0)
         });
         let square = (*square)?;

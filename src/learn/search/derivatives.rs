@@ -233,6 +233,43 @@ impl Search<'_> {
         }
     }
 
+    /// The values of each test moved along its derivatives from one state to the next.
+    pub(super) fn along(
+        &self,
+        jacobian: &DMatrix<f64>,
+        states: [&State; 2],
+        values: &Values,
+    ) -> Values {
+        let moved_test = |(test, rows): (usize, &Vec<usize>)| {
+            let moved = self.moves(test, states);
+            let row_moved = |(&row, before): (&usize, &f64)| {
+                let by = moved
+                    .iter()
+                    .map(|&(column, by)| jacobian[(row, column)] * by);
+                before + by.sum::<f64>()
+            };
+            rows.iter()
+                .zip(values[test].iter())
+                .map(row_moved)
+                .collect()
+        };
+        self.selection
+            .rows
+            .iter()
+            .enumerate()
+            .map(moved_test)
+            .collect()
+    }
+
+    /// How far a test's unknowns move from one state to the next: each with its column of derivatives.
+    fn moves(&self, test: usize, states: [&State; 2]) -> Vec<(usize, f64)> {
+        let params = self.layout.parameters.len();
+        let log_k = |s: &State| s.log_k + s.epsilon[test];
+        let own = (params + test, log_k(states[1]) - log_k(states[0]));
+        let common = (0..params).map(|p| (p, states[1].theta[p] - states[0].theta[p]));
+        common.chain([own]).collect()
+    }
+
     /// Each test's derivatives changed least, in the priors' scales, so that they give the change seen from one state to the next.
     pub(super) fn broyden(
         &self,
@@ -240,16 +277,13 @@ impl Search<'_> {
         states: [&State; 2],
         values: [&Values; 2],
     ) {
-        let params = self.layout.parameters.len();
-        let moves = |p: usize| states[1].theta[p] - states[0].theta[p];
+        let scales = self.layout.parameters.iter().map(|prior| prior.scale());
+        let scales: Vec<f64> = scales.chain([1.0]).collect();
         for (test, rows) in self.selection.rows.iter().enumerate() {
-            let scales = self.layout.parameters.iter().map(|prior| prior.scale());
-            let mut moved: Vec<(usize, f64, f64)> = scales
-                .enumerate()
-                .map(|(p, scale)| (p, moves(p), scale))
+            let moved = self.moves(test, states);
+            let moved: Vec<(usize, f64, f64)> = (moved.iter().zip(&scales))
+                .map(|(&(column, by), &scale)| (column, by, scale))
                 .collect();
-            let log_k = |s: &State| s.log_k + s.epsilon[test];
-            moved.push((params + test, log_k(states[1]) - log_k(states[0]), 1.0));
             let length: f64 = moved
                 .iter()
                 .map(|(_, by, scale)| (by / scale).powi(2))
