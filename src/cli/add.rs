@@ -19,7 +19,8 @@ use clap::Args;
 use self::drafts::{Draft, card, draft, forms, setting, settings};
 use self::outcome::{Fitted, Report, fitted};
 use self::target::{target, writable, write_whole};
-use super::{CliError, Context, Outcome};
+use super::{CliError, Context, Outcome, inputs};
+use crate::learn::diagnose::Decided;
 use crate::learn::{AddedForm, ModelVersion};
 use crate::measure::Dataset;
 use crate::study::{Study, WEAR_COEFFICIENT, rounded};
@@ -60,19 +61,34 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
     if args.effect.starts_with(learned::PREFIX) {
         return learned::execute(args, context);
     }
-    add(args, |drafts, data| fit(drafts, data, context))
+    add(args, |study, drafts, data| {
+        let decided = inputs::decided(&args.study, study)?;
+        fit(&args.effect, drafts, decided.as_ref(), data, context)
+    })
 }
 
-/// Fits the free parameters of the drafts to their measurements.
-fn fit(drafts: &[Draft], data: &Dataset, context: &Context) -> Result<Fitted, CliError> {
+/// Fits the free parameters of the drafts to their measurements, from what a diagnosis of these has found where there is one.
+fn fit(
+    effect: &str,
+    drafts: &[Draft],
+    decided: Option<&Decided>,
+    data: &Dataset,
+    context: &Context,
+) -> Result<Fitted, CliError> {
     context.tell_reading(data);
+    let version = |draft: &Draft| {
+        let version = ModelVersion {
+            effects: draft.study.effect_model().clone(),
+            free: draft.free.clone(),
+        };
+        let form = draft.form.map_or("", |form| form.name);
+        let found = decided.map(|decided| decided.values_of(effect, form));
+        version.beginning_at(effect, found.unwrap_or_default())
+    };
     let forms: Vec<AddedForm> = drafts
         .iter()
         .map(|draft| AddedForm {
-            version: ModelVersion {
-                effects: draft.study.effect_model().clone(),
-                free: draft.free.clone(),
-            },
+            version: version(draft),
             grown: draft.form.map_or(&[], |form| form.grown),
         })
         .collect();
@@ -86,7 +102,7 @@ fn fit(drafts: &[Draft], data: &Dataset, context: &Context) -> Result<Fitted, Cl
 /// The command with its fit, which is asked only if a parameter has no set value.
 fn add(
     args: &AddArgs,
-    fit: impl FnOnce(&[Draft], &Dataset) -> Result<Fitted, CliError>,
+    fit: impl FnOnce(&Study, &[Draft], &Dataset) -> Result<Fitted, CliError>,
 ) -> Result<Outcome, CliError> {
     let card = card(&args.effect)?;
     let study = Study::load(&args.study)?;
@@ -112,7 +128,7 @@ fn add(
     } else {
         // read where the user's own study names it: what is wrong there has a place that exists
         let data = study.dataset_to_fit()?;
-        let fitted = fit(&drafts, &data)?;
+        let fitted = fit(&study, &drafts, &data)?;
         let mut edit = drafts[fitted.draft].study.edit();
         for (name, value) in fitted.values {
             let value = rounded(value);

@@ -153,7 +153,7 @@ fn step(
         if state.has(&effect) {
             continue;
         }
-        let added = fitter.with_effect(&state.rungs, &state.values, &effect, watch)?;
+        let added = fitter.with_effect(&state.rungs, &state.values, &effect, diagnosis, watch)?;
         let paid = added.standing.pays_over(&state.standing);
         let mut step = added
             .standing

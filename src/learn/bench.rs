@@ -236,23 +236,7 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// As [`Workshop::bench`].
     pub fn finer(&self) -> Result<Option<Self>, ForwardError> {
-        self.refined(REFINEMENT * self.step_tolerance)
-    }
-
-    /// The same tests with the finest wear steps to which [`Bench::finer`] leads; none if the steps are the finest.
-    ///
-    /// # Errors
-    /// As [`Workshop::bench`].
-    pub fn finest(&self) -> Result<Option<Self>, ForwardError> {
-        let mut tolerance = REFINEMENT * self.step_tolerance;
-        while REFINEMENT * tolerance >= FINEST_TOLERANCE {
-            tolerance *= REFINEMENT;
-        }
-        self.refined(tolerance)
-    }
-
-    /// The same tests with wear steps of this tolerance; none below the finest.
-    fn refined(&self, tolerance: f64) -> Result<Option<Self>, ForwardError> {
+        let tolerance = REFINEMENT * self.step_tolerance;
         if tolerance < FINEST_TOLERANCE {
             return Ok(None);
         }

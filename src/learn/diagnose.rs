@@ -149,7 +149,7 @@ fn search(
     fitted.extend(nested_forms::of(context, base, &fitted, &smooth));
     if context.fidelity != Fidelity::Screening {
         watch(0.35, "the leaders by coarse finite elements".to_owned());
-        fitted = context.refine(base, fitted, smooth.is_real());
+        fitted = context.refine(base, fitted, smooth.is_real(), smooth.drop);
         fitted = context.with_unseen(base, fitted, &smooth);
     }
     if context.fidelity != Fidelity::Middle {

@@ -155,7 +155,10 @@ impl Problem<'_> {
         let selection = self.selection(Role::Fit);
         let search = self.search(&selection, Some(&self.coefficient));
         let state = self.state(start, selection.tests.len());
-        let misfit = search.misfit(&mut selection.evaluator(self.predictor), state);
+        let mut evaluator = selection.evaluator(self.predictor);
+        // a fit from here will ask for the derivatives, which bring the predictions along
+        search.own(&mut evaluator, &state);
+        let misfit = search.misfit(&mut evaluator, state);
         let points = selection.len() as f64;
         misfit.is_ok_and(|square| square < points + WITHIN_NOISE * (2.0 * points).sqrt())
     }

@@ -9,7 +9,7 @@ use crate::learn::measured::Measured;
 use crate::learn::noise::{Covariance, Discrepancy, ModelError, NoiseModel};
 use crate::learn::parameters::Parameter;
 use crate::learn::predictor::{PredictError, Predictor};
-use crate::learn::quadratic::{Layout, Normal, State};
+use crate::learn::quadratic::{Layout, Normal, Quadratic, State};
 use crate::learn::scatter::marginal;
 use crate::learn::search::{Effort, Found, Search};
 use crate::learn::selection::Selection;
@@ -103,6 +103,24 @@ impl<'a> Likelihood<'a> {
     ) -> Result<Found, PredictError> {
         let mut evaluator = self.evaluator(predictor);
         self.search(parameters).run(&mut evaluator, start, effort)
+    }
+
+    /// Where one full step leads from where a fit ended.
+    pub(super) fn next_state(&self, found: &Found, parameters: &[Parameter]) -> State {
+        let layout = self.layout(parameters);
+        let quadratic = Quadratic::new(&layout, &found.normal, &found.state, found.scatter);
+        layout.moved(&found.state, &quadratic.step(0.0).x, found.scatter)
+    }
+
+    /// How far two states are apart in the priors' scales (for ln k: 1), in the unknown that differs most.
+    pub(super) fn distance(&self, parameters: &[Parameter], a: &State, b: &State) -> f64 {
+        self.search(parameters).distance(a, b)
+    }
+
+    /// Lets a model that keeps its histories take them with their derivatives, which bring the predictions along.
+    pub(super) fn prepare(&self, model: &dyn Predictor, parameters: &[Parameter], state: &State) {
+        self.search(parameters)
+            .own(&mut self.evaluator(model), state);
     }
 
     /// Each test's own coefficient at a given scatter; everything common to the tests is held. For held-out tests.

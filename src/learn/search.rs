@@ -115,6 +115,8 @@ pub(super) struct Found {
 /// By how much a first k is made smaller where the model has no answer, and how often at most.
 const SMALLER: f64 = 3.0;
 const SMALLER_STARTS: usize = 8;
+/// Promised gain of ln posterior up to which a step is short: two posterior standard deviations.
+const SHORT: f64 = 2.0;
 /// Step of the differences in ln k of a test.
 const DIFFERENCE_K: f64 = 0.02;
 
@@ -216,7 +218,7 @@ impl Search<'_> {
             iterations += 1;
             if effort.settle > 0
                 && settled
-                && promised <= floor
+                && promised <= SHORT
                 && let Some(next) = self.short_step(&quadratic, &state, scatter)
             {
                 values = self.along(&jacobian, [&state, &next], &values);
@@ -428,7 +430,7 @@ impl Search<'_> {
     }
 
     /// How far two states are apart in the priors' scales.
-    fn distance(&self, a: &State, b: &State) -> f64 {
+    pub(super) fn distance(&self, a: &State, b: &State) -> f64 {
         let theta = self
             .layout
             .parameters

@@ -10,6 +10,7 @@ use crate::cli::add::drafts::{forms, with_form};
 use crate::cli::fitting;
 use crate::effects::find;
 use crate::learn::climb::Standing;
+use crate::learn::diagnose::Diagnosis;
 use crate::learn::{AddedForm, Comparison, Doing, ModelVersion, compare, left_out};
 use crate::measure::Dataset;
 use crate::study::{Study, rounded};
@@ -108,12 +109,13 @@ impl Fitter<'_> {
         self.judged(rungs, compared.comparison, watch)
     }
 
-    /// Fits the study with one effect more, in the form of it that fits best.
+    /// Fits the study with one effect more, in the form of it that fits best, from what its `diagnosis` has found.
     pub(super) fn with_effect(
         &self,
         rungs: &[Rung],
         values: &[(String, f64)],
         effect: &str,
+        diagnosis: &Diagnosis,
         watch: &(dyn Fn(String) + Sync),
     ) -> Result<Fitted, CliError> {
         let study = self.version(rungs, values)?;
@@ -123,9 +125,12 @@ impl Fitter<'_> {
         let drafts = all.iter().map(|form| with_form(&study, card, *form, &name));
         let drafts: Vec<Study> = drafts.collect::<Result<_, _>>()?;
         let added: Vec<AddedForm> = (drafts.iter().zip(&all))
-            .map(|(draft, form)| AddedForm {
-                version: ModelVersion::of(draft),
-                grown: form.map_or(&[], |form| form.grown),
+            .map(|(draft, form)| {
+                let found = diagnosis.values_of(effect, form.map_or("", |form| form.name));
+                AddedForm {
+                    version: ModelVersion::of(draft).beginning_at(effect, found),
+                    grown: form.map_or(&[], |form| form.grown),
+                }
             })
             .collect();
         let addition = crate::learn::add(&drafts[0], self.data, &added, &|doing, _| {

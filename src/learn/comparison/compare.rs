@@ -157,10 +157,13 @@ impl Measured<'_> {
         };
         told(0);
         self.with_problem(bench, version, noise, &told, |problem| {
-            if let Some(fit) = self.from_within_noise(bench, version, problem, &effort, &told) {
-                return Ok(self.said(bench, version, fit, None));
-            }
-            let start = self.start(problem, version, places);
+            // values that somebody has chosen or fitted may leave nothing to look for
+            let own = starts::own_values(version);
+            let start = if own != medians(version) && problem.is_within_noise(&own) {
+                own
+            } else {
+                self.start(problem, version, places)
+            };
             let first = match missed {
                 None => problem.fit_from(&[start], &effort)?,
                 Some(missed) => {
@@ -201,27 +204,6 @@ impl Measured<'_> {
             let fit = self.refined(bench, version, problem, fit, &effort, &told)?;
             Ok(self.said(bench, version, fit, None))
         })
-    }
-
-    /// The fit with the finest steps at once, where the version's own values are within the noise: there is nothing to look for then. None where they
-    /// are not, or where that fit comes to no end.
-    fn from_within_noise(
-        &self,
-        bench: &Bench<'_>,
-        version: &ModelVersion,
-        problem: &Problem<'_>,
-        effort: &Effort,
-        watch: &(dyn Fn(usize) + Sync),
-    ) -> Option<Fit> {
-        let own: Vec<f64> = starts::own_values(version);
-        if own.is_empty() || !problem.is_within_noise(&own) {
-            return None;
-        }
-        let finest = bench.finest().ok()??;
-        let fit = self.with_problem(&finest, version, problem.noise, watch, |problem| {
-            problem.judged(problem.fit_from(&[own], effort)?, effort)
-        });
-        fit.ok().filter(Fit::is_settled)
     }
 
     /// A fit with what it says of the model.

@@ -71,6 +71,13 @@ impl DecidedCandidate {
 }
 
 impl Decided {
+    /// The fitted values of a single effect in one of its forms (empty for the card's own), by parameter; none where it was not listed.
+    pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
+        let known = (self.ranking.iter()).find(|c| c.effect == effect && c.form == form);
+        let values = known.into_iter().flat_map(|c| &c.parameters);
+        values.map(|p| (p.name.as_str(), p.value)).collect()
+    }
+
     /// What leads: the first two, and up to two more that are not far behind.
     pub(super) fn leaders(&self) -> Vec<&DecidedCandidate> {
         let Some(first) = self.ranking.iter().find(|c| c.effects().is_some()) else {

@@ -115,6 +115,15 @@ pub struct Screened {
 }
 
 impl Diagnosis {
+    /// The fitted values of a single effect in one of its forms (empty for the card's own), by parameter; none where it is not listed.
+    pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
+        let of_effect =
+            |listed: &&Ranked| listed.effect.to_string() == effect && listed.form == form;
+        let values = self.ranking.iter().find(of_effect);
+        let values = values.into_iter().flat_map(|listed| &listed.parameters);
+        values.map(|p| (p.name.as_str(), p.value)).collect()
+    }
+
     /// Puts the answer together.
     pub(in crate::learn) fn new(findings: Findings<'_>) -> Self {
         let Findings {
@@ -135,6 +144,13 @@ impl Diagnosis {
         };
         let leader = posterior.leader();
         let next_experiment = separating(context, findings.workshop, base, posterior);
+        let (ranking, residual_drivers) = rayon::join(
+            || ranked(context, base, posterior),
+            || {
+                let after = leader.filter(|_| !nothing_missing);
+                residual_drivers::of(likelihood, context.middle, &base.fitted, after)
+            },
+        );
         let explanation = Explanation::new(&findings, drivers.first(), next_experiment.as_ref());
         // beside something unknown the effects alone are what cannot be told apart
         let member = |hypothesis: &Hypothesis| match hypothesis {
@@ -156,19 +172,14 @@ impl Diagnosis {
             probabilities: (decision.log_probabilities.iter())
                 .map(|(hypothesis, log)| (hypothesis.to_string(), log.exp()))
                 .collect(),
-            ranking: ranked(context, base, posterior),
+            ranking,
             remainder: remainder(&findings),
             learned: None,
             indistinguishable: if alone { Vec::new() } else { vec![group] },
             driver: drivers.first().cloned(),
             drivers,
             discrepancy: smooth.map(likelihood),
-            residual_drivers: residual_drivers::of(
-                likelihood,
-                context.exact,
-                &base.fitted,
-                leader.filter(|_| !nothing_missing),
-            ),
+            residual_drivers,
             explained_share: posterior.share_of_leader(),
             attainable_drop: smooth.drop.max(0.0),
             attainable_spread: smooth.spread(),

@@ -1,5 +1,6 @@
 //! The ranking: every candidate worth telling, with its fit and its error on held-out tests.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::learn::candidate_model::{Anchored, model, predictions};
@@ -121,7 +122,7 @@ pub(in crate::learn) fn ranked(
                 converged: fitted.converged,
             }
         };
-    listed.into_iter().enumerate().map(entry).collect()
+    listed.into_par_iter().enumerate().map(entry).collect()
 }
 
 /// The other forms than the cards' own.
@@ -176,7 +177,7 @@ fn held_out(context: &Context<'_>, held: &Likelihood<'_>, fitted: &FittedCandida
             &candidate.parameters,
             state,
             fitted.found.scatter,
-            &Effort::default(),
+            &Effort::for_simulations(),
         )
         .ok()?;
     Some(held.chi2_per_point(&found.model))

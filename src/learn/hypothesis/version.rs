@@ -30,6 +30,23 @@ impl ModelVersion {
             free,
         }
     }
+
+    /// The same with the free parameters of an effect beginning at other values, by the parameters' names; others stay as they are.
+    pub fn beginning_at<'v>(
+        mut self,
+        effect: &str,
+        values: impl IntoIterator<Item = (&'v str, f64)>,
+    ) -> Self {
+        for (name, value) in values {
+            let own = |free: &&mut FreeParameter| {
+                free.name.strip_prefix(effect) == Some(&format!(".{name}")[..])
+            };
+            if let Some(free) = self.free.iter_mut().find(own) {
+                free.value = value.clamp(free.lower, free.upper);
+            }
+        }
+        self
+    }
 }
 
 /// A free parameter of a study as a fit takes it.

@@ -78,7 +78,9 @@ impl Context<'_> {
             let screened = context.screen(&base, &singles);
             match context.fidelity {
                 Fidelity::Screening => screened,
-                Fidelity::Middle | Fidelity::Full => context.refine(&base, screened, true),
+                Fidelity::Middle | Fidelity::Full => {
+                    context.refine(&base, screened, true, f64::INFINITY)
+                }
             }
         };
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));

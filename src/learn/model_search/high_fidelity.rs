@@ -64,9 +64,15 @@ impl Context<'_> {
         let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
         let mut converged = false;
         for _ in 0..ANCHORS {
-            let at = predictions(&self.likelihood, &exact, candidate, &state)?;
-            let near = predictions(&self.likelihood, &cheap, candidate, &state)?;
-            let offset = offset(&self.likelihood, &at, &near);
+            let (at, near) = rayon::join(
+                || predictions(&self.likelihood, &exact, candidate, &state),
+                || {
+                    // with the derivatives that the fit asks for next
+                    self.likelihood.prepare(&cheap, parameters, &state);
+                    predictions(&self.likelihood, &cheap, candidate, &state)
+                },
+            );
+            let offset = offset(&self.likelihood, &at?, &near?);
             let predictor = AnchoredOn::new(&cheap, offset.clone());
             let here = self
                 .likelihood
@@ -108,6 +114,32 @@ impl Context<'_> {
             found,
             offset,
             base,
+            self.fidelity,
+        ))
+    }
+
+    /// A fit of another form of an effect that has been decided, with that one's anchor; None if it comes to no end.
+    fn anchored_on(
+        &self,
+        decided: &FittedCandidate,
+        form: &FittedCandidate,
+        base: &BaseFit,
+    ) -> Option<FittedCandidate> {
+        let candidate = &form.candidate;
+        let cheap = model(self.middle, candidate);
+        let predictor = AnchoredOn::new(&cheap, decided.offset.clone());
+        let start = form.found.state.clone();
+        let found = self
+            .likelihood
+            .fit(&predictor, &candidate.parameters, start, &DECIDE)
+            .ok()
+            .filter(|found| found.converged)?;
+        Some(FittedCandidate::new(
+            &self.likelihood,
+            candidate.clone(),
+            found,
+            decided.offset.clone(),
+            Some(base),
             self.fidelity,
         ))
     }
@@ -179,10 +211,19 @@ pub(in crate::learn) fn decide_leaders(
     let rest = screened.split_off(chosen);
     let mut judged: Vec<FittedCandidate> = Vec::with_capacity(screened.len() + rest.len());
     for (i, candidate) in screened.into_iter().enumerate() {
-        judged.push(decided(candidate, i as f64 / chosen as f64));
+        // what fine elements make else of an effect they make of its other forms too
+        let by_sibling = (judged.iter())
+            .find(|form| form.converged && form.candidate.effects == candidate.candidate.effects)
+            .and_then(|form| context.anchored_on(form, &candidate, base))
+            .filter(|found| {
+                judged
+                    .iter()
+                    .all(|form| form.found.objective < found.found.objective)
+            });
+        judged.push(by_sibling.unwrap_or_else(|| decided(candidate, i as f64 / chosen as f64)));
     }
     judged.extend(rest);
-    let alike = look_alikes_left(&judged, before, (GAIN, ALIKE_SHARE));
+    let alike = look_alikes_left(&judged, before, (GAIN, &|_| ALIKE_SHARE));
     let mut judged: Vec<FittedCandidate> = (judged.into_iter().zip(alike))
         .map(|(j, alike)| if alike { decided(j, 1.0) } else { j })
         .collect();

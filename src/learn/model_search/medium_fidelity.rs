@@ -18,6 +18,10 @@ use crate::learn::search::{Effort, Found};
 const REFINED: usize = 3;
 const REFINED_SHARE: f64 = 0.4;
 const MEANT: f64 = 1.0;
+/// Share of the attainable fall of χ² with which a leader leaves nothing for a second effect, and the share of its gain that another must have then to
+/// lead in its place: the analytic model knows gains to a tenth of the leader's.
+const NEARLY_ALL: f64 = 0.97;
+const REFINED_SHARE_OF_ALL: f64 = 0.75;
 /// Candidates in play after the look, as in the screening.
 const IN_PLAY: usize = 4;
 /// Once more, with wider differences, where no step betters a fit that promises much: the roughness of sharp laws.
@@ -27,6 +31,8 @@ const UNSTUCK: Effort = Effort {
 };
 /// Share of what the best form of an effect gains by which another must be behind to be fitted once more from where that one ended.
 const BEHIND_ITS_BEST: f64 = 0.002;
+/// Share of the way back that one step from there must go for the other fit to be one of the same valley.
+const LEADS_BACK: f64 = 0.5;
 /// Share of the leader's gain with which a law that is sharp in pressure is fitted so too: the analytic model sees that much of it.
 const SHARP_SHARE: f64 = 0.15;
 /// Share of the leader's gain by which a form must be behind the best form of its effect not to be fitted: the analytic model is right to a tenth of
@@ -40,12 +46,13 @@ const ACROSS_SHARE: f64 = 0.25;
 impl Context<'_> {
     /// Fits by coarse finite elements those of the screened candidates that may matter: the leaders, and where the discrepancy is real what
     /// the analytic model knows least: all whose rate is sharp in the local pressure, and, if more than wear is missed, all that change how
-    /// the teeth touch.
+    /// the teeth touch. `attainable`: the fall of χ² by anything smooth.
     pub(in crate::learn) fn refine(
         &self,
         base: &BaseFit,
         screened: Vec<FittedCandidate>,
         real: bool,
+        attainable: f64,
     ) -> Vec<FittedCandidate> {
         let before = base.fitted.log_evidence;
         let mut gains: Vec<f64> = screened.iter().map(|j| j.log_evidence - before).collect();
@@ -53,18 +60,27 @@ impl Context<'_> {
         let Some(best) = gains.first() else {
             return screened;
         };
-        let bar = gains[(REFINED - 1).min(gains.len() - 1)]
-            .min(REFINED_SHARE * best)
-            .max(MEANT);
-        let bar_of_sharp = if real { SHARP_SHARE * best } else { bar };
+        let fallen = |j: &FittedCandidate| base.fitted.square - j.square;
+        let most = screened.iter().map(fallen).fold(0.0, f64::max);
+        // a fit that was not followed to its end says little
+        let share = |judged: &FittedCandidate| {
+            let known = judged.converged && !judged.candidate.sharp();
+            if known && most > NEARLY_ALL * attainable {
+                REFINED_SHARE_OF_ALL
+            } else {
+                REFINED_SHARE
+            }
+        };
+        let third = gains[(REFINED - 1).min(gains.len() - 1)];
         let contact_missed = real
             && self
                 .likelihood
                 .misses_more_than_wear(&base.fitted.found.model);
         let wanted = |judged: &FittedCandidate| {
             let candidate = &judged.candidate;
-            let bar = if candidate.sharp() {
-                bar_of_sharp.min(bar)
+            let bar = third.min(share(judged) * best).max(MEANT);
+            let bar = if real && candidate.sharp() {
+                bar.min(SHARP_SHARE * best)
             } else {
                 bar
             };
@@ -80,7 +96,7 @@ impl Context<'_> {
         let wanted: Vec<bool> = screened.iter().map(wanted).collect();
         let refined = self.by_coarse_elements(base, screened, &wanted);
         // what the leader is mistaken for is held against it by the same means
-        let alike = look_alikes_left(&refined, before, (MEANT, REFINED_SHARE));
+        let alike = look_alikes_left(&refined, before, (MEANT, &share));
         self.by_coarse_elements(base, refined, &alike)
     }
 
@@ -122,6 +138,16 @@ impl Context<'_> {
         let again: Vec<Option<Found>> = places()
             .map(|place| {
                 let start = from_sibling(place, &screened, &refined, base, bar)?;
+                let own = refined[place].as_ref()?;
+                let there = fit(place, start.clone(), &Effort::STAY)?;
+                let parameters = &screened[place].candidate.parameters;
+                let led = self.likelihood.next_state(&there, parameters);
+                // a step that leads back says that both lie in one valley
+                let back = self.likelihood.distance(parameters, &led, &own.state)
+                    < LEADS_BACK * self.likelihood.distance(parameters, &start, &own.state);
+                if back && own.converged {
+                    return None;
+                }
                 fit(place, start, &SCREEN)
             })
             .collect();
@@ -201,18 +227,16 @@ impl Context<'_> {
 pub(super) fn look_alikes_left(
     fitted: &[FittedCandidate],
     before: f64,
-    (least, share): (f64, f64),
+    (least, share): (f64, &dyn Fn(&FittedCandidate) -> f64),
 ) -> Vec<bool> {
     let best = |of: &dyn Fn(&FittedCandidate) -> bool| {
         let all = fitted.iter().filter(|&j| of(j));
         all.max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence))
     };
     let leader = best(&|_| true).filter(|leader| leader.log_evidence > before + least);
-    let bar = leader.map_or(f64::INFINITY, |leader| {
-        before + least.max(share * (leader.log_evidence - before))
-    });
     let left = |judged: &FittedCandidate| {
         let Some(leader) = leader else { return false };
+        let bar = before + least.max(share(judged) * (leader.log_evidence - before));
         let own = &judged.candidate.effects;
         let unsettled =
             judged.fidelity == Fidelity::Screening && judged.candidate.changes_contact();

@@ -26,7 +26,11 @@ const NARROWER: f64 = 0.125;
 
 impl Search<'_> {
     /// The model's own derivatives of each test; none for those without.
-    pub(super) fn own(&self, evaluator: &mut Evaluator<'_>, state: &State) -> OwnDerivatives {
+    pub(in crate::learn) fn own(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+    ) -> OwnDerivatives {
         let a_move = |p: usize| {
             let prior = &self.layout.parameters[p];
             let length = MOVE * prior.scale();
