@@ -11,7 +11,8 @@ use std::sync::Mutex;
 
 use gearwear::effects::Prior;
 use gearwear::learn::{
-    Coefficient, Effort, Fit, ModelError, NoiseModel, Parameter, PredictError, Predictor, Problem,
+    Coefficient, Effort, Fit, Linearised, ModelError, Move, NoiseModel, Parameter, PredictError,
+    Predictor, Problem,
 };
 use gearwear::measure::{Dataset, Observation, Quantity, Subject, Trace};
 use gearwear::study::{Role, Scatter};
@@ -64,6 +65,20 @@ impl<P: Predictor> Predictor for Counting<P> {
         key.extend(parameters.iter().map(|p| p.to_bits()));
         self.asked.lock().unwrap().push(key);
         self.inner.predict(test, coefficient, parameters)
+    }
+
+    fn has_derivatives(&self) -> bool {
+        self.inner.has_derivatives()
+    }
+
+    fn linearise(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        self.inner.linearise(test, coefficient, parameters, moves)
     }
 }
 

@@ -436,3 +436,99 @@ fn a_model_far_from_its_measurements_is_not_fitted_to_the_last_decimal() {
     let (whole, early) = (fitted(&near, 0.0), fitted(&near, share));
     assert!((whole.log_posterior - early.log_posterior).abs() < 0.1);
 }
+
+/// Near the most probable state a fit asks for no further prediction, and ends where one that asks for many does.
+#[test]
+fn short_last_steps_go_along_the_derivatives() {
+    // so many points that two standard deviations are less than a forward difference
+    let empty = wear_data(&[("A", 1e6), ("B", 6e5)], 201, false);
+    let (k, theta) = ([1.2e-10; 2], [2.5, 1.5e5]);
+    let data = measured(&empty, running_in, &k, &theta, 0.01, 0.0, &mut Random(6));
+    let predictor = Counting {
+        inner: Differentiated(Formula {
+            data: data.clone(),
+            formula: running_in,
+        }),
+        asked: Mutex::new(Vec::new()),
+    };
+    let mut near = problem(&data, &predictor);
+    near.noise = noise(Scatter::Relative(0.0));
+    let exact = near
+        .fit(&Effort {
+            tolerance: 1e-12,
+            carry: 0.0,
+            ..Effort::default()
+        })
+        .unwrap();
+    // opposite ways, for what is known best is their sum
+    let off = [0.3, -0.3];
+    near.coefficient = Coefficient::Free(Parameter::coefficient(exact.coefficient));
+    for (i, parameter) in near.parameters.iter_mut().enumerate() {
+        let sd = exact.covariance[(i + 1, i + 1)].sqrt();
+        parameter.start = exact.parameters[i + 1].value * (off[i] * sd).exp();
+    }
+    predictor.asked.lock().unwrap().clear();
+    let fit = near.fit(&Effort::for_simulations()).unwrap();
+    assert!(fit.converged && fit.iterations > 0);
+    assert!(predictor.asked.lock().unwrap().is_empty());
+    for i in 0..2 {
+        let sd = exact.covariance[(i + 1, i + 1)].sqrt();
+        let [found, wanted] = [&fit, &exact].map(|f| f.parameters[i + 1].value.ln());
+        assert!(
+            ((found - wanted) / sd).abs() < 0.05,
+            "{i}: {found} {wanted} {sd}"
+        );
+    }
+    let theta: Vec<f64> = fit.parameters[1..].iter().map(|p| p.value).collect();
+    for (o, row) in data.observations.iter().zip(&fit.rows) {
+        let own = running_in(o, fit.coefficient, &theta);
+        assert!(
+            (row.model - own).abs() < 0.02 * o.sigma,
+            "{} {own}",
+            row.model
+        );
+    }
+}
+
+/// A model with derivatives of its own.
+struct Differentiated<P>(P);
+
+impl<P: Predictor> Predictor for Differentiated<P> {
+    fn predict(&self, test: usize, k: f64, parameters: &[f64]) -> Result<Vec<f64>, PredictError> {
+        self.0.predict(test, k, parameters)
+    }
+
+    fn has_derivatives(&self) -> bool {
+        true
+    }
+
+    fn linearise(
+        &self,
+        test: usize,
+        k: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        const STEP: f64 = 1e-6;
+        let at = |k: f64, parameters: &[f64]| self.0.predict(test, k, parameters).unwrap();
+        let values = at(k, parameters);
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        for a_move in moves {
+            let moved = at(k, &a_move.parameters);
+            let each = moved
+                .iter()
+                .zip(&values)
+                .map(|(a, b)| (a - b) / a_move.step);
+            columns.push(DVector::from_iterator(values.len(), each));
+        }
+        let sides = at(k * STEP.exp(), parameters)
+            .into_iter()
+            .zip(at(k * (-STEP).exp(), parameters));
+        let by_k = sides.map(|(a, b)| (a - b) / (2.0 * STEP));
+        columns.push(DVector::from_iterator(values.len(), by_k));
+        Some(Ok(Linearised {
+            derivatives: DMatrix::from_columns(&columns),
+            values,
+        }))
+    }
+}

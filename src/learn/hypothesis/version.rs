@@ -60,3 +60,31 @@ pub(in crate::learn) fn parameter(free: &FreeParameter) -> Parameter {
         prior: free.prior,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::find;
+
+    /// Only the effect's own parameters begin elsewhere, and never beyond their bounds.
+    #[test]
+    fn a_version_begins_at_other_values_of_its_effect() {
+        let none = ModelVersion {
+            effects: EffectModel::default(),
+            free: Vec::new(),
+        };
+        let spec = |name: &str| EffectSpec::of_card(find(name).unwrap(), &[]).unwrap();
+        let version = none.with(spec("running_in")).with(spec("coating"));
+        let found = [("amplitude", 1e9), ("decay_cycles", 2e5), ("ratio", 0.3)];
+        let moved = version.clone().beginning_at("running_in", found);
+        for (before, after) in version.free.iter().zip(&moved.free) {
+            let wanted = match after.name.as_str() {
+                "running_in.amplitude" => after.upper,
+                "running_in.decay_cycles" => 2e5,
+                _ => before.value,
+            };
+            assert_eq!(after.value, wanted, "{}", after.name);
+            assert_eq!(before.prior, after.prior);
+        }
+    }
+}
