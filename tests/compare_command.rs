@@ -17,7 +17,7 @@ use tempfile::TempDir;
 
 mod common;
 
-use common::{gears, succeed};
+use common::{gears, gearwear, succeed};
 
 const BASE: &str = concat!(
     "title = \"made up\"\n",
@@ -112,6 +112,18 @@ fn add_finds_the_form_of_the_law_and_one_asked_for_is_the_only_one() {
         );
         serde_json::from_str(&told).unwrap()
     };
+
+    // a form that there was once: what holds instead
+    let once = [
+        "add",
+        "base.toml",
+        "lead_misalignment",
+        "--form",
+        "unloaded end",
+    ];
+    let (code, _, message) = gearwear(&home, &once);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("negative slope"), "{message}");
 
     let any = add("-o any.toml");
     assert_eq!(any["fit"]["form"], "crowned", "{any}");

@@ -91,6 +91,12 @@ refusals! {
         => BadValue "face.coupling" at 23:12, "\"springs\"", "\"none\"", "not known";
     a_lead_without_slices: format!("{SHORT}[face.gear]\ncrowning = 5.0\n")
         => Inconsistent "face.gear.crowning" at 22:12, "5.0", "2 or more", "needs slices";
+    helical_teeth: format!("{SHORT}[face]\nhelix_angle = 12.0\n")
+        => BadValue "face.helix_angle" at 22:15, "12.0", "0", "gears are spur gears";
+    helical_teeth_elsewhere: with("module = 2.0", "module = 2.0\nhelix_angle = 12.0")
+        => UnknownKey "gears.helix_angle" at 3:1, "helix_angle", "module", "only [face] may state it, as 0";
+    a_gear_beyond_its_bearing: format!("{SHORT}[[effect]]\nkind = \"shaft_deflection\"\noffset = 60.0\n")
+        => Inconsistent "effect.offset" at 23:10, "60.0", "-50 to 50 mm", "overhung = 1";
     negative_module: with("module = 2.0", "module = -2.0")
         => BadValue "gears.module" at 2:10, "-2.0", "0.05 to 100 mm", "out of range";
     nan: with("module = 2.0", "module = nan")
@@ -231,6 +237,30 @@ refusals! {
         => Syntax "module" at 2:11, "`,", "", "not valid TOML";
     syntax_end: "[gears]\nmodule ="
         => Syntax "module" at 2:9, "the end", "", "not valid TOML";
+}
+
+#[test]
+fn a_parameter_that_there_was_once_is_refused_with_what_holds_instead() {
+    let once = format!("{SHORT}[[effect]]\nkind = \"shaft_deflection\"\nface_width = 30.0\n");
+    let message = Study::parse(&once, "study.toml").unwrap_err().to_string();
+    assert!(message.contains("study.toml:23:1"), "{message}");
+    assert!(
+        message.contains("the face width is that of [gears]"),
+        "{message}"
+    );
+    assert!(
+        message.contains("`gearwear effects shaft_deflection` explains"),
+        "{message}"
+    );
+}
+
+#[test]
+fn spur_gears_may_say_that_they_are() {
+    let stated = format!("{SHORT}[face]\nhelix_angle = 0.0\n");
+    let study = Study::parse(&stated, "study.toml").unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(study.face, Study::parse(SHORT, "study.toml").unwrap().face);
+    let overhung = "[[effect]]\nkind = \"shaft_deflection\"\noffset = 60.0\noverhung = 1\n";
+    Study::parse(&format!("{SHORT}{overhung}"), "study.toml").unwrap_or_else(|e| panic!("{e}"));
 }
 
 #[test]

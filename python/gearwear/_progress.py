@@ -19,15 +19,15 @@ def in_notebook():
     return "ipykernel" in sys.modules and sys.stderr is not sys.__stderr__ and os.name == "posix"
 
 
-def told_below_the_cell(command):
-    """Runs a command that thinks its errors go to a terminal, and shows below the cell what it tells there; returns its code, output and last words."""
+def written_below_the_cell(command):
+    """Runs a command that thinks its errors go to a terminal, and shows below the cell what it writes there; returns its code, output and last words."""
     import pty
 
     master, slave = pty.openpty()
     environment = {**os.environ, "NO_COLOR": "1", "TERM": "xterm"}
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=slave, text=True, encoding="utf-8", env=environment)
     os.close(slave)
-    told = bytearray()
+    written = bytearray()
     shown = sys.stderr
 
     def show():
@@ -38,7 +38,7 @@ def told_below_the_cell(command):
                 return
             if not piece:
                 return
-            told.extend(piece)
+            written.extend(piece)
             text = piece.decode("utf-8", errors="ignore")
             # a line that is written again begins where it began
             shown.write(CONTROL.sub("", text.replace(CLEARED, "\r")))
@@ -55,7 +55,7 @@ def told_below_the_cell(command):
     finally:
         reader.join(timeout=2)
         os.close(master)
-    words = told.decode("utf-8", errors="replace").rpartition(CLEARED)[2]
+    words = written.decode("utf-8", errors="replace").rpartition(CLEARED)[2]
     return process.returncode, out, CONTROL.sub("", words).replace("\r\n", "\n")
 
 

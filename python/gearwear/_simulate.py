@@ -32,7 +32,7 @@ def simulate(study, names, theta, jacobian=False, progress=None):
     """The measured rows of `study` at every row of `theta` (N x p: a column for each of `names`, such as "wear.coefficient" or
     "running_in.amplitude", in their units), on all cores.
 
-    `progress(done, count)` is told how far it is, True shows a line of it; Ctrl-C stops it after the histories under way. Raises `StudyError` if the study cannot be used;
+    `progress(done, count)` is called as it goes on, True shows a line of it; Ctrl-C stops it after the histories under way. Raises `StudyError` if the study cannot be used;
     single histories that fail are NaN rows with reasons.
     """
     names = list(names)

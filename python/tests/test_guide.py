@@ -49,6 +49,32 @@ def test_the_page_on_python(folder):
     assert names["found"].values.shape[0] == 20 and names["found"].reasons == [None] * 20
 
 
+def test_the_page_on_clusters(folder, monkeypatch):
+    """All but the lines for Slurm and for the program `hq`, which are no part of a Python environment."""
+    start, *others = [text for language, text in blocks("cluster.md") if language == "sh"]
+    (farm,) = [text for language, text in blocks("cluster.md") if language == "python"]
+    smaller = {"saltelli:128": "saltelli:8", "sobol:256": "sobol:16", "--fidelity middle": "--fast"}
+
+    def run(text):
+        for long, short in smaller.items():
+            text = text.replace(long, short)
+        shell(text)
+
+    run(start)
+    monkeypatch.chdir(folder / "study")
+    Path("farm.py").write_text(farm, encoding="utf-8")
+    for text in others:
+        if "sbatch" in text or "SBATCH" in text or text.startswith("hq "):
+            continue
+        if "farm.py" not in text:
+            run(text)
+        elif importlib.util.find_spec("hyperqueue"):
+            run(text.replace("python3", sys.executable))
+        else:
+            run(text.splitlines()[0])  # the lines that the next block reads
+    assert Path("whole/sweep.csv").exists() and Path("archive.out/diagnose-each/each.csv").exists()
+
+
 def listens():
     try:
         urllib.request.urlopen("http://localhost:4242/Info")

@@ -101,7 +101,7 @@ fn overview() -> String {
     }
     let _ = writeln!(
         text,
-        "\n{} effects; `gearwear effects EFFECT` tells all about one",
+        "\n{} effects; `gearwear effects EFFECT` shows all about one",
         CATALOGUE.len()
     );
     text

@@ -46,6 +46,32 @@ impl Slices {
         [(after - 1, 1.0 - t), (after, t)]
     }
 
+    /// The slices of which what is read at the place `face` (mm from mid-face) is a sum, with their weights, where `value` is what each has:
+    /// a depth or a pressure.
+    ///
+    /// That is [`Slices::weights_at`] but for one case. Where part of the face carries, the line that goes on beyond the last middle would fall
+    /// below zero. Nothing is worn there, so nothing is read; where the last slice itself stands below zero (displaced material), it is read.
+    pub fn read_at(&self, face: f64, value: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
+        let line = self.weights_at(face);
+        let last = self.place.len() - 1;
+        let end = if face < self.place[0] {
+            0
+        } else if face > self.place[last] {
+            last
+        } else {
+            return line.to_vec();
+        };
+        let on_line: f64 = line.iter().map(|&(i, weight)| weight * value(i)).sum();
+        let at_end = value(end);
+        if on_line >= at_end.min(0.0) {
+            line.to_vec()
+        } else if at_end < 0.0 {
+            vec![(end, 1.0)]
+        } else {
+            Vec::new()
+        }
+    }
+
     /// The mean over the face of values that stand slice after slice.
     pub fn mean_of(&self, values: &[f64]) -> Vec<f64> {
         let size = values.len() / self.count();
@@ -107,5 +133,25 @@ mod tests {
             assert!((read - line(face)).abs() < 1e-12, "{read} at {face}");
         }
         assert!((slices.mean(slices.place.iter().map(|y| line(*y))) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn nothing_below_zero_is_read_beyond_the_outer_slices() {
+        let slices = Slices::even(5, 30.0);
+        let read = |values: [f64; 5], face: f64| -> f64 {
+            let parts = slices.read_at(face, |i| values[i]);
+            parts.iter().map(|&(i, weight)| weight * values[i]).sum()
+        };
+        // two slices carry: the line through the last two middles is at -0.5 at the end of the face
+        let wedge = [9.0, 6.0, 3.0, 1.0, 0.0];
+        assert_eq!(read(wedge, 15.0), 0.0);
+        assert!((read(wedge, 12.0)).abs() < 1e-12 && (read(wedge, 9.0) - 0.5).abs() < 1e-12);
+        assert!((read(wedge, -15.0) - 10.5).abs() < 1e-12);
+        // displaced material is read as far as a slice has it
+        assert_eq!(read([0.0, 0.0, 0.0, 2.0, -1.0], 15.0), -1.0);
+        assert_eq!(
+            Slices::even(1, 30.0).read_at(15.0, |_| 2.0),
+            vec![(0, 1.0), (0, 0.0)]
+        );
     }
 }

@@ -157,6 +157,24 @@ pub trait Effect: Send + Sync {
     fn fault(&self) -> Option<String> {
         None
     }
+
+    /// The parameter whose value does not fit the others, if one does not: a study may not state it.
+    fn impossible(&self) -> Option<Impossible> {
+        None
+    }
+}
+
+/// A value of a parameter that contradicts the others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Impossible {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// What is wrong, after "offset = 60".
+    pub why: &'static str,
+    /// What would be right, with the unit.
+    pub allowed: String,
+    /// What may be meant.
+    pub hint: &'static str,
 }
 
 /// A place across the face, and the load that bends what carries it.

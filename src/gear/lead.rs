@@ -56,24 +56,14 @@ pub enum Coupling {
 }
 
 /// The face: in how many slices it is computed, and what both members' flanks lack across it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Face {
-    /// Slices, 1 for one section.
+    /// Slices, 1 for one section; 0 where none are stated: one section, or several if an effect acts across the face.
     pub slices: usize,
     /// What ties them.
     pub coupling: Coupling,
     /// Of pinion and gear.
     pub lead: [Lead; 2],
-}
-
-impl Default for Face {
-    fn default() -> Self {
-        Self {
-            slices: 1,
-            coupling: Coupling::default(),
-            lead: [Lead::default(), Lead::default()],
-        }
-    }
 }
 
 impl Face {

@@ -84,7 +84,7 @@ impl<'r, 'f> Reading<'r, 'f> {
         match observation.quantity {
             Quantity::WearDepth => {
                 let arc = self.arc(pinion_for_pair, at);
-                let slices = self.slices_at(observation.face);
+                let slices = self.slices_worn_at(pinion_for_pair, arc, observation.face);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                         1e3 * interpolate(stations, depths, arc)
@@ -133,7 +133,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::ContactPressure => {
                 let arc = self.arc(pinion_for_pair, at);
                 let stations = self.stations(pinion_for_pair).to_vec();
-                let slices = self.slices_at(observation.face);
+                let slices = self.slices_pressed_at(pinion_for_pair, arc, observation.face)?;
                 let (meshing, _) = self.meshing()?;
                 let of = |tangent: &MeshingTangent| {
                     let at = |&(i, weight): &(usize, f64)| {
@@ -147,7 +147,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
             Quantity::SpanLoss | Quantity::ChordalLoss => {
                 let felt = self.thickness(observation, pinion_for_pair);
-                let slices = self.slices_at(observation.face);
+                let slices = self.slices_worn_at(pinion_for_pair, felt.arc, observation.face);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                         1e3 * felt.gain * interpolate(stations, depths, felt.arc)
@@ -239,25 +239,50 @@ impl<'r, 'f> Reading<'r, 'f> {
         }
     }
 
-    /// The slices of which what is measured at `face` is a sum, with their weights; where the row does not say, it is where the effects say that
-    /// traces are taken, else at mid-face.
-    fn slices_at(&self, face: Option<FacePlace>) -> Vec<(usize, f64)> {
+    /// The slices of which what is measured at `face` is a sum, with their weights, `value` being what each has; where the row does not say, it is
+    /// where the effects say that traces are taken, else at mid-face.
+    fn slices_at(
+        &self,
+        face: Option<FacePlace>,
+        value: impl Fn(usize) -> f64,
+    ) -> Vec<(usize, f64)> {
         let Some(slices) = self.forward.slices() else {
             return vec![(0, 1.0)];
         };
         let mean = slices.weight.iter().copied().enumerate();
         match face {
-            Some(FacePlace::At(face)) => slices.weights_at(face).to_vec(),
+            Some(FacePlace::At(face)) => slices.read_at(face, value),
             Some(FacePlace::Mean) => mean.collect(),
             None => {
                 let effects = self.forward.acting().map(|acting| &acting.effects);
                 let usual = effects.and_then(|e| e.usual_trace()).unwrap_or_default();
-                let at = slices.weights_at(0.5 * self.set.face_width * usual.place);
+                let at = slices.read_at(0.5 * self.set.face_width * usual.place, value);
                 let at = at.into_iter().map(|(i, w)| (i, (1.0 - usual.mean) * w));
                 let mean = mean.map(|(i, w)| (i, usual.mean * w));
                 at.chain(mean).filter(|(_, w)| *w != 0.0).collect()
             }
         }
+    }
+
+    /// The same of depths at `arc` (mm) of the flank of `member`.
+    fn slices_worn_at(
+        &self,
+        member: Member,
+        arc: f64,
+        face: Option<FacePlace>,
+    ) -> Vec<(usize, f64)> {
+        self.slices_at(face, |slice| self.depth_of_slice(slice, member, arc))
+    }
+
+    /// The same of the largest pressures at `arc` (mm) of the flank of `member`.
+    fn slices_pressed_at(
+        &mut self,
+        member: Member,
+        arc: f64,
+        face: Option<FacePlace>,
+    ) -> Result<Vec<(usize, f64)>, ForwardError> {
+        let by_slice = self.pressures(member, arc)?;
+        Ok(self.slices_at(face, |slice| by_slice[slice]))
     }
 
     fn stations(&self, member: Member) -> &[f64] {
@@ -277,12 +302,16 @@ impl<'r, 'f> Reading<'r, 'f> {
     /// µm, at the place `face` across the face.
     fn depth(&self, member: Member, radius: f64, face: Option<FacePlace>) -> f64 {
         let arc = self.arc(member, radius);
-        let at = |slice| {
-            let depths = self.of_slice(&self.worn.u, slice, member);
-            interpolate(self.stations(member), depths, arc)
-        };
-        let weighted = |&(slice, weight): &(usize, f64)| weight * at(slice);
-        1e3 * self.slices_at(face).iter().map(weighted).sum::<f64>()
+        let slices = self.slices_worn_at(member, arc, face);
+        let weighted =
+            |&(slice, weight): &(usize, f64)| weight * self.depth_of_slice(slice, member, arc);
+        1e3 * slices.iter().map(weighted).sum::<f64>()
+    }
+
+    /// mm.
+    fn depth_of_slice(&self, slice: usize, member: Member, arc: f64) -> f64 {
+        let depths = self.of_slice(&self.worn.u, slice, member);
+        interpolate(self.stations(member), depths, arc)
     }
 
     /// mg of the whole member.
@@ -356,18 +385,23 @@ impl<'r, 'f> Reading<'r, 'f> {
         radius: f64,
         face: Option<FacePlace>,
     ) -> Result<f64, ForwardError> {
-        let (arc, slices) = (self.arc(member, radius), self.slices_at(face));
+        let arc = self.arc(member, radius);
+        let by_slice = self.pressures(member, arc)?;
+        let slices = self.slices_at(face, |slice| by_slice[slice]);
+        let weighted = |&(slice, weight): &(usize, f64)| weight * by_slice[slice];
+        Ok(slices.iter().map(weighted).sum())
+    }
+
+    /// The largest pressure at `arc` (mm) of the flank of `member` in each slice, MPa.
+    fn pressures(&mut self, member: Member, arc: f64) -> Result<Vec<f64>, ForwardError> {
         let meshing = self.meshing()?.0;
-        let at = |moments: &[Vec<Moment>; 2]| -> Vec<f64> {
+        let of = |moments: &[Vec<Moment>; 2]| -> Vec<f64> {
             moments[side(member)].iter().map(|m| m.pressure).collect()
         };
-        let by_slice: Vec<(f64, Vec<f64>)> = (slices.iter())
-            .map(|&(i, weight)| (weight, at(&meshing.by_slice[i])))
-            .collect();
+        let largest: Vec<Vec<f64>> = meshing.by_slice.iter().map(of).collect();
         let stations = self.stations(member);
-        let weighted =
-            |(weight, largest): &(f64, Vec<f64>)| weight * interpolate(stations, largest, arc);
-        Ok(by_slice.iter().map(weighted).sum())
+        let at = |largest: &Vec<f64>| interpolate(stations, largest, arc);
+        Ok(largest.iter().map(at).collect())
     }
 
     /// Share of the torque that the tooth pair carries while its contact passes the point.

@@ -155,6 +155,17 @@ impl Quantity {
         )
     }
 
+    /// Whether a row's place across the face says where it was measured: what is of the whole face has no such place.
+    pub fn is_at_a_place_across_the_face(self) -> bool {
+        matches!(
+            self,
+            Quantity::WearDepth
+                | Quantity::ContactPressure
+                | Quantity::SpanLoss
+                | Quantity::ChordalLoss
+        )
+    }
+
     /// What its position means.
     pub fn place(self) -> Place {
         match self {

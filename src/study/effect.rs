@@ -11,6 +11,13 @@ use crate::source_text::{Diagnostic, Fault, list, nearest};
 
 const VALUE_KEYS: &[&str] = &["value", "lower", "upper"];
 
+/// Parameters that effects had once, with what holds instead.
+const REMOVED: [(&str, &str, &str); 1] = [(
+    "shaft_deflection",
+    "face_width",
+    "leave it out: the face width is that of [gears]",
+)];
+
 pub(super) type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
 /// All `[[effect]]` entries.
@@ -79,14 +86,19 @@ fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
     let names = || card.params.iter().map(|param| param.name);
     let known = |key: &&str| *key != "kind" && !names().any(|name| name == *key);
     if let Some(key) = table.present().into_iter().find(known) {
-        let near = nearest(key, names()).unwrap_or_default();
-        let mut diagnostic = table
-            .refuse(key, "", list(names()))
-            .with_hint(format!("the nearest is `{near}`"))
-            .with_hint(format!(
-                "`gearwear effects {}` tells what they are",
-                card.name
-            ));
+        let mut diagnostic = table.refuse(key, "", list(names()));
+        diagnostic = match REMOVED
+            .iter()
+            .find(|removed| (removed.0, removed.1) == (card.name, key))
+        {
+            Some((_, _, instead)) => diagnostic.with_hint(*instead),
+            None => {
+                let near = nearest(key, names()).unwrap_or_default();
+                diagnostic.with_hint(format!("the nearest is `{near}`"))
+            }
+        };
+        diagnostic =
+            diagnostic.with_hint(format!("`gearwear effects {}` explains them", card.name));
         diagnostic.fault = Fault::UnknownKey;
         diagnostic.message = format!("{} has no parameter `{key}`", card.name);
         diagnostic.found = format!("`{key}`");
@@ -111,7 +123,15 @@ fn of_card(card: &'static Card, table: &Table<'_>) -> Result<EffectSpec> {
                 stated: table.has(param.name),
             })
         })
-        .collect::<Result<_>>()?;
+        .collect::<Result<Vec<_>>>()?;
+    let values: Vec<f64> = parameters.iter().map(|parameter| parameter.value).collect();
+    if let Some(impossible) = (card.build)(&values).impossible() {
+        let mut refusal = table
+            .refuse(impossible.parameter, impossible.why, impossible.allowed)
+            .with_hint(impossible.hint);
+        refusal.fault = Fault::Inconsistent;
+        return Err(Box::new(refusal));
+    }
     Ok(EffectSpec {
         kind: card.name.to_owned(),
         name: card.name.to_owned(),

@@ -8,7 +8,7 @@ use super::relative;
 use crate::gear::{Coupling, Face, Lead, Member};
 use crate::source_text::{Diagnostic, Fault};
 
-pub(super) const KEYS: &[&str] = &["slices", "coupling", "pinion", "gear"];
+pub(super) const KEYS: &[&str] = &["slices", "coupling", "helix_angle", "pinion", "gear"];
 pub(super) const MEMBER_KEYS: &[&str] = &[
     "lead_slope",
     "crowning",
@@ -40,12 +40,17 @@ pub(super) fn read(
         return Ok((face, files));
     };
     let why = "sections across the face; 11 are enough for straight and crowned leads";
-    face.slices = table.count("slices", 1..=MOST_SLICES, why)?.unwrap_or(1);
+    face.slices = table.count("slices", 1..=MOST_SLICES, why)?.unwrap_or(0);
     let couplings = [
         (COUPLINGS[0], Coupling::Teeth),
         (COUPLINGS[1], Coupling::None),
     ];
     face.coupling = table.choice("coupling", &couplings)?.unwrap_or_default();
+    table
+        .number("helix_angle", &q::HELIX_ANGLE)
+        .map_err(|refusal| {
+            refusal.with_hint("gears are spur gears: helical teeth are not modelled")
+        })?;
     for (side, which) in Member::BOTH.into_iter().enumerate() {
         let Some(member) = table.table(which.name(), MEMBER_KEYS)? else {
             continue;
@@ -53,7 +58,7 @@ pub(super) fn read(
         (face.lead[side], files[side]) = lead(&member, folder, width)?;
         let states = !face.lead[side].is_none() || files[side].is_some();
         let key = MEMBER_KEYS.iter().find(|key| states && member.has(key));
-        if let (1, Some(key)) = (face.slices, key) {
+        if let (0 | 1, Some(key)) = (face.slices, key) {
             let mut refusal = member.refuse(key, "needs slices", "face.slices of 2 or more");
             refusal.fault = Fault::Inconsistent;
             let hint = "state slices = 11 in [face]; one section knows nothing of the face";

@@ -230,8 +230,9 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
     doc("measurements", "tests", Value::Text, Words("`[[test]]` alone"), "a CSV file with a row for each test and the keys of `[[test]]` as columns, relative to the study; its tests come after those of `[[test]]`"),
 
-    doc("face", "slices", Value::Count(1, 201), Default("1"), "sections across the face that turn together, each with its own wear; 1: one section stands for all of the face"),
+    doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face"), "sections across the face that turn together, each with its own wear; 1: one section stands for all of the face, and effects across it are a factor on the load there"),
     doc("face", "coupling", Value::Word(super::face::COUPLINGS), Default("\"none\""), "what ties slices besides the common turn: the teeth that they are cut from, or nothing"),
+    number("face", "helix_angle", &q::HELIX_ANGLE, Default("0.0"), "of spur gears: helical teeth are not modelled"),
     number("face.pinion", "lead_slope", &q::LEAD, Default("0.0"), "from end to end of the face, positive: material missing at the end +face_width/2, standing proud at the other"),
     number("face.pinion", "crowning", &q::LEAD, Default("0.0"), "material missing at both ends, a parabola from mid-face"),
     number("face.pinion", "end_relief_amount", &q::LEAD, Default("0.0"), "material missing at both ends, straight"),

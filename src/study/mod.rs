@@ -12,6 +12,7 @@ mod edit;
 mod effect;
 mod effect_model;
 mod face;
+mod face_rows;
 mod file;
 mod formula;
 mod free;

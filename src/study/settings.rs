@@ -176,7 +176,7 @@ fn material(table: &Table<'_>) -> Result<Option<&'static WearPair>> {
         table
             .refuse("material", "is no pair of materials", list(names()))
             .with_hint(format!("the nearest is \"{near}\""))
-            .with_hint("`gearwear materials` tells where each is from"),
+            .with_hint("`gearwear materials` says where each is from"),
     ))
 }
 

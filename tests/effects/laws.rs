@@ -723,14 +723,18 @@ fn shaft_deflection() {
         same(of(-22.0), -of(22.0));
     }
     let law = effect("shaft_deflection", &[("offset", 15.0)]);
-    let at = |load| {
+    // the face width is that of the gears: torque over base radius and load per width
+    let at = |face_width: f64, torque: f64| {
+        let ordinary = ordinary();
         law.load_factor(&Local {
-            normal_load: load,
-            ..ordinary()
+            torque,
+            normal_load: 1e3 * torque / (ordinary.base_radius * face_width),
+            ..ordinary
         })
     };
-    assert!(at(100.0) > 1.01);
-    assert_eq!(at(100.0), at(300.0));
+    assert!(at(30.0, 100.0) > 1.01);
+    same(at(30.0, 100.0), at(30.0, 300.0));
+    same(4.0 * (at(15.0, 100.0) - 1.0), at(30.0, 100.0) - 1.0);
 }
 
 #[test]

@@ -1,12 +1,13 @@
 """2,000 points by every way of guide/cluster.md: one machine, 7 shards, HyperQueue, Slurm. The same bytes? How efficient?
 
-    python3 validation/cluster/efficiency.py target/release/gearwear [POINTS [shards] [hyperqueue] [slurm]]
+    python3 validation/cluster/efficiency.py target/release/gearwear [POINTS] [WAY ...] [cycles=N]
     validation/cluster/one_node_slurm.sh python3 validation/cluster/efficiency.py target/release/gearwear
 
-HyperQueue's server and workers come with its Python package (pip install hyperqueue). Slurm runs the job file of the guide as it stands there, but for
-the number of cores of a task. What is not installed is skipped, and that is said. Times are of whole ways, merge included: by the clock, and processor time
-(user and system) of all calls of the program. Other work on the machine changes both, processor time up to a half where cores share their units; so each way
-stands against a plain sweep right before it.
+WAY is shards, hyperqueue, slurm (one job for each core) or slurm_of_seven (the guide's seven jobs); all unless named. HyperQueue's server and workers come
+with its Python package (pip install hyperqueue); its script and Slurm's job file are those of the guide as they stand there, but for the numbers of cores and
+jobs. `cycles=N` makes points that cost more. What is not installed is skipped, and that is said. Times are of whole ways, until the merged table stands: by
+the clock, and processor time (user and system) of all calls of the program. Other work on the machine changes both, processor time up to a half where cores
+share their units; so each way stands against a plain sweep right before it.
 """
 
 import os
@@ -20,7 +21,9 @@ import time
 from pathlib import Path
 
 PROGRAM = Path(sys.argv[1]).absolute()
-POINTS = int(sys.argv[2]) if len(sys.argv) > 2 else 2000
+POINTS = next((int(word) for word in sys.argv[2:] if word.isdigit()), 2000)
+CYCLES = next((word.removeprefix("cycles=") for word in sys.argv[2:] if word.startswith("cycles=")), None)
+NAMED = [word for word in sys.argv[2:] if word.isidentifier()]
 HERE = Path(__file__).resolve().parent
 GUIDE = (HERE.parents[1] / "guide/cluster.md").read_text()
 SWEEP = ["gearwear", "sweep", "study.toml", "--points", "points.csv"]
@@ -48,29 +51,29 @@ def shards():
 
 
 def hyperqueue():
-    from hyperqueue import Job, LocalCluster
-    from hyperqueue.cluster import WorkerConfig
-
-    gearwear("--emit", "points.jsonl", "--per-line", str(max(1, POINTS // 8)))
-    with LocalCluster() as cluster:
-        for _ in range(2):
-            cluster.start_worker(WorkerConfig(cores=1))
-        client = cluster.client()
-        job = Job(default_workdir=Path.cwd())
-        for line in Path("points.jsonl").read_text().splitlines():
-            arguments = [*SWEEP, "--point", "-", "-o", "tasks", "--threads", "1", "--quiet"]
-            job.program(arguments, env={"HQ_ENTRY": line, "PATH": os.environ["PATH"]}, stdout=None, stderr=None)
-        client.wait_for_jobs([client.submit(job)])
-    gearwear("--merge", "tasks", "-o", "by-hyperqueue")
+    line = f"--emit points.jsonl --per-line {max(1, POINTS // 8)}"
+    emit, submit, merge = re.search(r"(gearwear [^\n]*--emit[^\n]*)\n(python3 [^\n]*)\n(gearwear [^\n]*--merge[^\n]*)", GUIDE).groups()
+    Path("farm.py").write_text(re.search(r"```python\n(.*?)```", GUIDE, re.DOTALL)[1])
+    emit = re.sub(r"--emit points.jsonl --per-line \d+", line, emit)
+    subprocess.run(["bash", "-euc", "\n".join([emit, submit.replace("python3", sys.executable), merge])], check=True)
+    Path("whole").rename("by-hyperqueue")
 
 
-def slurm():
+def slurm(jobs=2):
     script = re.search(r"#!/bin/bash\n#SBATCH.*?(?=```)", GUIDE, re.DOTALL)[0]
-    Path("sweep.sbatch").write_text(re.sub(r"(--cpus-per-task)=\d+", r"\1=1", script))
-    lines = re.search(r"```sh\n(job=.*?)```", GUIDE, re.DOTALL)[1]
-    # the guide's last line hands the merge to Slurm and is done; here it is waited for
-    subprocess.run(["bash", "-euc", lines.replace("sbatch --dependency", "sbatch --wait --dependency")], check=True)
+    script = re.sub(r"(--cpus-per-task)=\d+", r"\1=1", script)
+    Path("sweep.sbatch").write_text(script.replace("--array=1-7", f"--array=1-{jobs}").replace("ID/7", f"ID/{jobs}"))
+    subprocess.run(["bash", "-euc", re.search(r"```sh\n(job=.*?)```", GUIDE, re.DOTALL)[1]], check=True)
+    # the guide's last line hands the merge to Slurm and is done; it is waited for as a user would, by looking (`sbatch --wait` looks after 2, 4, 8 ... s only)
+    while subprocess.run(["squeue", "--noheader"], capture_output=True, text=True, check=True).stdout.strip():
+        time.sleep(0.2)
     Path("whole").rename("by-slurm")
+    shutil.rmtree("parts")
+
+
+def slurm_of_seven():
+    slurm(7)
+    Path("by-slurm").rename("by-slurm_of_seven")
 
 
 def processor_time(folder):
@@ -102,9 +105,9 @@ def possible(way):
             import hyperqueue as _
         except ImportError:
             return "the Python package hyperqueue is not installed"
-    if way is slurm and shutil.which("sbatch") is None:
+    if way in (slurm, slurm_of_seven) and shutil.which("sbatch") is None:
         return "there is no sbatch"
-    if way is slurm and subprocess.run(["sinfo"], capture_output=True).returncode != 0:
+    if way in (slurm, slurm_of_seven) and subprocess.run(["sinfo"], capture_output=True).returncode != 0:
         return "no Slurm answers; see one_node_slurm.sh"
     return None
 
@@ -112,7 +115,8 @@ def possible(way):
 with tempfile.TemporaryDirectory() as home:
     os.chdir(home)
     os.chmod(home, 0o755)
-    Path("study.toml").write_text((HERE / "study.toml").read_text())
+    study = (HERE / "study.toml").read_text()
+    Path("study.toml").write_text(re.sub(r"(?m)^cycles = .*", f"cycles = {CYCLES}", study) if CYCLES else study)
     dice = random.Random(1)
     rows = ["operation.torque,operation.misalignment,wear.coefficient,operation.speed"]
     for _ in range(POINTS):
@@ -122,19 +126,19 @@ with tempfile.TemporaryDirectory() as home:
     Path("bin/gearwear").write_text(NOTING.format(program=PROGRAM, folder=Path.cwd() / "noted"))
     Path("bin/gearwear").chmod(0o755)
     os.environ["PATH"] = f"{Path.cwd() / 'bin'}:{os.environ['PATH']}"
-    ways = [way for way in (shards, hyperqueue, slurm) if len(sys.argv) < 4 or way.__name__ in sys.argv[3:]]
+    ways = [way for way in (shards, hyperqueue, slurm, slurm_of_seven) if not NAMED or way.__name__ in NAMED]
     for way in ways:
         name = way.__name__
         if why := possible(way):
-            print(f"{name:11} skipped: {why}")
+            print(f"{name:14} skipped: {why}")
             continue
         shutil.rmtree("plain", ignore_errors=True)
         whole = measured(plain)
-        print(f"plain sweep {POINTS} points, 2 threads: {whole[0]:6.1f} s, {whole[1]:6.1f} s of processor time", flush=True)
+        print(f"plain sweep    {POINTS} points, 2 threads: {whole[0]:6.1f} s, {whole[1]:6.1f} s of processor time", flush=True)
         found = measured(way)
         bytes_are = "the same bytes" if same(f"by-{name}") else "OTHER BYTES"
         print(
-            f"{name:11} {found[0]:6.1f} s, {found[1]:6.1f} s of processor time; efficiency {whole[0] / found[0]:.2f} by the clock, "
+            f"{name:14} {found[0]:6.1f} s, {found[1]:6.1f} s of processor time; efficiency {whole[0] / found[0]:.2f} by the clock, "
             f"{whole[1] / found[1]:.2f} by processor time; {bytes_are}",
             flush=True,
         )

@@ -53,8 +53,14 @@ pub(in crate::cli) fn forms(
                     .chain(card.forms.iter().map(|form| form.name))
                     .map(|name| format!("\"{name}\""))
                     .collect();
+                let removed = card.name == "lead_misalignment" && name == "unloaded end";
+                let hint = if removed {
+                    "; the unloaded end is a negative slope: a fit finds its sign, or --set slope=-6 states it"
+                } else {
+                    ""
+                };
                 CliError::Unusable(format!(
-                    "{} has no form `{name}`, allowed: {}",
+                    "{} has no form `{name}`, allowed: {}{hint}",
                     card.name,
                     names.join(", ")
                 ))

@@ -129,7 +129,7 @@ const MOST_LISTED: usize = 20;
 /// The results of all points from the files that parts have left, and how many of these belong to other points.
 ///
 /// # Errors
-/// [`CliError::Missing`] if a point is not there; [`CliError::Unusable`] if two parts tell different figures of the same one.
+/// [`CliError::Missing`] if a point is not there; [`CliError::Unusable`] if two parts hold different figures of the same one.
 pub(super) fn merged(
     design: &Design,
     points: &[Point],
@@ -179,7 +179,7 @@ pub(super) fn merged(
     };
     if !unlike.is_empty() {
         return Err(CliError::Unusable(format!(
-            "parts tell different figures of the same points; were they made by different versions of the program?{}",
+            "parts hold different figures of the same points; were they made by different versions of the program?{}",
             listed(&unlike)
         )));
     }

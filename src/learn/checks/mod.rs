@@ -1,5 +1,6 @@
 //! Stage 4, data checks: what the measurements themselves keep from being concluded.
 
+pub(in crate::learn) mod goodness_of_fit;
 pub(in crate::learn) mod identifiability;
 pub(in crate::learn) mod noise_level;
 pub(in crate::learn) mod outlying_curves;

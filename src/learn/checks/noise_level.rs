@@ -35,7 +35,7 @@ pub(in crate::learn) fn too_smooth(likelihood: &Likelihood<'_>, model: &[f64]) -
 }
 
 /// Scatter along traces over stated σ; None if there is too little to tell.
-fn scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
+pub(in crate::learn) fn scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
     let residual = likelihood.residual(model);
     let mut curves: BTreeMap<_, Vec<[f64; 3]>> = BTreeMap::new();
     for (i, x) in residual.iter().enumerate() {

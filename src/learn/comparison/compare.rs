@@ -217,6 +217,9 @@ impl Measured<'_> {
         let mut comparison = Comparison::new(self.study(), &self.data, &fit);
         let closed = self.closed_backlash(bench, version, &fit);
         comparison.warnings.extend(closed);
+        let study = self.study();
+        let face = study.warnings_on_places_across_the_face(&self.data, &version.effects);
+        comparison.warnings.extend(face);
         Compared {
             fit,
             comparison,

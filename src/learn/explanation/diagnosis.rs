@@ -10,6 +10,7 @@ use super::remainder::{Remainder, established, remainder};
 use super::sentences::undecided;
 use super::warnings::warnings;
 use super::wording::Explanation;
+use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::posterior::Posterior;
 use crate::learn::decision::{DecisionRule, RemainderEvidence, Verdict};
@@ -43,6 +44,9 @@ pub struct Diagnosis {
     pub effect: Option<Named>,
     /// The verdict in a sentence, and why.
     pub sentence: String,
+    /// How well the base model fits; None unless the verdict is `nothing_missing`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub goodness_of_fit: Option<GoodnessOfFit>,
     /// Further sentences: why not the runner-up, what cannot be concluded.
     pub reasons: Vec<String>,
     /// What to do next.
@@ -151,7 +155,12 @@ impl Diagnosis {
                 residual_drivers::of(likelihood, context.middle, &base.fitted, after)
             },
         );
-        let explanation = Explanation::new(&findings, drivers.first(), next_experiment.as_ref());
+        let goodness_of_fit =
+            nothing_missing.then(|| GoodnessOfFit::new(likelihood, &base.fitted.found.model));
+        let mut explanation =
+            Explanation::new(&findings, drivers.first(), next_experiment.as_ref());
+        let doubt = goodness_of_fit.iter().filter_map(|fit| fit.warning.clone());
+        explanation.reasons.splice(0..0, doubt);
         // beside something unknown the effects alone are what cannot be told apart
         let member = |hypothesis: &Hypothesis| match hypothesis {
             Hypothesis::EffectsAndUnknown(effects) => effects.to_string(),
@@ -167,6 +176,7 @@ impl Diagnosis {
             undecided: undecided(context, posterior),
             effect: named(&findings),
             sentence: explanation.sentence,
+            goodness_of_fit,
             reasons: explanation.reasons,
             next_step: explanation.next_step,
             probabilities: (decision.log_probabilities.iter())

@@ -6,8 +6,8 @@ use super::wording::{Explanation, before, chi2, percent, values};
 use crate::effects::Card;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::checks::sufficiency::{few, measured_once};
-use crate::learn::decision::Verdict;
 use crate::learn::decision::posterior::Posterior;
+use crate::learn::decision::{Decision, Verdict};
 use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::experiment::next::NextExperiment;
 use crate::learn::fitted_candidate::FittedCandidate;
@@ -30,6 +30,8 @@ const BESIDE_LEADER: f64 = 0.9;
 const TOLD: usize = 3;
 /// Log evidence to the runner-up below which what separates the two is told.
 const CLOSE: f64 = 5.0;
+/// Probability below which a rival is not worth a word: what [`percent`] writes as under 0.1 %.
+const IMPROBABLE: f64 = 1e-3;
 /// Pairs of effects that are looked at for one that they have in common.
 const BEST_PAIRS: usize = 3;
 
@@ -231,12 +233,8 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
 fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanation {
     let posterior = findings.posterior;
     let decision = &posterior.decision;
-    let mut group: Vec<(&Hypothesis, f64)> = (decision.group.iter())
-        .map(|hypothesis| (hypothesis, decision.probability(hypothesis)))
-        .collect();
-    group.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let list: Vec<String> = (group.iter())
-        .map(|(hypothesis, p)| format!("{hypothesis} ({})", percent(*p)))
+    let list: Vec<String> = (rivals(decision).iter())
+        .map(|(hypothesis, p)| format!("{} ({})", hypothesis.in_words(), percent(*p)))
         .collect();
     let doubted = decision.group.contains(&Hypothesis::Unknown);
     let leader = posterior.leader().filter(|_| doubted);
@@ -269,6 +267,28 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
         reasons: reason.into_iter().collect(),
         next_step,
     }
+}
+
+/// What cannot be told apart, the most probable first: the decision's group, in which something unknown stands for itself alone and beside each
+/// effect. Improbable ones are left out unless fewer than two would be left.
+fn rivals(decision: &Decision) -> Vec<(&Hypothesis, f64)> {
+    let of_unknown = |hypothesis: &Hypothesis| {
+        matches!(
+            hypothesis,
+            Hypothesis::Unknown | Hypothesis::EffectsAndUnknown(_)
+        )
+    };
+    let doubted = decision.group.contains(&Hypothesis::Unknown);
+    let mut all: Vec<(&Hypothesis, f64)> = (decision.log_probabilities.iter())
+        .filter(|(hypothesis, _)| {
+            decision.group.contains(hypothesis) || (doubted && of_unknown(hypothesis))
+        })
+        .map(|(hypothesis, log)| (hypothesis, log.exp()))
+        .collect();
+    all.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let probable = all.iter().filter(|(_, p)| *p >= IMPROBABLE).count();
+    all.truncate(probable.max(2));
+    all
 }
 
 fn depends_on(driver: &Driver) -> Vec<String> {
@@ -321,6 +341,39 @@ fn against(log: f64) -> String {
 mod tests {
     use super::*;
     use crate::effects::find;
+
+    #[test]
+    fn rivals_stand_by_size_and_improbable_ones_not_at_all() {
+        let set = |names: &[&str]| EffectSet::new(names.iter().map(|name| find(name).unwrap()));
+        let effects = |name| Hypothesis::Effects(set(&[name]));
+        let beside = |name| Hypothesis::EffectsAndUnknown(set(&[name]));
+        let decided = |of: &[(Hypothesis, f64)], group: &[Hypothesis]| Decision {
+            verdict: Verdict::Ambiguous,
+            log_probabilities: of.iter().map(|(h, p)| (h.clone(), p.ln())).collect(),
+            effects: Vec::new(),
+            group: group.to_vec(),
+        };
+        let all = [
+            (effects("running_in"), 0.5),
+            (beside("running_in"), 0.3),
+            (beside("coating"), 0.15),
+            (Hypothesis::Unknown, 4e-4),
+            (effects("tip_relief"), 0.04),
+        ];
+        let group = [effects("running_in"), Hypothesis::Unknown];
+        let decision = decided(&all, &group);
+        let names: Vec<String> = rivals(&decision)
+            .iter()
+            .map(|(h, _)| h.to_string())
+            .collect();
+        assert_eq!(
+            names,
+            ["running_in", "running_in+unknown", "coating+unknown"]
+        );
+        // nothing else is left: the two most probable stand there all the same
+        let few = [(effects("running_in"), 0.9), (Hypothesis::Unknown, 4e-4)];
+        assert_eq!(rivals(&decided(&few, &group)).len(), 2);
+    }
 
     #[test]
     fn what_the_best_pairs_have_in_common_is_said() {

@@ -37,7 +37,10 @@ pub(in crate::learn) fn warnings(
             "neighbouring points of a trace scatter only {smooth:.2} times their stated sigma: if the traces were filtered their points are not independent and every probability here is too bold; if sigma is overstated, weak effects stay hidden"
         ));
     }
-    warnings.extend(likelihood.measured.data.outliers_in_words());
+    let data = &likelihood.measured.data;
+    warnings.extend(data.outliers_in_words());
+    warnings.extend(likelihood.measured.study().one_section_hides_places(data));
+    warnings.extend(data.places_not_used());
     let alone = measured_once(likelihood);
     if alone.len() == likelihood.tests.len() {
         warnings.push(

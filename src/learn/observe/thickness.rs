@@ -8,11 +8,13 @@ impl Reading<'_, '_> {
     /// What the gauge of `observation` reads less on `member` than when it was new.
     pub(super) fn thickness(&self, observation: &Observation, member: Member) -> ThicknessLoss {
         let arcs = self.stations(member);
-        let mut depths = vec![0.0; arcs.len()];
-        for (slice, weight) in self.slices_at(observation.face) {
-            let own = self.of_slice(&self.worn.u, slice, member);
-            (depths.iter_mut().zip(own)).for_each(|(sum, depth)| *sum += weight * depth);
-        }
+        let at = |station: usize| {
+            let own = |slice| self.of_slice(&self.worn.u, slice, member)[station];
+            let slices = self.slices_at(observation.face, own);
+            let weighted = |&(slice, weight): &(usize, f64)| weight * own(slice);
+            slices.iter().map(weighted).sum()
+        };
+        let depths: Vec<f64> = (0..arcs.len()).map(at).collect();
         let worn = WornDepths {
             arcs,
             depths: &depths,

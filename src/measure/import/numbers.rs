@@ -47,7 +47,7 @@ pub(super) fn with_points(sheet: &Sheet, decimal: Option<Decimal>) -> Result<She
     match unclear.filter(|_| !clear) {
         None => Ok(sheet),
         Some((cell, text)) => Err(ImportError(format!(
-            "{cell}: is `{text}` {} or {}? No number of the table tells: say --decimal point or --decimal comma",
+            "{cell}: is `{text}` {} or {}? No number of the table shows which: say --decimal point or --decimal comma",
             text.replace(',', "."),
             text.replace(['.', ','], "")
         ))),

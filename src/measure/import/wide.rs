@@ -153,7 +153,7 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
         }
         if first.is_empty() {
             return Err(ImportError(format!(
-                "{}: nothing stands here beside values; the first column tells where or when each row was measured",
+                "{}: nothing stands here beside values; the first column says where or when each row was measured",
                 cell_name(row, 0)
             )));
         }
@@ -349,7 +349,7 @@ fn orientation(
     };
     let what = match wanted.gear {
         Some(gear) => format!(
-            "radii of the flank ({:.3} to {:.3} mm), told as {}",
+            "radii of the flank ({:.3} to {:.3} mm), given as {}",
             gear.form_radius,
             gear.tip_radius,
             position.name()

@@ -389,7 +389,8 @@ impl Forward<'_> {
         let wanted =
             (self.acting).is_some_and(|acting| acting.acts_across_the_face(&self.cycle.pair));
         let count = match face.slices {
-            0 | 1 if wanted => SLICES_OF_EFFECTS,
+            // one stated section stays one: effects across the face are then a factor on its load, as analytically
+            0 if wanted => SLICES_OF_EFFECTS,
             stated => stated,
         };
         if count < 2 || self.kind == ContactKind::Hertz {
