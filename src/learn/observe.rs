@@ -3,7 +3,7 @@
 mod meshing;
 mod thickness;
 
-use crate::effects::{Effect, Local};
+use crate::effects::{Effect, Hook, Local};
 use crate::gear::Member;
 use crate::learn::trajectory::Node;
 use crate::measure::{FacePlace, Observation, Place, Quantity, Subject};
@@ -52,14 +52,20 @@ impl<'r, 'f> Reading<'r, 'f> {
         let at = observation.position.unwrap_or(0.0);
         let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
         match observation.quantity {
-            Quantity::WearDepth => Ok(self.depth(pinion_for_pair, at, observation.face)),
+            Quantity::WearDepth => {
+                let sections = self.sections(pinion_for_pair, observation);
+                Ok(self.depth(pinion_for_pair, at, &sections))
+            }
             Quantity::MassLoss => Ok(match observation.member {
                 Subject::Pair => Member::BOTH.into_iter().map(|m| self.mass(m)).sum(),
                 _ => self.mass(pinion_for_pair),
             }),
             Quantity::TransmissionError => self.transmission_error(at),
             Quantity::LoadShare => self.load_share(pinion_for_pair, at),
-            Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation.face),
+            Quantity::ContactPressure => {
+                let sections = self.sections(pinion_for_pair, observation);
+                self.pressure(pinion_for_pair, at, &sections)
+            }
             Quantity::MeshStiffness => self.stiffness(at),
             Quantity::SpanLoss | Quantity::ChordalLoss => {
                 Ok(1e3 * self.thickness(observation, pinion_for_pair).loss)
@@ -84,7 +90,7 @@ impl<'r, 'f> Reading<'r, 'f> {
         match observation.quantity {
             Quantity::WearDepth => {
                 let arc = self.arc(pinion_for_pair, at);
-                let slices = self.slices_at(observation.face);
+                let slices = self.sections(pinion_for_pair, observation);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                         1e3 * interpolate(stations, depths, arc)
@@ -92,14 +98,14 @@ impl<'r, 'f> Reading<'r, 'f> {
                 )
             }
             Quantity::MassLoss => {
-                let slices: Vec<(usize, f64)> = match self.forward.slices() {
-                    Some(slices) => slices.weight.iter().copied().enumerate().collect(),
-                    None => vec![(0, 1.0)],
-                };
                 let of = |member: Member| {
-                    self.each_depth(member, &slices, |stations, depths, displaced| {
-                        self.mass_of(member, worn_area(stations, depths) - displaced)
-                    })
+                    self.each_depth(
+                        member,
+                        &self.all_sections(member),
+                        |stations, depths, displaced| {
+                            self.mass_of(member, worn_area(stations, depths) - displaced)
+                        },
+                    )
                 };
                 Ok(match observation.member {
                     Subject::Pair => {
@@ -133,7 +139,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::ContactPressure => {
                 let arc = self.arc(pinion_for_pair, at);
                 let stations = self.stations(pinion_for_pair).to_vec();
-                let slices = self.slices_at(observation.face);
+                let slices = self.sections(pinion_for_pair, observation);
                 let (meshing, _) = self.meshing()?;
                 let of = |tangent: &MeshingTangent| {
                     let at = |&(i, weight): &(usize, f64)| {
@@ -147,7 +153,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
             Quantity::SpanLoss | Quantity::ChordalLoss => {
                 let felt = self.thickness(observation, pinion_for_pair);
-                let slices = self.slices_at(observation.face);
+                let slices = self.sections(pinion_for_pair, observation);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                         1e3 * felt.gain * interpolate(stations, depths, felt.arc)
@@ -209,8 +215,9 @@ impl<'r, 'f> Reading<'r, 'f> {
         let after = stations.partition_point(|s| *s < arc);
         let after = after.clamp(1, stations.len() - 1);
         let nearer = usize::from(stations[after] - arc < arc - stations[after - 1]);
-        let depth = 1e-3 * self.depth(member, radius, observation.face);
-        let pressure = self.pressure(member, radius, observation.face)?;
+        let sections = self.sections(member, observation);
+        let depth = 1e-3 * self.depth(member, radius, &sections);
+        let pressure = self.pressure(member, radius, &sections)?;
         let (meshing, forward) = self.meshing()?;
         let cycle = forward.cycle();
         let moment = &meshing.moments[side(member)][after - 1 + nearer];
@@ -260,6 +267,37 @@ impl<'r, 'f> Reading<'r, 'f> {
         }
     }
 
+    /// What an observation on `member` is read from: slices of the face, or passages of teeth that differ, with their weights.
+    ///
+    /// A whole number from 1 on in the column `tooth` names a tooth; another label says nothing. Rows without are those of the measured
+    /// tooth (number 1) where an effect lets teeth differ, else of the mean tooth.
+    fn sections(&self, member: Member, observation: &Observation) -> Vec<(usize, f64)> {
+        let Some(sequence) = self.forward.sequence() else {
+            return self.slices_at(observation.face);
+        };
+        let count = self.forward.cycle().pair.member(member).spec.teeth as usize;
+        let label = observation.tooth.as_deref();
+        let named = label.and_then(|label| label.trim().parse::<usize>().ok());
+        let tooth = named.filter(|n| (1..=count).contains(n)).map(|n| n - 1);
+        let acting = self.forward.acting();
+        let measured = acting.filter(|acting| acting.acts(Hook::ToothOffset));
+        match tooth.or(measured.map(|_| 0)) {
+            Some(tooth) => vec![(sequence.home(side(member), tooth), 1.0)],
+            None => self.all_sections(member),
+        }
+    }
+
+    /// All slices of the face, or the passages of all teeth of `member`, with their shares.
+    fn all_sections(&self, member: Member) -> Vec<(usize, f64)> {
+        let weights = match (self.forward.sequence(), self.forward.slices()) {
+            (Some(sequence), _) => sequence.weights(side(member)),
+            (None, Some(slices)) => &slices.weight,
+            (None, None) => &[1.0],
+        };
+        let all = weights.iter().copied().enumerate();
+        all.filter(|(_, weight)| *weight != 0.0).collect()
+    }
+
     fn stations(&self, member: Member) -> &[f64] {
         &self.forward.cycle().stations.arc[side(member)]
     }
@@ -274,15 +312,15 @@ impl<'r, 'f> Reading<'r, 'f> {
         )
     }
 
-    /// µm, at the place `face` across the face.
-    fn depth(&self, member: Member, radius: f64, face: Option<FacePlace>) -> f64 {
+    /// µm, the weighted sum of slices or passages.
+    fn depth(&self, member: Member, radius: f64, sections: &[(usize, f64)]) -> f64 {
         let arc = self.arc(member, radius);
         let at = |slice| {
             let depths = self.of_slice(&self.worn.u, slice, member);
             interpolate(self.stations(member), depths, arc)
         };
         let weighted = |&(slice, weight): &(usize, f64)| weight * at(slice);
-        1e3 * self.slices_at(face).iter().map(weighted).sum::<f64>()
+        1e3 * sections.iter().map(weighted).sum::<f64>()
     }
 
     /// mg of the whole member.
@@ -354,14 +392,14 @@ impl<'r, 'f> Reading<'r, 'f> {
         &mut self,
         member: Member,
         radius: f64,
-        face: Option<FacePlace>,
+        sections: &[(usize, f64)],
     ) -> Result<f64, ForwardError> {
-        let (arc, slices) = (self.arc(member, radius), self.slices_at(face));
+        let arc = self.arc(member, radius);
         let meshing = self.meshing()?.0;
         let at = |moments: &[Vec<Moment>; 2]| -> Vec<f64> {
             moments[side(member)].iter().map(|m| m.pressure).collect()
         };
-        let by_slice: Vec<(f64, Vec<f64>)> = (slices.iter())
+        let by_slice: Vec<(f64, Vec<f64>)> = (sections.iter())
             .map(|&(i, weight)| (weight, at(&meshing.by_slice[i])))
             .collect();
         let stations = self.stations(member);

@@ -9,7 +9,7 @@ impl Reading<'_, '_> {
     pub(super) fn thickness(&self, observation: &Observation, member: Member) -> ThicknessLoss {
         let arcs = self.stations(member);
         let mut depths = vec![0.0; arcs.len()];
-        for (slice, weight) in self.slices_at(observation.face) {
+        for (slice, weight) in self.sections(member, observation) {
             let own = self.of_slice(&self.worn.u, slice, member);
             (depths.iter_mut().zip(own)).for_each(|(sum, depth)| *sum += weight * depth);
         }
