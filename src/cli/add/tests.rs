@@ -33,7 +33,7 @@ fn args(home: &tempfile::TempDir, set: &[(&str, f64)]) -> AddArgs {
 #[test]
 fn the_fit_is_asked_for_what_is_free_and_its_values_are_written() {
     let home = home();
-    let outcome = add(&args(&home, &[("amplitude", 2.0)]), |drafts, data| {
+    let outcome = add(&args(&home, &[("amplitude", 2.0)]), |_, drafts, data| {
         let [draft] = drafts else {
             panic!("with a parameter set the form is: {drafts:?}")
         };
@@ -82,7 +82,7 @@ fn the_fit_is_asked_for_what_is_free_and_its_values_are_written() {
 fn without_measurements_there_is_nothing_to_fit() {
     let home = home();
     fs::remove_file(home.path().join("measurements.csv")).unwrap();
-    let error = add(&args(&home, &[]), |_, _| unreachable!()).unwrap_err();
+    let error = add(&args(&home, &[]), |_, _, _| unreachable!()).unwrap_err();
     assert_eq!(error.exit_code(), 2);
     assert!(!home.path().join("study+running_in.toml").exists());
 }
@@ -93,7 +93,7 @@ fn a_wear_coefficient_out_of_range_is_told_as_a_setting() {
     for value in [-1.0, 1.0, f64::NAN] {
         let error = add(
             &args(&home, &[("wear.coefficient", value)]),
-            |_, _| unreachable!(),
+            |_, _, _| unreachable!(),
         )
         .unwrap_err();
         assert_eq!(error.exit_code(), 2);
@@ -106,7 +106,7 @@ fn a_wear_coefficient_out_of_range_is_told_as_a_setting() {
 #[test]
 fn a_failed_fit_writes_nothing() {
     let home = home();
-    let failed = add(&args(&home, &[]), |_, _| {
+    let failed = add(&args(&home, &[]), |_, _, _| {
         Err(CliError::Unusable("the fit failed".to_owned()))
     });
     assert!(failed.is_err());
@@ -119,7 +119,7 @@ fn the_study_itself_is_never_overwritten() {
     let mut args = args(&home, &[("amplitude", 2.0), ("decay_cycles", 1e5)]);
     args.output = Some(home.path().join(".").join("study.toml"));
     args.force = true;
-    let error = add(&args, |_, _| unreachable!()).unwrap_err();
+    let error = add(&args, |_, _, _| unreachable!()).unwrap_err();
     assert_eq!(error.exit_code(), 2);
     assert!(error.to_string().contains("stays as it is"), "{error}");
     let study = fs::read_to_string(home.path().join("study.toml")).unwrap();
