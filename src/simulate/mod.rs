@@ -19,5 +19,4 @@ pub mod result;
 pub mod root_stress;
 pub mod run;
 pub mod touching_strip;
-mod turn;
 pub mod worn_away;

@@ -41,7 +41,6 @@ impl Study {
             centre_distance: self.gears.centre_distance,
             face_width: self.gears.face_width,
             face: self.face.clone(),
-            teeth: self.teeth.clone(),
         }
     }
 
@@ -99,10 +98,9 @@ impl Study {
         effect::is_stated(key, self.lubricant, self.thermal)
     }
 
-    /// Whether the study states every optional key that an effect needs with its values, and what it needs besides can be.
+    /// Whether the study states every optional key that an effect needs with its values.
     pub fn suits(&self, effect: &EffectSpec) -> bool {
-        let of_teeth = effect.acts_on_teeth();
-        effect.needs().iter().all(|key| self.states(key)) && !(of_teeth && self.face.slices > 1)
+        effect.needs().iter().all(|key| self.states(key))
     }
 
     /// The study's effects with their stated values under some conditions; `None` if it has none.

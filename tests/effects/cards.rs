@@ -7,9 +7,8 @@ use gearwear::effects::formula::{FUNCTIONS, Formula};
 use gearwear::effects::variables::{self, VARIABLES};
 use gearwear::effects::{
     CATALOGUE, Card, Combined, Effect, EffectError, Hook, Local, OperationChange, OperationState,
-    Prior, ProfileAt, Tooth, find,
+    Prior, ProfileAt, find,
 };
-use gearwear::gear::Member;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -231,14 +230,7 @@ fn bits(effect: &dyn Effect, at: &Local, on: &ProfileAt, of: &OperationState) ->
         effect.compliance(),
         effect.friction(at),
     ];
-    let teeth = (0..7).flat_map(|number| {
-        Member::BOTH.map(|member| Tooth {
-            member,
-            number,
-            of: 7,
-        })
-    });
-    values.extend(teeth.map(|tooth| effect.tooth_offset(tooth)));
+    values.extend((-3..=3).map(|tooth| effect.tooth_offset(tooth)));
     values.into_iter().map(f64::to_bits).collect()
 }
 
@@ -254,11 +246,7 @@ fn hook_value(
         Hook::AddedDepth => effect.added_depth(at),
         Hook::LoadFactor => effect.load_factor(at),
         Hook::Profile => effect.profile(on),
-        Hook::ToothOffset => effect.tooth_offset(Tooth {
-            member: Member::Pinion,
-            number: 0,
-            of: 27,
-        }),
+        Hook::ToothOffset => effect.tooth_offset(0),
         Hook::Operation => effect.operation(of).centre_distance,
         Hook::Compliance => effect.compliance(),
         Hook::Friction => effect.friction(at),
@@ -340,12 +328,7 @@ proptest! {
             }
             let taken: Vec<f64> = places.iter().map(|&place| values[place]).collect();
             let printed = match card.hook {
-                // no formula of a user's acts there: evaluated as one of the flank is
-                Hook::ToothOffset | Hook::Compliance => {
-                    let names: Vec<&str> = places.iter().map(|&at| card.params[at].name).collect();
-                    let of_flank = Formula::new(Hook::Profile, card.expression(), &names).unwrap();
-                    hook_value(of_flank.build(&taken).as_ref(), Hook::Profile, &at, &on, &of)
-                }
+                Hook::ToothOffset | Hook::Compliance => taken[0],
                 hook => hook_value(formula.build(&taken).as_ref(), hook, &at, &on, &of),
             };
             let coded = hook_value((card.build)(&values).as_ref(), card.hook, &at, &on, &of);

@@ -161,8 +161,6 @@ fn state(cycles: f64) -> State {
         gear,
         cycle,
         slices: Vec::new(),
-        teeth: Vec::new(),
-        turn: Vec::new(),
     }
 }
 

@@ -6,7 +6,6 @@ use std::sync::Mutex;
 
 use gearwear::contact::cycle::Cycle;
 use gearwear::contact::model::{ContactError, ContactModel, PositionContact};
-use gearwear::contact::slices::Flanks;
 use gearwear::contact::tangent::LinearContact;
 use gearwear::simulate::forward::Forward;
 use gearwear::simulate::history::{Balancing, WearLaw, wear_until};
@@ -249,13 +248,13 @@ impl ContactModel for Doctored<'_> {
         self.model.cycle()
     }
 
-    fn solve_flanks(
+    fn solve(
         &self,
         q: usize,
-        flanks: &Flanks<'_>,
+        depth: [&[f64]; 2],
         start: &[usize],
     ) -> Result<PositionContact, ContactError> {
-        let mut contact = self.model.solve_flanks(q, flanks, start)?;
+        let mut contact = self.model.solve(q, depth, start)?;
         let mut calls = self.calls.lock().unwrap();
         *calls += 1;
         (self.fault)(*calls, &mut contact)?;
@@ -274,9 +273,9 @@ impl ContactModel for Doctored<'_> {
         &'m self,
         q: usize,
         contact: &PositionContact,
-        flanks: &Flanks<'_>,
+        depth: [&[f64]; 2],
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
-        self.model.linearised(q, contact, flanks)
+        self.model.linearised(q, contact, depth)
     }
 }
 

@@ -24,7 +24,6 @@ mod profile_form;
 mod profile_slope;
 mod radial_misalignment;
 mod roughness_polish;
-mod run_out;
 mod running_in;
 mod severe_transition;
 mod shaft_deflection;
@@ -68,5 +67,4 @@ pub static CATALOGUE: &[&Card] = &[
     &profile_slope::CARD,
     &profile_form::CARD,
     &pitch_error::CARD,
-    &run_out::CARD,
 ];

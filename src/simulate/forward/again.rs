@@ -38,7 +38,6 @@ impl<'a> Forward<'a> {
             altered: None,
             slices: None,
             ties: None,
-            sequence: None,
         };
         out.alter()?;
         Ok(out)
@@ -117,7 +116,6 @@ impl<'a> Forward<'a> {
             altered: None,
             slices: None,
             ties: None,
-            sequence: None,
         };
         out.alter()?;
         Ok(out)

@@ -8,7 +8,6 @@ use crate::analytic::hertz_line;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
-use crate::contact::slices::Flanks;
 use crate::contact::tangent::{Given, LinearContact};
 use crate::simulate::history::line_load;
 
@@ -84,10 +83,10 @@ impl ContactModel for Prescribed<'_> {
         self.cycle
     }
 
-    fn solve_flanks(
+    fn solve(
         &self,
         q: usize,
-        _: &Flanks<'_>,
+        _: [&[f64]; 2],
         _: &[usize],
     ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
@@ -137,7 +136,7 @@ impl ContactModel for Prescribed<'_> {
         &'m self,
         _: usize,
         contact: &PositionContact,
-        _: &Flanks<'_>,
+        _: [&[f64]; 2],
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
         Ok(Box::new(Given(contact.pressure.len())))
     }
