@@ -218,7 +218,7 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         (
             "radius;100000\n26.500;1.234\n27.000;2.512\n",
             table,
-            "A2: is `26.500` 26.500 or 26500? No number of the table tells: say --decimal point or --decimal comma",
+            "A2: is `26.500` 26.500 or 26500? No number of the table shows which: say --decimal point or --decimal comma",
         ),
         (
             "radius;100000 [um];200000 [mm]\n26,5;1;2\n",
