@@ -128,6 +128,14 @@ fn add(
     } else {
         // read where the user's own study names it: what is wrong there has a place that exists
         let data = study.dataset_to_fit()?;
+        let own =
+            |draft: &Draft| study.check_places_across_the_face(&data, draft.study.effect_model());
+        // forms that the new study's own measurements would be refused with are none
+        let first = own(&drafts[0]);
+        drafts.retain(|draft| own(draft).is_ok());
+        if drafts.is_empty() {
+            first?;
+        }
         let fitted = fit(&study, &drafts, &data)?;
         let mut edit = drafts[fitted.draft].study.edit();
         for (name, value) in fitted.values {

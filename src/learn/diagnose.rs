@@ -134,7 +134,8 @@ fn search(
     watch: Watch<'_>,
 ) -> Diagnosis {
     let likelihood = &context.likelihood;
-    let (singles, not_judged) = Candidate::singles(likelihood.measured.study());
+    let measured = likelihood.measured;
+    let (singles, not_judged) = Candidate::singles_for(measured.study(), &measured.data);
     watch(0.2, format!("screening {} effects", singles.len()));
     let mut fitted = context.screen(base, &singles);
     let unknown = gaussian_process::log_evidence(

@@ -39,12 +39,16 @@ impl Study {
         rows.find(|row| !self.is_there(row, usual))
     }
 
-    /// Refuses rows at places across the face that the study's one section, with its effects across the face, is not at.
+    /// Refuses rows at places across the face that the study's one section, with `effects` across the face, is not at.
     ///
     /// # Errors
     /// A [`StudyError`] at the key that makes the model one section.
-    pub(super) fn check_places_across_the_face(&self, data: &Dataset) -> Result<(), StudyError> {
-        let Some(row) = self.elsewhere(data, self.effect_model()) else {
+    pub fn check_places_across_the_face(
+        &self,
+        data: &Dataset,
+        effects: &EffectModel,
+    ) -> Result<(), StudyError> {
+        let Some(row) = self.elsewhere(data, effects) else {
             return Ok(());
         };
         let (key, allowed) = if self.contact == ContactKind::Fem {
@@ -92,21 +96,16 @@ impl Study {
         warnings
     }
 
-    /// What keeps a diagnosis from judging effects across the face by rows at several places, if anything does.
-    pub fn one_section_hides_places(&self, data: &Dataset) -> Option<String> {
+    /// What a diagnosis needs for effects across the face where rows state several places and one section stands for all of them; None where nothing
+    /// keeps it from judging such effects.
+    pub fn needed_across_the_face(&self, data: &Dataset) -> Option<&'static str> {
         let places: BTreeSet<u64> = placed(data)
             .filter_map(|row| row.face)
             .map(FacePlace::key)
             .collect();
-        (self.is_of_one_section() && places.len() > 1).then(|| {
-            let key = match self.contact {
-                ContactKind::Fem => "slices = 1",
-                _ => "the analytic model",
-            };
-            format!(
-                "rows state {} places across the face, and by {key} all are at one: effects across the face (lead_misalignment, lead_crowning, shaft_deflection) cannot be judged by them; contact = \"fem\" without slices = 1 can",
-                places.len()
-            )
+        (self.is_of_one_section() && places.len() > 1).then_some(match self.contact {
+            ContactKind::Fem => "face.slices of 2 or more, or unstated",
+            _ => "model.contact = \"fem\"",
         })
     }
 }

@@ -124,6 +124,16 @@ impl Fitter<'_> {
         let all = forms(card, None, false, &study)?;
         let drafts = all.iter().map(|form| with_form(&study, card, *form, &name));
         let drafts: Vec<Study> = drafts.collect::<Result<_, _>>()?;
+        // forms that the climbed study's own measurements would be refused with are none
+        let own =
+            |draft: &Study| study.check_places_across_the_face(self.data, draft.effect_model());
+        let first = own(&drafts[0]);
+        let (drafts, all): (Vec<Study>, Vec<_>) = (drafts.into_iter().zip(all))
+            .filter(|(draft, _)| own(draft).is_ok())
+            .unzip();
+        if drafts.is_empty() {
+            first?;
+        }
         let added: Vec<AddedForm> = (drafts.iter().zip(&all))
             .map(|(draft, form)| {
                 let found = diagnosis.values_of(effect, form.map_or("", |form| form.name));

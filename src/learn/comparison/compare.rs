@@ -185,7 +185,7 @@ impl Measured<'_> {
                     match hopeless(&first) {
                         Some(share) => {
                             let first = problem.judged(first, &effort)?;
-                            return Ok(self.said(bench, version, first, Some(share)));
+                            return Ok(self.compared(bench, version, first, Some(share)));
                         }
                         None if first.converged => first,
                         None => problem.go_on(&first, &effort)?,
@@ -202,12 +202,12 @@ impl Measured<'_> {
                     .unwrap_or(first)
             };
             let fit = self.refined(bench, version, problem, fit, &effort, &told)?;
-            Ok(self.said(bench, version, fit, None))
+            Ok(self.compared(bench, version, fit, None))
         })
     }
 
     /// A fit with what it says of the model.
-    fn said(
+    fn compared(
         &self,
         bench: &Bench<'_>,
         version: &ModelVersion,

@@ -39,7 +39,6 @@ pub(in crate::learn) fn warnings(
     }
     let data = &likelihood.measured.data;
     warnings.extend(data.outliers_in_words());
-    warnings.extend(likelihood.measured.study().one_section_hides_places(data));
     warnings.extend(data.places_not_used());
     let alone = measured_once(likelihood);
     if alone.len() == likelihood.tests.len() {

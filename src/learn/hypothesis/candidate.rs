@@ -6,6 +6,7 @@ use super::version::{ModelVersion, parameter};
 use super::{EffectSet, Hypothesis};
 use crate::effects::{CATALOGUE, Card, Form, Hook, ParamRole, Prior};
 use crate::learn::parameters::Parameter;
+use crate::measure::Dataset;
 use crate::numeric::halton::halton;
 use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
 
@@ -37,7 +38,7 @@ pub(in crate::learn) struct Candidate {
 pub struct NotJudged {
     /// Its name.
     pub effect: String,
-    /// Keys of the study that it needs.
+    /// What the study would have to state: keys, or a key with its value.
     pub needs: Vec<String>,
 }
 
@@ -69,7 +70,28 @@ impl Candidate {
         }
     }
 
-    /// All single effects that the study does not hold yet and can context, and those that it cannot.
+    /// The same for what `data` is measured: where rows state several places across the face and the model is at one of them, effects across the
+    /// face are not judged.
+    pub(in crate::learn) fn singles_for(
+        study: &Study,
+        data: &Dataset,
+    ) -> (Vec<Self>, Vec<NotJudged>) {
+        let (judged, mut not_judged) = Self::singles(study);
+        let Some(needed) = study.needed_across_the_face(data) else {
+            return (judged, not_judged);
+        };
+        let (across, judged): (Vec<Self>, Vec<Self>) =
+            judged.into_iter().partition(Self::acts_across_the_face);
+        let mut names: Vec<String> = across.iter().map(|c| c.effects.to_string()).collect();
+        names.dedup();
+        not_judged.extend(names.into_iter().map(|effect| NotJudged {
+            effect,
+            needs: vec![needed.to_owned()],
+        }));
+        (judged, not_judged)
+    }
+
+    /// All single effects that the study does not hold yet and states what they need, and those that lack something.
     pub(in crate::learn) fn singles(study: &Study) -> (Vec<Self>, Vec<NotJudged>) {
         let base = Self::base(study);
         let mut judged = Vec::new();
