@@ -28,11 +28,14 @@ HERE = Path(__file__).resolve().parent
 GUIDE = (HERE.parents[1] / "guide/cluster.md").read_text()
 SWEEP = ["gearwear", "sweep", "study.toml", "--points", "points.csv"]
 FILES = ["sweep.csv", "sweep.json", "sweep.svg"]
-# what stands for the program on the path: it notes the processor time of each call
+# what stands for the program on the path: it notes the processor time of each call, in a process of its own, since a shell that becomes its last command
+# hands on the time of its other children
 NOTING = """#!/bin/bash
+(
 "{program}" "$@"; code=$?
-times > "{folder}/$$.$RANDOM"
+times > "{folder}/$BASHPID.$RANDOM"
 exit $code
+)
 """
 
 
@@ -67,6 +70,7 @@ def slurm(jobs=2):
     # the guide's last line hands the merge to Slurm and is done; it is waited for as a user would, by looking (`sbatch --wait` looks after 2, 4, 8 ... s only)
     while subprocess.run(["squeue", "--noheader"], capture_output=True, text=True, check=True).stdout.strip():
         time.sleep(0.2)
+    shutil.rmtree("by-slurm", ignore_errors=True)
     Path("whole").rename("by-slurm")
     shutil.rmtree("parts")
 
