@@ -58,6 +58,7 @@ static SET: LazyLock<GearSet> = LazyLock::new(|| {
         centre_distance: 80.0,
         face_width: 33.0,
         face: gearwear::gear::Face::default(),
+        teeth: gearwear::gear::Teeth::default(),
     }
 });
 

@@ -49,6 +49,7 @@ fn gears(relief: f64) -> Result<GearSet, Box<dyn Error>> {
         centre_distance: 80.0,
         face_width: 33.0,
         face: gearwear::gear::Face::default(),
+        teeth: gearwear::gear::Teeth::default(),
     })
 }
 

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use gearwear::report::guide;
-use gearwear::study::Study;
+use gearwear::study::{KEY_DOCS, Study};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -30,6 +30,19 @@ fn pages() -> Vec<(PathBuf, String)> {
             (path, text)
         })
         .collect()
+}
+
+#[test]
+fn every_documented_table_has_its_place_in_the_page_of_keys() {
+    let page = guide::study_file();
+    for doc in KEY_DOCS.iter().filter(|doc| !doc.table.is_empty()) {
+        // a table of members or a list stands under its own name too
+        let title = |line: &str| {
+            let name = format!("[{}]", doc.table);
+            line.starts_with("## ") && line.contains(&name)
+        };
+        assert!(page.lines().any(title), "[{}]", doc.table);
+    }
 }
 
 #[test]

@@ -46,6 +46,7 @@ fn gears(teeth: [u32; 2], rack: BasicRack, bore: [f64; 2], centre_distance: f64)
         centre_distance,
         face_width: 33.0,
         face: gearwear::gear::Face::default(),
+        teeth: gearwear::gear::Teeth::default(),
     }
 }
 

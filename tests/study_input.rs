@@ -97,6 +97,28 @@ refusals! {
         => UnknownKey "gears.helix_angle" at 3:1, "helix_angle", "module", "only [face] may state it, as 0";
     a_gear_beyond_its_bearing: format!("{SHORT}[[effect]]\nkind = \"shaft_deflection\"\noffset = 60.0\n")
         => Inconsistent "effect.offset" at 23:10, "60.0", "-50 to 50 mm", "overhung = 1";
+    a_pitch_chart_with_a_wrong_count: format!("{SHORT}[teeth.pinion]\npitch_deviations = [1.0, 2.0]\n")
+        => Inconsistent "teeth.pinion.pitch_deviations" at 22:20, "[1.0, 2.0]", "27 numbers", "2 deviations for 27 teeth";
+    a_pitch_chart_of_words: format!("{SHORT}[teeth.pinion]\npitch_deviations = [\"a\", \"b\"]\n")
+        => WrongType "teeth.pinion.pitch_deviations" at 22:21, "\"a\"", "list of numbers", "not a list";
+    a_pitch_chart_in_mm: format!("{SHORT}[teeth.pinion]\npitch_pattern = [0.0, 2000.0]\n")
+        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 um", "out of range";
+    a_pattern_longer_than_the_teeth: format!("{SHORT}[teeth.pinion]\npitch_pattern = [1.0]\n")
+        => Inconsistent "teeth.pinion.pitch_pattern" at 22:17, "[1.0]", "2 to 27 numbers", "1 deviations";
+    two_pitch_charts: format!("{SHORT}[teeth.gear]\npitch_pattern = [1.0, 0.0]\npitch_file = \"p.csv\"\n")
+        => Inconsistent "teeth.gear.pitch_file" at 23:14, "\"p.csv\"", "one of them", "pitch_pattern says";
+    a_negative_eccentricity: format!("{SHORT}[teeth.gear]\neccentricity = -3.0\n")
+        => BadValue "teeth.gear.eccentricity" at 22:16, "-3.0", "0 to 1000 um", "out of range";
+    a_phase_without_eccentricity: format!("{SHORT}[teeth.gear]\neccentricity_phase = 30.0\n")
+        => MissingKey "teeth.gear.eccentricity" at 21:1, "no key", "0 to 1000 um", "state both or none";
+    no_class_of_teeth: format!("{SHORT}[teeth.gear]\nclasses = 0\n")
+        => BadValue "teeth.gear.classes" at 22:11, "0", "1 to 64", "out of range";
+    unknown_hunting: format!("{SHORT}[teeth]\nhunting = \"all\"\n")
+        => BadValue "teeth.hunting" at 22:11, "\"all\"", "\"average\" or \"full\"", "not known";
+    a_hunting_sequence_too_long: format!("{SHORT}[teeth]\nhunting = \"full\"\n")
+        => Inconsistent "teeth.hunting" at 22:11, "\"full\"", "256", "1431 different meetings";
+    slices_with_teeth: format!("{SHORT}[face]\nslices = 5\n[teeth.gear]\npitch_pattern = [5.0, 0.0]\n")
+        => Inconsistent "face.slices" at 22:10, "5", "1", "one section";
     negative_module: with("module = 2.0", "module = -2.0")
         => BadValue "gears.module" at 2:10, "-2.0", "0.05 to 100 mm", "out of range";
     nan: with("module = 2.0", "module = nan")
@@ -749,4 +771,57 @@ fn faults_in_a_lead_file_name_its_line_and_column() {
     }
     let (_, message) = refusal("face,deviation\n-20,1\n12,2\n");
     assert!(!message.contains("micrometres"), "{message}");
+}
+
+/// A pitch file is refused at its row where a tooth is left out, is one too many or has no number, and at its end where teeth are missing.
+#[test]
+fn faults_in_a_pitch_file_name_its_line_and_column() {
+    let study = format!("{SHORT}[teeth.pinion]\npitch_file = \"pitch.csv\"\n");
+    let read = |table: &str| {
+        let home = tempfile::tempdir().unwrap();
+        std::fs::write(home.path().join("pitch.csv"), table).unwrap();
+        let path = home.path().join("study.toml");
+        std::fs::write(&path, &study).unwrap();
+        Study::load(&path)
+    };
+    let rows = |teeth: std::ops::RangeInclusive<usize>| -> String {
+        teeth.map(|i| format!("{i},{}\n", i % 3)).collect()
+    };
+    let whole = rows(1..=27);
+    for (rows, position, says) in [
+        (rows(1..=26), None, "27 rows"),
+        (rows(1..=28), Some((29, 1)), "27 rows"),
+        (rows(2..=27), Some((2, 1)), "1: teeth ascend"),
+        (
+            whole.replace("\n5,2\n", "\n5,proud\n"),
+            Some((6, 3)),
+            "not a finite number",
+        ),
+        (
+            whole.replace("\n5,2\n", "\n5,2000\n"),
+            Some((6, 3)),
+            "200 um",
+        ),
+    ] {
+        let error = read(&format!("tooth,deviation\n{rows}")).expect_err(&rows);
+        let message = error.to_string();
+        if position.is_some() {
+            assert_eq!(error.position(), position, "{message}");
+        }
+        assert!(
+            message.contains(says) && message.contains("pitch.csv"),
+            "{message}"
+        );
+    }
+    let study = read(&format!("tooth,deviation\n{whole}")).unwrap();
+    let expected: Vec<f64> = (1..=27).map(|i| 1e-3 * f64::from(i % 3)).collect();
+    assert_eq!(study.teeth.back, [expected, Vec::new()]);
+    let missing = format!("{SHORT}[teeth.pinion]\npitch_file = \"nowhere.csv\"\n");
+    let error = Study::parse(&missing, "study.toml")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("teeth.pinion.pitch_file") && error.contains("nowhere.csv"),
+        "{error}"
+    );
 }

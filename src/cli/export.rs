@@ -41,6 +41,7 @@ fn position(text: &str) -> Result<f64, String> {
 pub(super) fn execute(args: &ExportArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
     study.one_section("export")?;
+    study.teeth_alike("export")?;
     let operation = study.conditions(args.test.as_deref())?;
     check(&study, operation)?;
     let target = args

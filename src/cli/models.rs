@@ -27,6 +27,7 @@ pub struct ModelsArgs {
 pub(super) fn execute(args: &ModelsArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
     study.one_section("models")?;
+    study.teeth_alike("models")?;
     let target = args
         .paths
         .output

@@ -15,8 +15,8 @@ pub struct Alteration {
     pub friction: Option<Vec<Vec<f64>>>,
     /// Deflection added to each tooth pair per line load, mm per N/mm.
     pub flexibility: f64,
-    /// How far pinion teeth −2 to 2 stand back along the path of contact, mm; tooth 0 is the measured one.
-    pub tooth_offset: Option<[f64; 5]>,
+    /// How far the teeth of pinion and gear stand back along the path of contact, mm by tooth in the order in which they come into mesh.
+    pub tooth_back: Option<[Vec<f64>; 2]>,
     /// Material missing in each slice of the face, mm along the path of contact.
     pub lead: Option<Vec<f64>>,
 }
@@ -65,15 +65,6 @@ impl Alteration {
         });
         self.load_factor = Some(factors.collect());
         self
-    }
-
-    /// How far tooth pair `index` stands back where pair `measured` of the same position is that of the measured tooth, mm.
-    ///
-    /// Pairs stand by ascending path, and the tooth that comes next into mesh (number 1) is at the smaller path.
-    pub fn offset(&self, measured: usize, index: usize) -> f64 {
-        let tooth = measured as i64 - index as i64;
-        let at = |offsets: &[f64; 5]| offsets.get((tooth + 2) as usize).copied().unwrap_or(0.0);
-        self.tooth_offset.as_ref().map_or(0.0, at)
     }
 
     /// Weighted gaps that the profile opens, position by position.

@@ -6,14 +6,13 @@ mod flanks;
 mod tangent;
 mod ties;
 
-use std::ops::Range;
-
 use nalgebra::DMatrix;
 
 use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::cycle::{Cycle, Position};
 use crate::contact::model::{ContactError, ContactModel, PositionContact, SlicedContact};
-use crate::contact::slices::Slices;
+use crate::contact::sequence::Sequence;
+use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
 pub use compliance::{CycleCompliance, FlankCoupling, member_tooth, member_turns};
@@ -42,6 +41,8 @@ pub struct FemContact<'a> {
     slices: Option<&'a Slices>,
     /// What ties the slices, by position.
     ties: Option<&'a [DMatrix<f64>]>,
+    /// Teeth that differ.
+    sequence: Option<&'a Sequence>,
 }
 
 impl<'a> FemContact<'a> {
@@ -55,6 +56,7 @@ impl<'a> FemContact<'a> {
             alteration: None,
             slices: None,
             ties: None,
+            sequence: None,
         }
     }
 
@@ -67,6 +69,12 @@ impl<'a> FemContact<'a> {
     /// The same with the slices tied ([`ToothWaves::ties`]).
     pub fn tied(mut self, ties: Option<&'a [DMatrix<f64>]>) -> Self {
         self.ties = ties;
+        self
+    }
+
+    /// The same with teeth that differ; none: all are alike.
+    pub fn in_turn(mut self, sequence: Option<&'a Sequence>) -> Self {
+        self.sequence = sequence;
         self
     }
 
@@ -184,69 +192,38 @@ impl<'a> FemContact<'a> {
         Ok(())
     }
 
-    /// Teeth differ: each tooth pair in turn is that of the measured tooth, and its pressures are taken from that solution.
-    /// The pressures of one position then belong to different moments and need not balance the torque together; the
-    /// approach is their mean.
-    fn each_tooth_measured(
-        &self,
-        q: usize,
-        gap: &[f64],
-        start: &[usize],
-        corners: [f64; 2],
-        alteration: &Alteration,
-    ) -> Result<PositionContact, ContactError> {
-        let pairs = &self.cycle.positions[q].pairs;
-        let mut joint = PositionContact {
-            pressure: vec![0.0; gap.len()],
-            approach: 0.0,
-            active: Vec::new(),
-            iterations: 0,
-            penetration: 0.0,
-            torque_error: 0.0,
-        };
-        for measured in 0..pairs.len() {
-            let (unknowns, solved) =
-                self.one_tooth_measured(q, gap, start, corners, alteration, measured)?;
-            joint.pressure[unknowns.clone()].copy_from_slice(&solved.pressure[unknowns.clone()]);
-            let active = solved.active.iter().copied();
-            joint.active.extend(active.filter(|k| unknowns.contains(k)));
-            joint.approach += solved.approach / pairs.len() as f64;
-            joint.iterations = joint.iterations.max(solved.iterations);
-            joint.penetration = joint.penetration.max(solved.penetration);
-            joint.torque_error = joint.torque_error.max(solved.torque_error);
-        }
-        Ok(joint)
-    }
-
-    /// The contact with pair number `measured` that of the measured tooth, and that pair's unknowns.
-    fn one_tooth_measured(
-        &self,
-        q: usize,
-        gap: &[f64],
-        start: &[usize],
-        corners: [f64; 2],
-        alteration: &Alteration,
-        measured: usize,
-    ) -> Result<(Range<usize>, PositionContact), ContactError> {
-        let pairs = &self.cycle.positions[q].pairs;
-        let mut gap = gap.to_vec();
-        for (index, pair) in pairs.iter().enumerate() {
-            set_back(&mut gap, pair, alteration.offset(measured, index));
-        }
-        let own = &pairs[measured];
-        let unknowns = own.offset..own.offset + own.xi.len();
-        Ok((unknowns, self.solve_gap(q, &gap, start, corners)?))
-    }
-
-    /// Weighted gaps of the flanks as effects make them and as worn (depths in mm).
-    fn gap(&self, q: usize, depth: [&[f64]; 2]) -> Vec<f64> {
-        let mut gap = self.cycle.positions[q].worn_gap(depth);
+    /// Weighted gaps of the flanks as effects make them, as worn and as their teeth stand.
+    fn gap(&self, q: usize, flanks: &Flanks<'_>) -> Vec<f64> {
+        let position = &self.cycle.positions[q];
+        let mut gap = position.gap.clone();
+        position.open_each(flanks.of(0), &mut gap);
         if let Some(opened) = self.opened {
             for (gap, opened) in gap.iter_mut().zip(&opened[q]) {
                 *gap += opened;
             }
         }
+        for (pair, back) in position.pairs.iter().zip(&flanks.back) {
+            if *back != 0.0 {
+                set_back(&mut gap, pair, *back);
+            }
+        }
         gap
+    }
+
+    /// Least depth that the whole tip corners of pinion and gear have lost, mm, with how far their teeth stand back.
+    fn lost(&self, flanks: &Flanks<'_>) -> [f64; 2] {
+        let mut least = [f64::INFINITY; 2];
+        let mut before: Option<([&[f64]; 2], [f64; 2])> = None;
+        for (depth, back) in flanks.of(0).iter().zip(&flanks.back) {
+            let same = |known: &[&[f64]; 2]| (0..2).all(|i| std::ptr::eq(known[i], depth[i]));
+            let lost = match before {
+                Some((known, lost)) if same(&known) => lost,
+                _ => self.lost_corners(*depth),
+            };
+            before = Some((*depth, lost));
+            least = [0, 1].map(|side| least[side].min(lost[side] + back));
+        }
+        least
     }
 }
 
@@ -268,20 +245,13 @@ impl ContactModel for FemContact<'_> {
         self.cycle
     }
 
-    fn solve(
+    fn solve_flanks(
         &self,
         q: usize,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
         start: &[usize],
     ) -> Result<PositionContact, ContactError> {
-        let gap = self.gap(q, depth);
-        let corners = self.lost_corners(depth);
-        match self.alteration {
-            Some(alteration) if alteration.tooth_offset.is_some() => {
-                self.each_tooth_measured(q, &gap, start, corners, alteration)
-            }
-            _ => self.solve_gap(q, &gap, start, corners),
-        }
+        self.solve_gap(q, &self.gap(q, flanks), start, self.lost(flanks))
     }
 
     fn sensitivity(
@@ -301,9 +271,13 @@ impl ContactModel for FemContact<'_> {
         &'m self,
         q: usize,
         contact: &PositionContact,
-        depth: [&[f64]; 2],
+        _: &Flanks<'_>,
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
-        Ok(Box::new(tangent::FemLinear::new(self, q, contact, depth)?))
+        Ok(Box::new(tangent::FemLinear::new(self, q, contact)?))
+    }
+
+    fn sequence(&self) -> Option<&Sequence> {
+        self.sequence
     }
 
     fn sliced(&self) -> Option<&dyn SlicedContact> {

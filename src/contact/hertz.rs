@@ -17,6 +17,8 @@ use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::sequence::Sequence;
+use crate::contact::slices::Flanks;
 use crate::contact::tangent::LinearContact;
 use crate::numeric::interpolate;
 
@@ -35,6 +37,8 @@ pub struct HertzContact<'a> {
     alteration: Option<&'a Alteration>,
     /// Where pairs touch, by position and pair.
     points: &'a [Vec<ContactPoint>],
+    /// Teeth that differ.
+    sequence: Option<&'a Sequence>,
 }
 
 impl<'a> HertzContact<'a> {
@@ -55,7 +59,14 @@ impl<'a> HertzContact<'a> {
             fall: (0.5 * (1.11 + 0.5 * cycle.pair.contact_ratio).powi(2) - 1.17).powf(-0.5),
             alteration: None,
             points,
+            sequence: None,
         }
+    }
+
+    /// The same with teeth that differ; none: all are alike.
+    pub fn in_turn(mut self, sequence: Option<&'a Sequence>) -> Self {
+        self.sequence = sequence;
+        self
     }
 
     /// The same with what effects change besides the contact points.
@@ -71,12 +82,14 @@ impl<'a> HertzContact<'a> {
     }
 
     /// The tooth pairs that meet on the line of action while the mesh passes position `q`.
-    fn springs(&self, q: usize, depth: [&[f64]; 2]) -> Vec<Spring> {
+    fn springs(&self, q: usize, flanks: &Flanks<'_>) -> Vec<Spring> {
         let position = &self.cycle.positions[q];
         let spring = |(index, pair): (usize, &PairContact)| {
             let present = self.present(pair)?;
             let mut stiffness = self.stiffness_at(pair);
-            let gap = self.points[q][index].gap + self.worn(pair, depth);
+            let gap = self.points[q][index].gap
+                + self.worn(pair, flanks.of(0)[index])
+                + flanks.back[index];
             let mut factor = 1.0;
             if let Some(alteration) = self.alteration {
                 if alteration.flexibility != 0.0 {
@@ -134,39 +147,18 @@ impl<'a> HertzContact<'a> {
         mean
     }
 
-    /// Line loads of `springs` (N/mm) and the approach (mm); where teeth differ, each pair's with its own tooth measured,
-    /// and the mean approach.
+    /// Line loads of `springs` (N/mm) and the approach (mm).
     fn loads_of(&self, springs: &[Spring]) -> Carried {
-        let carried = |springs: &[Spring]| {
-            let approach = share(springs, self.load);
-            let loads: Vec<f64> = (springs.iter())
-                .map(|s| s.stiffness * (approach - s.gap).max(0.0))
-                .collect();
-            let counted = springs.iter().zip(&loads).map(|(s, load)| load / s.factor);
-            Carried {
-                torque_error: (counted.sum::<f64>() / self.load - 1.0).abs(),
-                loads,
-                approach,
-            }
-        };
-        let Some(alteration) = self.alteration.filter(|a| a.tooth_offset.is_some()) else {
-            return carried(springs);
-        };
-        let mut joint = Carried::none(springs.len());
-        for (own, measured) in joint.loads.iter_mut().zip(springs) {
-            let set_back: Vec<Spring> = (springs.iter())
-                .map(|s| Spring {
-                    gap: s.gap + alteration.offset(measured.index, s.index),
-                    ..*s
-                })
-                .collect();
-            let carried = carried(&set_back);
-            let at = springs.iter().position(|s| s.index == measured.index);
-            *own = at.map_or(0.0, |at| carried.loads[at]);
-            joint.approach += carried.approach / springs.len() as f64;
-            joint.torque_error = joint.torque_error.max(carried.torque_error);
+        let approach = share(springs, self.load);
+        let loads: Vec<f64> = (springs.iter())
+            .map(|s| s.stiffness * (approach - s.gap).max(0.0))
+            .collect();
+        let counted = springs.iter().zip(&loads).map(|(s, load)| load / s.factor);
+        Carried {
+            torque_error: (counted.sum::<f64>() / self.load - 1.0).abs(),
+            loads,
+            approach,
         }
-        joint
     }
 
     /// Missing material (mm at the stations of both flanks) where the flanks of a pair should touch, mm.
@@ -188,14 +180,14 @@ impl ContactModel for HertzContact<'_> {
         self.cycle
     }
 
-    fn solve(
+    fn solve_flanks(
         &self,
         q: usize,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
         _: &[usize],
     ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
-        let springs = self.springs(q, depth);
+        let springs = self.springs(q, flanks);
         let mut pressure = vec![0.0; position.gap.len()];
         let mut active = Vec::new();
         let Carried {
@@ -245,9 +237,15 @@ impl ContactModel for HertzContact<'_> {
         &'m self,
         q: usize,
         contact: &PositionContact,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
-        Ok(Box::new(tangent::HertzLinear::new(self, q, contact, depth)))
+        Ok(Box::new(tangent::HertzLinear::new(
+            self, q, contact, flanks,
+        )))
+    }
+
+    fn sequence(&self) -> Option<&Sequence> {
+        self.sequence
     }
 }
 
@@ -336,7 +334,8 @@ mod tests {
             let depth = [fresh[0].as_slice(), fresh[1].as_slice()];
             let mut there = 0.0;
             for q in 0..spec.positions {
-                let springs = hertz.springs(q, depth);
+                let pairs = cycle.positions[q].pairs.len();
+                let springs = hertz.springs(q, &Flanks::alike(pairs, depth));
                 there += springs
                     .iter()
                     .map(|s| s.present.1 - s.present.0)

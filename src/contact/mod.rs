@@ -9,6 +9,7 @@ pub mod frame;
 pub mod hertz;
 pub mod model;
 pub mod mortar;
+pub mod sequence;
 pub mod slices;
 pub mod strips;
 pub mod tangent;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::contact::cycle::Cycle;
+use crate::contact::sequence::Sequence;
 use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::{LinearContact, LinearSlices};
 use crate::contact::unilateral::{SliceSensitivity, UnilateralError};
@@ -22,8 +23,8 @@ pub struct PositionContact {
     pub iterations: usize,
     /// Largest penetration relative to the approach.
     pub penetration: f64,
-    /// Largest relative difference between the torque that the pressures carry and the load; where teeth differ, of the solution
-    /// that each pair's pressures are taken from.
+    /// Largest relative difference between the torque that the pressures carry and the load; of a passage of a tooth that differs, of the
+    /// solutions that its own pair's pressures are taken from.
     pub torque_error: f64,
 }
 
@@ -32,16 +33,30 @@ pub trait ContactModel: Sync {
     /// The mesh cycle it works on.
     fn cycle(&self) -> &Cycle;
 
-    /// Contact at position `q` for the worn depths (mm) at the stations of pinion and gear, started from the set `start`.
+    /// Contact at position `q` of the flanks of one section, started from the set `start`.
     ///
     /// # Errors
     /// [`ContactError`]; an iterate that did not converge is never returned.
+    fn solve_flanks(
+        &self,
+        q: usize,
+        flanks: &Flanks<'_>,
+        start: &[usize],
+    ) -> Result<PositionContact, ContactError>;
+
+    /// The same where all teeth are alike, with the worn depths (mm) at the stations of pinion and gear.
+    ///
+    /// # Errors
+    /// As [`ContactModel::solve_flanks`].
     fn solve(
         &self,
         q: usize,
         depth: [&[f64]; 2],
         start: &[usize],
-    ) -> Result<PositionContact, ContactError>;
+    ) -> Result<PositionContact, ContactError> {
+        let pairs = self.cycle().positions[q].pairs.len();
+        self.solve_flanks(q, &Flanks::alike(pairs, depth), start)
+    }
 
     /// S with dp = −S dg on the active set (MPa per mm²), or `None` if pressures follow the local shape so weakly that
     /// wear is not stiff.
@@ -54,7 +69,7 @@ pub trait ContactModel: Sync {
         contact: &PositionContact,
     ) -> Result<Option<DMatrix<f64>>, ContactError>;
 
-    /// The contact that was solved for the depths `depth` (mm), linearised.
+    /// The contact that was solved for `flanks`, linearised.
     ///
     /// # Errors
     /// [`ContactError`] if the active set's compliance cannot be inverted.
@@ -62,8 +77,13 @@ pub trait ContactModel: Sync {
         &'m self,
         q: usize,
         contact: &PositionContact,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError>;
+
+    /// Which tooth meets which, where teeth differ.
+    fn sequence(&self) -> Option<&Sequence> {
+        None
+    }
 
     /// The model of all slices, where the face has more than one; what is said of one section then holds of none.
     fn sliced(&self) -> Option<&dyn SlicedContact> {

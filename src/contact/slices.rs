@@ -109,6 +109,11 @@ impl<'a> Flanks<'a> {
         }
     }
 
+    /// One section, with the same depths for all pairs.
+    pub fn alike(pairs: usize, depth: [&'a [f64]; 2]) -> Self {
+        Self::new(1, pairs, |_, _| depth)
+    }
+
     /// What the pairs see in slice `i`.
     pub fn of(&self, i: usize) -> &[[&'a [f64]; 2]] {
         let pairs = self.back.len();

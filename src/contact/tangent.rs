@@ -19,9 +19,9 @@ pub struct ContactTangent {
 /// What a parameter changes about the contact, each per unit of the parameter.
 #[derive(Debug, Clone, Copy)]
 pub struct Change<'a> {
-    /// Depths at the stations of pinion and gear, mm.
-    pub depth: [&'a [f64]; 2],
-    /// What effects alter.
+    /// Depths, and how far pairs stand back.
+    pub flanks: &'a Flanks<'a>,
+    /// What effects alter besides.
     pub altered: Option<&'a AlterationChange>,
 }
 
@@ -41,27 +41,18 @@ pub trait LinearContact {
     /// Derivative of pressures and approach.
     fn tangent(&self, change: &Change<'_>) -> ContactTangent;
 
-    /// S G v on the active set, S as in [`crate::contact::model::ContactModel::sensitivity`] and G v the weighted gaps that `depth` opens;
+    /// S G v on the active set, S as in [`crate::contact::model::ContactModel::sensitivity`] and G v the weighted gaps that `flanks` open;
     /// empty where there is no such S.
-    fn response(&self, depth: [&[f64]; 2]) -> Vec<f64>;
+    fn response(&self, flanks: &Flanks<'_>) -> Vec<f64>;
 
     /// How a `response` changes with what effects alter: S itself depends on flexibility and lever. None: not at all.
     fn response_tangent(&self, response: &[f64], change: &AlterationChange) -> Option<Vec<f64>>;
 }
 
-/// What a parameter changes about the contact of all slices, each per unit of the parameter.
-#[derive(Debug, Clone, Copy)]
-pub struct SliceChange<'a> {
-    /// Depths, and how far pairs stand back.
-    pub flanks: &'a Flanks<'a>,
-    /// What effects alter.
-    pub altered: Option<&'a AlterationChange>,
-}
-
 /// The contacts of one position's slices, linearised about their solution.
 pub trait LinearSlices {
     /// Derivative of pressures and approach, by slice.
-    fn tangents(&self, change: &SliceChange<'_>) -> Vec<ContactTangent>;
+    fn tangents(&self, change: &Change<'_>) -> Vec<ContactTangent>;
 
     /// As [`LinearContact::response`], by slice: the approach is free to follow.
     fn responses(&self, flanks: &Flanks<'_>) -> Vec<Vec<f64>>;
@@ -87,13 +78,13 @@ impl Alteration {
         let by_pair = |a: &[Vec<f64>], b: &[Vec<f64>]| -> Vec<Vec<f64>> {
             a.iter().zip(b).map(|(a, b)| slopes(a, b)).collect()
         };
-        let offsets = self.tooth_offset.as_ref().zip(after.tooth_offset.as_ref());
+        let back = self.tooth_back.as_ref().zip(after.tooth_back.as_ref());
         Self {
             profile: profile.map(|(a, b)| [0, 1].map(|side| slopes(&a[side], &b[side]))),
             load_factor: factors.map(|(a, b)| by_pair(a, b)),
             friction: friction.map(|(a, b)| by_pair(a, b)),
             flexibility: slope(self.flexibility, after.flexibility),
-            tooth_offset: offsets.map(|(a, b)| std::array::from_fn(|i| slope(a[i], b[i]))),
+            tooth_back: back.map(|(a, b)| [0, 1].map(|side| slopes(&a[side], &b[side]))),
             lead: (self.lead.as_ref().zip(after.lead.as_ref())).map(|(a, b)| slopes(a, b)),
         }
     }
@@ -105,7 +96,7 @@ impl Alteration {
             && self.load_factor.iter().flatten().flatten().all(zero)
             && self.friction.iter().flatten().flatten().all(zero)
             && self.flexibility == 0.0
-            && self.tooth_offset.iter().flatten().all(zero)
+            && self.tooth_back.iter().flatten().flatten().all(zero)
             && self.lead.iter().flatten().all(zero)
     }
 
@@ -128,7 +119,7 @@ impl LinearContact for Given {
         }
     }
 
-    fn response(&self, _: [&[f64]; 2]) -> Vec<f64> {
+    fn response(&self, _: &Flanks<'_>) -> Vec<f64> {
         Vec::new()
     }
 

@@ -1,6 +1,6 @@
 //! Several effects at once: factors multiply, depths and lengths add, in the order in which they were put in.
 
-use super::effect::{Effect, FaceAt, Hook, OperationChange, OperationState, UsualTrace};
+use super::effect::{Effect, FaceAt, Hook, OperationChange, OperationState, Tooth, UsualTrace};
 use super::local::{Local, ProfileAt};
 
 /// The effects of one model.
@@ -117,9 +117,20 @@ impl Effect for Combined {
             .fold(0.0, |sum, effect| sum + effect.profile(at))
     }
 
-    fn tooth_offset(&self, tooth: i32) -> f64 {
+    fn tooth_offset(&self, tooth: Tooth) -> f64 {
         self.of(Hook::ToothOffset)
             .fold(0.0, |sum, effect| sum + effect.tooth_offset(tooth))
+    }
+
+    fn tooth_kind(&self, tooth: Tooth) -> Vec<f64> {
+        let kinds = self.of(Hook::ToothOffset);
+        kinds.flat_map(|effect| effect.tooth_kind(tooth)).collect()
+    }
+
+    fn tooth_classes(&self) -> usize {
+        self.of(Hook::ToothOffset).fold(1, |all: usize, effect| {
+            all.saturating_mul(effect.tooth_classes())
+        })
     }
 
     fn lead(&self, at: &FaceAt) -> Option<f64> {

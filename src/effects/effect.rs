@@ -1,6 +1,7 @@
 //! The trait of a physical effect: hooks through which it changes a run, each neutral unless an effect says otherwise.
 
 use super::local::{Local, ProfileAt};
+use crate::gear::Member;
 
 /// Where an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -57,7 +58,7 @@ impl Hook {
             Hook::AddedDepth => "um of depth per contact of that member",
             Hook::LoadFactor => "factor on the load of a tooth pair",
             Hook::Profile => "um of material removed before the start",
-            Hook::ToothOffset => "um that the measured tooth stands back from its neighbours",
+            Hook::ToothOffset => "um that a tooth stands back from its place",
             Hook::Operation => "mm added to the centre distance",
             Hook::Compliance => "mm um/N added to the flexibility of each tooth pair",
             Hook::Friction => "coefficient of friction between the flanks, added to the study's",
@@ -117,11 +118,21 @@ pub trait Effect: Send + Sync {
         0.0
     }
 
-    /// How far pinion tooth `tooth` (0 is the measured one, 1 the next into mesh) stands back, µm along the path of contact.
+    /// How far a tooth stands back from its place, µm along the path of contact; negative where it stands proud.
     ///
-    /// Teeth then differ, and a mesh position with two pairs is two contact problems: the measured tooth leads or follows.
-    fn tooth_offset(&self, _tooth: i32) -> f64 {
+    /// Where teeth differ each class of them wears for itself ([`crate::contact::sequence`]).
+    fn tooth_offset(&self, _tooth: Tooth) -> f64 {
         0.0
+    }
+
+    /// What tells the tooth from others, whatever the size of the deviations: teeth with equal numbers have equal offsets.
+    fn tooth_kind(&self, _tooth: Tooth) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// How many classes of teeth of a member the effect's pattern needs at most.
+    fn tooth_classes(&self) -> usize {
+        usize::MAX
     }
 
     /// Material missing across the face, µm along the path of contact on both flanks together. None: the effect knows nothing of the face.
@@ -195,6 +206,29 @@ pub struct UsualTrace {
     pub place: f64,
     /// Share of the mean over the face in what is measured, 0 to 1.
     pub mean: f64,
+}
+
+/// A tooth of a member.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tooth {
+    /// Whose.
+    pub member: Member,
+    /// Its number in the order in which teeth come into mesh: 0 is the measured one, or that labelled 1.
+    pub number: usize,
+    /// How many there are.
+    pub of: usize,
+}
+
+impl Tooth {
+    /// Its number counted from the measured one, the nearer way round: from −(z−1)/2 to z/2.
+    pub fn from_measured(self) -> i64 {
+        let number = self.number as i64;
+        if 2 * self.number > self.of {
+            number - self.of as i64
+        } else {
+            number
+        }
+    }
 }
 
 /// Conditions of a whole run or test.

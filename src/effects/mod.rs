@@ -28,7 +28,9 @@ pub mod variables;
 
 pub use card::{Card, Form, Param, ParamRole};
 pub use combined::Combined;
-pub use effect::{Effect, FaceAt, Hook, Impossible, OperationChange, OperationState, UsualTrace};
+pub use effect::{
+    Effect, FaceAt, Hook, Impossible, OperationChange, OperationState, Tooth, UsualTrace,
+};
 pub use error::EffectError;
 pub use laws::CATALOGUE;
 pub use learned::{LARGEST_LOGARITHM, Learned, LearnedError};

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! A [`Gear`] or [`Pair`] that exists is possible: what cannot be cut or cannot mesh is refused with the values and the
-//! limits. Not in here: helix, internal teeth, pitch errors.
+//! limits. Not in here: helix, internal teeth.
 
 mod cycle;
 mod error;
@@ -21,6 +21,7 @@ mod lead;
 mod outline;
 mod pair;
 mod rack;
+mod teeth;
 mod thickness;
 mod tip;
 mod tooth;
@@ -34,6 +35,7 @@ pub use lead::{Coupling, Face, Lead};
 pub use outline::{ProfileResolution, polygon_area};
 pub use pair::{JAM_TOLERANCE, Pair};
 pub use rack::BasicRack;
+pub use teeth::{Hunting, Teeth, common_factor};
 pub use thickness::{ThicknessLoss, WornDepths};
 pub use tip::TipRounding;
 pub use tooth::{Gear, MIN_TEETH, ToothSpec};

@@ -3,7 +3,7 @@
 mod meshing;
 mod thickness;
 
-use crate::effects::{Effect, Local};
+use crate::effects::{Effect, Hook, Local};
 use crate::gear::Member;
 use crate::learn::trajectory::Node;
 use crate::measure::{FacePlace, Observation, Place, Quantity, Subject};
@@ -52,14 +52,14 @@ impl<'r, 'f> Reading<'r, 'f> {
         let at = observation.position.unwrap_or(0.0);
         let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
         match observation.quantity {
-            Quantity::WearDepth => Ok(self.depth(pinion_for_pair, at, observation.face)),
+            Quantity::WearDepth => Ok(self.depth(pinion_for_pair, at, observation)),
             Quantity::MassLoss => Ok(match observation.member {
                 Subject::Pair => Member::BOTH.into_iter().map(|m| self.mass(m)).sum(),
                 _ => self.mass(pinion_for_pair),
             }),
             Quantity::TransmissionError => self.transmission_error(at),
             Quantity::LoadShare => self.load_share(pinion_for_pair, at),
-            Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation.face),
+            Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation),
             Quantity::MeshStiffness => self.stiffness(at),
             Quantity::SpanLoss | Quantity::ChordalLoss => {
                 Ok(1e3 * self.thickness(observation, pinion_for_pair).loss)
@@ -84,7 +84,7 @@ impl<'r, 'f> Reading<'r, 'f> {
         match observation.quantity {
             Quantity::WearDepth => {
                 let arc = self.arc(pinion_for_pair, at);
-                let slices = self.slices_worn_at(pinion_for_pair, arc, observation.face);
+                let slices = self.sections_worn_at(pinion_for_pair, arc, observation);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                         1e3 * interpolate(stations, depths, arc)
@@ -92,14 +92,14 @@ impl<'r, 'f> Reading<'r, 'f> {
                 )
             }
             Quantity::MassLoss => {
-                let slices: Vec<(usize, f64)> = match self.forward.slices() {
-                    Some(slices) => slices.weight.iter().copied().enumerate().collect(),
-                    None => vec![(0, 1.0)],
-                };
                 let of = |member: Member| {
-                    self.each_depth(member, &slices, |stations, depths, displaced| {
-                        self.mass_of(member, worn_area(stations, depths) - displaced)
-                    })
+                    self.each_depth(
+                        member,
+                        &self.all_sections(member),
+                        |stations, depths, displaced| {
+                            self.mass_of(member, worn_area(stations, depths) - displaced)
+                        },
+                    )
                 };
                 Ok(match observation.member {
                     Subject::Pair => {
@@ -133,7 +133,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::ContactPressure => {
                 let arc = self.arc(pinion_for_pair, at);
                 let stations = self.stations(pinion_for_pair).to_vec();
-                let slices = self.slices_pressed_at(pinion_for_pair, arc, observation.face)?;
+                let slices = self.sections_pressed_at(pinion_for_pair, arc, observation)?;
                 let (meshing, _) = self.meshing()?;
                 let of = |tangent: &MeshingTangent| {
                     let at = |&(i, weight): &(usize, f64)| {
@@ -147,7 +147,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
             Quantity::SpanLoss | Quantity::ChordalLoss => {
                 let felt = self.thickness(observation, pinion_for_pair);
-                let slices = self.slices_worn_at(pinion_for_pair, felt.arc, observation.face);
+                let slices = self.sections_worn_at(pinion_for_pair, felt.arc, observation);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
                         1e3 * felt.gain * interpolate(stations, depths, felt.arc)
@@ -209,8 +209,8 @@ impl<'r, 'f> Reading<'r, 'f> {
         let after = stations.partition_point(|s| *s < arc);
         let after = after.clamp(1, stations.len() - 1);
         let nearer = usize::from(stations[after] - arc < arc - stations[after - 1]);
-        let depth = 1e-3 * self.depth(member, radius, observation.face);
-        let pressure = self.pressure(member, radius, observation.face)?;
+        let depth = 1e-3 * self.depth(member, radius, observation);
+        let pressure = self.pressure(member, radius, observation)?;
         let (meshing, forward) = self.meshing()?;
         let cycle = forward.cycle();
         let moment = &meshing.moments[side(member)][after - 1 + nearer];
@@ -265,24 +265,63 @@ impl<'r, 'f> Reading<'r, 'f> {
     }
 
     /// The same of depths at `arc` (mm) of the flank of `member`.
-    fn slices_worn_at(
+    fn sections_worn_at(
         &self,
         member: Member,
         arc: f64,
-        face: Option<FacePlace>,
+        observation: &Observation,
     ) -> Vec<(usize, f64)> {
-        self.slices_at(face, |slice| self.depth_of_slice(slice, member, arc))
+        self.sections(member, observation, |slice| {
+            self.depth_of_slice(slice, member, arc)
+        })
     }
 
     /// The same of the largest pressures at `arc` (mm) of the flank of `member`.
-    fn slices_pressed_at(
+    fn sections_pressed_at(
         &mut self,
         member: Member,
         arc: f64,
-        face: Option<FacePlace>,
+        observation: &Observation,
     ) -> Result<Vec<(usize, f64)>, ForwardError> {
         let by_slice = self.pressures(member, arc)?;
-        Ok(self.slices_at(face, |slice| by_slice[slice]))
+        Ok(self.sections(member, observation, |slice| by_slice[slice]))
+    }
+
+    /// What an observation on `member` is read from: slices of the face, `value` being what each has, or passages of teeth that differ, with their
+    /// weights.
+    ///
+    /// A whole number from 1 on in the column `tooth` names a tooth; another label says nothing. Rows without are those of the measured
+    /// tooth (number 1) where an effect lets teeth differ, else of the mean tooth.
+    fn sections(
+        &self,
+        member: Member,
+        observation: &Observation,
+        value: impl Fn(usize) -> f64,
+    ) -> Vec<(usize, f64)> {
+        let Some(sequence) = self.forward.sequence() else {
+            return self.slices_at(observation.face, value);
+        };
+        let count = self.forward.cycle().pair.member(member).spec.teeth as usize;
+        let label = observation.tooth.as_deref();
+        let named = label.and_then(|label| label.trim().parse::<usize>().ok());
+        let tooth = named.filter(|n| (1..=count).contains(n)).map(|n| n - 1);
+        let acting = self.forward.acting();
+        let measured = acting.filter(|acting| acting.acts(Hook::ToothOffset));
+        match tooth.or(measured.map(|_| 0)) {
+            Some(tooth) => vec![(sequence.home(side(member), tooth), 1.0)],
+            None => self.all_sections(member),
+        }
+    }
+
+    /// All slices of the face, or the passages of all teeth of `member`, with their shares.
+    fn all_sections(&self, member: Member) -> Vec<(usize, f64)> {
+        let weights = match (self.forward.sequence(), self.forward.slices()) {
+            (Some(sequence), _) => sequence.weights(side(member)),
+            (None, Some(slices)) => &slices.weight,
+            (None, None) => &[1.0],
+        };
+        let all = weights.iter().copied().enumerate();
+        all.filter(|(_, weight)| *weight != 0.0).collect()
     }
 
     fn stations(&self, member: Member) -> &[f64] {
@@ -299,10 +338,10 @@ impl<'r, 'f> Reading<'r, 'f> {
         )
     }
 
-    /// µm, at the place `face` across the face.
-    fn depth(&self, member: Member, radius: f64, face: Option<FacePlace>) -> f64 {
+    /// µm, the weighted sum of slices or passages.
+    fn depth(&self, member: Member, radius: f64, observation: &Observation) -> f64 {
         let arc = self.arc(member, radius);
-        let slices = self.slices_worn_at(member, arc, face);
+        let slices = self.sections_worn_at(member, arc, observation);
         let weighted =
             |&(slice, weight): &(usize, f64)| weight * self.depth_of_slice(slice, member, arc);
         1e3 * slices.iter().map(weighted).sum::<f64>()
@@ -383,11 +422,11 @@ impl<'r, 'f> Reading<'r, 'f> {
         &mut self,
         member: Member,
         radius: f64,
-        face: Option<FacePlace>,
+        observation: &Observation,
     ) -> Result<f64, ForwardError> {
         let arc = self.arc(member, radius);
         let by_slice = self.pressures(member, arc)?;
-        let slices = self.slices_at(face, |slice| by_slice[slice]);
+        let slices = self.sections(member, observation, |slice| by_slice[slice]);
         let weighted = |&(slice, weight): &(usize, f64)| weight * by_slice[slice];
         Ok(slices.iter().map(weighted).sum())
     }

@@ -1,4 +1,4 @@
-//! Tables: `wear.csv`, `contact.csv`, `transmission_error.csv`.
+//! Tables: `wear.csv`, `contact.csv`, `transmission_error.csv`, and `transmission_error_turn.csv`.
 //!
 //! Numbers are the shortest digits that read back to the same double, so a table loses nothing.
 use super::error::OutputError;
@@ -8,13 +8,14 @@ use crate::simulate::result::{Member, Run};
 ///
 /// Columns `cycles,member,radius,path,depth`: pinion revolutions; radius mm; signed mm along the path of contact from the
 /// pitch point; µm. Where the face has several slices there is a further column `face` (mm from mid-face), and the rows are in the order
-/// cycles, member, face, radius.
+/// cycles, member, face, radius; where teeth differ a column `tooth` (the first one of a class, from 1), in the place of the face.
 pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
     let sliced = run.states.iter().any(|state| !state.slices.is_empty());
-    let header = if sliced {
-        "cycles,member,radius,path,depth,face"
-    } else {
-        "cycles,member,radius,path,depth"
+    let toothed = run.states.iter().any(|state| !state.teeth.is_empty());
+    let header = match (sliced, toothed) {
+        (true, _) => "cycles,member,radius,path,depth,face",
+        (_, true) => "cycles,member,radius,path,depth,tooth",
+        _ => "cycles,member,radius,path,depth",
     };
     let mut table = Table::new("wear.csv", header);
     for state in &run.states {
@@ -25,13 +26,15 @@ pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
             }
             let side = usize::from(member == Member::Gear);
             let slices = state.slices.iter();
-            let mut traces: Vec<(Option<f64>, &[f64])> = slices
-                .map(|slice| (Some(slice.face), slice.depth[side].as_slice()))
-                .collect();
+            let of_slices = slices.map(|slice| (Some(slice.face), slice.depth[side].as_slice()));
+            let classes = state.teeth.iter().filter(|class| class.member == member);
+            let of_teeth =
+                classes.map(|class| (Some(class.teeth[0] as f64), class.depth.as_slice()));
+            let mut traces: Vec<(Option<f64>, &[f64])> = of_slices.chain(of_teeth).collect();
             if traces.is_empty() {
                 traces.push((None, &flank.depth));
             }
-            for (face, depths) in traces {
+            for (label, depths) in traces {
                 same_length("wear.csv", "depth", depths.len(), flank.radius.len())?;
                 for ((radius, path), depth) in flank.radius.iter().zip(&flank.path).zip(depths) {
                     table.number("cycles", state.cycles)?;
@@ -39,8 +42,8 @@ pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
                     table.number("radius", *radius)?;
                     table.number("path", *path)?;
                     table.number("depth", *depth)?;
-                    if let Some(face) = face {
-                        table.number("face", face)?;
+                    if let Some(label) = label {
+                        table.number(if toothed { "tooth" } else { "face" }, label)?;
                     }
                     table.end_row();
                 }
@@ -110,6 +113,26 @@ pub fn transmission_error(run: &Run) -> Result<Vec<u8>, OutputError> {
         }
     }
     Ok(table.into_bytes())
+}
+
+/// `transmission_error_turn.csv`: the same over one turn of the member with more teeth, where teeth differ or a member runs out;
+/// else none.
+///
+/// Columns `cycles,position,angle`; the position counts base pitches since the first teeth met in the pitch point.
+pub fn transmission_error_turn(run: &Run) -> Result<Option<Vec<u8>>, OutputError> {
+    if run.states.iter().all(|state| state.turn.is_empty()) {
+        return Ok(None);
+    }
+    let mut table = Table::new("transmission_error_turn.csv", "cycles,position,angle");
+    for state in &run.states {
+        for [position, angle] in &state.turn {
+            table.number("cycles", state.cycles)?;
+            table.number("position", *position)?;
+            table.number("angle", *angle)?;
+            table.end_row();
+        }
+    }
+    Ok(Some(table.into_bytes()))
 }
 
 /// Shortest digits that read back to the same double; very large and very small ones with an exponent.

@@ -101,6 +101,26 @@ const TABLES: &[(&str, &str, &str)] = &[
         "May be absent. The file has the columns `test,member,cycles,quantity,position,value,sigma,trace`.",
     ),
     (
+        "face",
+        "`[face]`",
+        "May be absent. What it does stands in [Across the face](face.md).",
+    ),
+    (
+        "face.pinion",
+        "`[face.pinion]` and `[face.gear]`",
+        "May be absent; they need slices. Material missing on the loaded flanks of a member across the face.",
+    ),
+    (
+        "teeth",
+        "`[teeth]`",
+        "May be absent. What it does stands in [Tooth by tooth](teeth.md).",
+    ),
+    (
+        "teeth.pinion",
+        "`[teeth.pinion]` and `[teeth.gear]`",
+        "May be absent. One of `pitch_file`, `pitch_deviations` and `pitch_pattern` at most.",
+    ),
+    (
         "numerics",
         "`[numerics]`",
         "May be absent. The defaults are those whose error `gearwear validate convergence` shows.",

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::csv::finite;
 use super::error::OutputError;
-use crate::simulate::result::{Member, MeshSummary, Run, State};
+use crate::simulate::result::{Member, MeshSummary, Run, State, ToothClass};
 
 /// `summary.json`. Lengths mm, angles degrees, pressures MPa, stiffness N/(mm·µm); the unit stands in the key where another is meant.
 ///
@@ -67,6 +67,15 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
             json!({"cycles": state.cycles, "load_factor": state.face_load_factor(), "slices": rows})
         };
         document["face"] = json!({"first": of(run.first()), "last": of(run.last())});
+    }
+    if !run.last().teeth.is_empty() {
+        let of = |class: &ToothClass| json!({"member": class.member.name(), "teeth": class.teeth, "max_depth_um": class.deepest()});
+        let of = |state: &State| -> Vec<Value> { state.teeth.iter().map(of).collect() };
+        document["teeth"] = json!({"cycles": run.last().cycles, "classes": of(run.last())});
+    }
+    if let Some(last) = run.last().te_over_a_turn_urad() {
+        let first = run.first().te_over_a_turn_urad();
+        document["transmission_error_over_a_turn_urad"] = json!({"first": first, "last": last});
     }
     if c.wear_coefficient[1] != c.wear_coefficient[0] {
         document["conditions"]["coefficient_gear"] = json!(c.wear_coefficient[1]);

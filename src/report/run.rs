@@ -64,6 +64,9 @@ pub fn write_run_with(
     staging.write("wear.csv", &csv::wear(run)?)?;
     staging.write("contact.csv", &csv::contact(run)?)?;
     staging.write("transmission_error.csv", &csv::transmission_error(run)?)?;
+    if let Some(turn) = csv::transmission_error_turn(run)? {
+        staging.write("transmission_error_turn.csv", &turn)?;
+    }
     // drawing takes a core, writing fields mostly waits
     let (written, drawn) = rayon::join(
         || {

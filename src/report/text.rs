@@ -67,6 +67,18 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             Some(factors.1),
         ));
     }
+    let turn = (first.te_over_a_turn_urad(), last.te_over_a_turn_urad());
+    lines.extend(change("  over one turn", "µrad p-p", turn.0, turn.1));
+    for member in Member::BOTH {
+        if let Some(worst) = last.worst_tooth(member) {
+            lines.push(format!(
+                "  {:<20}{} µm, tooth {}; the figures above are the mean tooth's",
+                format!("worst {} tooth", member.name()),
+                significant(worst.deepest(), 4),
+                worst.teeth[0]
+            ));
+        }
+    }
     lines.push(format!(
         "  {:<20}{}",
         "area balance",

@@ -18,6 +18,7 @@ use crate::contact::cycle::{Cycle, Stations};
 use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::hertz::HertzContact;
 use crate::contact::model::{ContactModel, PositionContact};
+use crate::contact::sequence::Sequence;
 use crate::contact::slices::Slices;
 use crate::effects::Hook;
 use crate::simulate::blanks::Blanks;
@@ -83,6 +84,8 @@ pub struct Forward<'a> {
     slices: Option<Slices>,
     /// What ties its slices, by position.
     ties: Option<Arc<Vec<DMatrix<f64>>>>,
+    /// Which tooth meets which, where teeth differ.
+    sequence: Option<Sequence>,
 }
 
 impl<'a> Forward<'a> {
@@ -185,6 +188,7 @@ impl<'a> Forward<'a> {
             altered: None,
             slices: None,
             ties: None,
+            sequence: None,
         };
         out.cover()?;
         out.project()?;
@@ -207,11 +211,25 @@ impl<'a> Forward<'a> {
         self.slices.as_ref()
     }
 
-    /// The mean over the face of depths `u` of all slices (mm at the stations of pinion and gear).
+    /// Which tooth meets which; none: all teeth of each member are alike.
+    pub fn sequence(&self) -> Option<&Sequence> {
+        self.sequence.as_ref()
+    }
+
+    /// Shares of the slices of the face, or of the passages of teeth that differ, in the mean of all contacts; none: there is but one.
+    pub fn weights(&self) -> Option<Vec<f64>> {
+        match (&self.sequence, &self.slices) {
+            (Some(sequence), _) => Some(sequence.contact_weights()),
+            (None, slices) => slices.as_ref().map(|slices| slices.weight.clone()),
+        }
+    }
+
+    /// The mean over the face, or over all teeth, of the depths `u` of all slices or passages (mm at the stations of pinion and gear).
     pub fn mean_depths<'u>(&self, u: &'u [f64]) -> Cow<'u, [f64]> {
-        match &self.slices {
-            Some(slices) => Cow::Owned(slices.mean_of(u)),
-            None => Cow::Borrowed(u),
+        match (&self.sequence, &self.slices) {
+            (Some(sequence), _) => Cow::Owned(sequence.mean_of(u)),
+            (None, Some(slices)) => Cow::Owned(slices.mean_of(u)),
+            (None, None) => Cow::Borrowed(u),
         }
     }
 
@@ -261,7 +279,8 @@ impl<'a> Forward<'a> {
             (Some(compliance), ContactKind::Fem) => {
                 let model = FemContact::new(&self.cycle, compliance, self.torque())
                     .across(self.slices.as_ref())
-                    .tied(self.ties.as_ref().map(|ties| ties.as_slice()));
+                    .tied(self.ties.as_ref().map(|ties| ties.as_slice()))
+                    .in_turn(self.sequence.as_ref());
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration, a.opened.as_deref())),
                     None => work(&model),
@@ -279,7 +298,8 @@ impl<'a> Forward<'a> {
                 let modulus = self.set.modulus();
                 let torque = self.torque();
                 let model =
-                    HertzContact::new(&self.cycle, &self.points, torque, modulus, stiffness);
+                    HertzContact::new(&self.cycle, &self.points, torque, modulus, stiffness)
+                        .in_turn(self.sequence.as_ref());
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration)),
                     None => work(&model),

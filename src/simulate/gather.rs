@@ -11,11 +11,12 @@ use crate::simulate::history::{SliceState, WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
 use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
-    Conditions, FaceSlice, FieldFrame, Geometry, MemberField, PairState, PositionState, Profile,
-    State, WheelGeometry,
+    self, Conditions, FaceSlice, FieldFrame, Geometry, MemberField, PairState, PositionState,
+    Profile, State, ToothClass, WheelGeometry,
 };
 use crate::simulate::run::Plan;
 use crate::simulate::touching_strip::TouchingStrip;
+use crate::simulate::turn::alike_over_a_turn;
 use crate::wear::passage::Passage;
 
 /// What was asked for.
@@ -113,7 +114,31 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
         slices: (state.slices.iter())
             .map(|slice| face_slice(plan, forward, slice))
             .collect(),
+        turn: over_a_turn(plan, forward, state),
+        teeth: (state.teeth.iter())
+            .map(|class| ToothClass {
+                member: result::Member::BOTH[class.side],
+                teeth: class.teeth.iter().map(|i| i + 1).collect(),
+                depth: class.depth.iter().map(|h| 1e3 * h).collect(),
+            })
+            .collect(),
     }
+}
+
+/// Rotation (base pitches) and lag (µrad) over one turn, where teeth differ or a member runs out.
+fn over_a_turn(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<[f64; 2]> {
+    let (cycle, teeth) = (forward.cycle(), &plan.set.teeth);
+    let counts = Member::BOTH.map(|m| cycle.pair.member(m).spec.teeth as usize);
+    let mut turn = state.turn.clone();
+    if turn.is_empty() && teeth.run_out() {
+        let pitches = counts[0].max(counts[1]);
+        turn = alike_over_a_turn(&cycle.positions, &state.contacts, pitches);
+    }
+    let base_radius = cycle.pair.pinion.base_radius;
+    for [rotation, lag] in &mut turn {
+        *lag = 1e6 * (*lag + teeth.back_after(*rotation, counts) / base_radius);
+    }
+    turn
 }
 
 /// The section that stresses are computed in: the slice that carries most over the mesh cycle, with its share of the mean load.
@@ -160,8 +185,9 @@ fn by_rotation(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<Positio
         .enumerate()
         .map(|(q, contact)| {
             let mut mean = position(plan, forward, q, contact);
-            for slice in &state.slices {
-                let own = position(plan, forward, q, &slice.contacts[q]);
+            let of_slices = state.slices.iter().map(|slice| &slice.contacts);
+            for contacts in of_slices.chain(&state.passages) {
+                let own = position(plan, forward, q, &contacts[q]);
                 for (mean, own) in mean.pairs.iter_mut().zip(own.pairs) {
                     mean.peak_pressure = mean.peak_pressure.max(own.peak_pressure);
                     mean.half_width = mean.half_width.max(own.half_width);

@@ -2,7 +2,7 @@
 
 use crate::contact::cycle::Cycle;
 use crate::contact::strips::Strips;
-use crate::gear::{Face, Gear, Pair, PairError};
+use crate::gear::{Face, Gear, Pair, PairError, Teeth};
 use crate::material::{Elastic, contact_modulus};
 use crate::mesh::Mesh;
 use crate::simulate::blanks::Blanks;
@@ -25,6 +25,8 @@ pub struct GearSet {
     pub face_width: f64,
     /// Slices of the face, and what the flanks lack across it.
     pub face: Face,
+    /// Where the teeth stand.
+    pub teeth: Teeth,
 }
 
 /// Most unknowns on the flanks of one member: their compliance is a full matrix, of 0.5 GB then, and making it takes three more.

@@ -3,8 +3,10 @@
 use crate::contact::cycle::Cycle;
 use crate::contact::deposit::tributary;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::sequence::Sequence;
 use crate::contact::slices::Slices;
 use crate::simulate::balance::Balance;
+use crate::simulate::turn::over_a_turn;
 use crate::wear::acting::Acting;
 use crate::wear::archard::{ArchardSystem, AreaRate, WearError};
 use crate::wear::integrator::{Stand, Step, StepControl, StepError, WearSystem, advance};
@@ -21,6 +23,12 @@ pub struct WearState {
     pub contacts: Vec<PositionContact>,
     /// Slice by slice, where the face has more than one.
     pub slices: Vec<SliceState>,
+    /// Class by class, where teeth differ; the above are then those of the mean tooth.
+    pub teeth: Vec<ToothState>,
+    /// Contact at every mesh position by passage, where teeth differ.
+    pub passages: Vec<Vec<PositionContact>>,
+    /// Rotation of the pinion (base pitches) and approach (rad) over one turn of the member with more teeth, where teeth differ.
+    pub turn: Vec<[f64; 2]>,
     /// Part of the worn area that effects only displaced, without loss of mass, per tooth of pinion and gear, mm².
     pub displaced: [f64; 2],
 }
@@ -36,6 +44,17 @@ pub struct SliceState {
     pub contacts: Vec<PositionContact>,
 }
 
+/// Teeth of a member that wear alike.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothState {
+    /// 0 pinion, 1 gear.
+    pub side: usize,
+    /// Which of the member's teeth, in the order in which they come into mesh.
+    pub teeth: Vec<usize>,
+    /// Worn depth at the member's stations, mm.
+    pub depth: Vec<f64>,
+}
+
 impl WearState {
     /// The slice `i` by itself.
     pub fn section(&self, i: usize) -> Self {
@@ -45,6 +64,9 @@ impl WearState {
             depth: slice.depth.clone(),
             contacts: slice.contacts.clone(),
             slices: Vec::new(),
+            teeth: Vec::new(),
+            passages: Vec::new(),
+            turn: Vec::new(),
             displaced: self.displaced,
         }
     }
@@ -315,7 +337,7 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
         let mut balance = progress.balance;
         for (side, arc) in cycle.stations.arc.iter().enumerate() {
             balance.law[side] += 0.5 * step * (progress.rate.law[side] + rate.law[side]);
-            balance.geometry[side] = system.mean(|slice| worn_area(arc, flanks[slice][side]));
+            balance.geometry[side] = system.mean(side, |slice| worn_area(arc, flanks[slice][side]));
         }
         // worn areas of a mean depth of one module
         let unit =
@@ -393,9 +415,11 @@ pub fn state_of<M: ContactModel + ?Sized>(
     let flanks = split(cycle, &progress.stand.u);
     let owned = |flanks: &[&[f64]; 2]| flanks.map(<[f64]>::to_vec);
     let slices = model.sliced().map(|model| model.slices());
-    let depth = match slices {
-        None => owned(&flanks[0]),
-        Some(slices) => owned(&split(cycle, &slices.mean_of(&progress.stand.u))[0]),
+    let sequence = model.sequence();
+    let depth = match (sequence, slices) {
+        (Some(sequence), _) => owned(&split(cycle, &sequence.mean_of(&progress.stand.u))[0]),
+        (None, Some(slices)) => owned(&split(cycle, &slices.mean_of(&progress.stand.u))[0]),
+        (None, None) => owned(&flanks[0]),
     };
     let of_slice = |(i, slices): (usize, &Slices)| SliceState {
         face: slices.place[i],
@@ -403,6 +427,10 @@ pub fn state_of<M: ContactModel + ?Sized>(
         contacts: by_slice[i].clone(),
     };
     let all = slices.into_iter();
+    let weights = match (sequence, slices) {
+        (Some(sequence), _) => Some(sequence.contact_weights()),
+        (None, slices) => slices.map(|slices| slices.weight.clone()),
+    };
     Ok(WearState {
         cycles: progress.stand.n,
         depth,
@@ -410,9 +438,28 @@ pub fn state_of<M: ContactModel + ?Sized>(
             .flat_map(|slices| (0..slices.count()).map(move |i| (i, slices)))
             .map(of_slice)
             .collect(),
-        contacts: mean_contacts(slices, by_slice),
+        turn: match sequence {
+            Some(sequence) => over_a_turn(model, sequence, &progress.stand.u, &by_slice[0])?,
+            None => Vec::new(),
+        },
+        teeth: sequence.map_or_else(Vec::new, |sequence| tooth_states(sequence, &flanks)),
+        passages: sequence.map_or_else(Vec::new, |_| by_slice.clone()),
+        contacts: mean_contacts(weights.as_deref(), by_slice),
         displaced: progress.displaced,
     })
+}
+
+/// The classes of teeth, with the depths of all passages.
+fn tooth_states(sequence: &Sequence, flanks: &[[&[f64]; 2]]) -> Vec<ToothState> {
+    let of_class = |(side, class): (usize, usize)| {
+        let own = sequence.class_of(side).iter().enumerate();
+        let teeth: Vec<usize> = (own.filter(|(_, c)| **c == class)).map(|t| t.0).collect();
+        let depth = flanks[sequence.home(side, teeth[0])][side].to_vec();
+        ToothState { side, teeth, depth }
+    };
+    let classes = sequence.classes();
+    let all = (0..2).flat_map(|side| (0..classes[side]).map(move |class| (side, class)));
+    all.map(of_class).collect()
 }
 
 /// Depths of pinion and gear, slice by slice.
@@ -422,31 +469,35 @@ fn split<'u>(cycle: &Cycle, u: &'u [f64]) -> Vec<[&'u [f64]; 2]> {
         .collect()
 }
 
-/// Contacts with the mean pressures over the face, of those by slice.
+/// Contacts with the mean pressures over the face, or over all passages of teeth, of those by slice or passage and the `weights` of these.
 pub fn mean_contacts(
-    slices: Option<&Slices>,
+    weights: Option<&[f64]>,
     mut by_slice: Vec<Vec<PositionContact>>,
 ) -> Vec<PositionContact> {
-    let Some(slices) = slices else {
+    let Some(weights) = weights else {
         return by_slice.swap_remove(0);
     };
     let mean = |q: usize| {
         let all = || by_slice.iter().map(|contacts| &contacts[q]);
         let count = by_slice[0][q].pressure.len();
         let pressure: Vec<f64> = (0..count)
-            .map(|k| slices.mean(all().map(|contact| contact.pressure[k])))
+            .map(|k| weighted(weights, all().map(|contact| contact.pressure[k])))
             .collect();
         let largest = |of: fn(&PositionContact) -> f64| all().map(of).fold(0.0, f64::max);
         PositionContact {
             active: (0..count).filter(|&k| pressure[k] > 0.0).collect(),
             pressure,
-            approach: slices.mean(all().map(|contact| contact.approach)),
+            approach: weighted(weights, all().map(|contact| contact.approach)),
             iterations: all().map(|contact| contact.iterations).max().unwrap_or(0),
             penetration: largest(|contact| contact.penetration),
             torque_error: largest(|contact| contact.torque_error),
         }
     };
     (0..by_slice[0].len()).map(mean).collect()
+}
+
+fn weighted(weights: &[f64], values: impl Iterator<Item = f64>) -> f64 {
+    weights.iter().zip(values).map(|(w, v)| w * v).sum()
 }
 
 /// The contact of every position by slice at the depths `u` (mm at the stations of pinion and gear).

@@ -19,4 +19,5 @@ pub mod result;
 pub mod root_stress;
 pub mod run;
 pub mod touching_strip;
+mod turn;
 pub mod worn_away;

@@ -109,6 +109,8 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
                 gear: Profile::default(),
                 cycle,
                 slices: Vec::new(),
+                teeth: Vec::new(),
+                turn: Vec::new(),
             }
         })
         .collect();

@@ -14,7 +14,7 @@ mod fields;
 mod state;
 
 pub use fields::{FieldFrame, MemberField};
-pub use state::{FaceSlice, PairState, PositionState, Profile, Sliding, State};
+pub use state::{FaceSlice, PairState, PositionState, Profile, Sliding, State, ToothClass};
 
 /// Which wheel of the pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -294,6 +294,11 @@ impl EffectSpec {
             .collect()
     }
 
+    /// Whether it lets teeth of a member differ.
+    pub fn acts_on_teeth(&self) -> bool {
+        matches!(&self.law, Law::Card(card) if card.hook == effects::Hook::ToothOffset)
+    }
+
     /// Keys of the study's optional tables without which it cannot act with these values.
     pub fn needs(&self) -> Vec<&'static str> {
         match &self.law {

@@ -239,6 +239,14 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("face.pinion", "end_relief_length", &q::END_RELIEF_LENGTH, Default("0.0"), "from each end inwards; needed with an amount"),
     doc("face.pinion", "lead_file", Value::Text, Words("straight"), "a CSV file (face,deviation in mm from mid-face and µm) of the measured lead, relative to the study"),
 
+    doc("teeth", "hunting", Value::Word(super::teeth::HUNTING), Default("\"average\""), "average: a tooth meets the mean of its mates; full: each of them in turn, up to 256 different meetings"),
+    doc("teeth.pinion", "pitch_file", Value::Text, Words("all in their places"), "a CSV file (tooth,deviation: a row for each tooth from 1 on, µm) of the measured pitch deviations, relative to the study"),
+    doc("teeth.pinion", "pitch_deviations", Value::Numbers, Words("all in their places"), "how far each tooth stands back, µm along the path of contact, negative where it stands proud; in the order of coming into mesh, tooth 1 first"),
+    doc("teeth.pinion", "pitch_pattern", Value::Numbers, Words("all in their places"), "the same for the first teeth, repeated around the member: [-5, 0] for every second tooth proud; cut short where it does not fit into the number of teeth"),
+    number("teeth.pinion", "eccentricity", &q::ECCENTRICITY, Default("0.0"), "of the member's axis: all pairs in mesh stand back by its cosine over the turn, and the lag swings; loads are shared as before"),
+    number("teeth.pinion", "eccentricity_phase", &q::ECCENTRICITY_PHASE, Default("0.0"), "0: the pairs stand back most as tooth 1 passes the pitch point"),
+    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("12"), "the most classes of teeth whose wear is computed for itself; teeth that stand alike among neighbours that do are one"),
+
     doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
     doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if it is not stated, as few as 1 are taken where 5 would ask for more than 3000 unknowns on the parts of a member's flanks that touch"),
     doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions on one base pitch"),
@@ -294,6 +302,8 @@ mod tests {
         ("measurements", &[("file", "\"m.csv\"")]),
         ("face", &[]),
         ("face.pinion", &[]),
+        ("teeth", &[]),
+        ("teeth.pinion", &[]),
         ("numerics", &[]),
     ];
 

@@ -29,6 +29,7 @@ mod relative;
 mod settings;
 mod setup;
 mod size_limits;
+mod teeth;
 mod temperature;
 mod tests_table;
 mod units;
@@ -40,7 +41,7 @@ use std::path::{Path, PathBuf};
 
 use toml::de::DeTable;
 
-use crate::gear::Face;
+use crate::gear::{Face, Teeth};
 use crate::source_text;
 
 pub use crate::source_text::{Diagnostic, Fault, Source, TextError as StudyError, nearest};
@@ -77,6 +78,7 @@ const ROOT_KEYS: &[&str] = &[
     "test",
     "measurements",
     "face",
+    "teeth",
     "numerics",
 ];
 
@@ -101,6 +103,8 @@ pub const KEYS: &[(&str, &[&str])] = &[
     ("measurements", settings::MEASUREMENTS_KEYS),
     ("face", face::KEYS),
     ("face.pinion", face::MEMBER_KEYS),
+    ("teeth", teeth::KEYS),
+    ("teeth.pinion", teeth::MEMBER_KEYS),
     ("numerics", numerics::KEYS),
 ];
 
@@ -137,10 +141,14 @@ pub struct Study {
     pub numerics: Numerics,
     /// `[face]`.
     pub face: Face,
+    /// `[teeth]`.
+    pub teeth: Teeth,
     /// Files of the measured profiles of pinion and gear; what they hold is in `gears`.
     pub profiles: [Option<PathBuf>; 2],
     /// Files of the measured leads of pinion and gear; what they hold is in `face`.
     pub leads: [Option<PathBuf>; 2],
+    /// Files of the measured pitch deviations of pinion and gear; what they hold is in `teeth`.
+    pub pitches: [Option<PathBuf>; 2],
     free: Vec<FreeParameter>,
     effects: EffectModel,
     source: Source,
@@ -309,6 +317,22 @@ impl Study {
         ))
     }
 
+    /// Refuses teeth that differ for what has all teeth alike.
+    ///
+    /// # Errors
+    /// A [`StudyError`] at `teeth` if they do.
+    pub fn teeth_alike(&self, what: &str) -> std::result::Result<(), StudyError> {
+        if self.teeth.are_alike() && !self.teeth.run_out() {
+            return Ok(());
+        }
+        Err(self.refuse(
+            "teeth",
+            &format!("{what} has all teeth of a member alike"),
+            "no deviations of teeth",
+            "leave [teeth] away for it",
+        ))
+    }
+
     /// The study's text and the name under which it was read.
     pub fn source(&self) -> &Source {
         &self.source
@@ -351,13 +375,17 @@ impl Study {
             .into_iter()
             .chain(&self.profiles)
             .chain(&self.leads)
+            .chain(&self.pitches)
             .chain([&self.measurements, &self.tests_file]);
         all.filter_map(Option::as_deref).collect()
     }
 
     /// The study with what the files hold that it names.
     fn with_files(self) -> std::result::Result<Study, StudyError> {
-        self.with_profiles()?.with_leads()?.with_slices()
+        self.with_profiles()?
+            .with_leads()?
+            .with_pitches()?
+            .with_slices()
     }
 
     /// The study with the measured profiles on its flanks.
@@ -384,10 +412,43 @@ impl Study {
         Ok(self)
     }
 
-    /// The study, if its contact model knows slices.
+    /// The study, if its contact model knows slices, and either these or teeth that differ.
     fn with_slices(self) -> std::result::Result<Study, StudyError> {
         if self.contact != ContactKind::Fem {
             self.one_section(&format!("contact = \"{}\"", self.contact.name()))?;
+        }
+        if self.contact == ContactKind::Paper {
+            self.teeth_alike("contact = \"paper\"")?;
+        }
+        if !self.teeth.are_alike() {
+            self.one_section("teeth that differ ([teeth])")?;
+        }
+        let of_teeth = |spec: &&EffectSpec| spec.acts_on_teeth();
+        if let Some(spec) = self.effects.specs().iter().find(of_teeth) {
+            self.one_section(&format!("the effect {}", spec.name))?;
+        }
+        Ok(self)
+    }
+
+    /// The study with the measured pitch deviations of its teeth.
+    fn with_pitches(mut self) -> std::result::Result<Study, StudyError> {
+        for (side, key) in teeth::PITCH_KEYS.into_iter().enumerate() {
+            let Some(path) = &self.pitches[side] else {
+                continue;
+            };
+            if !path.is_file() {
+                return Err(self.refuse(
+                    key,
+                    &format!("there is no file {}", path.display()),
+                    "the path of a pitch file, relative to the study file",
+                    "",
+                ));
+            }
+            let gear = [&self.gears.pinion, &self.gears.gear][side];
+            let chart = profile::load_pitch(path, gear)?;
+            let back = &mut self.teeth.back[side];
+            back.resize(chart.len(), 0.0);
+            back.iter_mut().zip(chart).for_each(|(b, c)| *b += c);
         }
         Ok(self)
     }
@@ -436,6 +497,8 @@ impl Study {
         let tests = operation::read_tests(&limits, operation)?;
         let effects = effect::read(&root, lubricant, thermal)?;
         let (face, leads) = face::read(&root, folder, gears.face_width)?;
+        let counts = [&gears.pinion, &gears.gear].map(|gear| gear.spec.teeth as usize);
+        let (teeth, pitches) = teeth::read(&root, folder, counts)?;
         let study = Study {
             title,
             materials,
@@ -457,6 +520,8 @@ impl Study {
             profiles: gears::profile_files(&root, folder)?,
             face,
             leads,
+            teeth,
+            pitches,
             gears,
             source: Source {
                 name: String::new(),

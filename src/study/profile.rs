@@ -5,7 +5,8 @@
 //! 27.9,0.4                  positive: material is missing, normal to the flank, against the involute
 //! 28.1,1.1
 //! ```
-//! `lead_file` of [face.pinion] and [face.gear] is the same over the place across the face (`face,deviation`, mm from mid-face).
+//! `lead_file` of [face.pinion] and [face.gear] is the same over the place across the face (`face,deviation`, mm from mid-face), and
+//! `pitch_file` of [teeth.pinion] and [teeth.gear] over the teeth (`tooth,deviation`), one row for each from 1 on.
 //! Between the rows the deviation is a straight line over the curvature radius (steps of the path of contact); beyond the
 //! first and last row it stays as there.
 
@@ -32,6 +33,14 @@ const WANTED_LEAD: Wanted = Wanted {
     hint: "lead_file in [face.pinion] or [face.gear] names it, relative to the study file",
 };
 
+/// The file of measured pitch deviations, to whoever cannot read it.
+const WANTED_PITCH: Wanted = Wanted {
+    what: "pitch file",
+    ending: "csv",
+    format: "CSV",
+    hint: "pitch_file in [teeth.pinion] or [teeth.gear] names it, relative to the study file",
+};
+
 /// Where deviations stand.
 #[derive(Clone, Copy)]
 enum Along<'a> {
@@ -39,6 +48,8 @@ enum Along<'a> {
     Profile(&'a Gear),
     /// Over the face, this wide, from its middle.
     Face(f64, &'a Gear),
+    /// From tooth to tooth of this gear.
+    Teeth(&'a Gear),
 }
 
 impl Along<'_> {
@@ -46,12 +57,13 @@ impl Along<'_> {
         match self {
             Self::Profile(_) => ["radius", "deviation"],
             Self::Face(..) => ["face", "deviation"],
+            Self::Teeth(_) => ["tooth", "deviation"],
         }
     }
 
     fn gear(&self) -> &Gear {
         match self {
-            Self::Profile(gear) | Self::Face(_, gear) => gear,
+            Self::Profile(gear) | Self::Face(_, gear) | Self::Teeth(gear) => gear,
         }
     }
 }
@@ -88,6 +100,18 @@ pub(super) fn load_lead(
     let source = source_text::read(path, &WANTED_LEAD)?;
     let rows = rows(&source, Along::Face(width, gear));
     rows.map_err(|diagnostic| TextError::new(*diagnostic, source))
+}
+
+/// How far each tooth stands back, mm.
+///
+/// # Errors
+/// As [`load`], for rows that are not the teeth from 1 on, one each.
+pub(super) fn load_pitch(path: &Path, gear: &Gear) -> std::result::Result<Vec<f64>, TextError> {
+    let source = source_text::read(path, &WANTED_PITCH)?;
+    match rows(&source, Along::Teeth(gear)) {
+        Ok(rows) => Ok(rows.iter().map(|row| row[1]).collect()),
+        Err(diagnostic) => Err(TextError::new(*diagnostic, source)),
+    }
 }
 
 fn rows(source: &Source, along: Along<'_>) -> Result<Vec<[f64; 2]>> {
@@ -136,6 +160,7 @@ fn rows(source: &Source, along: Along<'_>) -> Result<Vec<[f64; 2]>> {
             Along::Face(width, _) => {
                 check_face(radius, width, out.last(), cells[order[0]].clone())?
             }
+            Along::Teeth(gear) => check_tooth(radius, gear, out.len(), cells[order[0]].clone())?,
         }
         let most = 1e3 * LARGEST * gear.rack.module;
         if deviation.abs() > most {
@@ -154,6 +179,17 @@ fn rows(source: &Source, along: Along<'_>) -> Result<Vec<[f64; 2]>> {
             .into());
         }
         out.push([radius, 1e-3 * deviation]);
+    }
+    if let Along::Teeth(gear) = along
+        && out.len() < gear.spec.teeth as usize
+    {
+        let message = format!("a pitch chart of {} teeth", out.len());
+        return Err(fault(Fault::Inconsistent, "tooth", message, end..end)
+            .with_values(
+                format!("{} rows", out.len()),
+                format!("{} rows, one for each tooth", gear.spec.teeth),
+            )
+            .into());
     }
     if out.len() < 2 {
         let message = format!("a measured deviation of {} rows", out.len());
@@ -241,6 +277,24 @@ fn check_face(place: f64, width: f64, before: Option<&[f64; 2]>, span: Range<usi
         }
         _ => Ok(()),
     }
+}
+
+fn check_tooth(tooth: f64, gear: &Gear, before: usize, span: Range<usize>) -> Result<()> {
+    let (next, count) = (before + 1, gear.spec.teeth as usize);
+    if next <= count && tooth == next as f64 {
+        return Ok(());
+    }
+    let (message, wanted) = if next > count {
+        let message = format!("tooth {} of a gear of {count} teeth", Short(tooth));
+        (message, format!("{count} rows, one for each tooth"))
+    } else {
+        let message = format!("tooth {} where tooth {next} should stand", Short(tooth));
+        (message, format!("{next}: teeth ascend by one, from 1"))
+    };
+    Err(fault(Fault::Inconsistent, "tooth", message, span)
+        .with_values(Short(tooth).to_string(), wanted)
+        .with_hint("teeth are numbered from 1 in the order in which they come into mesh")
+        .into())
 }
 
 /// Which cell of a row holds the place and which the deviation.

@@ -190,6 +190,24 @@ pub(super) const END_RELIEF_LENGTH: Quantity = quantity(
     1000.0,
     "from each end of the face inwards, up to half of it",
 );
+pub(super) const PITCH: Quantity = quantity(
+    "um",
+    From(-1000.0),
+    1000.0,
+    "how far a tooth stands back; 3 to 15 um are classes 5 to 8 of ISO 1328",
+);
+pub(super) const ECCENTRICITY: Quantity = quantity(
+    "um",
+    From(0.0),
+    1000.0,
+    "half of the run-out; 5 to 40 um is usual",
+);
+pub(super) const ECCENTRICITY_PHASE: Quantity = quantity(
+    "deg",
+    From(-360.0),
+    360.0,
+    "0 where the pairs stand back most as tooth 1 passes the pitch point",
+);
 pub(super) const TIP_ROUNDING: Quantity = quantity(
     "mm",
     From(0.0),

@@ -41,6 +41,7 @@ impl Study {
             centre_distance: self.gears.centre_distance,
             face_width: self.gears.face_width,
             face: self.face.clone(),
+            teeth: self.teeth.clone(),
         }
     }
 
@@ -98,9 +99,10 @@ impl Study {
         effect::is_stated(key, self.lubricant, self.thermal)
     }
 
-    /// Whether the study states every optional key that an effect needs with its values.
+    /// Whether the study states every optional key that an effect needs with its values, and what it needs besides can be.
     pub fn suits(&self, effect: &EffectSpec) -> bool {
-        effect.needs().iter().all(|key| self.states(key))
+        let of_teeth = effect.acts_on_teeth();
+        effect.needs().iter().all(|key| self.states(key)) && !(of_teeth && self.face.slices > 1)
     }
 
     /// The study's effects with their stated values under some conditions; `None` if it has none.

@@ -133,6 +133,7 @@ pub(super) fn set() -> Result<GearSet, GearError> {
         centre_distance: 80.0,
         face_width: 33.0,
         face: crate::gear::Face::default(),
+        teeth: crate::gear::Teeth::default(),
     })
 }
 

@@ -113,6 +113,7 @@ impl Data {
                 centre_distance,
                 face_width: self.face_width,
                 face: crate::gear::Face::default(),
+                teeth: crate::gear::Teeth::default(),
             },
             torque: self.torque,
         })

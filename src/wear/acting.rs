@@ -10,7 +10,7 @@ use crate::contact::model::PositionContact;
 use crate::contact::slices::Slices;
 use crate::effects::{
     Combined, Effect, FaceAt, Hook, Local, OperationState, ProfileAt, REFERENCE_TEMPERATURE,
-    Surroundings,
+    Surroundings, Tooth,
 };
 use crate::gear::{Member, Pair};
 
@@ -125,8 +125,12 @@ impl Acting {
             friction: acts(Hook::Friction).map(|()| self.friction(cycle)),
             // µm per N/mm
             flexibility: 1e-3 * self.effects.compliance(),
-            tooth_offset: acts(Hook::ToothOffset)
-                .map(|()| [-2, -1, 0, 1, 2].map(|tooth| 1e-3 * self.effects.tooth_offset(tooth))),
+            tooth_back: acts(Hook::ToothOffset).map(|()| {
+                Member::BOTH.map(|m| {
+                    let teeth = teeth(&cycle.pair, m);
+                    teeth.map(|t| 1e-3 * self.effects.tooth_offset(t)).collect()
+                })
+            }),
             lead: across.map(|slices| {
                 let lead = |y: &f64| {
                     let at = FaceAt {
@@ -139,6 +143,11 @@ impl Acting {
                 slices.place.iter().map(lead).collect()
             }),
         }
+    }
+
+    /// What tells the teeth of pinion and gear apart to the effects, by tooth.
+    pub fn tooth_kinds(&self, pair: &Pair) -> [Vec<Vec<f64>>; 2] {
+        Member::BOTH.map(|m| teeth(pair, m).map(|t| self.effects.tooth_kind(t)).collect())
     }
 
     /// Material missing before the start at the stations of one flank, mm.
@@ -271,17 +280,24 @@ impl Acting {
 
     /// Volume worn off all teeth of both members at the depths `u` (mm at the stations of pinion and gear), mm³.
     pub fn worn_volume(&self, cycle: &Cycle, u: [&[f64]; 2]) -> f64 {
-        Member::BOTH
-            .into_iter()
-            .map(|member| {
-                let stations = &cycle.stations.arc[side(member)];
-                let depths = u[side(member)].iter().enumerate();
-                let area: f64 = depths.map(|(i, h)| h * tributary(stations, i)).sum();
-                let teeth = cycle.pair.member(member).spec.teeth;
-                area * self.face_width * f64::from(teeth)
-            })
-            .sum()
+        let of = |member: Member| self.worn_off(cycle, member, u[side(member)]);
+        Member::BOTH.into_iter().map(of).sum()
     }
+
+    /// Volume worn off all teeth of a member at the depths `u` (mm at its stations), mm³.
+    pub fn worn_off(&self, cycle: &Cycle, member: Member, u: &[f64]) -> f64 {
+        let stations = &cycle.stations.arc[side(member)];
+        let depths = u.iter().enumerate();
+        let area: f64 = depths.map(|(i, h)| h * tributary(stations, i)).sum();
+        let teeth = cycle.pair.member(member).spec.teeth;
+        area * self.face_width * f64::from(teeth)
+    }
+}
+
+/// The teeth of a member in the order in which they come into mesh.
+fn teeth(pair: &Pair, member: Member) -> impl Iterator<Item = Tooth> {
+    let of = pair.member(member).spec.teeth as usize;
+    (0..of).map(move |number| Tooth { member, number, of })
 }
 
 /// 0 for the pinion, 1 for the gear.

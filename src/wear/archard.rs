@@ -11,6 +11,7 @@
 //! dh/dn = ∫ k f p |v| dy + a
 //! ```
 
+mod in_turn;
 mod jacobian;
 mod local;
 
@@ -18,7 +19,8 @@ use rayon::prelude::*;
 
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::effects::{Effect, Hook};
-use crate::wear::acting::Acting;
+use crate::gear::Member;
+use crate::wear::acting::{Acting, side};
 use crate::wear::integrator::{Jacobian, WearSystem};
 use crate::wear::law::{Factors, Law, Solved};
 use crate::wear::passage::{Moment, Passage};
@@ -45,8 +47,8 @@ pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
     pub(super) coefficient: [f64; 2],
     pub(super) acting: Option<&'a Acting>,
     passage: Option<Passage>,
-    /// By slice and position.
-    warm: Vec<Vec<usize>>,
+    /// By slice and position; where teeth differ by position and what meets there.
+    pub(super) warm: Vec<Vec<usize>>,
     /// The last two solutions, the last one first: both stages of a step.
     last: [Option<Joint>; 2],
     /// The factors of every position that the Jacobian was last made with.
@@ -59,7 +61,10 @@ pub struct ArchardSystem<'a, M: ContactModel + ?Sized> {
 pub(super) struct Joint {
     /// Depths of all slices, mm.
     pub(super) u: Vec<f64>,
+    /// By slice; where teeth differ by the passages of teeth.
     pub(super) slices: Vec<Solved>,
+    /// Where teeth differ, all contacts by position.
+    pub(super) met: Vec<Vec<PositionContact>>,
 }
 
 /// Factors on the wear coefficient at some cycles and depths, by slice and position.
@@ -68,6 +73,9 @@ struct KnownFactors {
     u: Vec<f64>,
     factors: Vec<Vec<Factors>>,
 }
+
+/// A Jacobian, if the system is stiff, and the factors that it was made with by slice and position.
+pub(super) type WithFactors = (Option<Jacobian>, Vec<Vec<Factors>>);
 
 /// Worn area per pinion cycle and flank, pinion and gear, mm².
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
@@ -91,7 +99,12 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             factors: None,
             solves: 0,
         };
-        out.warm = vec![Vec::new(); out.slices() * model.cycle().positions.len()];
+        let positions = model.cycle().positions.len();
+        let contacts = match model.sequence() {
+            Some(sequence) => (0..positions).map(|q| sequence.situations(q)).sum(),
+            None => out.slices() * positions,
+        };
+        out.warm = vec![Vec::new(); contacts];
         out
     }
 
@@ -104,20 +117,28 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         self
     }
 
-    /// Number of slices of the face.
+    /// Number of slices of the face, or of passages of teeth that differ.
     pub fn slices(&self) -> usize {
-        self.model.sliced().map_or(1, |m| m.slices().count())
-    }
-
-    /// The mean over the face of what `of` gives for each slice.
-    pub fn mean(&self, of: impl Fn(usize) -> f64) -> f64 {
-        match self.model.sliced() {
-            Some(model) => model.slices().mean((0..self.slices()).map(of)),
-            None => of(0),
+        match self.model.sequence() {
+            Some(sequence) => sequence.count(),
+            None => self.model.sliced().map_or(1, |m| m.slices().count()),
         }
     }
 
-    /// Goes on from the contact sets `warm` (one list of unknowns per slice and position; others are ignored).
+    /// The mean over the face, or over all teeth of the member `side`, of what `of` gives for each slice or passage.
+    pub fn mean(&self, side: usize, of: impl Fn(usize) -> f64) -> f64 {
+        match (self.model.sequence(), self.model.sliced()) {
+            (Some(sequence), _) => {
+                let weights = sequence.weights(side).iter().enumerate();
+                let counted = weights.filter(|(_, weight)| **weight != 0.0);
+                counted.map(|(i, weight)| weight * of(i)).sum()
+            }
+            (None, Some(model)) => model.slices().mean((0..self.slices()).map(of)),
+            (None, None) => of(0),
+        }
+    }
+
+    /// Goes on from the contact sets `warm` (those of [`ArchardSystem::warm`]; others are ignored).
     pub fn start_from(&mut self, warm: &[Vec<usize>]) {
         if warm.len() == self.warm.len() {
             self.warm = warm.to_vec();
@@ -161,12 +182,14 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         Ok(self.last[place].as_ref().expect("found or just filled"))
     }
 
-    /// Takes `contacts`, by slice, for those of the depths `u`.
+    /// Takes `contacts`, by slice, for those of the depths `u`; where teeth differ they are not all there is to know.
     pub fn take(&mut self, u: &[f64], contacts: Vec<Vec<PositionContact>>) {
-        self.last[0] = Some(self.joint(u, contacts));
+        if self.model.sequence().is_none() {
+            self.last[0] = Some(self.joint(u, contacts));
+        }
     }
 
-    fn joint(&self, u: &[f64], contacts: Vec<Vec<PositionContact>>) -> Joint {
+    pub(super) fn joint(&self, u: &[f64], contacts: Vec<Vec<PositionContact>>) -> Joint {
         let size = u.len() / contacts.len();
         let of_slice = |(u, contacts): (&[f64], Vec<PositionContact>)| Solved {
             u: u.to_vec(),
@@ -176,6 +199,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         Joint {
             u: u.to_vec(),
             slices: u.chunks(size).zip(contacts).map(of_slice).collect(),
+            met: Vec::new(),
         }
     }
 
@@ -186,6 +210,9 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     }
 
     fn solve(&mut self, u: &[f64]) -> Result<Joint, ContactError> {
+        if let Some(sequence) = self.model.sequence() {
+            return self.solve_in_turn(sequence, u);
+        }
         let law = self.law();
         let positions = law.cycle.positions.len();
         let contacts: Vec<Vec<PositionContact>> = match self.model.sliced() {
@@ -225,7 +252,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         let (law, known) = (self.law_at(u), self.known(u));
         let rates: Vec<AreaRate> = (known.slices.iter()).map(|s| law.area_rate(n, s)).collect();
         let mean = |of: fn(&AreaRate) -> [f64; 2]| {
-            [0, 1].map(|side| self.mean(|slice| of(&rates[slice])[side]))
+            [0, 1].map(|side| self.mean(side, |slice| of(&rates[slice])[side]))
         };
         Ok(AreaRate {
             law: mean(|rate| rate.law),
@@ -249,7 +276,7 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
         }
     }
 
-    /// The law in each slice where the depths are `u`: what has worn off is that of the whole face.
+    /// The law in each slice where the depths are `u`: what has worn off is that of the whole face, and of all teeth.
     pub(super) fn law_at(&self, u: &[f64]) -> Law<'_> {
         let law = self.law();
         Law {
@@ -260,10 +287,16 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
 
     /// Volume worn off both members, mm³, where it is not that of one section.
     pub(super) fn worn_volume(&self, acting: Option<&Acting>, u: &[f64]) -> Option<f64> {
-        let acting = acting.filter(|_| self.model.sliced().is_some())?;
+        let acting = acting.filter(|_| self.slices() > 1)?;
         let law = self.law();
         let depths: Vec<[&[f64]; 2]> = law.each(u);
-        Some(self.mean(|slice| acting.worn_volume(law.cycle, depths[slice])))
+        let of = |member: Member| {
+            let side = side(member);
+            self.mean(side, |slice| {
+                acting.worn_off(law.cycle, member, depths[slice][side])
+            })
+        };
+        Some(Member::BOTH.into_iter().map(of).sum())
     }
 }
 
@@ -294,7 +327,11 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
             [one] => of_slice((0, one)),
             all => {
                 let rates: Vec<Vec<f64>> = all.par_iter().enumerate().map(of_slice).collect();
-                rates.concat()
+                let mut rates = rates.concat();
+                if let Some(sequence) = self.model.sequence() {
+                    sequence.sharing().share(&mut rates);
+                }
+                rates
             }
         };
         match self.acting.and_then(|acting| acting.effects.fault()) {
@@ -305,18 +342,22 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
 
     fn jacobian(&mut self, n: f64, u: &[f64]) -> Result<Option<Jacobian>, WearError> {
         self.solved(u)?;
-        let (jacobian, factors) = if let Some(model) = self.model.sliced() {
-            self.jacobian_of_slices(model, n, u)?
-        } else if let Some((jacobian, factors)) = self.jacobian_of_section(n, u)? {
-            (jacobian, vec![factors])
-        } else {
-            return Ok(None);
+        let (jacobian, factors) = match (self.model.sequence(), self.model.sliced()) {
+            (Some(sequence), _) => self.jacobian_in_turn(sequence, n, u)?,
+            (None, Some(model)) => {
+                let (jacobian, factors) = self.jacobian_of_slices(model, n, u)?;
+                (Some(jacobian), factors)
+            }
+            (None, None) => match self.jacobian_of_section(n, u)? {
+                Some((jacobian, factors)) => (Some(jacobian), vec![factors]),
+                None => return Ok(None),
+            },
         };
         self.factors = Some(KnownFactors {
             n,
             u: u.to_vec(),
             factors,
         });
-        Ok(Some(jacobian))
+        Ok(jacobian)
     }
 }

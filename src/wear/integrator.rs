@@ -11,10 +11,12 @@
 //! ```
 //! with γ = 1 − 1/√2. The error is that of the embedded first-order solution u + τ k₁, so the step is on the safe side.
 
+use std::sync::Arc;
+
 use faer::Mat;
 
+use crate::contact::sequence::Sharing;
 use crate::numeric::patchy::PatchyMatrix;
-
 use crate::wear::shifted::Shifted;
 
 /// A system du/dn = F(n, u) of worn depths u.
@@ -48,6 +50,13 @@ pub enum Jacobian {
         drive: Vec<Mat<f64>>,
         /// How these follow its unknowns.
         follow: Vec<Mat<f64>>,
+    },
+    /// Passages of teeth of which some are in several: that of the classes of teeth.
+    Shared {
+        /// By class.
+        of_classes: PatchyMatrix,
+        /// Which passage holds which.
+        sharing: Arc<Sharing>,
     },
 }
 

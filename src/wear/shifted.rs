@@ -3,6 +3,8 @@
 //! A place on a flank wears by the pressure there, which depends on the worn depth within the contact, on both flanks and on those of
 //! the other pairs in mesh at the time. Where contacts are narrow against the tooth that is a small part of the matrix.
 
+use std::sync::Arc;
+
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::prelude::ReborrowMut;
 use faer::sparse::linalg::solvers::Lu;
@@ -10,6 +12,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{ColMut, Mat, MatMut};
 use rayon::prelude::*;
 
+use crate::contact::sequence::Sharing;
 use crate::numeric::patchy::PatchyMatrix;
 use crate::wear::integrator::Jacobian;
 
@@ -24,6 +27,7 @@ pub(super) enum Shifted {
     Full(PartialPivLu<f64>),
     Sparse(Box<Lu<u32, f64>>),
     Blocks(Box<Blocks>),
+    Shared(Box<Shifted>, Arc<Sharing>),
 }
 
 /// diag(A_i) − f U Vᵀ with A_i = I − f J_i, by Woodbury's formula: x = A⁻¹ r + f Z s, (I − f Vᵀ Z) s = Vᵀ A⁻¹ r, Z = A⁻¹ U.
@@ -101,6 +105,10 @@ impl Shifted {
                 drive,
                 follow,
             } => Self::Blocks(Box::new(Blocks::new(blocks, drive, follow, factor))),
+            Jacobian::Shared {
+                of_classes,
+                sharing,
+            } => Self::Shared(Box::new(Self::of(of_classes, factor)), Arc::clone(sharing)),
         }
     }
 
@@ -149,6 +157,11 @@ impl Shifted {
             Self::Full(lu) => lu.solve_in_place(column.rb_mut()),
             Self::Sparse(lu) => lu.solve_in_place(column.rb_mut()),
             Self::Blocks(blocks) => blocks.solve(rhs),
+            Self::Shared(classes, sharing) => {
+                let mut own = sharing.gather(rhs);
+                classes.solve(&mut own);
+                sharing.spread(&own, rhs);
+            }
         }
     }
 
@@ -157,7 +170,7 @@ impl Shifted {
         match self {
             Self::Full(lu) => lu.solve_in_place(columns.rb_mut()),
             Self::Sparse(lu) => lu.solve_in_place(columns.rb_mut()),
-            Self::Blocks(_) => unreachable!("blocks have no blocks"),
+            Self::Blocks(_) | Self::Shared(..) => unreachable!("blocks have no blocks"),
         }
     }
 }

@@ -13,7 +13,9 @@
 use rayon::prelude::*;
 
 use crate::contact::model::{ContactModel, PositionContact, SlicedContact};
-use crate::contact::tangent::{AlterationChange, Change, ContactTangent, SliceChange};
+use crate::contact::sequence::{Sequence, ToothDepths};
+use crate::contact::slices::Flanks;
+use crate::contact::tangent::{AlterationChange, Change, ContactTangent};
 use crate::wear::acting::Acting;
 use crate::wear::archard::{ArchardSystem, Joint, WearError};
 use crate::wear::integrator::{Differentiable, Tangents};
@@ -49,6 +51,36 @@ struct ContactTangents {
     response_tangents: Vec<Option<Vec<Vec<Vec<f64>>>>>,
 }
 
+/// Depths of all teeth, and how they and their places change along each direction.
+struct InTurn<'s> {
+    sequence: &'s Sequence,
+    depths: ToothDepths,
+    moved: Vec<Moved>,
+}
+
+/// Derivatives of the depths of all teeth, and of how far these stand back by member and tooth.
+type Moved = (ToothDepths, [Vec<f64>; 2]);
+
+impl<'s> InTurn<'s> {
+    fn new(
+        sequence: &'s Sequence,
+        joint: &Joint,
+        directions: &[Direction<'_>],
+        du: &[Vec<f64>],
+    ) -> Self {
+        let moved = |(direction, du): (&Direction<'_>, &Vec<f64>)| {
+            let altered = direction.altered.as_ref();
+            let back = altered.and_then(|a| a.alteration.tooth_back.clone());
+            (sequence.depths(du), back.unwrap_or_default())
+        };
+        Self {
+            sequence,
+            depths: sequence.depths(&joint.u),
+            moved: directions.iter().zip(du).map(moved).collect(),
+        }
+    }
+}
+
 /// Contact tangents and responses of one position, by slice: tangents by direction, responses by vector, and their derivatives by direction
 /// and vector.
 type OfPosition = Vec<(
@@ -65,12 +97,15 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
         du: &[Vec<f64>],
         along: &[&[f64]],
     ) -> Result<Vec<ContactTangents>, WearError> {
+        let in_turn = (self.system.model.sequence())
+            .map(|sequence| InTurn::new(sequence, joint, self.directions, du));
         let positions: Vec<OfPosition> = (0..self.system.law().cycle.positions.len())
             .into_par_iter()
             .with_min_len(4)
-            .map(|q| match self.system.model.sliced() {
-                Some(model) => self.of_slices(model, q, joint, du, along),
-                None => self.of_section(q, &joint.slices[0], du, along),
+            .map(|q| match (&in_turn, self.system.model.sliced()) {
+                (Some(in_turn), _) => self.of_passages(in_turn, q, joint, along),
+                (None, Some(model)) => self.of_slices(model, q, joint, du, along),
+                (None, None) => self.of_section(q, &joint.slices[0], du, along),
             })
             .collect::<Result<_, _>>()?;
         let count = positions.len();
@@ -112,18 +147,20 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
         along: &[&[f64]],
     ) -> Result<OfPosition, WearError> {
         let (model, law) = (self.system.model, self.system.law());
-        let linear = model.linearised(q, &solved.contacts[q], law.split(&solved.u))?;
+        let pairs = law.cycle.positions[q].pairs.len();
+        let flanks = Flanks::alike(pairs, law.split(&solved.u));
+        let linear = model.linearised(q, &solved.contacts[q], &flanks)?;
         let tangents: Vec<ContactTangent> = (self.directions.iter().zip(du))
             .map(|(direction, du)| {
                 linear.tangent(&Change {
-                    depth: law.split(du),
+                    flanks: &Flanks::alike(pairs, law.split(du)),
                     altered: direction.altered.as_ref(),
                 })
             })
             .collect();
         let responses: Vec<Vec<f64>> = along
             .iter()
-            .map(|v| linear.response(law.split(v)))
+            .map(|v| linear.response(&Flanks::alike(pairs, law.split(v))))
             .collect();
         let moved: Vec<Option<Vec<Vec<f64>>>> = (self.directions.iter())
             .map(|direction| {
@@ -155,7 +192,7 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
             .collect();
         for (direction, du) in self.directions.iter().zip(du) {
             let depths = law.each(du);
-            let tangents = linear.tangents(&SliceChange {
+            let tangents = linear.tangents(&Change {
                 flanks: &law.flanks(q, &depths),
                 altered: direction.altered.as_ref(),
             });
@@ -188,6 +225,91 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
             }
         }
         Ok(out)
+    }
+
+    /// One position of all passages of teeth that differ.
+    fn of_passages(
+        &self,
+        in_turn: &InTurn<'_>,
+        q: usize,
+        joint: &Joint,
+        along: &[&[f64]],
+    ) -> Result<OfPosition, WearError> {
+        let (model, law, sequence) = (self.system.model, self.system.law(), in_turn.sequence);
+        let pairs = &law.cycle.positions[q].pairs;
+        let size = law.cycle.stations.count();
+        let mut linears = Vec::new();
+        let mut tangents = Vec::new();
+        for (s, contact) in joint.met[q].iter().enumerate() {
+            let flanks = sequence.flanks(q, s, &in_turn.depths);
+            let linear = model.linearised(q, contact, &flanks)?;
+            let of_direction = |(direction, (depths, back)): (&Direction<'_>, &Moved)| {
+                linear.tangent(&Change {
+                    flanks: &sequence.flanks_with(q, s, depths, back),
+                    altered: direction.altered.as_ref(),
+                })
+            };
+            let each = self.directions.iter().zip(&in_turn.moved);
+            tangents.push(each.map(of_direction).collect::<Vec<ContactTangent>>());
+            linears.push(linear);
+        }
+        let of_passage = |p: usize| {
+            let read = |index: usize| sequence.read(q, p, index);
+            let own = |index: usize| {
+                let pair = &pairs[index];
+                pair.offset..pair.offset + pair.xi.len()
+            };
+            let tangent = |d: usize| {
+                let mut out = ContactTangent {
+                    pressure: vec![0.0; law.cycle.positions[q].gap.len()],
+                    approach: 0.0,
+                };
+                for index in 0..pairs.len() {
+                    let met = &tangents[read(index)][d];
+                    out.pressure[own(index)].copy_from_slice(&met.pressure[own(index)]);
+                    out.approach += met.approach / pairs.len() as f64;
+                }
+                out
+            };
+            // on the passage's active set, as its Jacobian has them
+            let kept = |index: usize, values: &[f64]| -> Vec<f64> {
+                let active = &joint.met[q][read(index)].active;
+                let all = active.iter().zip(values);
+                all.filter(|(k, _)| own(index).contains(k))
+                    .map(|(_, value)| *value)
+                    .collect()
+            };
+            let mut responses = vec![Vec::new(); along.len()];
+            let mut moved: Vec<Option<Vec<Vec<f64>>>> =
+                vec![Some(vec![Vec::new(); along.len()]); self.directions.len()];
+            for index in 0..pairs.len() {
+                let linear = &linears[read(index)];
+                for (v, response) in along.iter().zip(&mut responses) {
+                    let depth = law.split(&v[p * size..(p + 1) * size]);
+                    response.push(linear.response(&Flanks::alike(pairs.len(), depth)));
+                }
+            }
+            for (moved, direction) in moved.iter_mut().zip(self.directions) {
+                for (v, responses) in responses.iter().enumerate() {
+                    for (index, response) in responses.iter().enumerate() {
+                        let change = direction.altered.as_ref().and_then(|altered| {
+                            linears[read(index)].response_tangent(response, altered)
+                        });
+                        match (change, &mut *moved) {
+                            (Some(change), Some(all)) => all[v].extend(kept(index, &change)),
+                            _ => *moved = None,
+                        }
+                    }
+                }
+            }
+            let responses = (responses.iter()).map(|responses| {
+                let each = responses.iter().enumerate();
+                each.flat_map(|(index, y)| kept(index, y)).collect()
+            });
+            let tangents = (0..self.directions.len()).map(tangent).collect();
+            (tangents, responses.collect(), moved)
+        };
+        Ok((0..sequence.count()).map(of_passage).collect())
     }
 
     /// Worn volumes a step along each direction, where they are those of the whole face.
@@ -249,7 +371,7 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
             self.directions.iter().enumerate().map(slope).collect()
         };
         let all: Vec<Vec<[f64; 2]>> = (0..joint.slices.len()).map(of_slice).collect();
-        let mean = |i: usize| [0, 1].map(|side| self.system.mean(|s| all[s][i][side]));
+        let mean = |i: usize| [0, 1].map(|side| self.system.mean(side, |s| all[s][i][side]));
         Ok((0..self.directions.len()).map(mean).collect())
     }
 }
@@ -328,6 +450,13 @@ impl<M: ContactModel + ?Sized> Differentiable for Differentiated<'_, '_, M> {
                     all.extend(product);
                 }
             }
+        }
+        if let Some(sequence) = self.system.model.sequence() {
+            let all = out
+                .rates
+                .iter_mut()
+                .chain(out.products.iter_mut().flatten());
+            all.for_each(|values| sequence.sharing().share(values));
         }
         Ok(out)
     }

@@ -7,8 +7,9 @@ use gearwear::effects::formula::{FUNCTIONS, Formula};
 use gearwear::effects::variables::{self, VARIABLES};
 use gearwear::effects::{
     CATALOGUE, Card, Combined, Effect, EffectError, Hook, Local, OperationChange, OperationState,
-    Prior, ProfileAt, find,
+    Prior, ProfileAt, Tooth, find,
 };
+use gearwear::gear::Member;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -230,7 +231,14 @@ fn bits(effect: &dyn Effect, at: &Local, on: &ProfileAt, of: &OperationState) ->
         effect.compliance(),
         effect.friction(at),
     ];
-    values.extend((-3..=3).map(|tooth| effect.tooth_offset(tooth)));
+    let teeth = (0..7).flat_map(|number| {
+        Member::BOTH.map(|member| Tooth {
+            member,
+            number,
+            of: 7,
+        })
+    });
+    values.extend(teeth.map(|tooth| effect.tooth_offset(tooth)));
     values.into_iter().map(f64::to_bits).collect()
 }
 
@@ -246,7 +254,11 @@ fn hook_value(
         Hook::AddedDepth => effect.added_depth(at),
         Hook::LoadFactor => effect.load_factor(at),
         Hook::Profile => effect.profile(on),
-        Hook::ToothOffset => effect.tooth_offset(0),
+        Hook::ToothOffset => effect.tooth_offset(Tooth {
+            member: Member::Pinion,
+            number: 0,
+            of: 27,
+        }),
         Hook::Operation => effect.operation(of).centre_distance,
         Hook::Compliance => effect.compliance(),
         Hook::Friction => effect.friction(at),
@@ -328,7 +340,12 @@ proptest! {
             }
             let taken: Vec<f64> = places.iter().map(|&place| values[place]).collect();
             let printed = match card.hook {
-                Hook::ToothOffset | Hook::Compliance => taken[0],
+                // no formula of a user's acts there: evaluated as one of the flank is
+                Hook::ToothOffset | Hook::Compliance => {
+                    let names: Vec<&str> = places.iter().map(|&at| card.params[at].name).collect();
+                    let of_flank = Formula::new(Hook::Profile, card.expression(), &names).unwrap();
+                    hook_value(of_flank.build(&taken).as_ref(), Hook::Profile, &at, &on, &of)
+                }
                 hook => hook_value(formula.build(&taken).as_ref(), hook, &at, &on, &of),
             };
             let coded = hook_value((card.build)(&values).as_ref(), card.hook, &at, &on, &of);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use gearwear::effects::{CATALOGUE, Combined, Effect, FaceAt, Hook, Local};
+use gearwear::effects::{CATALOGUE, Combined, Effect, FaceAt, Hook, Local, Tooth};
 use gearwear::gear::Member;
 
 use super::places::{operation, ordinary, profile};
@@ -801,10 +801,35 @@ fn flanks_as_made() {
         -2.179782557772751,
     );
     let pitch = effect("pitch_error", &[("deviation", -7.0)]);
+    let offsets = |effect: &dyn Effect, member: Member| {
+        [9, 0, 1, 2].map(|number| {
+            effect.tooth_offset(Tooth {
+                member,
+                number,
+                of: 10,
+            })
+        })
+    };
+    let none = [0.0; 4];
     assert_eq!(
-        [-1, 0, 1].map(|tooth| pitch.tooth_offset(tooth)),
-        [0.0, -7.0, 0.0]
+        offsets(pitch.as_ref(), Member::Pinion),
+        [0.0, -7.0, 0.0, 0.0]
     );
+    assert_eq!(offsets(pitch.as_ref(), Member::Gear), none);
+    let before = [("deviation", 7.0), ("tooth", -1.0), ("on_gear", 1.0)];
+    let before = effect("pitch_error", &before);
+    assert_eq!(offsets(before.as_ref(), Member::Gear), [7.0, 0.0, 0.0, 0.0]);
+    let second = effect("pitch_error", &[("deviation", 7.0), ("alternate", 1.0)]);
+    assert_eq!(
+        offsets(second.as_ref(), Member::Pinion),
+        [0.0, 7.0, 0.0, 7.0]
+    );
+    // a tenth of a turn from tooth to tooth, the measured one where it stands back most
+    let turning = effect("run_out", &[("amplitude", 8.0)]);
+    let found = offsets(turning.as_ref(), Member::Pinion);
+    for (found, degrees) in found.iter().zip([-36.0_f64, 0.0, 36.0, 72.0]) {
+        same(*found, 8.0 * degrees.to_radians().cos());
+    }
 }
 
 /// Laws that call themselves even over a contact ask for no point's place, depth or pressure, and all others do: with defaults and in every form.

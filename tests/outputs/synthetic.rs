@@ -161,6 +161,8 @@ fn state(cycles: f64) -> State {
         gear,
         cycle,
         slices: Vec::new(),
+        teeth: Vec::new(),
+        turn: Vec::new(),
     }
 }
 

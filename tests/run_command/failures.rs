@@ -6,6 +6,7 @@ use std::sync::Mutex;
 
 use gearwear::contact::cycle::Cycle;
 use gearwear::contact::model::{ContactError, ContactModel, PositionContact};
+use gearwear::contact::slices::Flanks;
 use gearwear::contact::tangent::LinearContact;
 use gearwear::simulate::forward::Forward;
 use gearwear::simulate::history::{Balancing, WearLaw, wear_until};
@@ -248,13 +249,13 @@ impl ContactModel for Doctored<'_> {
         self.model.cycle()
     }
 
-    fn solve(
+    fn solve_flanks(
         &self,
         q: usize,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
         start: &[usize],
     ) -> Result<PositionContact, ContactError> {
-        let mut contact = self.model.solve(q, depth, start)?;
+        let mut contact = self.model.solve_flanks(q, flanks, start)?;
         let mut calls = self.calls.lock().unwrap();
         *calls += 1;
         (self.fault)(*calls, &mut contact)?;
@@ -273,9 +274,9 @@ impl ContactModel for Doctored<'_> {
         &'m self,
         q: usize,
         contact: &PositionContact,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
-        self.model.linearised(q, contact, depth)
+        self.model.linearised(q, contact, flanks)
     }
 }
 

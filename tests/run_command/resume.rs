@@ -150,6 +150,17 @@ fn a_killed_run_condenses_and_widens_where_the_undisturbed_one_does() {
 }
 
 #[test]
+fn a_killed_run_of_teeth_that_differ_goes_on_with_each_of_them() {
+    let home = Home::with(SHORT_STEPS);
+    let teeth = "[teeth.pinion]\npitch_pattern = [-4.0, 0.0, 0.0]\nclasses = 4\n[teeth.gear]\npitch_pattern = [3.0, 0.0]\nclasses = 3\n";
+    home.write("study.toml", &format!("{}{teeth}", study_with(SHORT_STEPS)));
+    home.succeed("run study.toml -o undisturbed --quiet");
+    let hit = kill_and_resume(&home, 5, 12, 3);
+    assert!(hit >= 2, "only {hit} kills came before the end");
+    assert_same(&home.result("run"), &home.result("undisturbed"));
+}
+
+#[test]
 fn a_run_killed_while_it_writes_its_result_leaves_none_or_all() {
     let home = Home::with(&[("contact", "\"hertz\"")]);
     home.succeed("run study.toml -o undisturbed --quiet");

@@ -11,7 +11,7 @@ use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::cycle::Position;
 use crate::contact::model::{ContactError, PositionContact, SlicedContact};
 use crate::contact::slices::{Flanks, Slices};
-use crate::contact::tangent::{AlterationChange, ContactTangent, LinearSlices, SliceChange};
+use crate::contact::tangent::{AlterationChange, Change, ContactTangent, LinearSlices};
 use crate::contact::unilateral::{
     JointLinearised, JointProblem, JointSolution, SliceSensitivity, Ties, UnilateralError,
     solve_joint, solve_tied,
@@ -130,31 +130,6 @@ impl FemContact<'_> {
             .collect()
     }
 
-    fn teeth_differ(&self) -> Option<&Alteration> {
-        self.alteration.filter(|a| a.tooth_offset.is_some())
-    }
-
-    /// The contacts with pair number `measured` that of the measured tooth, and that pair's unknowns.
-    fn all_one_measured(
-        &self,
-        q: usize,
-        flanks: &Flanks<'_>,
-        start: &[Vec<usize>],
-        alteration: &Alteration,
-        measured: usize,
-    ) -> Result<(Range<usize>, Vec<PositionContact>), ContactError> {
-        let mut flanks = flanks.clone();
-        for (index, back) in flanks.back.iter_mut().enumerate() {
-            *back += alteration.offset(measured, index);
-        }
-        let own = &self.cycle.positions[q].pairs[measured];
-        let gaps = self.gaps(q, &flanks);
-        Ok((
-            own.offset..own.offset + own.xi.len(),
-            self.solve_gaps(q, &gaps, &flanks, start)?,
-        ))
-    }
-
     fn linear_on(
         &self,
         q: usize,
@@ -185,37 +160,7 @@ impl SlicedContact for FemContact<'_> {
         flanks: &Flanks<'_>,
         start: &[Vec<usize>],
     ) -> Result<Vec<PositionContact>, ContactError> {
-        let Some(alteration) = self.teeth_differ() else {
-            return self.solve_gaps(q, &self.gaps(q, flanks), flanks, start);
-        };
-        // as in one section: each pair's pressures are taken from the solution in which it is that of the measured tooth
-        let position = &self.cycle.positions[q];
-        let count = position.pairs.len();
-        let mut joint: Vec<PositionContact> = (0..self.slices().count())
-            .map(|_| PositionContact {
-                pressure: vec![0.0; position.gap.len()],
-                approach: 0.0,
-                active: Vec::new(),
-                iterations: 0,
-                penetration: 0.0,
-                torque_error: 0.0,
-            })
-            .collect();
-        for measured in 0..count {
-            let (unknowns, solved) =
-                self.all_one_measured(q, flanks, start, alteration, measured)?;
-            for (joint, solved) in joint.iter_mut().zip(solved) {
-                joint.pressure[unknowns.clone()]
-                    .copy_from_slice(&solved.pressure[unknowns.clone()]);
-                let active = solved.active.iter().copied();
-                joint.active.extend(active.filter(|k| unknowns.contains(k)));
-                joint.approach += solved.approach / count as f64;
-                joint.iterations = joint.iterations.max(solved.iterations);
-                joint.penetration = joint.penetration.max(solved.penetration);
-                joint.torque_error = joint.torque_error.max(solved.torque_error);
-            }
-        }
-        Ok(joint)
+        self.solve_gaps(q, &self.gaps(q, flanks), flanks, start)
     }
 
     fn sensitivities(
@@ -230,23 +175,12 @@ impl SlicedContact for FemContact<'_> {
         &'m self,
         q: usize,
         contacts: &[&PositionContact],
-        flanks: &Flanks<'_>,
+        _: &Flanks<'_>,
     ) -> Result<Box<dyn LinearSlices + 'm>, ContactError> {
-        let mut each = Vec::new();
-        if let Some(alteration) = self.teeth_differ() {
-            let start: Vec<Vec<usize>> = contacts.iter().map(|c| c.active.clone()).collect();
-            for index in 0..self.cycle.positions[q].pairs.len() {
-                let (own, solved) = self.all_one_measured(q, flanks, &start, alteration, index)?;
-                let solved: Vec<&PositionContact> = solved.iter().collect();
-                let on = OnSets::new(self, q, &solved)?;
-                each.push((index, own, on));
-            }
-        }
         Ok(Box::new(FaceLinear {
             model: self,
             q,
             joint: OnSets::new(self, q, contacts)?,
-            each,
         }))
     }
 }
@@ -256,8 +190,6 @@ struct FaceLinear<'m> {
     model: &'m FemContact<'m>,
     q: usize,
     joint: OnSets,
-    /// Where teeth differ, the contacts with each pair's own tooth measured, and which unknowns are read from them.
-    each: Vec<(usize, Range<usize>, OnSets)>,
 }
 
 struct OnSets {
@@ -283,7 +215,7 @@ impl OnSets {
 
 impl FaceLinear<'_> {
     /// How the weighted gaps open in each slice.
-    fn openings(&self, change: &SliceChange<'_>) -> Vec<Vec<f64>> {
+    fn openings(&self, change: &Change<'_>) -> Vec<Vec<f64>> {
         let position = &self.model.cycle.positions[self.q];
         let opened = change.altered.and_then(|altered| altered.opened.as_ref());
         let lead = change.altered.and_then(|a| a.alteration.lead.as_ref());
@@ -326,7 +258,7 @@ impl FaceLinear<'_> {
         &self,
         on: &OnSets,
         gaps: &[Vec<f64>],
-        change: &SliceChange<'_>,
+        change: &Change<'_>,
     ) -> (Vec<DVector<f64>>, f64) {
         let (mut right, mut load) = match change.altered {
             Some(altered) => self.altered(on, &on.pressure, &altered.alteration),
@@ -348,7 +280,7 @@ impl FaceLinear<'_> {
 }
 
 impl LinearSlices for FaceLinear<'_> {
-    fn tangents(&self, change: &SliceChange<'_>) -> Vec<ContactTangent> {
+    fn tangents(&self, change: &Change<'_>) -> Vec<ContactTangent> {
         let gaps = self.openings(change);
         let mut out: Vec<ContactTangent> = (gaps.iter())
             .map(|gap| ContactTangent {
@@ -356,41 +288,18 @@ impl LinearSlices for FaceLinear<'_> {
                 approach: 0.0,
             })
             .collect();
-        if self.each.is_empty() {
-            let (pressures, approach) = self.on_sets(&self.joint, &gaps, change);
-            for ((out, active), pressure) in out.iter_mut().zip(&self.joint.active).zip(&pressures)
-            {
-                for (&k, p) in active.iter().zip(pressure.iter()) {
-                    out.pressure[k] = *p;
-                }
-                out.approach = approach;
+        let (pressures, approach) = self.on_sets(&self.joint, &gaps, change);
+        for ((out, active), pressure) in out.iter_mut().zip(&self.joint.active).zip(&pressures) {
+            for (&k, p) in active.iter().zip(pressure.iter()) {
+                out.pressure[k] = *p;
             }
-            return out;
-        }
-        let pairs = &self.model.cycle.positions[self.q].pairs;
-        for (measured, own, on) in &self.each {
-            let mut gaps = gaps.clone();
-            if let Some(altered) = change.altered {
-                for (index, pair) in pairs.iter().enumerate() {
-                    let offset = altered.alteration.offset(*measured, index);
-                    gaps.iter_mut().for_each(|gap| set_back(gap, pair, offset));
-                }
-            }
-            let (pressures, approach) = self.on_sets(on, &gaps, change);
-            for ((out, active), pressure) in out.iter_mut().zip(&on.active).zip(&pressures) {
-                for (&k, p) in active.iter().zip(pressure.iter()) {
-                    if own.contains(&k) {
-                        out.pressure[k] = *p;
-                    }
-                }
-                out.approach += approach / self.each.len() as f64;
-            }
+            out.approach = approach;
         }
         out
     }
 
     fn responses(&self, flanks: &Flanks<'_>) -> Vec<Vec<f64>> {
-        let gaps = self.openings(&SliceChange {
+        let gaps = self.openings(&Change {
             flanks,
             altered: None,
         });

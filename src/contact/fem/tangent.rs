@@ -1,12 +1,11 @@
 //! Derivatives of finite-element contact: the active set's compliance factored once, one back-substitution for each change.
 
-use std::ops::Range;
-
 use nalgebra::DVector;
 
 use super::FemContact;
 use crate::contact::alteration::{Alteration, set_back};
 use crate::contact::model::{ContactError, PositionContact};
+use crate::contact::slices::Flanks;
 use crate::contact::tangent::{AlterationChange, Change, ContactTangent, LinearContact};
 use crate::contact::unilateral::Linearised;
 
@@ -14,24 +13,9 @@ use crate::contact::unilateral::Linearised;
 pub(super) struct FemLinear<'m> {
     model: &'m FemContact<'m>,
     q: usize,
-    /// On the active set of the joint contact: what the wear's Jacobian sees.
-    joint: OnSet,
-    /// Where teeth differ, the contact problem of each pair with its own tooth measured; else none.
-    each: Vec<Measured>,
-}
-
-/// One contact problem on its active set.
-struct OnSet {
     active: Vec<usize>,
     pressure: Vec<f64>,
     linear: Linearised,
-}
-
-/// That of one measured tooth, and which unknowns are read from it.
-struct Measured {
-    index: usize,
-    own: Range<usize>,
-    on: OnSet,
 }
 
 impl<'m> FemLinear<'m> {
@@ -39,25 +23,21 @@ impl<'m> FemLinear<'m> {
         model: &'m FemContact<'m>,
         q: usize,
         contact: &PositionContact,
-        depth: [&[f64]; 2],
     ) -> Result<Self, ContactError> {
-        let joint = OnSet::new(model, q, contact)?;
-        let mut each = Vec::new();
-        if let Some(alteration) = model.alteration.filter(|a| a.tooth_offset.is_some()) {
-            let gap = model.gap(q, depth);
-            let (corners, start) = (model.lost_corners(depth), &contact.active);
-            for index in 0..model.cycle.positions[q].pairs.len() {
-                let (own, solved) =
-                    model.one_tooth_measured(q, &gap, start, corners, alteration, index)?;
-                let on = OnSet::new(model, q, &solved)?;
-                each.push(Measured { index, own, on });
-            }
-        }
+        let position = &model.cycle.positions[q];
+        let linear = Linearised::new(&model.problem(q, &position.gap), &contact.active).map_err(
+            |source| ContactError::Unilateral {
+                theta: position.theta,
+                source,
+            },
+        )?;
+        let carried = contact.active.iter().map(|&k| contact.pressure[k]);
         Ok(Self {
             model,
             q,
-            joint,
-            each,
+            pressure: carried.collect(),
+            active: contact.active.clone(),
+            linear,
         })
     }
 
@@ -65,7 +45,12 @@ impl<'m> FemLinear<'m> {
     fn opening(&self, change: &Change<'_>) -> Vec<f64> {
         let position = &self.model.cycle.positions[self.q];
         let mut gap = vec![0.0; position.gap.len()];
-        position.open(change.depth, &mut gap);
+        position.open_each(change.flanks.of(0), &mut gap);
+        for (pair, back) in position.pairs.iter().zip(&change.flanks.back) {
+            if *back != 0.0 {
+                set_back(&mut gap, pair, *back);
+            }
+        }
         let opened = change.altered.and_then(|altered| altered.opened.as_ref());
         if let Some(opened) = opened {
             for (gap, opened) in gap.iter_mut().zip(&opened[self.q]) {
@@ -73,18 +58,6 @@ impl<'m> FemLinear<'m> {
             }
         }
         gap
-    }
-
-    fn on_set(&self, on: &OnSet, gap: &[f64], change: &Change<'_>) -> (DVector<f64>, f64) {
-        let (mut right, mut load) = (DVector::zeros(on.active.len()), 0.0);
-        if let Some(altered) = change.altered {
-            (right, load) =
-                (self.model).altered_on(self.q, &on.active, &on.pressure, &altered.alteration);
-        }
-        for (right, &k) in right.iter_mut().zip(&on.active) {
-            *right -= gap[k];
-        }
-        on.linear.solve(right, load)
     }
 }
 
@@ -135,76 +108,36 @@ impl FemContact<'_> {
     }
 }
 
-impl OnSet {
-    fn new(
-        model: &FemContact<'_>,
-        q: usize,
-        contact: &PositionContact,
-    ) -> Result<Self, ContactError> {
-        let position = &model.cycle.positions[q];
-        let linear = Linearised::new(&model.problem(q, &position.gap), &contact.active).map_err(
-            |source| ContactError::Unilateral {
-                theta: position.theta,
-                source,
-            },
-        )?;
-        Ok(Self {
-            pressure: contact
-                .active
-                .iter()
-                .map(|&k| contact.pressure[k])
-                .collect(),
-            active: contact.active.clone(),
-            linear,
-        })
-    }
-}
-
 impl LinearContact for FemLinear<'_> {
     fn tangent(&self, change: &Change<'_>) -> ContactTangent {
         let gap = self.opening(change);
+        let (mut right, mut load) = (DVector::zeros(self.active.len()), 0.0);
+        if let Some(altered) = change.altered {
+            (right, load) =
+                (self.model).altered_on(self.q, &self.active, &self.pressure, &altered.alteration);
+        }
+        for (right, &k) in right.iter_mut().zip(&self.active) {
+            *right -= gap[k];
+        }
+        let (pressure, approach) = self.linear.solve(right, load);
         let mut out = ContactTangent {
             pressure: vec![0.0; gap.len()],
-            approach: 0.0,
+            approach,
         };
-        if self.each.is_empty() {
-            let (pressure, approach) = self.on_set(&self.joint, &gap, change);
-            for (&k, p) in self.joint.active.iter().zip(pressure.iter()) {
-                out.pressure[k] = *p;
-            }
-            out.approach = approach;
-            return out;
-        }
-        let pairs = &self.model.cycle.positions[self.q].pairs;
-        for measured in &self.each {
-            let mut gap = gap.clone();
-            if let Some(altered) = change.altered {
-                for (index, pair) in pairs.iter().enumerate() {
-                    let offset = altered.alteration.offset(measured.index, index);
-                    set_back(&mut gap, pair, offset);
-                }
-            }
-            let (pressure, approach) = self.on_set(&measured.on, &gap, change);
-            for (&k, p) in measured.on.active.iter().zip(pressure.iter()) {
-                if measured.own.contains(&k) {
-                    out.pressure[k] = *p;
-                }
-            }
-            out.approach += approach / self.each.len() as f64;
+        for (&k, p) in self.active.iter().zip(pressure.iter()) {
+            out.pressure[k] = *p;
         }
         out
     }
 
-    fn response(&self, depth: [&[f64]; 2]) -> Vec<f64> {
+    fn response(&self, flanks: &Flanks<'_>) -> Vec<f64> {
         let gap = self.opening(&Change {
-            depth,
+            flanks,
             altered: None,
         });
-        let right = DVector::from_iterator(
-            self.joint.active.len(),
-            self.joint.active.iter().map(|&k| gap[k]),
-        );
-        self.joint.linear.solve(right, 0.0).0.as_slice().to_vec()
+        let right = self.active.iter().map(|&k| gap[k]);
+        let right = DVector::from_iterator(self.active.len(), right);
+        self.linear.solve(right, 0.0).0.as_slice().to_vec()
     }
 
     fn response_tangent(&self, response: &[f64], change: &AlterationChange) -> Option<Vec<f64>> {
@@ -212,8 +145,7 @@ impl LinearContact for FemLinear<'_> {
         if alteration.keeps_stiffness() {
             return None;
         }
-        let active = &self.joint.active;
-        let (right, load) = (self.model).altered_on(self.q, active, response, alteration);
-        Some(self.joint.linear.solve(right, load).0.as_slice().to_vec())
+        let (right, load) = (self.model).altered_on(self.q, &self.active, response, alteration);
+        Some(self.linear.solve(right, load).0.as_slice().to_vec())
     }
 }

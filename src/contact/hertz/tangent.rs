@@ -9,6 +9,7 @@ use super::{HertzContact, Spring};
 use crate::analytic::hertz_line;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::model::PositionContact;
+use crate::contact::slices::Flanks;
 use crate::contact::tangent::{AlterationChange, Change, ContactTangent, LinearContact};
 use crate::numeric::interpolate;
 
@@ -36,9 +37,9 @@ impl<'m> HertzLinear<'m> {
         model: &'m HertzContact<'m>,
         q: usize,
         contact: &PositionContact,
-        depth: [&[f64]; 2],
+        flanks: &Flanks<'_>,
     ) -> Self {
-        let springs = model.springs(q, depth);
+        let springs = model.springs(q, flanks);
         let loads = model.loads(&springs).loads;
         let ellipses = (springs.iter().zip(&loads))
             .map(|(spring, load)| {
@@ -60,12 +61,14 @@ impl<'m> HertzLinear<'m> {
         let slope = |spring: &Spring| {
             let pair = &position.pairs[spring.index];
             let mut slope = Slope {
-                gap: (0..2)
-                    .map(|side| {
-                        let stations = &self.model.cycle.stations.arc[side];
-                        interpolate(stations, change.depth[side], pair.facing.arc[side])
-                    })
-                    .sum(),
+                gap: change.flanks.back[spring.index]
+                    + (0..2)
+                        .map(|side| {
+                            let stations = &self.model.cycle.stations.arc[side];
+                            let depth = change.flanks.of(0)[spring.index][side];
+                            interpolate(stations, depth, pair.facing.arc[side])
+                        })
+                        .sum::<f64>(),
                 stiffness: 0.0,
                 factor: 0.0,
             };
@@ -83,11 +86,11 @@ impl<'m> HertzLinear<'m> {
     }
 
     /// As [`HertzContact::loads`].
-    fn loads(&self, slopes: &[Slope], change: &Change<'_>) -> (Vec<f64>, f64) {
+    fn loads(&self, slopes: &[Slope]) -> (Vec<f64>, f64) {
         let all: Vec<usize> = (0..self.springs.len()).collect();
         let present = |i: &usize| self.springs[*i].present;
         if all.iter().all(|i| present(i) == (-0.5, 0.5)) {
-            return self.loads_of(&all, slopes, change);
+            return self.loads_of(&all, slopes);
         }
         let mut times: Vec<f64> = (all.iter().map(present))
             .flat_map(|(from, to)| [from, to])
@@ -97,7 +100,7 @@ impl<'m> HertzLinear<'m> {
         for (from, to) in times.iter().zip(&times[1..]).filter(|(a, b)| a < b) {
             let there = |i: &usize| present(i).0 <= *from && *to <= present(i).1;
             let now: Vec<usize> = all.iter().copied().filter(there).collect();
-            let (loads, delta) = self.loads_of(&now, slopes, change);
+            let (loads, delta) = self.loads_of(&now, slopes);
             for (&i, load) in now.iter().zip(loads) {
                 mean.0[i] += (to - from) * load;
             }
@@ -107,37 +110,10 @@ impl<'m> HertzLinear<'m> {
     }
 
     /// As [`HertzContact::loads_of`], of the springs `now`.
-    fn loads_of(&self, now: &[usize], slopes: &[Slope], change: &Change<'_>) -> (Vec<f64>, f64) {
+    fn loads_of(&self, now: &[usize], slopes: &[Slope]) -> (Vec<f64>, f64) {
         let springs: Vec<Spring> = now.iter().map(|&i| self.springs[i]).collect();
         let slopes: Vec<Slope> = now.iter().map(|&i| slopes[i]).collect();
-        let Some(alteration) = self.model.alteration.filter(|a| a.tooth_offset.is_some()) else {
-            return share_slope(&springs, &slopes, self.model.load);
-        };
-        let mut joint = (vec![0.0; springs.len()], 0.0);
-        for (own, load) in joint.0.iter_mut().enumerate() {
-            let measured = springs[own].index;
-            let offset =
-                |index| (change.altered).map_or(0.0, |a| a.alteration.offset(measured, index));
-            let (set_back, moved): (Vec<Spring>, Vec<Slope>) = springs
-                .iter()
-                .zip(&slopes)
-                .map(|(spring, slope)| {
-                    let spring = Spring {
-                        gap: spring.gap + alteration.offset(measured, spring.index),
-                        ..*spring
-                    };
-                    let slope = Slope {
-                        gap: slope.gap + offset(spring.index),
-                        ..*slope
-                    };
-                    (spring, slope)
-                })
-                .unzip();
-            let (loads, delta) = share_slope(&set_back, &moved, self.model.load);
-            *load = loads[own];
-            joint.1 += delta / springs.len() as f64;
-        }
-        joint
+        share_slope(&springs, &slopes, self.model.load)
     }
 }
 
@@ -224,7 +200,7 @@ impl Ellipse {
 
 impl LinearContact for HertzLinear<'_> {
     fn tangent(&self, change: &Change<'_>) -> ContactTangent {
-        let (loads, delta) = self.loads(&self.slopes(change), change);
+        let (loads, delta) = self.loads(&self.slopes(change));
         let mut pressure = vec![0.0; self.nodes];
         let points = change.altered.and_then(|altered| altered.points.as_ref());
         for ((spring, ellipse), load) in self.springs.iter().zip(&self.ellipses).zip(loads) {
@@ -248,7 +224,7 @@ impl LinearContact for HertzLinear<'_> {
         }
     }
 
-    fn response(&self, _: [&[f64]; 2]) -> Vec<f64> {
+    fn response(&self, _: &Flanks<'_>) -> Vec<f64> {
         Vec::new()
     }
 

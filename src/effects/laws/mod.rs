@@ -24,6 +24,7 @@ mod profile_form;
 mod profile_slope;
 mod radial_misalignment;
 mod roughness_polish;
+mod run_out;
 mod running_in;
 mod severe_transition;
 mod shaft_deflection;
@@ -67,4 +68,5 @@ pub static CATALOGUE: &[&Card] = &[
     &profile_slope::CARD,
     &profile_form::CARD,
     &pitch_error::CARD,
+    &run_out::CARD,
 ];

@@ -60,11 +60,9 @@ impl Meshing {
             true => Vec::new(),
             false => (0..all.len()).map(reads).collect(),
         };
-        let weights = match forward.slices() {
-            Some(slices) => slices.weight.clone(),
-            None => vec![1.0],
-        };
-        let contacts = mean_contacts(forward.slices(), all);
+        let of_several = forward.weights();
+        let contacts = mean_contacts(of_several.as_deref(), all);
+        let weights = of_several.unwrap_or_else(|| vec![1.0]);
         let moments = match by_slice.as_slice() {
             [one] => one.clone(),
             _ => [0, 1].map(|side| passage.moments(cycle, &contacts, side)),

@@ -10,7 +10,7 @@ impl Reading<'_, '_> {
         let arcs = self.stations(member);
         let at = |station: usize| {
             let own = |slice| self.of_slice(&self.worn.u, slice, member)[station];
-            let slices = self.slices_at(observation.face, own);
+            let slices = self.sections(member, observation, own);
             let weighted = |&(slice, weight): &(usize, f64)| weight * own(slice);
             slices.iter().map(weighted).sum()
         };

@@ -1,4 +1,5 @@
 //! Drawings that are no plots: the pair to scale, worn teeth, stresses in the mesh.
+mod around;
 mod base64;
 mod field;
 mod flank_map;
@@ -11,6 +12,7 @@ mod view;
 
 use super::html::escape;
 
+pub use around::around;
 pub use field::stresses;
 pub use flank_map::flank_maps;
 pub use pair::of_pair;

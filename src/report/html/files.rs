@@ -40,6 +40,9 @@ fn meaning(name: &str) -> Option<&'static str> {
         "transmission_error.csv" => {
             "lag of the gear at each mesh position: cycles, position in base pitches, angle µrad"
         }
+        "transmission_error_turn.csv" => {
+            "the same over one turn of the member with more teeth, position from the first teeth's pitch point on"
+        }
         "fields/wear.pvd" => "ParaView series over pinion revolutions",
         "fields/flanks.pvd" => {
             "ParaView series of the loaded flanks over the face: worn depth (warp by wear_vector), largest pressure"

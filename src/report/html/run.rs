@@ -20,7 +20,7 @@ pub fn run(run: &Run, pair: Option<&Pair>) -> Result<Page, OutputError> {
     let (worn, tooth) = worn.map_or((Vec::new(), None), |w| (w.drawings, Some(w.data)));
     let mut sections = vec![key_figures(run)];
     sections.extend(pair.map(|pair| Section::new("The gears").drawings(drawings::of_pair(pair))));
-    sections.push(wear(run).drawings(worn));
+    sections.push(wear(run).drawings(worn).drawings(drawings::around(run)));
     sections.push(contact(run).drawings(drawings::flank_maps(run)));
     sections.push(oil_and_heat(run));
     let stresses = drawings::stresses(run)?;
@@ -61,6 +61,11 @@ fn key_figures(run: &Run) -> Section {
                 value,
             );
         }
+        if let Some(worst) = run.last().worst_tooth(member) {
+            let (depth, tooth) = (significant(worst.deepest(), 4), worst.teeth[0]);
+            let value = format!("{depth} µm, tooth {tooth}");
+            say(format!("worst tooth, {}", member.name()), value);
+        }
         let value = format!("{} mg", significant(flank.mass_loss_mg, 4));
         say(format!("mass lost, {}", member.name()), value);
     }
@@ -81,6 +86,10 @@ fn key_figures(run: &Run) -> Section {
         (
             "transmission error peak to peak, new → worn",
             from_to(&|s| s.te_peak_to_peak_urad(), "µrad"),
+        ),
+        (
+            "transmission error over one turn, new → worn",
+            from_to(&State::te_over_a_turn_urad, "µrad"),
         ),
         (
             "face load factor K_Hβ, new → worn",

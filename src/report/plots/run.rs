@@ -25,6 +25,7 @@ pub fn wear_of_run(run: &Run) -> Vec<Plot> {
 /// Peak pressure, load share, transmission error and sliding over the mesh cycle.
 pub fn contact_of_run(run: &Run) -> Vec<Plot> {
     let mut plots = vec![peak_pressure(run), load_share(run), transmission_error(run)];
+    plots.push(over_a_turn(run));
     plots.extend(sliding::of_run(run));
     if run.states.iter().any(|s| s.pairs().any(|p| p.at_corner)) {
         plots.push(corner_pressure(run));
@@ -277,6 +278,26 @@ fn transmission_error(run: &Run) -> Plot {
         let at = at.map(|i| (i, "angle"));
         plot.live(at, &cycles_label(state), Style::Kind(kind), angles(state))
     })
+}
+
+/// Empty where all teeth are alike and no member runs out.
+fn over_a_turn(run: &Run) -> Plot {
+    let plot = Plot::new(
+        "transmission_error_turn",
+        "Lag of the gear under load over one turn of the member with more teeth",
+        "pinion rotation since the first teeth met in the pitch point, base pitches",
+        "lag seen at the pinion, µrad",
+    );
+    let states = ends(run).into_iter().enumerate();
+    states
+        .filter(|(_, state)| !state.turn.is_empty())
+        .fold(plot, |plot, (kind, state)| {
+            let points = state
+                .turn
+                .iter()
+                .map(|[rotation, angle]| (*rotation, *angle));
+            plot.curve(&cycles_label(state), Style::Kind(kind), points.collect())
+        })
 }
 
 /// The first and the last state, or the only one.

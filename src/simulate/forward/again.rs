@@ -38,6 +38,7 @@ impl<'a> Forward<'a> {
             altered: None,
             slices: None,
             ties: None,
+            sequence: None,
         };
         out.alter()?;
         Ok(out)
@@ -116,6 +117,7 @@ impl<'a> Forward<'a> {
             altered: None,
             slices: None,
             ties: None,
+            sequence: None,
         };
         out.alter()?;
         Ok(out)

@@ -11,10 +11,11 @@ use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, CycleSpec};
 use crate::contact::fem::CycleCompliance;
 use crate::contact::model::ContactError;
+use crate::contact::sequence::{Kinds, Sequence};
 use crate::contact::slices::Slices;
 use crate::contact::strips::Strips;
-use crate::effects::Effect;
-use crate::gear::Coupling;
+use crate::effects::{Effect, Hook};
+use crate::gear::{Coupling, Member, Teeth};
 use crate::simulate::blanks::Blanks;
 use crate::simulate::history::Progress;
 use crate::simulate::members::{MemberError, Members};
@@ -386,8 +387,10 @@ impl Forward<'_> {
     /// make missing across the face is not in them yet.
     fn slices_of_the_face(&self) -> Option<Slices> {
         let (face, width) = (&self.set.face, self.set.face_width);
-        let wanted =
-            (self.acting).is_some_and(|acting| acting.acts_across_the_face(&self.cycle.pair));
+        // teeth that differ are one section each: there the lead acts as in the analytic model
+        let wanted = (self.acting).is_some_and(|acting| {
+            acting.acts_across_the_face(&self.cycle.pair) && !acting.acts(Hook::ToothOffset)
+        });
         let count = match face.slices {
             // one stated section stays one: effects across the face are then a factor on its load, as analytically
             0 if wanted => SLICES_OF_EFFECTS,
@@ -416,11 +419,47 @@ impl Forward<'_> {
         Ok(Some(Arc::new(waves.ties(&self.cycle))))
     }
 
+    /// Which tooth meets which, if the study or the effects say that teeth differ.
+    fn teeth_in_turn(&self) -> Option<Sequence> {
+        let (pair, teeth) = (&self.cycle.pair, &self.set.teeth);
+        let counts = Member::BOTH.map(|m| pair.member(m).spec.teeth as usize);
+        let acting = (self.acting).filter(|acting| acting.acts(Hook::ToothOffset));
+        let by_effects = acting.map(|acting| acting.tooth_kinds(pair));
+        if by_effects.is_none() && teeth.are_alike() {
+            return None;
+        }
+        let altered = self.altered.as_ref();
+        let moved = altered.and_then(|a| a.alteration.tooth_back.as_ref());
+        let stated = |m: usize, i: usize| teeth.back[m].get(i).copied().unwrap_or(0.0);
+        let kind = |m: usize, i: usize| {
+            let own = by_effects.iter().flat_map(|kinds| kinds[m][i].iter());
+            std::iter::once(1e3 * stated(m, i))
+                .chain(own.copied())
+                .collect()
+        };
+        let back = |m: usize, i: usize| stated(m, i) + moved.map_or(0.0, |moved| moved[m][i]);
+        let stand_apart = |m: usize| teeth.back[m].windows(2).any(|two| two[0] != two[1]);
+        let most = |m: usize| match acting {
+            // what an effect's own pattern takes is enough where nothing else tells teeth apart
+            Some(acting) if !stand_apart(m) => acting.effects.tooth_classes(),
+            _ => usize::MAX,
+        };
+        let usual = |m: usize| teeth.classes[m].unwrap_or(Teeth::USUAL_CLASSES);
+        let sequence = Sequence::new(&Kinds {
+            of: [0, 1].map(|m| (0..counts[m]).map(|i| kind(m, i)).collect()),
+            most: [0, 1].map(|m| most(m).min(usual(m))),
+            hunting: teeth.hunting,
+        })?;
+        let back = [0, 1].map(|m| (0..counts[m]).map(|i| back(m, i)).collect());
+        Some(sequence.over(&self.cycle, back))
+    }
+
     /// Lets the effects change the contact.
     pub(super) fn alter(&mut self) -> Result<(), ForwardError> {
         self.altered = None;
         self.slices = self.slices_of_the_face();
         self.ties = self.ties_of_slices()?;
+        self.sequence = None;
         if let Some(acting) = self.acting {
             let alteration = self.alteration(acting);
             if let Some(fault) = acting.effects.fault() {
@@ -438,6 +477,7 @@ impl Forward<'_> {
                 alteration,
             });
         }
+        self.sequence = self.teeth_in_turn();
         if self.kind == ContactKind::Hertz {
             let altered = self.altered.as_ref();
             let profile = altered.and_then(|a| a.alteration.profile.as_ref());

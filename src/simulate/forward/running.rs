@@ -139,7 +139,7 @@ impl Forward<'_> {
     /// [`ForwardError`] if a contact cannot be solved.
     pub fn contacts_at(&mut self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
         let by_slice = self.all_contacts_at(u)?;
-        Ok(mean_contacts(self.slices.as_ref(), by_slice))
+        Ok(mean_contacts(self.weights().as_deref(), by_slice))
     }
 
     /// The same by slice.

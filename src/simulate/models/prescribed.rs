@@ -8,6 +8,7 @@ use crate::analytic::hertz_line;
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::slices::Flanks;
 use crate::contact::tangent::{Given, LinearContact};
 use crate::simulate::history::line_load;
 
@@ -83,10 +84,10 @@ impl ContactModel for Prescribed<'_> {
         self.cycle
     }
 
-    fn solve(
+    fn solve_flanks(
         &self,
         q: usize,
-        _: [&[f64]; 2],
+        _: &Flanks<'_>,
         _: &[usize],
     ) -> Result<PositionContact, ContactError> {
         let position = &self.cycle.positions[q];
@@ -136,7 +137,7 @@ impl ContactModel for Prescribed<'_> {
         &'m self,
         _: usize,
         contact: &PositionContact,
-        _: [&[f64]; 2],
+        _: &Flanks<'_>,
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
         Ok(Box::new(Given(contact.pressure.len())))
     }

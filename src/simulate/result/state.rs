@@ -16,6 +16,30 @@ pub struct State {
     /// Slices across the face, ascending; empty where one section stands for all of it. Flanks and mesh cycle are then the mean over the
     /// face, pressures and widths of contact those of the slice where they are largest.
     pub slices: Vec<FaceSlice>,
+    /// Classes of teeth, the pinion's first; empty where all teeth of each member are alike. Flanks and mesh cycle are then those of the
+    /// mean tooth, pressures and widths of contact the largest of all.
+    pub teeth: Vec<ToothClass>,
+    /// Rotation of the pinion (base pitches since the first teeth met in the pitch point) and lag of the gear seen at the pinion (µrad) over
+    /// one turn of the member with more teeth; empty where all teeth are alike and no member runs out.
+    pub turn: Vec<[f64; 2]>,
+}
+
+/// Teeth of a member that wear alike, in one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothClass {
+    /// Whose.
+    pub member: Member,
+    /// Their numbers, from 1 in the order in which they come into mesh.
+    pub teeth: Vec<usize>,
+    /// Depth at the radii of the member's profile, µm.
+    pub depth: Vec<f64>,
+}
+
+impl ToothClass {
+    /// Largest depth, µm.
+    pub fn deepest(&self) -> f64 {
+        self.depth.iter().fold(0.0, |m: f64, h| m.max(*h))
+    }
 }
 
 /// One slice of the face in one state.
@@ -85,6 +109,21 @@ impl State {
         let high = angles().max_by(f64::total_cmp)?;
         let low = angles().min_by(f64::total_cmp)?;
         Some(high - low)
+    }
+
+    /// Largest minus smallest angle over one turn, µrad, where teeth differ or a member runs out.
+    pub fn te_over_a_turn_urad(&self) -> Option<f64> {
+        let angles = || self.turn.iter().map(|[_, angle]| *angle);
+        let high = angles().max_by(f64::total_cmp)?;
+        let low = angles().min_by(f64::total_cmp)?;
+        Some(high - low)
+    }
+
+    /// The class of the deepest worn tooth of a member, where its teeth differ.
+    pub fn worst_tooth(&self, member: Member) -> Option<&ToothClass> {
+        let own = || self.teeth.iter().filter(|class| class.member == member);
+        let worst = own().max_by(|a, b| a.deepest().total_cmp(&b.deepest()));
+        worst.filter(|_| own().count() > 1)
     }
 
     /// The smallest film ratio over the mesh cycle and the path coordinate of that pair, mm.

@@ -15,6 +15,8 @@ use crate::wear::law::{AddedReads, Factors, Law};
 pub(super) struct Local<'a> {
     position: &'a Position,
     active: &'a [usize],
+    /// Unknowns whose pressures are taken from this contact.
+    own: Range<usize>,
     /// First unknown of each flank.
     shift: [usize; 2],
     /// Depth rate per pressure of pinion and gear: k per pinion cycle.
@@ -38,12 +40,18 @@ impl<'a> Local<'a> {
         let local = Self {
             position,
             active: &contact.active,
+            own: 0..contact.pressure.len(),
             shift: [0, law.cycle.stations.arc[0].len()],
             scale: law.scale(),
             slopes,
             reads,
         };
         (local, factors)
+    }
+
+    /// The same where the pressures of the unknowns `own` are those of another contact, with the active set `active`.
+    pub(super) fn take(&mut self, own: Range<usize>, active: &'a [usize]) {
+        (self.own, self.active) = (own, active);
     }
 
     /// Entries (station, value) of an operator's row for unknown `k`, both flanks.
@@ -69,6 +77,10 @@ impl<'a> Local<'a> {
     fn deposits(&self) -> Deposits {
         let mut deposits = Deposits::default();
         for &k in self.active {
+            if !self.own.contains(&k) {
+                deposits.push(std::iter::empty());
+                continue;
+            }
             let slope = |side: usize| self.slopes.as_ref().map_or(1.0, |s| s[side][k]);
             let read = self.reads.iter().filter(|read| read.0 == k);
             let worn = self

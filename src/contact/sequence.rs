@@ -1,0 +1,615 @@
+//! Teeth that differ: which tooth meets which, what stands beside a pair in mesh, and whose wear is computed for itself.
+//!
+//! Teeth of a member that stand alike among neighbours and mates that stand alike are one class; their wear is that of one of them.
+//! What is followed is the *passage* of a tooth through mesh. At each mesh position its own pair may be any of those in contact, so the
+//! contact is solved with that pair being the passage's, its neighbours those that come before and after it, each with its own wear:
+//!
+//! ```text
+//! tooth i + d of the pinion meets tooth k + d of the gear      d = 0 the passage's own pair, 1 the next to come into mesh
+//! dh_c/dn = Σ_m  w_m ∫ k p |v| over passage m                   over the passages of class c, with the share w_m of each
+//! ```
+//! Teeth i and k meet where i − k is a multiple of the common factor of both numbers of teeth. By [`Hunting::Average`] a tooth of a class
+//! passes a mate that is the mean of all that it meets: their mean place and their mean wear. What depends on the wear of two teeth in a
+//! straight line is right so; what is left out is the part of the load sharing that is crooked over the differences between mates.
+
+use std::collections::HashMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::contact::cycle::Cycle;
+use crate::contact::slices::Flanks;
+use crate::gear::{Hunting, common_factor};
+
+/// Neighbours on either side that tell teeth apart: a pair shares the load with those next to it, and these with the next ones.
+const NEIGHBOURS: i64 = 2;
+
+/// What tells the teeth of both members apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kinds {
+    /// By member and tooth, in the order in which they come into mesh: teeth with equal numbers stand alike.
+    pub of: [Vec<Vec<f64>>; 2],
+    /// The most classes by member.
+    pub most: [usize; 2],
+    /// Which mates a tooth meets.
+    pub hunting: Hunting,
+}
+
+/// A weighted sum: what, and with which weight.
+pub type Mix = Vec<(usize, f64)>;
+
+/// A tooth of one member that takes part in a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Seat {
+    Tooth(usize),
+    /// The mean of all with this remainder by the common factor.
+    Mean(usize),
+}
+
+/// The passage of a tooth, or of two that meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Passage {
+    /// Of pinion and gear; none: the mean mate.
+    tooth: [Option<usize>; 2],
+}
+
+/// Classes of teeth, and the passages that their wear follows from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sequence {
+    teeth: [usize; 2],
+    common: usize,
+    /// Class of every tooth.
+    class: [Vec<usize>; 2],
+    /// Number of what stands alike, of every tooth.
+    kind: [Vec<usize>; 2],
+    passages: Vec<Passage>,
+    sharing: Arc<Sharing>,
+    /// Share of each passage in a member's mean, by member.
+    weights: [Vec<f64>; 2],
+    /// How far every tooth stands back, mm along the path of contact.
+    back: [Vec<f64>; 2],
+    meetings: Vec<Meetings>,
+}
+
+/// What meets at one mesh position.
+#[derive(Debug, Clone, PartialEq)]
+struct Meetings {
+    /// Teeth of every pair.
+    situations: Vec<Vec<[Seat; 2]>>,
+    /// Which of them a passage has where a pair is its own, by passage and pair.
+    read: Vec<Vec<usize>>,
+}
+
+/// What a seat is to a contact: its class, what it stands like, and whether it is a mean.
+type Place = (usize, usize, bool);
+
+/// How passages share teeth: a state holds the depths of both members for each passage, and a tooth that is in several stands in each.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Sharing {
+    /// What a class wears by: passages and their weights, by member and class.
+    pub feeds: [Vec<Mix>; 2],
+    /// Classes in a passage with their weights, by member and passage.
+    pub mixes: [Vec<Mix>; 2],
+    /// The passage that holds the depths of a class, by member and class.
+    pub homes: [Vec<usize>; 2],
+    /// Stations of pinion and gear.
+    stations: [usize; 2],
+}
+
+/// Depths (mm) of all classes and mean mates.
+#[derive(Debug, Clone)]
+pub struct ToothDepths {
+    of_class: [Vec<Vec<f64>>; 2],
+    of_mean: [Vec<Vec<f64>>; 2],
+}
+
+impl Sequence {
+    /// Of teeth of these kinds; none where those of each member are all alike.
+    pub fn new(kinds: &Kinds) -> Option<Self> {
+        let teeth = [0, 1].map(|m| kinds.of[m].len());
+        let common = common_factor(teeth);
+        let means = [0, 1].map(|m| {
+            (0..common)
+                .map(|r| mean_of(&kinds.of[m], r, common))
+                .collect()
+        });
+        let means: [Vec<Vec<f64>>; 2] = means;
+        // with its neighbours and the mean of those that meet them
+        let of_tooth = |m: usize, i: usize| -> Vec<f64> {
+            let around = (-NEIGHBOURS..=NEIGHBOURS).flat_map(|d| {
+                let own = &kinds.of[m][place(i, d, teeth[m])];
+                let r = place(i, d, common);
+                let met = means[0][r].iter().chain(&means[1][r]);
+                own.iter().chain(met).copied()
+            });
+            around.collect()
+        };
+        let of_member =
+            |m: usize| -> Vec<Vec<f64>> { (0..teeth[m]).map(|i| of_tooth(m, i)).collect() };
+        let around = [0, 1].map(of_member);
+        let groups = [0, 1].map(|m| match kinds.hunting {
+            Hunting::Average => Groups::new(&around[m], kinds.most[m]),
+            Hunting::Full => Groups::apart(teeth[m]),
+        });
+        let alike = |m: usize| around[m].iter().all(|a| close(a, &around[m][0]));
+        (!alike(0) || !alike(1)).then(|| Self::of_classes(kinds, groups))
+    }
+
+    /// With these classes of the teeth of both members.
+    pub fn of_classes(kinds: &Kinds, groups: [Groups; 2]) -> Self {
+        let teeth = [0, 1].map(|m| kinds.of[m].len());
+        let common = common_factor(teeth);
+        let classes = [0, 1].map(|m| groups[m].centres.len());
+        let several = classes.map(|count| count > 1);
+        let mut passages: Vec<Passage> = Vec::new();
+        match kinds.hunting {
+            Hunting::Full => {
+                for i in 0..teeth[0] {
+                    let meets = (0..teeth[1]).filter(|k| i % common == k % common);
+                    passages.extend(meets.map(|k| Passage {
+                        tooth: [Some(i), Some(k)],
+                    }));
+                }
+            }
+            Hunting::Average => {
+                for m in 0..2 {
+                    if !several[m] && (several[1 - m] || m == 1) {
+                        continue;
+                    }
+                    for centre in &groups[m].centres {
+                        let mut tooth = [None; 2];
+                        tooth[m] = Some(*centre);
+                        passages.push(Passage { tooth });
+                    }
+                }
+            }
+        }
+        let mut out = Self {
+            teeth,
+            common,
+            kind: [0, 1].map(|m| Groups::new(&kinds.of[m], usize::MAX).of),
+            class: groups.map(|groups| groups.of),
+            sharing: Arc::default(),
+            weights: [Vec::new(), Vec::new()],
+            back: teeth.map(|count| vec![0.0; count]),
+            meetings: Vec::new(),
+            passages,
+        };
+        let mixes = [0, 1].map(|m| {
+            let mix = |passage: &Passage| out.mix(m, out.seat(passage, m, 0));
+            out.passages.iter().map(mix).collect::<Vec<Mix>>()
+        });
+        let home = |m: usize, class: usize| {
+            let alone = |mix: &Mix| matches!(mix.as_slice(), [(own, _)] if *own == class);
+            let home = mixes[m].iter().position(alone);
+            home.expect("every class has a passage of its own")
+        };
+        let homes = [0, 1].map(|m| (0..classes[m]).map(|c| home(m, c)).collect());
+        let feeds = [0, 1].map(|m| out.feeds_of(m, classes[m]));
+        for m in 0..2 {
+            out.weights[m] = vec![0.0; out.passages.len()];
+            for (feeds, share) in feeds[m].iter().zip(out.shares(m)) {
+                for &(passage, weight) in feeds {
+                    out.weights[m][passage] += share * weight;
+                }
+            }
+        }
+        out.sharing = Arc::new(Sharing {
+            feeds,
+            mixes,
+            homes,
+            stations: [0; 2],
+        });
+        out
+    }
+
+    /// The same with the teeth standing back by `back` (mm by member and tooth), over the mesh cycle `cycle`.
+    pub fn over(mut self, cycle: &Cycle, back: [Vec<f64>; 2]) -> Self {
+        self.back = back;
+        self.sharing = Arc::new(Sharing {
+            stations: cycle.stations.arc.each_ref().map(Vec::len),
+            ..(*self.sharing).clone()
+        });
+        let meetings = cycle.positions.iter().map(|position| {
+            let numbers: Vec<i64> = position.pairs.iter().map(|p| i64::from(p.tooth)).collect();
+            self.meetings_of(&numbers)
+        });
+        self.meetings = meetings.collect();
+        self
+    }
+
+    fn meetings_of(&self, numbers: &[i64]) -> Meetings {
+        let mut known: HashMap<Vec<[Place; 2]>, usize> = HashMap::new();
+        let mut out = Meetings {
+            situations: Vec::new(),
+            read: Vec::new(),
+        };
+        for passage in &self.passages {
+            let of_pair = |own: &i64| {
+                // a pair with a larger number came into mesh before
+                let seats: Vec<[Seat; 2]> = (numbers.iter())
+                    .map(|other| [0, 1].map(|m| self.seat(passage, m, own - other)))
+                    .collect();
+                let key = (seats.iter())
+                    .map(|seats| [0, 1].map(|m| self.same(m, seats[m])))
+                    .collect();
+                *known.entry(key).or_insert_with(|| {
+                    out.situations.push(seats);
+                    out.situations.len() - 1
+                })
+            };
+            let read = numbers.iter().map(of_pair).collect();
+            out.read.push(read);
+        }
+        out
+    }
+
+    fn same(&self, m: usize, seat: Seat) -> Place {
+        match seat {
+            Seat::Tooth(i) => (self.class[m][i], self.kind[m][i], false),
+            Seat::Mean(r) if self.sharing.homes[m].len() > 1 => (r, r, true),
+            // all teeth alike: none stands out of the mean
+            Seat::Mean(_) => (0, 0, true),
+        }
+    }
+
+    fn seat(&self, passage: &Passage, m: usize, d: i64) -> Seat {
+        match (passage.tooth[m], passage.tooth[1 - m]) {
+            (Some(i), _) => Seat::Tooth(place(i, d, self.teeth[m])),
+            (None, mate) => Seat::Mean(place(mate.unwrap_or(0), d, self.common)),
+        }
+    }
+
+    fn mix(&self, m: usize, seat: Seat) -> Mix {
+        match seat {
+            Seat::Tooth(i) => vec![(self.class[m][i], 1.0)],
+            Seat::Mean(r) => {
+                let met: Vec<usize> = (r..self.teeth[m]).step_by(self.common).collect();
+                let mut mix = Mix::new();
+                for i in &met {
+                    let class = self.class[m][*i];
+                    match mix.iter_mut().find(|(c, _)| *c == class) {
+                        Some((_, count)) => *count += 1.0,
+                        None => mix.push((class, 1.0)),
+                    }
+                }
+                mix.iter_mut()
+                    .for_each(|(_, count)| *count /= met.len() as f64);
+                mix
+            }
+        }
+    }
+
+    fn feeds_of(&self, m: usize, classes: usize) -> Vec<Mix> {
+        let own = |passage: &Passage| passage.tooth[m].map(|i| self.class[m][i]);
+        let of_class = |c: usize| {
+            let passages = self.passages.iter().enumerate();
+            let passing: Vec<usize> = (passages.clone())
+                .filter(|(_, p)| own(p) == Some(c))
+                .map(|(i, _)| i)
+                .collect();
+            if passing.is_empty() {
+                // one class, whose teeth pass those of every class of the other member
+                let shares = self.shares(1 - m);
+                let mate = |p: &Passage| p.tooth[1 - m].map(|k| self.class[1 - m][k]);
+                let weighted = passages.filter_map(|(i, p)| Some((i, shares[mate(p)?])));
+                return weighted.collect();
+            }
+            let each = 1.0 / passing.len() as f64;
+            passing.into_iter().map(|i| (i, each)).collect()
+        };
+        (0..classes).map(of_class).collect()
+    }
+
+    /// Share of each class in the teeth of a member.
+    pub fn shares(&self, m: usize) -> Vec<f64> {
+        let classes = self.class[m].iter().max().map_or(0, |c| c + 1);
+        let mut shares = vec![0.0; classes];
+        for class in &self.class[m] {
+            shares[*class] += 1.0 / self.teeth[m] as f64;
+        }
+        shares
+    }
+
+    /// Number of passages: a state holds the depths of both members for each.
+    pub fn count(&self) -> usize {
+        self.passages.len()
+    }
+
+    /// Number of classes of pinion and gear.
+    pub fn classes(&self) -> [usize; 2] {
+        self.sharing.homes.each_ref().map(Vec::len)
+    }
+
+    /// How passages share teeth.
+    pub fn sharing(&self) -> &Arc<Sharing> {
+        &self.sharing
+    }
+
+    /// Class of every tooth of a member.
+    pub fn class_of(&self, m: usize) -> &[usize] {
+        &self.class[m]
+    }
+
+    /// The passage that holds the depths of a tooth.
+    pub fn home(&self, m: usize, tooth: usize) -> usize {
+        self.sharing.homes[m][self.class[m][tooth]]
+    }
+
+    /// Share of each passage in the mean tooth of a member.
+    pub fn weights(&self, m: usize) -> &[f64] {
+        &self.weights[m]
+    }
+
+    /// The mean teeth of both members in the state `u`.
+    pub fn mean_of(&self, u: &[f64]) -> Vec<f64> {
+        let classes = self.sharing.gather(u);
+        let mut mean = vec![0.0; self.sharing.stations.iter().sum()];
+        for m in 0..2 {
+            let first = m * self.sharing.stations[0];
+            let own = &mut mean[first..first + self.sharing.stations[m]];
+            for (class, share) in self.shares(m).into_iter().enumerate() {
+                add(own, share, &classes[self.sharing.class_part(m, class)]);
+            }
+        }
+        mean
+    }
+
+    /// Share of each passage in the mean of all contacts.
+    pub fn contact_weights(&self) -> Vec<f64> {
+        let own = |m: usize| self.passages.iter().any(|p| p.tooth[m].is_some());
+        let members: Vec<usize> = (0..2).filter(|m| own(*m)).collect();
+        let mean = |i: usize| {
+            let sum: f64 = members.iter().map(|m| self.weights[*m][i]).sum();
+            sum / members.len() as f64
+        };
+        (0..self.count()).map(mean).collect()
+    }
+
+    /// Number of different contacts at the position `q`.
+    pub fn situations(&self, q: usize) -> usize {
+        self.meetings[q].situations.len()
+    }
+
+    /// Which contact a passage has at the position `q` where the pair `index` is its own.
+    pub fn read(&self, q: usize, passage: usize, index: usize) -> usize {
+        self.meetings[q].read[passage][index]
+    }
+
+    /// The flanks that meet in the contact `situation` of the position `q`, the teeth standing where they do.
+    pub fn flanks<'u>(&self, q: usize, situation: usize, depths: &'u ToothDepths) -> Flanks<'u> {
+        self.flanks_with(q, situation, depths, &self.back)
+    }
+
+    /// The same with the teeth standing back by `back`, mm by member and tooth; or with derivatives of both.
+    pub fn flanks_with<'u>(
+        &self,
+        q: usize,
+        situation: usize,
+        depths: &'u ToothDepths,
+        back: &[Vec<f64>; 2],
+    ) -> Flanks<'u> {
+        self.seated(&self.meetings[q].situations[situation], depths, back)
+    }
+
+    /// Base pitches of one turn of the member with more teeth.
+    pub fn base_pitches_of_a_turn(&self) -> usize {
+        self.teeth[0].max(self.teeth[1])
+    }
+
+    /// The flanks of the pairs `numbers` so many base pitches after the first teeth of both members met in the pitch point, each tooth where it
+    /// stands.
+    pub fn flanks_after<'u>(
+        &self,
+        turned: usize,
+        numbers: &[i64],
+        depths: &'u ToothDepths,
+    ) -> Flanks<'u> {
+        // a pair with a larger number came into mesh before
+        let seats = |number: &i64| {
+            self.teeth
+                .map(|count| Seat::Tooth(place(turned, -number, count)))
+        };
+        let seats: Vec<[Seat; 2]> = numbers.iter().map(seats).collect();
+        self.seated(&seats, depths, &self.back)
+    }
+
+    fn seated<'u>(
+        &self,
+        seats: &[[Seat; 2]],
+        depths: &'u ToothDepths,
+        back: &[Vec<f64>; 2],
+    ) -> Flanks<'u> {
+        let mut flanks = Flanks::new(1, seats.len(), |_, pair| {
+            [0, 1].map(|m| self.depth(m, seats[pair][m], depths))
+        });
+        for (own, seats) in flanks.back.iter_mut().zip(seats) {
+            *own = (0..2).map(|m| self.back_of(m, seats[m], &back[m])).sum();
+        }
+        flanks
+    }
+
+    fn depth<'u>(&self, m: usize, seat: Seat, depths: &'u ToothDepths) -> &'u [f64] {
+        match seat {
+            Seat::Tooth(i) => &depths.of_class[m][self.class[m][i]],
+            Seat::Mean(r) => &depths.of_mean[m][r],
+        }
+    }
+
+    fn back_of(&self, m: usize, seat: Seat, back: &[f64]) -> f64 {
+        match seat {
+            _ if back.is_empty() => 0.0,
+            Seat::Tooth(i) => back[i],
+            Seat::Mean(r) => {
+                let met = back[r..].iter().step_by(self.common);
+                met.sum::<f64>() / (self.teeth[m] / self.common) as f64
+            }
+        }
+    }
+
+    /// Depths of all classes and mean mates in the state `u`.
+    pub fn depths(&self, u: &[f64]) -> ToothDepths {
+        let of_class = [0, 1].map(|m| {
+            let homes = self.sharing.homes[m].iter();
+            let of = |home: &usize| u[self.sharing.part(*home, m)].to_vec();
+            homes.map(of).collect::<Vec<Vec<f64>>>()
+        });
+        let of_mean = [0, 1].map(|m| {
+            let of = |r: usize| sum(&self.mix(m, Seat::Mean(r)), &of_class[m]);
+            (0..self.common).map(of).collect()
+        });
+        ToothDepths { of_class, of_mean }
+    }
+}
+
+impl Sharing {
+    /// Where the depths of member `m` in a passage stand in a state.
+    fn part(&self, passage: usize, m: usize) -> Range<usize> {
+        let [pinion, gear] = self.stations;
+        let first = passage * (pinion + gear) + m * pinion;
+        first..first + self.stations[m]
+    }
+
+    /// Where the depths of a class stand among those of all classes, the pinion's first.
+    pub fn class_part(&self, m: usize, class: usize) -> Range<usize> {
+        let first = m * self.homes[0].len() * self.stations[0] + class * self.stations[m];
+        first..first + self.stations[m]
+    }
+
+    /// Number of depths of all classes.
+    pub fn size(&self) -> usize {
+        (0..2).map(|m| self.homes[m].len() * self.stations[m]).sum()
+    }
+
+    /// Turns what each passage by itself wears into what it wears with the teeth that are shared: a class by the mean of its passages, a
+    /// mean mate by that of the classes in it.
+    pub fn share(&self, rates: &mut [f64]) {
+        let mut classes = vec![0.0; self.size()];
+        for m in 0..2 {
+            for (class, feeds) in self.feeds[m].iter().enumerate() {
+                let mean = &mut classes[self.class_part(m, class)];
+                for &(passage, weight) in feeds {
+                    add(mean, weight, &rates[self.part(passage, m)]);
+                }
+            }
+        }
+        self.spread(&classes, rates);
+    }
+
+    /// The depths of all classes in a state.
+    pub fn gather(&self, u: &[f64]) -> Vec<f64> {
+        let mut classes = vec![0.0; self.size()];
+        for m in 0..2 {
+            for (class, home) in self.homes[m].iter().enumerate() {
+                classes[self.class_part(m, class)].copy_from_slice(&u[self.part(*home, m)]);
+            }
+        }
+        classes
+    }
+
+    /// The state with these depths of all classes.
+    pub fn spread(&self, classes: &[f64], u: &mut [f64]) {
+        for m in 0..2 {
+            for (passage, mix) in self.mixes[m].iter().enumerate() {
+                let own = &mut u[self.part(passage, m)];
+                own.fill(0.0);
+                for &(class, weight) in mix {
+                    add(own, weight, &classes[self.class_part(m, class)]);
+                }
+            }
+        }
+    }
+}
+
+/// The tooth `d` after `i` of `count`.
+fn place(i: usize, d: i64, count: usize) -> usize {
+    (i as i64 + d).rem_euclid(count as i64) as usize
+}
+
+fn add(to: &mut [f64], weight: f64, values: &[f64]) {
+    to.iter_mut()
+        .zip(values)
+        .for_each(|(to, v)| *to += weight * v);
+}
+
+fn sum(mix: &[(usize, f64)], of: &[Vec<f64>]) -> Vec<f64> {
+    if let [(only, 1.0)] = mix {
+        return of[*only].clone();
+    }
+    let mut sum = vec![0.0; of[0].len()];
+    for &(i, weight) in mix {
+        add(&mut sum, weight, &of[i]);
+    }
+    sum
+}
+
+/// The mean of the lists whose number has the remainder `r` by `common`.
+fn mean_of(all: &[Vec<f64>], r: usize, common: usize) -> Vec<f64> {
+    let met: Vec<&Vec<f64>> = all.iter().skip(r).step_by(common).collect();
+    let mut mean = vec![0.0; met[0].len()];
+    for one in &met {
+        add(&mut mean, 1.0 / met.len() as f64, one);
+    }
+    mean
+}
+
+/// Numbers that differ by no more than rounding does.
+fn close(a: &[f64], b: &[f64]) -> bool {
+    (a.iter().zip(b)).all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + a.abs().max(b.abs())))
+}
+
+/// Things in groups, and one of each group that stands for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Groups {
+    /// Group of each.
+    of: Vec<usize>,
+    /// What stands for each group.
+    centres: Vec<usize>,
+}
+
+impl Groups {
+    /// `count` things, each by itself.
+    pub fn apart(count: usize) -> Self {
+        Self {
+            of: (0..count).collect(),
+            centres: (0..count).collect(),
+        }
+    }
+
+    /// Equal lists together and, where these would be more than `most` groups, those nearest to one of so many that lie as far apart as
+    /// can be, the first one among them (farthest-point clustering; Gonzalez, Theor. Comput. Sci. 38, 1985).
+    fn new(all: &[Vec<f64>], most: usize) -> Self {
+        let mut different: Vec<usize> = Vec::new();
+        let mut of = Vec::with_capacity(all.len());
+        for (i, own) in all.iter().enumerate() {
+            let known = different.iter().position(|other| close(own, &all[*other]));
+            of.push(known.unwrap_or(different.len()));
+            if known.is_none() {
+                different.push(i);
+            }
+        }
+        if different.len() <= most {
+            return Self {
+                of,
+                centres: different,
+            };
+        }
+        let distance = |a: usize, b: usize| -> f64 {
+            let squares = all[a].iter().zip(&all[b]).map(|(a, b)| (a - b).powi(2));
+            squares.sum()
+        };
+        let nearest = |centres: &[usize], i: usize| {
+            let each = centres.iter().map(|c| distance(*c, i)).enumerate();
+            each.fold((0, f64::INFINITY), |m, d| if d.1 < m.1 { d } else { m })
+        };
+        let mut centres = vec![0];
+        while centres.len() < most {
+            let apart = different.iter().map(|i| (*i, nearest(&centres, *i).1));
+            let farthest = apart.fold((0, 0.0), |m, d| if d.1 > m.1 { d } else { m });
+            centres.push(farthest.0);
+        }
+        Self {
+            of: (0..all.len()).map(|i| nearest(&centres, i).0).collect(),
+            centres,
+        }
+    }
+}
