@@ -67,6 +67,10 @@ impl GearModel<'_> {
         });
         let carried = variations.len() - usize::from(self.stretches);
         let mut forward = self.forward(test, run.worn_with, &run.bits, acting)?;
+        // teeth that are all alike have no derivatives by what would tell them apart
+        if acting.is_some_and(|a| a.acts(Hook::ToothOffset)) && forward.sequence().is_none() {
+            return Ok(None);
+        }
         let history = self.history(&mut forward, run.key(), last, &variations[..carried])?;
         if unsteady(&history.at(last), &variations[..carried]) {
             return Ok(None);

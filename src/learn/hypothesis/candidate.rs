@@ -214,7 +214,13 @@ impl Candidate {
         let cards = self.effects.cards();
         let all = |hook: Hook| cards.iter().all(|card| card.hook == hook);
         let waves = !self.quarters.is_empty() && all(Hook::Profile);
-        waves || all(Hook::ToothOffset) || self.acts_across_the_face()
+        waves || self.acts_on_single_teeth() || self.acts_across_the_face()
+    }
+
+    /// Whether it moves single teeth from their places alone.
+    pub(in crate::learn) fn acts_on_single_teeth(&self) -> bool {
+        let cards = self.effects.cards();
+        !cards.is_empty() && cards.iter().all(|card| card.hook == Hook::ToothOffset)
     }
 
     /// Whether it acts through slices of the face alone.

@@ -40,8 +40,12 @@ const SHARP_SHARE: f64 = 0.15;
 const BEHIND_FORM: f64 = 0.15;
 /// Share of the attainable fall of χ² below which nothing explains what is there.
 const EXPLAINED: f64 = 0.85;
-/// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face is too little for a fit.
-const ACROSS_SHARE: f64 = 0.25;
+/// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face or on single teeth is too little
+/// for a fit: slices and classes of teeth cost many times a section.
+const LINEARISED_SHARE: f64 = 0.25;
+/// Share of the leader's gain below which what moves single teeth is left to screening: the analytic model shares the load between them as
+/// elements do, but for the corners.
+const SINGLE_TEETH_SHARE: f64 = 0.25;
 
 impl Context<'_> {
     /// Fits by coarse finite elements those of the screened candidates that may matter: the leaders, and where the discrepancy is real what
@@ -91,7 +95,9 @@ impl Context<'_> {
             // forms of one effect stand or fall by the best of them
             let behind = !candidate.sharp() && best_form - judged.log_evidence > BEHIND_FORM * best;
             judged.log_evidence - before >= bar && !behind
-                || contact_missed && candidate.changes_contact()
+                || contact_missed
+                    && candidate.changes_contact()
+                    && worth_its_teeth(judged, before, *best)
         };
         let wanted: Vec<bool> = screened.iter().map(wanted).collect();
         let refined = self.by_coarse_elements(base, screened, &wanted);
@@ -186,14 +192,14 @@ impl Context<'_> {
             let settled = explained && judged.fidelity != Fidelity::Screening;
             (!explained || alike) && !settled && (candidate.is_own_form() || !forms_are_one)
         };
-        let bar = ACROSS_SHARE * 0.5 * smooth.drop;
+        let bar = LINEARISED_SHARE * 0.5 * smooth.drop;
         let anew = |judged: &FittedCandidate| {
             let candidate = &judged.candidate;
             let predictor =
                 Anchored::new(model(self.middle, candidate), base.fitted.offset.clone());
             let starts = self.starts(base, candidate, &predictor);
-            // slices cost many times a section
-            if candidate.acts_across_the_face() && starts.first()?.0 < bar {
+            let costly = candidate.acts_across_the_face() || candidate.acts_on_single_teeth();
+            if costly && starts.first()?.0 < bar {
                 return None;
             }
             let found = self.look(candidate, &predictor, starts, &SCREEN)?;
@@ -238,8 +244,9 @@ pub(super) fn look_alikes_left(
         let Some(leader) = leader else { return false };
         let bar = before + least.max(share(judged) * (leader.log_evidence - before));
         let own = &judged.candidate.effects;
-        let unsettled =
-            judged.fidelity == Fidelity::Screening && judged.candidate.changes_contact();
+        let unsettled = judged.fidelity == Fidelity::Screening
+            && judged.candidate.changes_contact()
+            && worth_its_teeth(judged, before, leader.log_evidence - before);
         judged.candidate.is_look_alike_of(&leader.candidate)
             && judged.fidelity != leader.fidelity
             && (unsettled || judged.log_evidence > bar)
@@ -247,6 +254,13 @@ pub(super) fn look_alikes_left(
                 .is_some_and(|best| std::ptr::eq(best, judged))
     };
     fitted.iter().map(left).collect()
+}
+
+/// Whether what moves single teeth gains enough of what the leader gains over the base model's log evidence `before` to be fitted by elements; all
+/// else is not asked.
+fn worth_its_teeth(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
+    !judged.candidate.acts_on_single_teeth()
+        || judged.log_evidence - before >= SINGLE_TEETH_SHARE * leader
 }
 
 /// A look at a candidate fitted on if it is in play.

@@ -438,6 +438,11 @@ impl Forward<'_> {
                 .collect()
         };
         let back = |m: usize, i: usize| stated(m, i) + moved.map_or(0.0, |moved| moved[m][i]);
+        let back = [0, 1].map(|m| (0..counts[m]).map(|i| back(m, i)).collect::<Vec<f64>>());
+        // an effect that moves no tooth leaves all alike
+        if back.iter().flatten().all(|back| *back == 0.0) {
+            return None;
+        }
         let stand_apart = |m: usize| teeth.back[m].windows(2).any(|two| two[0] != two[1]);
         let most = |m: usize| match acting {
             // what an effect's own pattern takes is enough where nothing else tells teeth apart
@@ -450,7 +455,6 @@ impl Forward<'_> {
             most: [0, 1].map(|m| most(m).min(usual(m))),
             hunting: teeth.hunting,
         })?;
-        let back = [0, 1].map(|m| (0..counts[m]).map(|i| back(m, i)).collect());
         Some(sequence.over(&self.cycle, back))
     }
 
