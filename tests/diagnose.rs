@@ -20,6 +20,7 @@ mod diagnosis {
     pub(crate) mod climb;
     pub(crate) mod command;
     pub(crate) mod look_alikes;
+    pub(crate) mod masses;
     pub(crate) mod partial;
     pub(crate) mod plan;
     pub(crate) mod spoiled;
@@ -82,22 +83,15 @@ fn synthetic(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Dataset {
 }
 
 fn synthetic_of(truth: &Study, scatter: f64, relative: f64, seed: u64) -> Dataset {
-    let mut data = layout(truth);
-    let measured = Measured::new(truth, data.clone());
-    let workshop = measured.workshop(ContactKind::Hertz).unwrap();
-    let bench = measured.bench(&workshop).unwrap();
-    let effects = truth.effect_model();
-    let model = GearModel::new(&bench, Box::new(move |_| effects.stated()));
+    let layout = layout(truth);
     let mut random = Random(seed);
-    let datums: Vec<f64> = data.traces.iter().map(|_| 0.3 * random.normal()).collect();
-    for test in 0..data.tests.len() {
-        let k = 5e-10 * (scatter * random.normal()).exp();
-        let values = model.predict(test, k, &[]).unwrap();
-        let mut values = values.into_iter();
-        for o in data.observations.iter_mut().filter(|o| o.test == test) {
-            o.value = values.next().unwrap();
-        }
-    }
+    let datums: Vec<f64> = (layout.traces.iter())
+        .map(|_| 0.3 * random.normal())
+        .collect();
+    let coefficients: Vec<f64> = (layout.tests.iter())
+        .map(|_| 5e-10 * (scatter * random.normal()).exp())
+        .collect();
+    let mut data = exact(truth, layout, &coefficients);
     let curve =
         |o: &gearwear::measure::Observation| (o.test, o.member, o.quantity, o.cycles.to_bits());
     let exact = data.observations.clone();
@@ -106,6 +100,23 @@ fn synthetic_of(truth: &Study, scatter: f64, relative: f64, seed: u64) -> Datase
         let largest = own.map(|e| e.value.abs()).fold(0.0, f64::max);
         o.sigma = relative * largest + 0.05;
         o.value += o.sigma * random.normal() + o.trace.map_or(0.0, |t| datums[t]);
+    }
+    data
+}
+
+/// The values of `truth` with the wear coefficient of each test, without noise.
+fn exact(truth: &Study, mut data: Dataset, coefficients: &[f64]) -> Dataset {
+    let measured = Measured::new(truth, data.clone());
+    let workshop = measured.workshop(ContactKind::Hertz).unwrap();
+    let bench = measured.bench(&workshop).unwrap();
+    let effects = truth.effect_model();
+    let model = GearModel::new(&bench, Box::new(move |_| effects.stated()));
+    for (test, k) in coefficients.iter().enumerate() {
+        let values = model.predict(test, *k, &[]).unwrap();
+        let mut values = values.into_iter();
+        for o in data.observations.iter_mut().filter(|o| o.test == test) {
+            o.value = values.next().unwrap();
+        }
     }
     data
 }

@@ -6,7 +6,7 @@
 //!                           of the cycles also (1/n) ∫₀ⁿ φ_j dn', what a factor φ_j on the wear rate leaves on a depth worn evenly
 //! ln Z(r) = ½ bᵀ (A + V⁻¹)⁻¹ b − ½ ln det(I + V A)       A = XᵀX, b = Xᵀz whitened, freed of what k and the model's parameters do
 //! ```
-//! a: a curve's largest magnitude; g: the same, or the model's own value. What is common to all tests has few terms and is seen where
+//! a: a curve's largest magnitude, the model's own where a curve is a single row; g: the same, or the model's own value. What is common to all tests has few terms and is seen where
 //! it is weak; but so is what the model itself computes a little wrong at the same place in every test: only what is gained beyond a
 //! discrepancy of the size of the model's own error counts.
 
@@ -23,7 +23,7 @@ use crate::learn::noise::{Covariance, Discrepancy, ModelError, amplitudes};
 use crate::learn::parameters::Parameter;
 use crate::learn::region::Map;
 use crate::learn::search::Found;
-use crate::measure::{Observation, Quantity};
+use crate::measure::{Observation, Quantity, Subject};
 use crate::numeric::logarithm::log_mean_exp;
 
 /// Sizes of the discrepancy relative to the curve; where it is common to all tests also larger ones, since a rate may change at any time
@@ -48,7 +48,7 @@ pub(in crate::learn) fn log_evidence(
     let observations: Vec<&Observation> = (0..likelihood.len())
         .map(|i| likelihood.observation(i))
         .collect();
-    let size = amplitudes(&observations);
+    let size = sizes(&observations, &fit.model);
     let form = change.map(|change| (change, OWN_FORM));
     let even = even_sizes(&observations, &size);
     let each = curves(&size, &even).into_par_iter().map(|error| {
@@ -84,15 +84,52 @@ fn curves<'a>(size: &'a [f64], even: &'a [f64]) -> Vec<(&'a [f64], ModelError)> 
     grid
 }
 
-/// The mean of the sizes over all rows of a quantity, at each row.
+/// The largest magnitude measured in each row's curve, or what the model gives where a curve is a single row: a discrepancy in proportion to a
+/// measured value would follow that value's own noise.
+fn sizes(observations: &[&Observation], model: &[f64]) -> Vec<f64> {
+    let rows = rows_at_checkpoints(observations);
+    let measured = amplitudes(observations).into_iter();
+    let each = measured.zip(model).zip(observations);
+    each.map(|((measured, model), o)| match rows[&checkpoint(o)] {
+        1 => model.abs(),
+        _ => measured,
+    })
+    .collect()
+}
+
+/// What rows of one curve have in common, but for the place across the face.
+type Checkpoint = (usize, Subject, Quantity, u64);
+
+fn checkpoint(o: &Observation) -> Checkpoint {
+    (o.test, o.member, o.quantity, o.cycles.to_bits())
+}
+
+fn rows_at_checkpoints(observations: &[&Observation]) -> BTreeMap<Checkpoint, usize> {
+    let mut rows = BTreeMap::new();
+    for o in observations {
+        *rows.entry(checkpoint(o)).or_default() += 1;
+    }
+    rows
+}
+
+/// The mean of the sizes over all rows of a quantity, at each row that does not stand alone at its checkpoint: a discrepancy that is a new one at
+/// every checkpoint of a single row is nothing but noise larger than stated, and no cause.
 fn even_sizes(observations: &[&Observation], size: &[f64]) -> Vec<f64> {
+    let rows = rows_at_checkpoints(observations);
     let mut sums: BTreeMap<Quantity, (f64, f64)> = BTreeMap::new();
     for (o, size) in observations.iter().zip(size) {
         let sum = sums.entry(o.quantity).or_default();
         *sum = (sum.0 + size, sum.1 + 1.0);
     }
     let mean = |o: &&Observation| sums[&o.quantity].0 / sums[&o.quantity].1;
-    observations.iter().map(mean).collect()
+    let even = |o: &&Observation| {
+        if rows[&checkpoint(o)] > 1 {
+            mean(o)
+        } else {
+            0.0
+        }
+    };
+    observations.iter().map(even).collect()
 }
 
 /// The most probable discrepancy beside a model, of each curve's own or common to all tests.
@@ -104,7 +141,7 @@ pub(in crate::learn) fn most_probable(
     let observations: Vec<&Observation> = (0..likelihood.len())
         .map(|i| likelihood.observation(i))
         .collect();
-    let size = amplitudes(&observations);
+    let size = sizes(&observations, &fit.model);
     let even = even_sizes(&observations, &size);
     let each = curves(&size, &even).into_par_iter().map(|(size, error)| {
         let covariance = likelihood.covariance_with(&[(size, error)]);
