@@ -458,6 +458,7 @@ fn files_that_cannot_be_read_are_refused_with_their_name() {
         "latin.csv:2:8",
         "found the byte 0xE4",
         "save the file as UTF-8",
+        "gearwear import",
     ] {
         assert!(error.to_string().contains(part), "{error}");
     }

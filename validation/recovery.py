@@ -109,6 +109,7 @@ EFFECTS = {
     "profile_slope": ({"slope": 7.0}, ""),
     "profile_form": ({"amplitude": 1.5, "phase": 0.7, "waves": 3.0}, ""),
     "pitch_error": ({"deviation": 7.0}, ""),
+    "run_out": ({"amplitude": 9.0, "phase": 0.8}, ""),
 }
 TRUE_K, START_K = 5e-10, 8e-10
 NOISE = 0.02

@@ -75,13 +75,21 @@ const WANTED: Wanted = Wanted {
     hint: "[measurements] file in the study names it, relative to the study file",
 };
 
+const READ_BY_IMPORT: &str =
+    "or let `gearwear import FILE --study STUDY -o measurements.csv` convert it as it stands";
+
 impl Dataset {
     /// Reads and checks a measurement file.
     ///
     /// # Errors
     /// A [`TextError`] for the first fault: unreadable, not UTF-8, columns, rows, values, units.
     pub fn load(path: &Path, known: &Known) -> Result<Self, TextError> {
-        Self::read(source_text::read(path, &WANTED)?, known)
+        let source =
+            source_text::read(path, &WANTED).map_err(|error| match error.diagnostic().fault {
+                Fault::NotUtf8 => error.with_hint(READ_BY_IMPORT),
+                _ => error,
+            })?;
+        Self::read(source, known)
     }
 
     /// Checks a measurement file's text; `name` stands in messages.

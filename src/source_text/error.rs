@@ -14,6 +14,13 @@ impl TextError {
         Self(Box::new((diagnostic, source)))
     }
 
+    /// The same with one more hint.
+    #[must_use]
+    pub fn with_hint(self, hint: &str) -> Self {
+        let (diagnostic, source) = *self.0;
+        Self::new(diagnostic.with_hint(hint), source)
+    }
+
     /// The fault itself.
     pub fn diagnostic(&self) -> &Diagnostic {
         &self.0.0
