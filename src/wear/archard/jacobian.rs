@@ -11,6 +11,9 @@ use crate::numeric::patchy::PatchyMatrix;
 use crate::wear::integrator::Jacobian;
 use crate::wear::law::{Factors, Solved};
 
+/// A Jacobian of all slices, and the factors on the coefficient that it was made with, by slice and position.
+type OfSlices = (Jacobian, Vec<Vec<Factors>>);
+
 impl<M: ContactModel + ?Sized> ArchardSystem<'_, M> {
     /// The Jacobian of one section, where the contacts for `u` are known, and the factors on the coefficient by position; none if the contact
     /// model has no sensitivities.
@@ -48,7 +51,7 @@ impl<M: ContactModel + ?Sized> ArchardSystem<'_, M> {
         model: &dyn SlicedContact,
         n: f64,
         u: &[f64],
-    ) -> Result<Option<(Jacobian, Vec<Vec<Factors>>)>, WearError> {
+    ) -> Result<Option<OfSlices>, WearError> {
         let (law, joint) = (self.law_at(u), self.known(u));
         let cycle = law.cycle;
         let positions = cycle.positions.len();
