@@ -1,4 +1,4 @@
-//! gearwear: finite-element contact and wear of spur gears.
+//! gearwear: finite-element contact and wear of spur and helical gears.
 //!
 //! ```text
 //! study.toml -> study::Study -> simulate::Setup -> wear history -> simulate::Run -> report

@@ -92,9 +92,15 @@ refusals! {
     a_lead_without_slices: format!("{SHORT}[face.gear]\ncrowning = 5.0\n")
         => Inconsistent "face.gear.crowning" at 22:12, "5.0", "2 or more", "needs slices";
     helical_teeth: format!("{SHORT}[face]\nhelix_angle = 12.0\n")
-        => BadValue "face.helix_angle" at 22:15, "12.0", "0", "gears are spur gears";
+        => Inconsistent "face.helix_angle" at 22:15, "12.0", "2 or more", "state slices = 11 in [face]";
+    teeth_steeper_than_helical: format!("{SHORT}[face]\nhelix_angle = 46.0\nslices = 11\n")
+        => BadValue "face.helix_angle" at 22:15, "46.0", "-45 to 45 deg", "8 to 30 is usual";
+    helical_slices_that_are_tied: format!("{SHORT}[face]\nhelix_angle = 12.0\nslices = 11\ncoupling = \"teeth\"\n")
+        => Inconsistent "face.coupling" at 24:12, "\"teeth\"", "\"none\"", "ties slices of spur gears";
+    helical_teeth_by_the_published_model: format!("{SHORT}[model]\ncontact = \"paper\"\n[face]\nhelix_angle = 12.0\nslices = 11\n")
+        => Inconsistent "face.slices" at 25:10, "11", "1", "one section of the face";
     helical_teeth_elsewhere: with("module = 2.0", "module = 2.0\nhelix_angle = 12.0")
-        => UnknownKey "gears.helix_angle" at 3:1, "helix_angle", "module", "only [face] may state it, as 0";
+        => UnknownKey "gears.helix_angle" at 3:1, "helix_angle", "module", "the helix angle stands in [face]";
     a_gear_beyond_its_bearing: format!("{SHORT}[[effect]]\nkind = \"shaft_deflection\"\noffset = 60.0\n")
         => Inconsistent "effect.offset" at 23:10, "60.0", "-50 to 50 mm", "overhung = 1";
     a_pitch_chart_with_a_wrong_count: format!("{SHORT}[teeth.pinion]\npitch_deviations = [1.0, 2.0]\n")

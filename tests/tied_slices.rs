@@ -4,7 +4,7 @@
 //! rounding, that of differences, that of the family.
 
 use gearwear::contact::unilateral::{
-    Drive, JointLinearised, JointProblem, Problem, Ties, solve, solve_tied,
+    Drive, JointLinearised, JointProblem, Problem, Section, Ties, solve, solve_tied,
 };
 use gearwear::fem::structured::{Order, Patch};
 use gearwear::fem::{Body, Prism};
@@ -55,11 +55,14 @@ fn tied_slices_are_one_problem_with_a_full_compliance() {
             .collect();
         let weights = [0.1, 0.3, 0.35, 0.25];
         let problem = JointProblem {
-            w: &w,
+            sections: &[Section {
+                w: &w,
+                arm: &arm,
+                lever: &arm,
+            }],
+            at: &vec![0; gaps.len()],
             gaps: &gaps,
             weights: &weights,
-            arm: &arm,
-            lever: &arm,
             load: 0.7,
             symmetric: true,
         };

@@ -1,4 +1,4 @@
-"""Finite-element contact and wear of spur gears, and what the model lacks when measurements disagree.
+"""Finite-element contact and wear of spur and helical gears, and what the model lacks when measurements disagree.
 
 >>> import gearwear as gw
 >>> study = gw.Study.read("study.toml")

@@ -26,6 +26,15 @@ pub fn material_factor(youngs_moduli: [f64; 2]) -> f64 {
     2.0 / (1.0 / first + 1.0 / second) / STEEL
 }
 
+/// Number of teeth z_n of the spur gear that stands for a helical one in its normal section, helix angles in rad:
+///
+/// ```text
+/// z_n = z/(cos² β_b cos β)                           ISO 6336-1; z for spur gears
+/// ```
+pub fn virtual_teeth(teeth: f64, helix: f64, base_helix: f64) -> f64 {
+    teeth / (base_helix.cos().powi(2) * helix.cos())
+}
+
 /// A gear pair as the formula sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothPair {

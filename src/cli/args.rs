@@ -11,13 +11,13 @@ use super::{
     validate,
 };
 
-/// Finite-element contact and wear of spur gears.
+/// Finite-element contact and wear of spur and helical gears.
 #[derive(Debug, Parser)]
 #[command(
     name = "gearwear",
     version,
     about,
-    long_about = "Finite-element contact and wear of spur gears, from one study file (TOML).\n\n\
+    long_about = "Finite-element contact and wear of spur and helical gears, from one study file (TOML).\n\n\
         Exit codes: 0 success, 2 unusable input (nothing is written), 1 any other failure.",
     after_help = "Examples:\n  gearwear init my-gears\n  gearwear run my-gears/study.toml\n  gearwear run my-gears/study.toml --test A -o results/A\n  gearwear validate",
     max_term_width = 100

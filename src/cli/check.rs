@@ -110,7 +110,7 @@ fn told(
         "gears:   {} and {} teeth, module {} mm; flanks {} and {}",
         gears[0].spec.teeth,
         gears[1].spec.teeth,
-        plain(gears[0].rack.module),
+        plain(gears[0].rack.normal(gears[0].helix_angle).module),
         flanks[0],
         flanks[1]
     ));

@@ -7,7 +7,11 @@
 //! The stiffness curve is Pedrero, Pleguezuelos, Artés & Antona, Mech. Mach. Theory 45 (2010), as refined by Sánchez et
 //! al. (2013); e_i are worn depth and profile deviations where the pair touches (`contact_point`). Assumed away: contact outside the path
 //! of contact, the wear's influence on the pressure's shape, and the bodies beyond the teeth.
+//!
+//! Of helical gears the slices of the face are such springs side by side, each where its section is on the path: Σ over slices and pairs
+//! of their widths' shares times w_i is w. (`face`)
 
+mod face;
 mod tangent;
 
 use nalgebra::DMatrix;
@@ -16,9 +20,9 @@ use crate::analytic::hertz_line;
 use crate::contact::alteration::Alteration;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::cycle::{Cycle, PairContact};
-use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::model::{ContactError, ContactModel, PositionContact, SlicedContact};
 use crate::contact::sequence::Sequence;
-use crate::contact::slices::Flanks;
+use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::LinearContact;
 use crate::numeric::interpolate;
 
@@ -39,6 +43,8 @@ pub struct HertzContact<'a> {
     points: &'a [Vec<ContactPoint>],
     /// Teeth that differ.
     sequence: Option<&'a Sequence>,
+    /// More than one slice of the face.
+    slices: Option<&'a Slices>,
 }
 
 impl<'a> HertzContact<'a> {
@@ -60,7 +66,14 @@ impl<'a> HertzContact<'a> {
             alteration: None,
             points,
             sequence: None,
+            slices: None,
         }
+    }
+
+    /// The same with the face in slices; none: one section.
+    pub fn across(mut self, slices: Option<&'a Slices>) -> Self {
+        self.slices = slices;
+        self
     }
 
     /// The same with teeth that differ; none: all are alike.
@@ -83,13 +96,23 @@ impl<'a> HertzContact<'a> {
 
     /// The tooth pairs that meet on the line of action while the mesh passes position `q`.
     fn springs(&self, q: usize, flanks: &Flanks<'_>) -> Vec<Spring> {
+        self.springs_of(q, flanks, (0, 0.0, 1.0))
+    }
+
+    /// Those of a slice at the section position `q`: its number, what is missing in it (mm) and its share of the face.
+    fn springs_of(
+        &self,
+        q: usize,
+        flanks: &Flanks<'_>,
+        (slice, missing, share): (usize, f64, f64),
+    ) -> Vec<Spring> {
         let position = &self.cycle.positions[q];
         let spring = |(index, pair): (usize, &PairContact)| {
             let present = self.present(pair)?;
             let mut stiffness = self.stiffness_at(pair);
             let gap = self.points[q][index].gap
-                + self.worn(pair, flanks.of(0)[index])
-                + flanks.back[index];
+                + self.worn(pair, flanks.of(slice)[index])
+                + (flanks.back_of(slice)[index] + missing);
             let mut factor = 1.0;
             if let Some(alteration) = self.alteration {
                 if alteration.flexibility != 0.0 {
@@ -98,10 +121,11 @@ impl<'a> HertzContact<'a> {
                 factor = alteration.factor(q, index);
             }
             Some(Spring {
+                slice,
                 index,
                 stiffness,
                 gap,
-                factor,
+                factor: factor / share,
                 present,
             })
         };
@@ -138,7 +162,7 @@ impl<'a> HertzContact<'a> {
             let now: Vec<Spring> = springs.iter().filter(there).copied().collect();
             let carried = self.loads_of(&now);
             for (mean, spring) in mean.loads.iter_mut().zip(springs) {
-                let at = now.iter().position(|s| s.index == spring.index);
+                let at = now.iter().position(|s| s.is(spring));
                 *mean += (to - from) * at.map_or(0.0, |at| carried.loads[at]);
             }
             mean.approach += (to - from) * carried.approach;
@@ -158,6 +182,41 @@ impl<'a> HertzContact<'a> {
             torque_error: (counted.sum::<f64>() / self.load - 1.0).abs(),
             loads,
             approach,
+        }
+    }
+
+    /// Contact at the section position `q` of the tooth pairs `springs` under their line loads.
+    fn contact(&self, q: usize, springs: &[(&Spring, f64)]) -> PositionContact {
+        let position = &self.cycle.positions[q];
+        let mut pressure = vec![0.0; position.gap.len()];
+        let mut active = Vec::new();
+        for &(spring, load) in springs.iter().filter(|(_, load)| *load > 0.0) {
+            let pair = &position.pairs[spring.index];
+            let ContactPoint { centre, radius, .. } = self.points[q][spring.index];
+            let half_width = hertz_line::half_width(load, radius, self.modulus);
+            let own = &mut pressure[pair.offset..pair.offset + pair.xi.len()];
+            for (p, x) in own.iter_mut().zip(&pair.xi) {
+                *p = (1.0 - ((x - centre) / half_width).powi(2)).max(0.0).sqrt();
+            }
+            if own.iter().all(|p| *p == 0.0) {
+                // narrower than the grid: the nearest node carries it
+                let off = |x: &f64| (x - centre).abs();
+                let nearest = |x: &f64| pair.xi.iter().all(|other| off(x) <= off(other));
+                own[pair.xi.iter().position(nearest).unwrap_or(0)] = 1.0;
+            }
+            let area: f64 = own.iter().zip(&pair.length).map(|(p, l)| p * l).sum();
+            for (k, p) in own.iter_mut().enumerate().filter(|(_, p)| **p > 0.0) {
+                *p *= load / area;
+                active.push(pair.offset + k);
+            }
+        }
+        PositionContact {
+            pressure,
+            approach: 0.0,
+            active,
+            iterations: 1,
+            penetration: 0.0,
+            torque_error: 0.0,
         }
     }
 
@@ -186,42 +245,17 @@ impl ContactModel for HertzContact<'_> {
         flanks: &Flanks<'_>,
         _: &[usize],
     ) -> Result<PositionContact, ContactError> {
-        let position = &self.cycle.positions[q];
         let springs = self.springs(q, flanks);
-        let mut pressure = vec![0.0; position.gap.len()];
-        let mut active = Vec::new();
         let Carried {
             loads,
             approach,
             torque_error,
         } = self.loads(&springs);
-        for (spring, load) in springs.iter().zip(loads).filter(|(_, load)| *load > 0.0) {
-            let pair = &position.pairs[spring.index];
-            let ContactPoint { centre, radius, .. } = self.points[q][spring.index];
-            let half_width = hertz_line::half_width(load, radius, self.modulus);
-            let own = &mut pressure[pair.offset..pair.offset + pair.xi.len()];
-            for (p, x) in own.iter_mut().zip(&pair.xi) {
-                *p = (1.0 - ((x - centre) / half_width).powi(2)).max(0.0).sqrt();
-            }
-            if own.iter().all(|p| *p == 0.0) {
-                // narrower than the grid: the nearest node carries it
-                let off = |x: &f64| (x - centre).abs();
-                let nearest = |x: &f64| pair.xi.iter().all(|other| off(x) <= off(other));
-                own[pair.xi.iter().position(nearest).unwrap_or(0)] = 1.0;
-            }
-            let area: f64 = own.iter().zip(&pair.length).map(|(p, l)| p * l).sum();
-            for (k, p) in own.iter_mut().enumerate().filter(|(_, p)| **p > 0.0) {
-                *p *= load / area;
-                active.push(pair.offset + k);
-            }
-        }
+        let loaded: Vec<(&Spring, f64)> = springs.iter().zip(loads).collect();
         Ok(PositionContact {
-            pressure,
             approach: approach / self.cycle.pair.pinion.base_radius,
-            active,
-            iterations: 1,
-            penetration: 0.0,
             torque_error,
+            ..self.contact(q, &loaded)
         })
     }
 
@@ -240,27 +274,43 @@ impl ContactModel for HertzContact<'_> {
         flanks: &Flanks<'_>,
     ) -> Result<Box<dyn LinearContact + 'm>, ContactError> {
         Ok(Box::new(tangent::HertzLinear::new(
-            self, q, contact, flanks,
+            self,
+            &[q],
+            &[contact],
+            flanks,
         )))
     }
 
     fn sequence(&self) -> Option<&Sequence> {
         self.sequence
     }
+
+    fn sliced(&self) -> Option<&dyn SlicedContact> {
+        self.slices.map(|_| self as &dyn SlicedContact)
+    }
 }
 
 /// A tooth pair on the line of action.
 #[derive(Debug, Clone, Copy)]
 struct Spring {
+    /// Number of its slice, and of its pair there.
+    slice: usize,
     index: usize,
     /// N/mm per mm.
     stiffness: f64,
     /// mm.
     gap: f64,
-    /// Its load counts 1/factor in the torque balance.
+    /// Its load counts 1/factor in the torque balance, the slice's share of the face included.
     factor: f64,
     /// From when to when it is there, of the time from −½ to ½ for which its position stands.
     present: (f64, f64),
+}
+
+impl Spring {
+    /// Whether this is the tooth pair of `other`.
+    fn is(&self, other: &Self) -> bool {
+        (self.slice, self.index) == (other.slice, other.index)
+    }
 }
 
 /// What tooth pairs carry together.
@@ -353,6 +403,7 @@ mod tests {
         let springs = || {
             vec![
                 Spring {
+                    slice: 0,
                     index: 0,
                     stiffness: 10.0,
                     gap: 0.0,
@@ -360,6 +411,7 @@ mod tests {
                     present: (-0.5, 0.5),
                 },
                 Spring {
+                    slice: 0,
                     index: 1,
                     stiffness: 30.0,
                     gap: 0.2,

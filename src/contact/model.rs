@@ -91,31 +91,32 @@ pub trait ContactModel: Sync {
     }
 }
 
-/// Contact of several slices of the face that close by one approach.
+/// Contact of several slices of the face that close by one approach. Each slice is at a section position of its own, [`Slices::at`]: its
+/// flanks and contact are those of that position of the mesh cycle.
 pub trait SlicedContact: Sync {
     /// The slices.
     fn slices(&self) -> &Slices;
 
-    /// Contact of every slice at position `q`, started from the sets `start` by slice.
+    /// Contact of every slice at the turn `turn`, started from the sets `start` by slice.
     ///
     /// # Errors
     /// [`ContactError`]; an iterate that did not converge is never returned.
     fn solve_all(
         &self,
-        q: usize,
+        turn: usize,
         flanks: &Flanks<'_>,
         start: &[Vec<usize>],
     ) -> Result<Vec<PositionContact>, ContactError>;
 
-    /// How the pressures of each slice follow its gaps and the common approach.
+    /// How the pressures of each slice follow its gaps and the common approach, or `None` as in [`ContactModel::sensitivity`].
     ///
     /// # Errors
     /// [`ContactError`] if an active set's compliance cannot be inverted.
     fn sensitivities(
         &self,
-        q: usize,
+        turn: usize,
         contacts: &[&PositionContact],
-    ) -> Result<Vec<Arc<SliceSensitivity>>, ContactError>;
+    ) -> Result<Option<Vec<Arc<SliceSensitivity>>>, ContactError>;
 
     /// The contacts that were solved for `flanks`, linearised.
     ///
@@ -123,7 +124,7 @@ pub trait SlicedContact: Sync {
     /// As [`SlicedContact::sensitivities`].
     fn linearised_all<'m>(
         &'m self,
-        q: usize,
+        turn: usize,
         contacts: &[&PositionContact],
         flanks: &Flanks<'_>,
     ) -> Result<Box<dyn LinearSlices + 'm>, ContactError>;

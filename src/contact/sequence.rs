@@ -419,7 +419,7 @@ impl Sequence {
         depths: &'u ToothDepths,
         back: &[Vec<f64>; 2],
     ) -> Flanks<'u> {
-        let mut flanks = Flanks::new(1, seats.len(), |_, pair| {
+        let mut flanks = Flanks::new(&[seats.len()], |_, pair| {
             [0, 1].map(|m| self.depth(m, seats[pair][m], depths))
         });
         for (own, seats) in flanks.back.iter_mut().zip(seats) {

@@ -4,6 +4,9 @@
 //! slice i at face y_i with the width w_i b:   g_i = g + e_i l      e_i: material missing there, along the path of contact
 //! Σ w_i T_i(φ) = T                            all slices close by the same turn φ
 //! ```
+//! Helical teeth are sections that stand turned along the face: at the turn number t a slice is at the section position t + n_i, with
+//! n_i = y_i tan β_b/p_bt in mesh positions, rounded. What a slice has is kept by its own section positions; what all have at one turn
+//! is found by [`Slices::at`].
 
 /// Slices of the face.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +17,8 @@ pub struct Slices {
     pub weight: Vec<f64>,
     /// Material missing on both flanks together, mm along the path of contact.
     pub offset: Vec<f64>,
+    /// How many mesh positions each slice stands ahead of mid-face; 0 for spur gears.
+    pub ahead: Vec<i64>,
 }
 
 impl Slices {
@@ -25,7 +30,59 @@ impl Slices {
             place: (0..count).map(place).collect(),
             weight: vec![share; count],
             offset: vec![0.0; count],
+            ahead: vec![0; count],
         }
+    }
+
+    /// The same turned along the face, by `pitches` base pitches per mm, on `positions` mesh positions for each base pitch; negative: the
+    /// other hand.
+    pub fn turned(mut self, pitches: f64, positions: usize) -> Self {
+        let ahead = |y: &f64| (y * pitches * positions as f64).round() as i64;
+        self.ahead = self.place.iter().map(ahead).collect();
+        self
+    }
+
+    /// From `least` to a quarter more mesh positions for each base pitch: so many that slices turned by `pitches` base pitches per mm are
+    /// nearest to where they should be.
+    pub fn positions_that_hold(&self, pitches: f64, least: usize) -> usize {
+        // differences that rounding makes are none
+        let off = |positions: &usize| {
+            let turned = self.clone().turned(pitches, *positions);
+            (1e9 * turned.off(pitches, *positions)).round()
+        };
+        let all = least..=least + least / 4;
+        all.min_by(|a, b| off(a).total_cmp(&off(b)))
+            .unwrap_or(least)
+    }
+
+    /// How far from its place a slice may be computed because it stands at one of so many `positions`, base pitches of the mesh.
+    pub fn off(&self, pitches: f64, positions: usize) -> f64 {
+        let each = self.place.iter().zip(&self.ahead);
+        let off = each.map(|(y, ahead)| (y * pitches - *ahead as f64 / positions as f64).abs());
+        off.fold(0.0, f64::max)
+    }
+
+    /// The section position of slice `i` at the turn `turn`, of so many `positions` over a base pitch.
+    pub fn at(&self, i: usize, turn: usize, positions: usize) -> usize {
+        (turn as i64 + self.ahead[i]).rem_euclid(positions as i64) as usize
+    }
+
+    /// The section positions of all slices at the turn `turn`.
+    pub fn all_at(&self, turn: usize, positions: usize) -> Vec<usize> {
+        (0..self.count())
+            .map(|i| self.at(i, turn, positions))
+            .collect()
+    }
+
+    /// The turn at which slice `i` is at a section position.
+    pub fn turn_of(&self, i: usize, section: usize, positions: usize) -> usize {
+        (section as i64 - self.ahead[i]).rem_euclid(positions as i64) as usize
+    }
+
+    /// Puts what slice `i` has, in the order of turns, into that of its section positions.
+    pub fn by_section<T>(&self, i: usize, by_turn: &mut [T]) {
+        let ahead = self.ahead[i].rem_euclid(by_turn.len().max(1) as i64);
+        by_turn.rotate_right(ahead as usize);
     }
 
     /// Number of slices.
@@ -90,34 +147,44 @@ impl Slices {
 pub struct Flanks<'a> {
     /// Depths (mm at the stations of pinion and gear) by slice and, within a slice, by tooth pair.
     depths: Vec<[&'a [f64]; 2]>,
-    /// How far each pair's teeth stand back, mm along the path of contact.
+    /// First pair of each slice, and the end of the last.
+    first: Vec<usize>,
+    /// How far each pair's teeth stand back, mm along the path of contact, likewise.
     pub back: Vec<f64>,
 }
 
 impl<'a> Flanks<'a> {
-    /// The depths of `depths(slice, pair)`, nothing standing back.
-    pub fn new(
-        slices: usize,
-        pairs: usize,
-        depths: impl Fn(usize, usize) -> [&'a [f64]; 2],
-    ) -> Self {
+    /// The depths of `depths(slice, pair)` for so many `pairs` in each slice, nothing standing back.
+    pub fn new(pairs: &[usize], depths: impl Fn(usize, usize) -> [&'a [f64]; 2]) -> Self {
         let depths = &depths;
-        let all = (0..slices).flat_map(|i| (0..pairs).map(move |j| depths(i, j)));
+        let slices = pairs.iter().enumerate();
+        let all: Vec<_> = slices
+            .flat_map(|(i, count)| (0..*count).map(move |j| depths(i, j)))
+            .collect();
+        let mut first = vec![0];
+        for count in pairs {
+            first.push(first[first.len() - 1] + count);
+        }
         Self {
-            depths: all.collect(),
-            back: vec![0.0; pairs],
+            back: vec![0.0; all.len()],
+            depths: all,
+            first,
         }
     }
 
     /// One section, with the same depths for all pairs.
     pub fn alike(pairs: usize, depth: [&'a [f64]; 2]) -> Self {
-        Self::new(1, pairs, |_, _| depth)
+        Self::new(&[pairs], |_, _| depth)
     }
 
     /// What the pairs see in slice `i`.
     pub fn of(&self, i: usize) -> &[[&'a [f64]; 2]] {
-        let pairs = self.back.len();
-        &self.depths[i * pairs..(i + 1) * pairs]
+        &self.depths[self.first[i]..self.first[i + 1]]
+    }
+
+    /// How far the pairs' teeth stand back in slice `i`, mm along the path of contact.
+    pub fn back_of(&self, i: usize) -> &[f64] {
+        &self.back[self.first[i]..self.first[i + 1]]
     }
 }
 
@@ -138,6 +205,32 @@ mod tests {
             assert!((read - line(face)).abs() < 1e-12, "{read} at {face}");
         }
         assert!((slices.mean(slices.place.iter().map(|y| line(*y))) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn slices_of_helical_teeth_come_to_a_section_one_after_the_other() {
+        let slices = Slices::even(5, 30.0).turned(0.025, 40);
+        assert_eq!(slices.ahead, vec![-12, -6, 0, 6, 12]);
+        assert_eq!(
+            Slices::even(5, 30.0).turned(-0.025, 40).ahead,
+            vec![12, 6, 0, -6, -12]
+        );
+        for i in 0..5 {
+            for turn in 0..40 {
+                assert_eq!(slices.turn_of(i, slices.at(i, turn, 40), 40), turn);
+            }
+            let mut by_turn: Vec<usize> = (0..40).collect();
+            slices.by_section(i, &mut by_turn);
+            for (section, turn) in by_turn.iter().enumerate() {
+                assert_eq!(slices.at(i, *turn, 40), section);
+            }
+        }
+        assert!(slices.off(0.025, 40) < 1e-12);
+        // half a position at most, and none where so many positions hold all slices
+        let uneven = Slices::even(7, 30.0).turned(0.0211, 40).off(0.0211, 40);
+        assert!(uneven > 1e-4 && uneven <= 0.5 / 40.0);
+        assert_eq!(Slices::even(5, 30.0).positions_that_hold(0.025, 37), 40);
+        assert_eq!(Slices::even(5, 30.0).positions_that_hold(0.0, 37), 37);
     }
 
     #[test]

@@ -27,7 +27,9 @@ use nalgebra::DMatrix;
 
 use by_approach::by_approach;
 use factor::ridged;
-pub use joint::{JointLinearised, JointProblem, JointSolution, SliceSensitivity, solve_joint};
+pub use joint::{
+    JointLinearised, JointProblem, JointSolution, Section, SliceSensitivity, solve_joint,
+};
 use one_by_one::one_by_one;
 pub use sensitivity::{Linearised, sensitivity};
 pub use tied::{Ties, solve_tied};

@@ -1,4 +1,4 @@
-//! Floor 1: spur gear geometry: basic rack, tooth flanks, working pair, path of contact.
+//! Floor 1: gear geometry: basic rack, tooth flanks, working pair, path of contact.
 //!
 //! Member frame: the gear's centre at the origin, tooth 0 centred on the +x axis, teeth numbered counter-clockwise.
 //! The loaded flank is the counter-clockwise flank of each tooth (for both members; the gear's own frame is turned by
@@ -11,11 +11,13 @@
 //! ```
 //!
 //! A [`Gear`] or [`Pair`] that exists is possible: what cannot be cut or cannot mesh is refused with the values and the
-//! limits. Not in here: helix, internal teeth.
+//! limits. Of helical gears all of this is the transverse section; the helix angle says how sections stand turned along the face. Not in
+//! here: internal teeth.
 
 mod cycle;
 mod error;
 mod fillet;
+mod helix;
 mod involute;
 mod lead;
 mod outline;

@@ -13,6 +13,7 @@
 use super::Member;
 use super::error::PairError;
 use super::fillet::bisect;
+use super::helix::base_helix;
 use super::involute::{inv, inverse_inv};
 use super::tooth::Gear;
 use crate::numeric::{Vec2, rotate};
@@ -34,7 +35,9 @@ pub struct Pair {
     pub nominal_centre_distance: f64,
     /// Working pressure angle α'.
     pub working_pressure_angle: f64,
-    /// Base pitch p_b.
+    /// Helix angle at the base circles β_b, with the sign of the gears' helix angle; 0 for spur gears.
+    pub base_helix: f64,
+    /// Base pitch p_b, of helical gears that of the transverse section.
     pub base_pitch: f64,
     /// Transverse contact ratio: `path_length` / `base_pitch`; tip relief does not count, tip rounding does.
     pub contact_ratio: f64,
@@ -78,6 +81,22 @@ impl Pair {
     ) -> Result<Pair, PairError> {
         let least = -JAM_TOLERANCE * pinion.rack.module;
         Pair::mounted(pinion, gear, centre_distance, misalignment, least)
+    }
+
+    /// cos β_b, 1 for spur gears: of a transverse distance along the path of contact what is normal to the flanks; the force normal to the
+    /// flanks is 1/cos β_b of that in the transverse section.
+    pub fn cos_base_helix(&self) -> f64 {
+        self.base_helix.cos()
+    }
+
+    /// By how many base pitches sections stand turned per mm along the face: tan β_b/p_b.
+    pub fn turned_per_mm(&self) -> f64 {
+        self.pinion.turned_per_mm()
+    }
+
+    /// Overlap ratio ε_β of a face `width` mm wide: b tan β_b/p_b.
+    pub fn overlap_ratio(&self, width: f64) -> f64 {
+        (width * self.turned_per_mm()).abs()
     }
 
     /// The same where the backlash is not known: the teeth may be thinner than stated, and only their driving flanks touch.
@@ -178,6 +197,7 @@ impl Pair {
             contact_ratio: path_length / base_pitch,
             rho_b: rho_e - base_pitch,
             rho_c: pitch_radius_pinion * working_pressure_angle.sin(),
+            base_helix: base_helix(pinion.helix_angle, pinion.rack.pressure_angle),
             rho_d: rho_a + base_pitch,
             speed_ratio: z2 / z1,
             pinion,

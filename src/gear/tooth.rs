@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::BasicRack;
 use super::error::GearError;
 use super::fillet::{Trochoid, bisect};
+use super::helix::base_helix;
 use super::involute::inv;
 use crate::numeric::Vec2;
 
@@ -49,11 +50,14 @@ impl ToothSpec {
     }
 }
 
-/// One spur gear, possible by construction. Lengths mm, angles rad; frame as in the module's head.
+/// One gear, possible by construction: the transverse section of a helical one. Lengths mm, angles rad; frame as in the module's head.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gear {
-    /// The generating rack.
+    /// The generating rack, in the transverse section.
     pub rack: BasicRack,
+    /// Helix angle at the reference circle, rad, 0 for a spur gear; of both members of a pair that of the pinion, positive where it is
+    /// right-handed.
+    pub helix_angle: f64,
     /// The tooth's data.
     pub spec: ToothSpec,
     /// Radius of the base circle: m z cos α / 2.
@@ -120,6 +124,7 @@ impl Gear {
         let rounding = rack.fillet_radius * m;
         let mut gear = Gear {
             rack,
+            helix_angle: 0.0,
             spec,
             base_radius,
             reference_radius,
@@ -162,6 +167,17 @@ impl Gear {
         }
         gear.finish_tip()?;
         Ok(gear)
+    }
+
+    /// By how many base pitches sections stand turned per mm along the face: tan β_b/p_b, 0 for a spur gear.
+    pub fn turned_per_mm(&self) -> f64 {
+        base_helix(self.helix_angle, self.rack.pressure_angle).tan() / self.rack.base_pitch()
+    }
+
+    /// The same as the transverse section of a helical gear.
+    pub fn helical(mut self, helix_angle: f64) -> Self {
+        self.helix_angle = helix_angle;
+        self
     }
 
     /// Half the angular tooth thickness at radius `r` (mm, between base and tip circle) of the nominal involute, rad. The

@@ -62,7 +62,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             Quantity::ContactPressure => self.pressure(pinion_for_pair, at, observation),
             Quantity::MeshStiffness => self.stiffness(at),
             Quantity::SpanLoss | Quantity::ChordalLoss => {
-                Ok(1e3 * self.thickness(observation, pinion_for_pair).loss)
+                Ok(1e3 * self.inclined() * self.thickness(observation, pinion_for_pair).loss)
             }
             Quantity::MeanLag => {
                 let fresh = self.fresh()?.0;
@@ -87,7 +87,7 @@ impl<'r, 'f> Reading<'r, 'f> {
                 let slices = self.sections_worn_at(pinion_for_pair, arc, observation);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
-                        1e3 * interpolate(stations, depths, arc)
+                        1e3 * self.inclined() * interpolate(stations, depths, arc)
                     }),
                 )
             }
@@ -150,7 +150,7 @@ impl<'r, 'f> Reading<'r, 'f> {
                 let slices = self.sections_worn_at(pinion_for_pair, felt.arc, observation);
                 Ok(
                     self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
-                        1e3 * felt.gain * interpolate(stations, depths, felt.arc)
+                        1e3 * self.inclined() * felt.gain * interpolate(stations, depths, felt.arc)
                     }),
                 )
             }
@@ -209,7 +209,7 @@ impl<'r, 'f> Reading<'r, 'f> {
         let after = stations.partition_point(|s| *s < arc);
         let after = after.clamp(1, stations.len() - 1);
         let nearer = usize::from(stations[after] - arc < arc - stations[after - 1]);
-        let depth = 1e-3 * self.depth(member, radius, observation);
+        let depth = 1e-3 * self.depth(member, radius, observation) / self.inclined();
         let pressure = self.pressure(member, radius, observation)?;
         let (meshing, forward) = self.meshing()?;
         let cycle = forward.cycle();
@@ -338,13 +338,18 @@ impl<'r, 'f> Reading<'r, 'f> {
         )
     }
 
-    /// µm, the weighted sum of slices or passages.
+    /// Of a depth in the transverse section what is normal to the flank: cos β_b. Gauges measure normal to it too.
+    fn inclined(&self) -> f64 {
+        self.forward.cycle().pair.cos_base_helix()
+    }
+
+    /// µm normal to the flank, the weighted sum of slices or passages.
     fn depth(&self, member: Member, radius: f64, observation: &Observation) -> f64 {
         let arc = self.arc(member, radius);
         let slices = self.sections_worn_at(member, arc, observation);
         let weighted =
             |&(slice, weight): &(usize, f64)| weight * self.depth_of_slice(slice, member, arc);
-        1e3 * slices.iter().map(weighted).sum::<f64>()
+        1e3 * self.inclined() * slices.iter().map(weighted).sum::<f64>()
     }
 
     /// mm.

@@ -47,6 +47,14 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
             "stages": cost.stages.iter().map(|(name, seconds)| json!({"name": name, "seconds": seconds})).collect::<Vec<_>>(),
         },
     });
+    if let Some(helix) = &g.helix {
+        document["geometry"]["helix"] = json!({
+            "helix_angle": helix.angle_deg, "base_helix_angle": helix.base_angle_deg,
+            "transverse_module": helix.transverse_module, "transverse_pressure_angle": helix.transverse_pressure_angle_deg,
+            "overlap_ratio": helix.overlap_ratio, "total_contact_ratio": g.total_contact_ratio(),
+            "slices_within": helix.placed_within,
+        });
+    }
     if let Some(both) = &run.root_stress {
         for (member, root) in Member::BOTH.into_iter().zip(both) {
             document["root_stress"][member.name()] =

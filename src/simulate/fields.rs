@@ -73,10 +73,15 @@ impl Forward<'_> {
             loads.solve(member, turns[side])
         };
         let (pinion, gear) = rayon::join(|| fields(0), || fields(1));
-        let [mut pinion, gear] = [
+        let [mut pinion, mut gear] = [
             pinion.map_err(crate::simulate::members::MemberError::from)?,
             gear.map_err(crate::simulate::members::MemberError::from)?,
         ];
+        // along the path of contact, of flanks that give way along their normal
+        let inclined = self.cycle().pair.cos_base_helix();
+        for fields in [&mut pinion, &mut gear] {
+            fields.displacement.iter_mut().for_each(|u| *u /= inclined);
+        }
         // the pinion's bore turns by the approach
         for (u, x) in pinion
             .displacement

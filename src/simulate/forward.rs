@@ -288,17 +288,23 @@ impl<'a> Forward<'a> {
             }
             (_, ContactKind::Hertz) => {
                 let [pinion, gear] = &self.set.gears;
+                let (helix, base) = (pinion.helix_angle, self.cycle.pair.base_helix);
                 let teeth = iso6336::ToothPair {
-                    teeth: [pinion, gear].map(|g| f64::from(g.spec.teeth)),
-                    profile_shift: [pinion, gear].map(|g| g.spec.profile_shift),
+                    teeth: [pinion, gear]
+                        .map(|g| iso6336::virtual_teeth(f64::from(g.spec.teeth), helix, base)),
+                    profile_shift: [pinion, gear].map(|g| g.spec.profile_shift / helix.cos()),
                     ..iso6336::ToothPair::spur(pinion.spec.teeth, gear.spec.teeth)
                 };
+                // of helical gears along the transverse path of contact
                 let stiffness = teeth.theoretical()
-                    * iso6336::material_factor(self.set.materials.map(|m| m.youngs_modulus));
-                let modulus = self.set.modulus();
+                    * iso6336::material_factor(self.set.materials.map(|m| m.youngs_modulus))
+                    * helix.cos();
+                // a contact of inclined teeth has the radius ρ_t/cos β_b, one of upright teeth as wide the modulus E* cos β_b
+                let modulus = self.set.modulus() * self.cycle.pair.cos_base_helix();
                 let torque = self.torque();
                 let model =
                     HertzContact::new(&self.cycle, &self.points, torque, modulus, stiffness)
+                        .across(self.slices.as_ref())
                         .in_turn(self.sequence.as_ref());
                 match &self.altered {
                     Some(a) => work(&model.with(&a.alteration)),

@@ -11,8 +11,8 @@ use crate::simulate::history::{SliceState, WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
 use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
-    self, Conditions, FaceSlice, FieldFrame, Geometry, MemberField, PairState, PositionState,
-    Profile, State, ToothClass, WheelGeometry,
+    self, Conditions, FaceSlice, FieldFrame, Geometry, Helix, MemberField, PairState,
+    PositionState, Profile, State, ToothClass, WheelGeometry,
 };
 use crate::simulate::run::Plan;
 use crate::simulate::touching_strip::TouchingStrip;
@@ -42,14 +42,16 @@ pub fn conditions(plan: &Plan) -> Conditions {
     }
 }
 
-/// Working geometry.
-pub fn geometry(pair: &Pair) -> Geometry {
+/// Working geometry of a face `face_width` wide, whose slices stand within `placed_within` of their places, mm.
+pub fn geometry(pair: &Pair, face_width: f64, placed_within: f64) -> Geometry {
     let [a, b, _, d, e] = pair.path_points();
+    let helix = pair.pinion.helix_angle;
+    let normal = pair.pinion.rack.normal(helix);
     let wheel = |member: Member, start: f64| {
         let gear: &Gear = pair.member(member);
         WheelGeometry {
             teeth: gear.spec.teeth,
-            profile_shift: gear.spec.profile_shift,
+            profile_shift: gear.spec.profile_shift / helix.cos(),
             base_radius: gear.base_radius,
             pitch_radius: match member {
                 Member::Pinion => pair.pitch_radius_pinion,
@@ -63,8 +65,16 @@ pub fn geometry(pair: &Pair) -> Geometry {
         }
     };
     Geometry {
-        module: pair.pinion.rack.module,
-        pressure_angle_deg: pair.pinion.rack.pressure_angle.to_degrees(),
+        module: normal.module,
+        pressure_angle_deg: normal.pressure_angle.to_degrees(),
+        helix: (helix != 0.0).then(|| Helix {
+            angle_deg: helix.to_degrees(),
+            base_angle_deg: pair.base_helix.to_degrees(),
+            transverse_module: pair.pinion.rack.module,
+            transverse_pressure_angle_deg: pair.pinion.rack.pressure_angle.to_degrees(),
+            overlap_ratio: pair.overlap_ratio(face_width),
+            placed_within,
+        }),
         centre_distance: pair.centre_distance,
         working_pressure_angle_deg: pair.working_pressure_angle.to_degrees(),
         contact_ratio: pair.contact_ratio,
@@ -100,7 +110,7 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
                 .iter()
                 .map(|&r| cycle.pair.path_at_rho(member, r))
                 .collect(),
-            depth: state.depth[side].iter().map(|h| 1e3 * h).collect(),
+            depth: in_um(forward, &state.depth[side]),
             worn_area_mm2: area,
             // mm³ · kg/m³ = µg
             mass_loss_mg: 1e-3 * volume * plan.set.densities[side],
@@ -119,10 +129,16 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
             .map(|class| ToothClass {
                 member: result::Member::BOTH[class.side],
                 teeth: class.teeth.iter().map(|i| i + 1).collect(),
-                depth: class.depth.iter().map(|h| 1e3 * h).collect(),
+                depth: in_um(forward, &class.depth),
             })
             .collect(),
     }
+}
+
+/// Depths normal to the flank, µm, of those in the transverse section, mm.
+fn in_um(forward: &Forward, depth: &[f64]) -> Vec<f64> {
+    let inclined = 1e3 * forward.cycle().pair.cos_base_helix();
+    depth.iter().map(|h| inclined * h).collect()
 }
 
 /// Rotation (base pitches) and lag (µrad) over one turn, where teeth differ or a member runs out.
@@ -173,7 +189,7 @@ fn face_slice(plan: &Plan, forward: &Forward, slice: &SliceState) -> FaceSlice {
         face: slice.face,
         load: slice_load(forward, slice),
         peak_pressure: on_flanks.fold(0.0, |most, pair| most.max(pair.peak_pressure)),
-        depth: (slice.depth.each_ref()).map(|depth| depth.iter().map(|h| 1e3 * h).collect()),
+        depth: (slice.depth.each_ref()).map(|depth| in_um(forward, depth)),
     }
 }
 
@@ -255,13 +271,14 @@ pub fn frame(
     let Some([pinion, gear]) = forward.fields_on(q, contact, points)? else {
         return Ok(None);
     };
+    let inclined = 1e3 * cycle.pair.cos_base_helix();
     let member = |side: usize, fields: MemberFields| {
         let DrawnMesh { mesh, unworn } = &drawn[side];
         let mut depth = vec![0.0; mesh.points.len()];
         for chain in &mesh.flanks {
             for (&node, &s) in chain.nodes.iter().zip(&chain.arc) {
                 depth[node as usize] =
-                    1e3 * interpolate(&cycle.stations.arc[side], &state.depth[side], s);
+                    inclined * interpolate(&cycle.stations.arc[side], &state.depth[side], s);
             }
         }
         let plain = |v: &[Vec2]| v.iter().map(|p| [p.x, p.y]).collect::<Vec<[f64; 2]>>();

@@ -17,9 +17,10 @@ use crate::wear::tangent::{Differentiated, Direction};
 pub struct WearState {
     /// Pinion revolutions.
     pub cycles: f64,
-    /// Worn depth at the stations of pinion and gear, mm; of several slices the mean over the face.
+    /// Worn depth at the stations of pinion and gear, mm in the transverse section; of several slices the mean over the face.
     pub depth: [Vec<f64>; 2],
-    /// Contact at every mesh position; of several slices with the mean pressures over the face.
+    /// Contact at every mesh position; of several slices with the mean pressures over the face. Of helical gears slices come to a position at
+    /// different turns; the approach is that of mid-face's.
     pub contacts: Vec<PositionContact>,
     /// Slice by slice, where the face has more than one.
     pub slices: Vec<SliceState>,
@@ -444,7 +445,7 @@ pub fn state_of<M: ContactModel + ?Sized>(
         },
         teeth: sequence.map_or_else(Vec::new, |sequence| tooth_states(sequence, &flanks)),
         passages: sequence.map_or_else(Vec::new, |_| by_slice.clone()),
-        contacts: mean_contacts(weights.as_deref(), by_slice),
+        contacts: mean_contacts(weights.as_deref(), slices, by_slice),
         displaced: progress.displaced,
     })
 }
@@ -470,8 +471,10 @@ fn split<'u>(cycle: &Cycle, u: &'u [f64]) -> Vec<[&'u [f64]; 2]> {
 }
 
 /// Contacts with the mean pressures over the face, or over all passages of teeth, of those by slice or passage and the `weights` of these.
+/// Pressures are those at a section position, wherever in the turn each slice comes to it; the approach is that at the turn.
 pub fn mean_contacts(
     weights: Option<&[f64]>,
+    slices: Option<&Slices>,
     mut by_slice: Vec<Vec<PositionContact>>,
 ) -> Vec<PositionContact> {
     let Some(weights) = weights else {
@@ -487,7 +490,12 @@ pub fn mean_contacts(
         PositionContact {
             active: (0..count).filter(|&k| pressure[k] > 0.0).collect(),
             pressure,
-            approach: weighted(weights, all().map(|contact| contact.approach)),
+            approach: weighted(
+                weights,
+                (by_slice.iter().enumerate()).map(|(i, contacts)| {
+                    contacts[slices.map_or(q, |s| s.at(i, q, contacts.len()))].approach
+                }),
+            ),
             iterations: all().map(|contact| contact.iterations).max().unwrap_or(0),
             penetration: largest(|contact| contact.penetration),
             torque_error: largest(|contact| contact.torque_error),

@@ -119,7 +119,7 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
     Ok(Run {
         title: plan.title.to_owned(),
         conditions,
-        geometry: gather::geometry(&pair),
+        geometry: gather::geometry(&pair, plan.set.face_width, 0.0),
         mesh: None,
         states,
         fields: Vec::new(),

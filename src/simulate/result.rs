@@ -80,10 +80,10 @@ impl Run {
     /// k = F' / δ,   δ = r_b1 θ      F' N/mm line load of the pair, θ rad lag seen at the pinion, δ approach
     /// ```
     /// Taken from the first state and only if that is unworn, since later angles contain worn material. None when no
-    /// position has just one loaded pair (contact ratio of 2 and more).
+    /// position has just one loaded pair (contact ratio of 2 and more), and for helical gears, whose slices are at different places at a time.
     pub fn single_pair_stiffness(&self) -> Option<f64> {
         let first = self.first();
-        if first.cycles > 0.0 {
+        if first.cycles > 0.0 || self.geometry.helix.is_some() {
             return None;
         }
         let from_pitch_point = |p: &PositionState| (p.position - p.position.round()).abs();
@@ -128,10 +128,12 @@ pub struct Conditions {
 /// Working geometry of the pair at the centre distance of the run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
-    /// Module, mm.
+    /// Module, of helical gears that of the normal section, mm.
     pub module: f64,
-    /// Pressure angle at the reference circle, degrees.
+    /// Pressure angle at the reference circle, of helical gears that of the normal section, degrees.
     pub pressure_angle_deg: f64,
+    /// What helical gears have besides; none: spur gears.
+    pub helix: Option<Helix>,
     /// Centre distance in operation (misalignment included), mm.
     pub centre_distance: f64,
     /// Working pressure angle, degrees.
@@ -153,6 +155,30 @@ pub struct Geometry {
     pub pinion: WheelGeometry,
     /// The gear.
     pub gear: WheelGeometry,
+}
+
+/// What helical gears have besides. Lengths and angles elsewhere are those of the transverse section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Helix {
+    /// Helix angle of the pinion at its reference circle, degrees, positive: right-handed.
+    pub angle_deg: f64,
+    /// Helix angle at the base circles, degrees.
+    pub base_angle_deg: f64,
+    /// Module of the transverse section, mm.
+    pub transverse_module: f64,
+    /// Pressure angle of the transverse section, degrees.
+    pub transverse_pressure_angle_deg: f64,
+    /// Overlap ratio ε_β.
+    pub overlap_ratio: f64,
+    /// How far along the face a slice may be off its place because it stands at a mesh position, mm.
+    pub placed_within: f64,
+}
+
+impl Geometry {
+    /// Total contact ratio ε_γ = ε_α + ε_β; of spur gears ε_α.
+    pub fn total_contact_ratio(&self) -> f64 {
+        self.contact_ratio + self.helix.map_or(0.0, |helix| helix.overlap_ratio)
+    }
 }
 
 /// Radii of one wheel, mm.

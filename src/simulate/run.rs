@@ -212,7 +212,7 @@ pub fn run(
     Ok(Run {
         title: plan.title.to_owned(),
         conditions: gather::conditions(plan),
-        geometry: gather::geometry(&pair),
+        geometry: gather::geometry(&pair, plan.set.face_width, placed_within(&forward)),
         mesh,
         states,
         fields: frames.into_iter().flatten().collect(),
@@ -438,6 +438,16 @@ fn peak_memory_mb() -> Option<f64> {
     let line = status.lines().find(|l| l.starts_with("VmHWM:"))?;
     let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(kib * 1024.0 / 1e6)
+}
+
+/// How far along the face slices of helical gears may be off their places because they stand at mesh positions, mm.
+fn placed_within(forward: &Forward) -> f64 {
+    let (cycle, slices) = (forward.cycle(), forward.slices());
+    let pitches = cycle.pair.turned_per_mm();
+    let slices = slices.filter(|_| pitches != 0.0);
+    slices.map_or(0.0, |s| {
+        s.off(pitches, cycle.positions.len()) / pitches.abs()
+    })
 }
 
 /// The mounted pair of a plan.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::gears::Gears;
 use super::quantity as q;
 use super::reader::Table;
 use super::relative;
@@ -17,6 +18,9 @@ pub(super) const MEMBER_KEYS: &[&str] = &[
     "lead_file",
 ];
 
+/// Slices for each base pitch of overlap: depths are then within half a per cent of those of four times as many (guide/face.md).
+const SLICES_PER_BASE_PITCH: f64 = 10.0;
+
 /// What couples slices, but for the common turn.
 pub(super) const COUPLINGS: &[&str] = &["teeth", "none"];
 
@@ -28,12 +32,20 @@ pub(super) const LEAD_KEYS: [&str; 2] = ["face.pinion.lead_file", "face.gear.lea
 
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
+/// The helix angle of the pinion at its reference circle, rad.
+pub(super) fn helix_angle(root: &Table<'_>) -> Result<f64> {
+    let table = root.table("face", KEYS)?;
+    let stated = table.map(|table| table.number("helix_angle", &q::HELIX_ANGLE));
+    Ok(stated.transpose()?.flatten().unwrap_or(0.0).to_radians())
+}
+
 /// The face, and the files of measured leads of pinion and gear.
 pub(super) fn read(
     root: &Table<'_>,
     folder: &Path,
-    width: f64,
+    gears: &Gears,
 ) -> Result<(Face, [Option<PathBuf>; 2])> {
+    let width = gears.face_width;
     let mut face = Face::default();
     let mut files = [None, None];
     let Some(table) = root.table("face", KEYS)? else {
@@ -46,11 +58,24 @@ pub(super) fn read(
         (COUPLINGS[1], Coupling::None),
     ];
     face.coupling = table.choice("coupling", &couplings)?.unwrap_or_default();
-    table
-        .number("helix_angle", &q::HELIX_ANGLE)
-        .map_err(|refusal| {
-            refusal.with_hint("gears are spur gears: helical teeth are not modelled")
-        })?;
+    let overlap = (width * gears.pinion.turned_per_mm()).abs();
+    if overlap > 0.0 && face.slices < 2 {
+        let mut refusal = table.refuse("helix_angle", "needs slices", "face.slices of 2 or more");
+        refusal.fault = Fault::Inconsistent;
+        return Err(Box::new(refusal.with_hint(format!(
+            "state slices = {} in [face]: sections stand turned along the face, here by {} base pitches from end to end",
+            slices_for(overlap),
+            q::Short(1e-2 * (1e2 * overlap).round()),
+        ))));
+    }
+    if overlap > 0.0 && face.coupling == Coupling::Teeth {
+        let says = "ties slices of spur gears, which are at one place of the mesh";
+        let mut refusal = table.refuse("coupling", says, "\"none\"");
+        refusal.fault = Fault::Inconsistent;
+        return Err(Box::new(refusal.with_hint(
+            "slices of helical gears turn together and are not tied besides",
+        )));
+    }
     for (side, which) in Member::BOTH.into_iter().enumerate() {
         let Some(member) = table.table(which.name(), MEMBER_KEYS)? else {
             continue;
@@ -66,6 +91,12 @@ pub(super) fn read(
         }
     }
     Ok((face, files))
+}
+
+/// How many slices resolve an overlap of so many base pitches: steps of a tenth of a base pitch or less, and no fewer than for straight leads.
+fn slices_for(overlap: f64) -> usize {
+    let count = (SLICES_PER_BASE_PITCH * overlap).ceil() as usize;
+    count.clamp(11, MOST_SLICES)
 }
 
 fn lead(table: &Table<'_>, folder: &Path, width: f64) -> Result<(Lead, Option<PathBuf>)> {

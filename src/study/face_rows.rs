@@ -17,7 +17,8 @@ const ROUNDING: f64 = 0.01;
 impl Study {
     /// Whether one section stands for the face whatever acts across it.
     fn is_of_one_section(&self) -> bool {
-        self.contact != ContactKind::Fem || self.face.slices == 1
+        let spur = self.gears.pinion.helix_angle == 0.0;
+        (self.contact != ContactKind::Fem && spur) || self.face.slices == 1
     }
 
     /// Whether a row stands where one section with an effect across the face is.

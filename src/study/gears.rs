@@ -60,7 +60,8 @@ impl Gears {
 
 type Result<T, E = Box<Diagnostic>> = std::result::Result<T, E>;
 
-pub(super) fn read(root: &Table<'_>) -> Result<Gears> {
+/// The gears; `helix`: the pinion's helix angle, rad, where these keys state the normal section.
+pub(super) fn read(root: &Table<'_>, helix: f64) -> Result<Gears> {
     let table = root.required_table("gears", KEYS)?;
     let rack = BasicRack {
         module: table.required_number("module", &q::MODULE)?,
@@ -75,8 +76,8 @@ pub(super) fn read(root: &Table<'_>) -> Result<Gears> {
     };
     let face_width = table.required_number("face_width", &q::FACE_WIDTH)?;
     let stated = table.number("centre_distance", &q::CENTRE_DISTANCE)?;
-    let pinion = member(&table, Member::Pinion, rack)?;
-    let gear = member(&table, Member::Gear, rack)?;
+    let pinion = member(&table, Member::Pinion, rack, helix)?;
+    let gear = member(&table, Member::Gear, rack, helix)?;
     let centre_distance =
         stated.unwrap_or_else(|| Pair::zero_backlash_centre_distance(&pinion, &gear));
     Ok(Gears {
@@ -87,7 +88,7 @@ pub(super) fn read(root: &Table<'_>) -> Result<Gears> {
     })
 }
 
-fn member(gears: &Table<'_>, member: Member, rack: BasicRack) -> Result<Gear> {
+fn member(gears: &Table<'_>, member: Member, rack: BasicRack, helix: f64) -> Result<Gear> {
     let table = gears.required_table(member.name(), MEMBER_KEYS)?;
     let why = "fewer teeth cannot keep contact, more cannot be meshed as a whole circle";
     let zero = |key, quantity| {
@@ -97,29 +98,53 @@ fn member(gears: &Table<'_>, member: Member, rack: BasicRack) -> Result<Gear> {
     };
     let spec = ToothSpec {
         teeth: table.required_count("teeth", MIN_TEETH as usize..=1000, why)? as u32,
-        profile_shift: zero("profile_shift", &q::PROFILE_SHIFT)?,
-        thickness_reduction: zero("thickness_reduction", &q::THICKNESS_REDUCTION)?,
+        // lengths along the tooth's height are the same in the transverse section, those along the reference circle are longer
+        profile_shift: zero("profile_shift", &q::PROFILE_SHIFT)? * helix.cos(),
+        thickness_reduction: zero("thickness_reduction", &q::THICKNESS_REDUCTION)? / helix.cos(),
         bore_diameter: table.required_number("bore_diameter", &q::BORE_DIAMETER)?,
         tip_relief_amount: zero("tip_relief_amount", &q::RELIEF_AMOUNT)? * 1e-3,
         tip_relief_length: zero("tip_relief_length", &q::RELIEF_LENGTH)?,
         tip_rounding: zero("tip_rounding", &q::TIP_ROUNDING)?,
     };
-    Gear::new(rack, spec).map_err(|error| {
+    let transverse = rack.transverse(helix);
+    let made = Gear::new(transverse, spec).map(|gear| gear.helical(helix));
+    made.map_err(|error| {
+        let error = in_the_normal_section(error, transverse, helix);
         // a tooth that thinning alone makes pointed
         let full = ToothSpec {
             thickness_reduction: 0.0,
             ..spec
         };
         match &error {
-            GearError::PointedTooth { min, .. } if Gear::new(rack, full).is_ok() => inconsistent(
-                &table,
-                "thickness_reduction",
-                &error.to_string(),
-                format!("a tip thickness of at least {} mm", q::Short(*min)),
-            ),
+            GearError::PointedTooth { min, .. } if Gear::new(transverse, full).is_ok() => {
+                inconsistent(
+                    &table,
+                    "thickness_reduction",
+                    &error.to_string(),
+                    format!("a tip thickness of at least {} mm", q::Short(*min)),
+                )
+            }
             _ => impossible_gear(gears, &table, &error),
         }
     })
+}
+
+/// The error with what is in modules as the study states it.
+fn in_the_normal_section(error: GearError, transverse: BasicRack, helix: f64) -> GearError {
+    let stated = |fillet_radius: f64| {
+        let rack = BasicRack {
+            fillet_radius,
+            ..transverse
+        };
+        rack.normal(helix).fillet_radius
+    };
+    match error {
+        GearError::FilletRadius { radius, max } => GearError::FilletRadius {
+            radius: stated(radius),
+            max: stated(max),
+        },
+        other => other,
+    }
 }
 
 /// The files that hold measured profiles of pinion and gear, relative ones from the study's folder.

@@ -138,8 +138,8 @@ const OPERATION: Without = Words("that of `[operation]`");
 pub static KEY_DOCS: &[KeyDoc] = &[
     doc("", "title", Value::Text, Default("\"\""), "free text, shown in reports"),
 
-    number("gears", "module", &q::MODULE, Refused, "module of the basic rack"),
-    number("gears", "pressure_angle", &q::PRESSURE_ANGLE, Refused, "at the reference circle"),
+    number("gears", "module", &q::MODULE, Refused, "module of the basic rack; of helical gears (`face.helix_angle`) the normal one, as all of `[gears]`"),
+    number("gears", "pressure_angle", &q::PRESSURE_ANGLE, Refused, "at the reference circle, in the normal section"),
     number("gears", "face_width", &q::FACE_WIDTH, Refused, "common width that carries the load"),
     number("gears", "centre_distance", &q::CENTRE_DISTANCE, Words("the zero-backlash distance for the profile shifts"), "nominal, without misalignment"),
     number("gears", "addendum", &q::ADDENDUM, Default("1.0"), "of the teeth, without profile shift"),
@@ -232,7 +232,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
 
     doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face"), "sections across the face that turn together, each with its own wear; 1: one section stands for all of the face, and effects across it are a factor on the load there"),
     doc("face", "coupling", Value::Word(super::face::COUPLINGS), Default("\"none\""), "what ties slices besides the common turn: the teeth that they are cut from, or nothing"),
-    number("face", "helix_angle", &q::HELIX_ANGLE, Default("0.0"), "of spur gears: helical teeth are not modelled"),
+    number("face", "helix_angle", &q::HELIX_ANGLE, Default("0.0"), "of helical gears at the reference circle, positive: the pinion is right-handed, and its end +face_width/2 comes into mesh first; needs slices. `[gears]` then states the normal section"),
     number("face.pinion", "lead_slope", &q::LEAD, Default("0.0"), "from end to end of the face, positive: material missing at the end +face_width/2, standing proud at the other"),
     number("face.pinion", "crowning", &q::LEAD, Default("0.0"), "material missing at both ends, a parabola from mid-face"),
     number("face.pinion", "end_relief_amount", &q::LEAD, Default("0.0"), "material missing at both ends, straight"),

@@ -414,7 +414,13 @@ impl Study {
 
     /// The study, if its contact model knows slices, and either these or teeth that differ.
     fn with_slices(self) -> std::result::Result<Study, StudyError> {
-        if self.contact != ContactKind::Fem {
+        let sliced = match self.contact {
+            ContactKind::Fem => true,
+            // of spur gears an effect across the face is a factor on the load of one section there
+            ContactKind::Hertz => self.gears.pinion.helix_angle != 0.0,
+            ContactKind::Paper => false,
+        };
+        if !sliced {
             self.one_section(&format!("contact = \"{}\"", self.contact.name()))?;
         }
         if self.contact == ContactKind::Paper {
@@ -480,7 +486,7 @@ impl Study {
         size_limits::check(document.get_ref(), "")?;
         let root = Table::root(source, document.get_ref(), ROOT_KEYS, KEYS, &spans)?;
         let title = root.text("title")?.unwrap_or_default().to_owned();
-        let gears = gears::read(&root)?;
+        let gears = gears::read(&root, face::helix_angle(&root)?)?;
         let materials = materials::read(&root)?;
         let lubricant = materials::read_lubricant(&root)?;
         let thermal = materials::read_thermal(&root)?;
@@ -496,7 +502,7 @@ impl Study {
         let operation = operation::read(&limits, wear.cycles, lubricant, thermal)?;
         let tests = operation::read_tests(&limits, operation)?;
         let effects = effect::read(&root, lubricant, thermal)?;
-        let (face, leads) = face::read(&root, folder, gears.face_width)?;
+        let (face, leads) = face::read(&root, folder, &gears)?;
         let counts = [&gears.pinion, &gears.gear].map(|gear| gear.spec.teeth as usize);
         let (teeth, pitches) = teeth::read(&root, folder, counts)?;
         let study = Study {

@@ -183,7 +183,12 @@ pub(super) const LEAD: Quantity = quantity(
     1000.0,
     "material missing across the face; 5 to 30 um is usual",
 );
-pub(super) const HELIX_ANGLE: Quantity = quantity("deg", From(0.0), 0.0, "0: spur gears");
+pub(super) const HELIX_ANGLE: Quantity = quantity(
+    "deg",
+    From(-45.0),
+    45.0,
+    "at the reference circle; 8 to 30 is usual",
+);
 pub(super) const END_RELIEF_LENGTH: Quantity = quantity(
     "mm",
     From(0.0),

@@ -17,7 +17,7 @@ pub(super) type Spans = BTreeMap<String, Range<usize>>;
 const NOT_MODELLED: [(&str, &str); 2] = [
     (
         "helix_angle",
-        "gears are spur gears: helical teeth are not modelled; only [face] may state it, as 0",
+        "the helix angle stands in [face], and [gears] states the normal section then",
     ),
     (
         "temperature",

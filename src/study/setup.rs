@@ -1,6 +1,7 @@
 //! What the forward model needs of a study.
 
 use super::{EffectSpec, Materials, Operation, Order, Study, Wear, effect};
+use crate::contact::slices::Slices;
 use crate::effects::Surroundings;
 use crate::gear::Member;
 use crate::material::{Elastic, contact_modulus};
@@ -59,11 +60,20 @@ impl Study {
             },
             elements_per_half_width: stated.elements_per_half_width as f64,
             gives_way: !stated.edges_stated,
-            positions: stated.positions,
+            positions: self.positions(),
             step_tolerance: stated.step_tolerance,
             friction: if stated.friction { coefficient } else { 0.0 },
             ..Numerics::default()
         }
+    }
+
+    /// Mesh positions on a base pitch: those stated, or up to a quarter more where slices of helical gears come to lie nearer to their places.
+    fn positions(&self) -> usize {
+        let (stated, pitches) = (self.numerics.positions, self.gears.pinion.turned_per_mm());
+        if pitches == 0.0 || self.face.slices < 2 {
+            return stated;
+        }
+        Slices::even(self.face.slices, self.gears.face_width).positions_that_hold(pitches, stated)
     }
 
     /// Oil and heat around the contact under `conditions` (the study's operation or a test's, whose viscosity and bulk

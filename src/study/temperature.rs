@@ -275,7 +275,7 @@ impl WarmTeeth {
         let [a, .., e] = pair.path_points();
         let base_pitch = pair.pinion.rack.base_pitch();
         let teeth = [&pair.pinion, &pair.gear].map(|gear| gear.spec.teeth);
-        let factor = loss_factor(teeth, [e / base_pitch, -a / base_pitch]);
+        let factor = loss_factor(teeth, [e / base_pitch, -a / base_pitch]) / pair.cos_base_helix();
         let pitch_radius = pair.pinion.base_radius.hypot(pair.rho_c);
         let power = 1e-3 * conditions.torque_nmm * 2.0 * PI * turns;
         let hottest = |coefficient: f64| {
@@ -286,7 +286,7 @@ impl WarmTeeth {
                         face_width: gears.face_width,
                         teeth: *teeth,
                         velocity: 1e-3 * pitch_radius * 2.0 * PI * turns,
-                        module: pair.pinion.rack.module,
+                        module: pair.pinion.rack.normal(pair.pinion.helix_angle).module,
                         housing: self.thermal.housing_k_w,
                         duty: self.thermal.duty,
                     };

@@ -40,7 +40,7 @@ pub struct ToothHeat {
     pub teeth: u32,
     /// Pitch line velocity, m/s.
     pub velocity: f64,
-    /// Module, mm.
+    /// Module, of helical gears that of the normal section, mm.
     pub module: f64,
     /// Resistance of the housing to heat over its surface, R/A, K/W; 0 in the open.
     pub housing: f64,
@@ -57,7 +57,8 @@ impl ToothHeat {
     }
 }
 
-/// Gear loss factor H_V of a spur pair (Wimmer) from its numbers of teeth and the contact ratios of recess and approach.
+/// Gear loss factor H_V of a spur pair (Wimmer) from its numbers of teeth and the contact ratios of recess and approach; that of a helical pair is
+/// 1/cos β_b times it.
 pub fn loss_factor(teeth: [u32; 2], [recess, approach]: [f64; 2]) -> f64 {
     let [first, second] = teeth.map(f64::from);
     PI * (1.0 / first + 1.0 / second)

@@ -8,7 +8,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::contact::unilateral::{Drive, JointProblem, Problem, solve, solve_joint};
+use crate::contact::unilateral::{Drive, JointProblem, Problem, Section, solve, solve_joint};
 use crate::fem::structured::{Order, Patch};
 use crate::fem::{FemError, Prism};
 use crate::material::Elastic;
@@ -79,11 +79,14 @@ fn on_springs(missing: &dyn Fn(f64) -> f64) -> Result<Vec<f64>, CaseError> {
     let gaps: Vec<Vec<f64>> = (0..SLICES).map(|i| vec![missing(place(i))]).collect();
     let solution = solve_joint(
         &JointProblem {
-            w: &DMatrix::from_element(1, 1, 1.0 / STIFFNESS),
+            sections: &[Section {
+                w: &DMatrix::from_element(1, 1, 1.0 / STIFFNESS),
+                arm: &[1.0],
+                lever: &[1.0],
+            }],
+            at: &vec![0; gaps.len()],
             gaps: &gaps,
             weights: &vec![1.0 / SLICES as f64; SLICES],
-            arm: &[1.0],
-            lever: &[1.0],
             load: MEAN,
             symmetric: true,
         },
@@ -109,11 +112,14 @@ fn sections() -> Result<Measured, CaseError> {
     let (arm, weights) = (vec![1.0; n], vec![1.0 / count as f64; count]);
     let joint = solve_joint(
         &JointProblem {
-            w: &w,
+            sections: &[Section {
+                w: &w,
+                arm: &arm,
+                lever: &arm,
+            }],
+            at: &vec![0; gaps.len()],
             gaps: &gaps,
             weights: &weights,
-            arm: &arm,
-            lever: &arm,
             load: 2.0,
             symmetric: true,
         },

@@ -183,9 +183,10 @@ impl Acting {
         })
     }
 
-    /// With the drive reversed all sliding is.
+    /// With the drive reversed all sliding is. Of helical teeth the force on an inclined flank is 1/cos β_b times that in the transverse
+    /// section, and friction takes its share of that.
     fn friction(&self, cycle: &Cycle) -> Vec<Vec<f64>> {
-        let sense = if self.reversed { -1.0 } else { 1.0 };
+        let sense = if self.reversed { -1.0 } else { 1.0 } / cycle.pair.cos_base_helix();
         self.before_contact(cycle, |local| sense * self.effects.friction(local))
     }
 
@@ -215,7 +216,8 @@ impl Acting {
             radius: 0.0,
             path: pair.path,
             approach: (pair.path < 0.0) != self.reversed,
-            curvature: pair.frame.rho,
+            // of the section normal to the contact line
+            curvature: (pair.frame.rho).map(|rho| rho / gears.cos_base_helix()),
             rolling: rolling(gears, pair, self.speed),
             pressure: 0.0,
             peak_pressure: load.peak_pressure,
@@ -251,7 +253,7 @@ impl Acting {
         local
     }
 
-    /// `local` moved to the point at arc `arc` (mm) of `member`, worn by `depth` (mm), under `pressure` (MPa).
+    /// `local` moved to the point at arc `arc` (mm) of `member`, worn by `depth` (mm in the transverse section), under `pressure` (MPa).
     pub fn at_point(
         &self,
         local: &mut Local,
@@ -268,7 +270,7 @@ impl Acting {
         };
         local.member = member;
         local.radius = gear.radius_at_arc(arc);
-        local.depth = 1e3 * depth;
+        local.depth = 1e3 * depth * cycle.pair.cos_base_helix();
         local.pressure = pressure;
         local.contacts = local.cycles / per_contact;
         local.contact_hours = if self.speed > 0.0 {

@@ -10,6 +10,7 @@
 //! ```text
 //! dh/dn = ∫ k f p |v| dy + a
 //! ```
+//! Depths are kept in the transverse section; normal to the flanks of helical gears they are cos β_b times that, which is what k p |v| wears.
 
 mod in_turn;
 mod jacobian;
@@ -18,6 +19,7 @@ mod local;
 use rayon::prelude::*;
 
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
+use crate::contact::slices::Slices;
 use crate::effects::{Effect, Hook};
 use crate::gear::Member;
 use crate::wear::acting::{Acting, side};
@@ -225,15 +227,16 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
             }
             Some(model) => {
                 let depths: Vec<[&[f64]; 2]> = law.each(u);
-                let of_position = |q: usize| {
-                    let flanks = law.flanks(q, &depths);
-                    let start: Vec<Vec<usize>> = (0..depths.len())
-                        .map(|i| self.warm[i * positions + q].clone())
+                let of_turn = |turn: usize| {
+                    let at = model.slices().all_at(turn, positions);
+                    let flanks = law.flanks(&at, &depths);
+                    let start: Vec<Vec<usize>> = (at.iter().enumerate())
+                        .map(|(i, q)| self.warm[i * positions + q].clone())
                         .collect();
-                    model.solve_all(q, &flanks, &start)
+                    model.solve_all(turn, &flanks, &start)
                 };
-                let solved = (0..positions).into_par_iter().map(of_position);
-                by_slice(solved.collect::<Result<Vec<_>, _>>()?)
+                let solved = (0..positions).into_par_iter().map(of_turn);
+                by_slice(model.slices(), solved.collect::<Result<Vec<_>, _>>()?)
             }
         };
         self.solves += self.warm.len();
@@ -300,14 +303,16 @@ impl<'a, M: ContactModel + ?Sized> ArchardSystem<'a, M> {
     }
 }
 
-/// Contacts by position and slice as contacts by slice and position.
-fn by_slice<T>(by_position: Vec<Vec<T>>) -> Vec<Vec<T>> {
-    let count = by_position.first().map_or(0, Vec::len);
-    let mut out: Vec<Vec<T>> = (0..count).map(|_| Vec::new()).collect();
-    for position in by_position {
-        for (slice, contact) in out.iter_mut().zip(position) {
+/// Contacts by turn and slice as contacts by slice and section position.
+fn by_slice<T>(slices: &Slices, by_turn: Vec<Vec<T>>) -> Vec<Vec<T>> {
+    let mut out: Vec<Vec<T>> = (0..slices.count()).map(|_| Vec::new()).collect();
+    for turn in by_turn {
+        for (slice, contact) in out.iter_mut().zip(turn) {
             slice.push(contact);
         }
+    }
+    for (i, slice) in out.iter_mut().enumerate() {
+        slices.by_section(i, slice);
     }
     out
 }
@@ -344,10 +349,10 @@ impl<M: ContactModel + ?Sized> WearSystem for ArchardSystem<'_, M> {
         self.solved(u)?;
         let (jacobian, factors) = match (self.model.sequence(), self.model.sliced()) {
             (Some(sequence), _) => self.jacobian_in_turn(sequence, n, u)?,
-            (None, Some(model)) => {
-                let (jacobian, factors) = self.jacobian_of_slices(model, n, u)?;
-                (Some(jacobian), factors)
-            }
+            (None, Some(model)) => match self.jacobian_of_slices(model, n, u)? {
+                Some((jacobian, factors)) => (Some(jacobian), factors),
+                None => return Ok(None),
+            },
             (None, None) => match self.jacobian_of_section(n, u)? {
                 Some((jacobian, factors)) => (Some(jacobian), vec![factors]),
                 None => return Ok(None),

@@ -56,17 +56,19 @@ impl Law<'_> {
         slices.map(|slice| self.split(slice)).collect()
     }
 
-    /// The flanks at position `q` with these depths by slice.
-    pub(super) fn flanks<'u>(&self, q: usize, depths: &[[&'u [f64]; 2]]) -> Flanks<'u> {
-        let pairs = self.cycle.positions[q].pairs.len();
-        Flanks::new(depths.len(), pairs, |slice, _| depths[slice])
+    /// The flanks of slices at the section positions `at` with these depths by slice.
+    pub(super) fn flanks<'u>(&self, at: &[usize], depths: &[[&'u [f64]; 2]]) -> Flanks<'u> {
+        let pairs = at.iter().map(|&q| self.cycle.positions[q].pairs.len());
+        let pairs: Vec<usize> = pairs.collect();
+        Flanks::new(&pairs, |slice, _| depths[slice])
     }
 
-    /// Depth rate per pressure of pinion and gear: k per pinion cycle.
+    /// Depth rate per pressure of pinion and gear: k per pinion cycle, for depths in the transverse section.
     pub(super) fn scale(&self) -> [f64; 2] {
+        let inclined = self.cycle.pair.cos_base_helix();
         [
-            self.coefficient[0],
-            self.coefficient[1] / self.cycle.pair.speed_ratio,
+            self.coefficient[0] / inclined,
+            self.coefficient[1] / self.cycle.pair.speed_ratio / inclined,
         ]
     }
 
@@ -246,7 +248,8 @@ impl Law<'_> {
         let mut out = Vec::new();
         for member in Member::BOTH {
             let side = side(member);
-            let per_cycle = 1e-3 / [1.0, cycle.pair.speed_ratio][side];
+            let per_cycle =
+                1e-3 / [1.0, cycle.pair.speed_ratio][side] / cycle.pair.cos_base_helix();
             for (station, moment) in solved.moments[side].iter().enumerate() {
                 let mut local = locals[moment.pair];
                 local.peak_pressure = moment.pressure;

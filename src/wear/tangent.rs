@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use crate::contact::model::{ContactModel, PositionContact, SlicedContact};
 use crate::contact::sequence::{Sequence, ToothDepths};
-use crate::contact::slices::Flanks;
+use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::{AlterationChange, Change, ContactTangent};
 use crate::wear::acting::Acting;
 use crate::wear::archard::{ArchardSystem, Joint, WearError};
@@ -49,6 +49,21 @@ struct ContactTangents {
     responses: Vec<Vec<Vec<f64>>>,
     /// Their derivatives by direction, vector and position; None where there are none.
     response_tangents: Vec<Option<Vec<Vec<Vec<f64>>>>>,
+}
+
+impl ContactTangents {
+    /// Puts those of slice `i`, found turn by turn, into the order of its section positions.
+    fn put_by_section(&mut self, slices: &Slices, i: usize) {
+        for tangents in &mut self.contacts {
+            slices.by_section(i, tangents);
+        }
+        for responses in &mut self.responses {
+            slices.by_section(i, responses);
+        }
+        for responses in self.response_tangents.iter_mut().flatten().flatten() {
+            slices.by_section(i, responses);
+        }
+    }
 }
 
 /// Depths of all teeth, and how they and their places change along each direction.
@@ -135,6 +150,11 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
                 }
             }
         }
+        if let (None, Some(model)) = (&in_turn, self.system.model.sliced()) {
+            for (i, of_slice) in out.iter_mut().enumerate() {
+                of_slice.put_by_section(model.slices(), i);
+            }
+        }
         Ok(out)
     }
 
@@ -174,26 +194,28 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
         Ok(vec![(tangents, responses, moved)])
     }
 
-    /// One position of all slices.
+    /// One turn of all slices.
     fn of_slices(
         &self,
         model: &dyn SlicedContact,
-        q: usize,
+        turn: usize,
         joint: &Joint,
         du: &[Vec<f64>],
         along: &[&[f64]],
     ) -> Result<OfPosition, WearError> {
         let law = self.system.law();
-        let contacts: Vec<&PositionContact> = joint.slices.iter().map(|s| &s.contacts[q]).collect();
+        let at = model.slices().all_at(turn, law.cycle.positions.len());
+        let own = joint.slices.iter().zip(&at);
+        let contacts: Vec<&PositionContact> = own.map(|(s, q)| &s.contacts[*q]).collect();
         let depths = law.each(&joint.u);
-        let linear = model.linearised_all(q, &contacts, &law.flanks(q, &depths))?;
+        let linear = model.linearised_all(turn, &contacts, &law.flanks(&at, &depths))?;
         let mut out: OfPosition = (joint.slices.iter())
             .map(|_| (Vec::new(), Vec::new(), Vec::new()))
             .collect();
         for (direction, du) in self.directions.iter().zip(du) {
             let depths = law.each(du);
             let tangents = linear.tangents(&Change {
-                flanks: &law.flanks(q, &depths),
+                flanks: &law.flanks(&at, &depths),
                 altered: direction.altered.as_ref(),
             });
             for (out, tangent) in out.iter_mut().zip(tangents) {
@@ -202,7 +224,7 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
         }
         let responses: Vec<Vec<Vec<f64>>> = along
             .iter()
-            .map(|v| linear.responses(&law.flanks(q, &law.each(v))))
+            .map(|v| linear.responses(&law.flanks(&at, &law.each(v))))
             .collect();
         for direction in self.directions {
             let moved: Option<Vec<Vec<Vec<f64>>>> =

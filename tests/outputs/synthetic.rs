@@ -98,6 +98,7 @@ fn geometry() -> Geometry {
     Geometry {
         module: 2.0,
         pressure_angle_deg: 20.0,
+        helix: None,
         centre_distance: 80.0,
         working_pressure_angle_deg: 20.0,
         contact_ratio: 1.69714,

@@ -5,6 +5,10 @@
 //! ```text
 //! W = W₀ + µ W_t          lever = arm + µ lever_t
 //! ```
+//! Of helical gears the body deforms in the section normal to the contact line: under the pressure p it gives way by C p along the normal,
+//! and that is C p/cos β_b along the path of contact, on which gaps are measured. C is taken as that of the transverse section; that is exact
+//! for what the contact itself gives way by, and near it for the tooth (guide/face.md). The force on the inclined flank is 1/cos β_b of
+//! what it carries in the transverse section, and friction takes its share of that.
 
 use std::sync::{Arc, OnceLock};
 
@@ -32,7 +36,7 @@ pub struct CycleCompliance {
     pub(super) positions: Vec<PositionCompliance>,
     /// Whether no pair has friction: then the compliance is symmetric.
     pub(super) symmetric: bool,
-    /// The coefficient of all pairs.
+    /// The coefficient of all pairs, per force in the transverse section.
     friction: f64,
     /// What effects add to it, by position and pair.
     added_friction: Option<Vec<Vec<f64>>>,
@@ -67,6 +71,7 @@ impl CycleCompliance {
         members: [&ElasticFlanks; 2],
         friction: f64,
     ) -> Result<Self, ContactError> {
+        let friction = friction / cycle.pair.cos_base_helix();
         let positions = cycle
             .positions
             .par_iter()
@@ -276,6 +281,10 @@ fn project(
             })
             .collect::<Result<_, _>>()?;
         add_weighted(weighted, &views, members[side]);
+    }
+    let inclined = cycle.pair.cos_base_helix();
+    if inclined != 1.0 {
+        *weighted /= inclined;
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Elastic contact of all slices of the face: one compliance for all of them, one approach between them.
+//! Elastic contact of all slices of the face: each at a position of one mesh cycle, one approach between them.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -13,9 +13,19 @@ use crate::contact::model::{ContactError, PositionContact, SlicedContact};
 use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::{AlterationChange, Change, ContactTangent, LinearSlices};
 use crate::contact::unilateral::{
-    JointLinearised, JointProblem, JointSolution, SliceSensitivity, Ties, UnilateralError,
+    JointLinearised, JointProblem, JointSolution, Section, SliceSensitivity, Ties, UnilateralError,
     solve_joint, solve_tied,
 };
+
+/// Where slices are at one turn.
+struct Stand<'a> {
+    /// The different sections among those of the slices.
+    sections: Vec<Section<'a>>,
+    /// Number of each slice's among them.
+    number: Vec<usize>,
+    /// Section position of each slice.
+    at: Vec<usize>,
+}
 
 /// The groups of a position's unknowns that slices are tied by: tooth pairs.
 struct TiedPairs {
@@ -44,24 +54,46 @@ impl TiedPairs {
 }
 
 impl FemContact<'_> {
-    fn joint<'b>(&'b self, q: usize, gaps: &'b [Vec<f64>]) -> JointProblem<'b> {
-        let elastic = &self.compliance.positions[q];
+    fn joint<'b>(&'b self, stand: &'b Stand<'b>, gaps: &'b [Vec<f64>]) -> JointProblem<'b> {
         JointProblem {
-            w: &elastic.weighted,
+            sections: &stand.sections,
+            at: &stand.number,
             gaps,
             weights: &self.slices().weight,
-            arm: &self.cycle.positions[q].arm,
-            lever: &elastic.lever,
             load: self.torque,
             symmetric: self.compliance.symmetric,
         }
     }
 
-    /// Weighted gaps by slice.
-    fn gaps(&self, q: usize, flanks: &Flanks<'_>) -> Vec<Vec<f64>> {
-        let position = &self.cycle.positions[q];
+    /// Where the slices are at the turn `turn`.
+    fn stand(&self, turn: usize) -> Stand<'_> {
+        let at = self.slices().all_at(turn, self.cycle.positions.len());
+        let mut different: Vec<usize> = Vec::new();
+        let number = at.iter().map(|q| {
+            let known = different.iter().position(|other| other == q);
+            known.unwrap_or_else(|| {
+                different.push(*q);
+                different.len() - 1
+            })
+        });
+        let number = number.collect();
+        let section = |&q: &usize| Section {
+            w: &self.compliance.positions[q].weighted,
+            arm: &self.cycle.positions[q].arm,
+            lever: &self.compliance.positions[q].lever,
+        };
+        Stand {
+            sections: different.iter().map(section).collect(),
+            number,
+            at,
+        }
+    }
+
+    /// Weighted gaps of slices at the section positions `at`.
+    fn gaps(&self, at: &[usize], flanks: &Flanks<'_>) -> Vec<Vec<f64>> {
         let slices = self.slices();
-        let of_slice = |i: usize| {
+        let of_slice = |(i, &q): (usize, &usize)| {
+            let position = &self.cycle.positions[q];
             let mut gap = position.gap.clone();
             position.open_each(flanks.of(i), &mut gap);
             if let Some(opened) = self.opened {
@@ -69,31 +101,31 @@ impl FemContact<'_> {
                     *gap += opened;
                 }
             }
-            for (pair, back) in position.pairs.iter().zip(&flanks.back) {
+            for (pair, back) in position.pairs.iter().zip(flanks.back_of(i)) {
                 set_back(&mut gap, pair, slices.offset[i] + back);
             }
             gap
         };
-        (0..slices.count()).map(of_slice).collect()
+        at.iter().enumerate().map(of_slice).collect()
     }
 
     fn solve_gaps(
         &self,
-        q: usize,
+        turn: usize,
         gaps: &[Vec<f64>],
         flanks: &Flanks<'_>,
         start: &[Vec<usize>],
     ) -> Result<Vec<PositionContact>, ContactError> {
-        let position = &self.cycle.positions[q];
         let failed = |source| ContactError::Unilateral {
-            theta: position.theta,
+            theta: self.cycle.positions[turn].theta,
             source,
         };
-        let problem = self.joint(q, gaps);
+        let stand = self.stand(turn);
+        let problem = self.joint(&stand, gaps);
         let (solution, gaps) = match self.ties {
             Some(ties) => {
-                let pairs = TiedPairs::of(position);
-                let tied = solve_tied(&problem, &pairs.by(&ties[q]), start).map_err(failed)?;
+                let pairs = TiedPairs::of(&self.cycle.positions[turn]);
+                let tied = solve_tied(&problem, &pairs.by(&ties[turn]), start).map_err(failed)?;
                 (tied.0, Cow::Owned(tied.1))
             }
             None => {
@@ -104,19 +136,23 @@ impl FemContact<'_> {
         for (i, (gap, pressure)) in gaps.iter().zip(&solution.pressure).enumerate() {
             let own = self.slices().offset[i];
             let mut corners = [f64::INFINITY; 2];
-            for (depth, back) in flanks.of(i).iter().zip(&flanks.back) {
+            for (depth, back) in flanks.of(i).iter().zip(flanks.back_of(i)) {
                 let lost = self.lost_corners(*depth);
                 corners = [0, 1].map(|side| corners[side].min(lost[side] + own + back));
             }
+            let position = &self.cycle.positions[stand.at[i]];
             self.within_limits(position, gap, pressure, solution.approach, corners)?;
         }
-        Ok(self.contacts(q, solution))
+        Ok(self.contacts(&stand, solution))
     }
 
-    fn contacts(&self, q: usize, solution: JointSolution) -> Vec<PositionContact> {
-        let levers = &self.compliance.positions[q].lever;
-        let carried = |pressure: &Vec<f64>| pressure.iter().zip(levers).map(|(p, l)| p * l).sum();
-        let torque = self.slices().mean(solution.pressure.iter().map(carried));
+    fn contacts(&self, stand: &Stand<'_>, solution: JointSolution) -> Vec<PositionContact> {
+        let carried = |(pressure, number): (&Vec<f64>, &usize)| {
+            let levers = stand.sections[*number].lever;
+            pressure.iter().zip(levers).map(|(p, l)| p * l).sum()
+        };
+        let each = solution.pressure.iter().zip(&stand.number);
+        let torque = self.slices().mean(each.map(carried));
         let torque_error = (torque / self.torque - 1.0).abs();
         (solution.pressure.into_iter().zip(solution.active))
             .map(|(pressure, active)| PositionContact {
@@ -132,15 +168,17 @@ impl FemContact<'_> {
 
     fn linear_on(
         &self,
-        q: usize,
+        turn: usize,
         contacts: &[&PositionContact],
     ) -> Result<JointLinearised, ContactError> {
         let active: Vec<&[usize]> = contacts.iter().map(|c| c.active.as_slice()).collect();
-        let gaps = vec![self.cycle.positions[q].gap.clone(); contacts.len()];
-        let position = &self.cycle.positions[q];
+        let stand = self.stand(turn);
+        let gap = |&q: &usize| self.cycle.positions[q].gap.clone();
+        let gaps: Vec<Vec<f64>> = stand.at.iter().map(gap).collect();
+        let position = &self.cycle.positions[turn];
         let pairs = TiedPairs::of(position);
-        let ties = self.ties.map(|ties| pairs.by(&ties[q]));
-        JointLinearised::new(&self.joint(q, &gaps), ties.as_ref(), &active).map_err(
+        let ties = self.ties.map(|ties| pairs.by(&ties[turn]));
+        JointLinearised::new(&self.joint(&stand, &gaps), ties.as_ref(), &active).map_err(
             |source: UnilateralError| ContactError::Unilateral {
                 theta: position.theta,
                 source,
@@ -156,39 +194,41 @@ impl SlicedContact for FemContact<'_> {
 
     fn solve_all(
         &self,
-        q: usize,
+        turn: usize,
         flanks: &Flanks<'_>,
         start: &[Vec<usize>],
     ) -> Result<Vec<PositionContact>, ContactError> {
-        self.solve_gaps(q, &self.gaps(q, flanks), flanks, start)
+        let at = self.slices().all_at(turn, self.cycle.positions.len());
+        self.solve_gaps(turn, &self.gaps(&at, flanks), flanks, start)
     }
 
     fn sensitivities(
         &self,
-        q: usize,
+        turn: usize,
         contacts: &[&PositionContact],
-    ) -> Result<Vec<Arc<SliceSensitivity>>, ContactError> {
-        Ok(self.linear_on(q, contacts)?.sensitivities())
+    ) -> Result<Option<Vec<Arc<SliceSensitivity>>>, ContactError> {
+        Ok(Some(self.linear_on(turn, contacts)?.sensitivities()))
     }
 
     fn linearised_all<'m>(
         &'m self,
-        q: usize,
+        turn: usize,
         contacts: &[&PositionContact],
         _: &Flanks<'_>,
     ) -> Result<Box<dyn LinearSlices + 'm>, ContactError> {
         Ok(Box::new(FaceLinear {
             model: self,
-            q,
-            joint: OnSets::new(self, q, contacts)?,
+            at: self.slices().all_at(turn, self.cycle.positions.len()),
+            joint: OnSets::new(self, turn, contacts)?,
         }))
     }
 }
 
-/// The contacts of one position's slices on their active sets.
+/// The contacts of one turn's slices on their active sets.
 struct FaceLinear<'m> {
     model: &'m FemContact<'m>,
-    q: usize,
+    /// Section positions of the slices.
+    at: Vec<usize>,
     joint: OnSets,
 }
 
@@ -201,14 +241,14 @@ struct OnSets {
 impl OnSets {
     fn new(
         model: &FemContact<'_>,
-        q: usize,
+        turn: usize,
         contacts: &[&PositionContact],
     ) -> Result<Self, ContactError> {
         let carried = |c: &&PositionContact| c.active.iter().map(|&k| c.pressure[k]).collect();
         Ok(Self {
             active: contacts.iter().map(|c| c.active.clone()).collect(),
             pressure: contacts.iter().map(carried).collect(),
-            linear: model.linear_on(q, contacts)?,
+            linear: model.linear_on(turn, contacts)?,
         })
     }
 }
@@ -216,24 +256,24 @@ impl OnSets {
 impl FaceLinear<'_> {
     /// How the weighted gaps open in each slice.
     fn openings(&self, change: &Change<'_>) -> Vec<Vec<f64>> {
-        let position = &self.model.cycle.positions[self.q];
         let opened = change.altered.and_then(|altered| altered.opened.as_ref());
         let lead = change.altered.and_then(|a| a.alteration.lead.as_ref());
-        let of_slice = |i: usize| {
+        let of_slice = |(i, &q): (usize, &usize)| {
+            let position = &self.model.cycle.positions[q];
             let mut gap = vec![0.0; position.gap.len()];
             position.open_each(change.flanks.of(i), &mut gap);
             if let Some(opened) = opened {
-                for (gap, opened) in gap.iter_mut().zip(&opened[self.q]) {
+                for (gap, opened) in gap.iter_mut().zip(&opened[q]) {
                     *gap += opened;
                 }
             }
             let lead = lead.map_or(0.0, |lead| lead[i]);
-            for (pair, back) in position.pairs.iter().zip(&change.flanks.back) {
+            for (pair, back) in position.pairs.iter().zip(change.flanks.back_of(i)) {
                 set_back(&mut gap, pair, lead + back);
             }
             gap
         };
-        (0..self.model.slices().count()).map(of_slice).collect()
+        self.at.iter().enumerate().map(of_slice).collect()
     }
 
     /// −dW λ by slice and −d(load) of what is altered, for values λ on the sets.
@@ -246,8 +286,9 @@ impl FaceLinear<'_> {
         let weights = &self.model.slices().weight;
         let mut load = 0.0;
         let mut all = Vec::with_capacity(values.len());
-        for ((active, values), weight) in on.active.iter().zip(values).zip(weights) {
-            let (right, own) = self.model.altered_on(self.q, active, values, change);
+        let slices = on.active.iter().zip(values).zip(weights).zip(&self.at);
+        for (((active, values), weight), &q) in slices {
+            let (right, own) = self.model.altered_on(q, active, values, change);
             load += weight * own;
             all.push(right);
         }

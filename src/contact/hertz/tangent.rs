@@ -10,14 +10,17 @@ use crate::analytic::hertz_line;
 use crate::contact::contact_point::ContactPoint;
 use crate::contact::model::PositionContact;
 use crate::contact::slices::Flanks;
-use crate::contact::tangent::{AlterationChange, Change, ContactTangent, LinearContact};
+use crate::contact::tangent::{
+    AlterationChange, Change, ContactTangent, LinearContact, LinearSlices,
+};
 use crate::numeric::interpolate;
 
-/// The analytic contact of one position.
+/// The analytic contact of one position, or of all slices at one turn.
 pub(super) struct HertzLinear<'m> {
     model: &'m HertzContact<'m>,
-    q: usize,
-    nodes: usize,
+    /// Section position of each slice, and its number of unknowns.
+    at: Vec<usize>,
+    nodes: Vec<usize>,
     springs: Vec<Spring>,
     /// Nodes of each spring's pair: first unknown, and derivatives of their pressures.
     ellipses: Vec<Option<Ellipse>>,
@@ -35,21 +38,22 @@ struct Ellipse {
 impl<'m> HertzLinear<'m> {
     pub(super) fn new(
         model: &'m HertzContact<'m>,
-        q: usize,
-        contact: &PositionContact,
+        at: &[usize],
+        contacts: &[&PositionContact],
         flanks: &Flanks<'_>,
     ) -> Self {
-        let springs = model.springs(q, flanks);
+        let springs = model.springs_at(at, flanks);
         let loads = model.loads(&springs).loads;
         let ellipses = (springs.iter().zip(&loads))
             .map(|(spring, load)| {
+                let (q, contact) = (at[spring.slice], contacts[spring.slice]);
                 (*load > 0.0).then(|| Ellipse::new(model, q, spring.index, *load, contact))
             })
             .collect();
         Self {
             model,
-            q,
-            nodes: contact.pressure.len(),
+            at: at.to_vec(),
+            nodes: contacts.iter().map(|c| c.pressure.len()).collect(),
             springs,
             ellipses,
         }
@@ -57,15 +61,18 @@ impl<'m> HertzLinear<'m> {
 
     /// How the springs change: gap, stiffness, factor.
     fn slopes(&self, change: &Change<'_>) -> Vec<Slope> {
-        let position = &self.model.cycle.positions[self.q];
+        let lead = change.altered.and_then(|a| a.alteration.lead.as_ref());
         let slope = |spring: &Spring| {
+            let (slice, q) = (spring.slice, self.at[spring.slice]);
+            let position = &self.model.cycle.positions[q];
             let pair = &position.pairs[spring.index];
             let mut slope = Slope {
-                gap: change.flanks.back[spring.index]
+                gap: change.flanks.back_of(slice)[spring.index]
+                    + lead.map_or(0.0, |lead| lead[slice])
                     + (0..2)
                         .map(|side| {
                             let stations = &self.model.cycle.stations.arc[side];
-                            let depth = change.flanks.of(0)[spring.index][side];
+                            let depth = change.flanks.of(slice)[spring.index][side];
                             interpolate(stations, depth, pair.facing.arc[side])
                         })
                         .sum::<f64>(),
@@ -76,9 +83,10 @@ impl<'m> HertzLinear<'m> {
                 let alteration = &altered.alteration;
                 // 1/c = 1/c₀ + q
                 slope.stiffness = -spring.stiffness * spring.stiffness * alteration.flexibility;
-                slope.factor = alteration.factor_slope(self.q, spring.index);
-                slope.gap += (altered.points.as_ref())
-                    .map_or(0.0, |points| points[self.q][spring.index].gap);
+                let share = self.model.slices.map_or(1.0, |slices| slices.weight[slice]);
+                slope.factor = alteration.factor_slope(q, spring.index) / share;
+                slope.gap +=
+                    (altered.points.as_ref()).map_or(0.0, |points| points[q][spring.index].gap);
             }
             slope
         };
@@ -198,30 +206,47 @@ impl Ellipse {
     }
 }
 
-impl LinearContact for HertzLinear<'_> {
-    fn tangent(&self, change: &Change<'_>) -> ContactTangent {
+impl LinearSlices for HertzLinear<'_> {
+    fn tangents(&self, change: &Change<'_>) -> Vec<ContactTangent> {
         let (loads, delta) = self.loads(&self.slopes(change));
-        let mut pressure = vec![0.0; self.nodes];
+        let still = |nodes: &usize| ContactTangent {
+            pressure: vec![0.0; *nodes],
+            approach: delta / self.model.cycle.pair.pinion.base_radius,
+        };
+        let mut out: Vec<ContactTangent> = self.nodes.iter().map(still).collect();
         let points = change.altered.and_then(|altered| altered.points.as_ref());
         for ((spring, ellipse), load) in self.springs.iter().zip(&self.ellipses).zip(loads) {
             let Some(ellipse) = ellipse else { continue };
+            let pressure = &mut out[spring.slice].pressure;
             let own = &mut pressure[ellipse.first..ellipse.first + ellipse.per_load.len()];
             for (p, per) in own.iter_mut().zip(&ellipse.per_load) {
                 *p = per * load;
             }
             if let Some(points) = points {
-                let point = points[self.q][spring.index];
-                let radius = point.radius / self.model.points[self.q][spring.index].radius;
+                let q = self.at[spring.slice];
+                let point = points[q][spring.index];
+                let radius = point.radius / self.model.points[q][spring.index].radius;
                 let per = ellipse.per_centre.iter().zip(&ellipse.per_radius);
                 for (p, (per_centre, per_radius)) in own.iter_mut().zip(per) {
                     *p += per_centre * point.centre + per_radius * radius;
                 }
             }
         }
-        ContactTangent {
-            pressure,
-            approach: delta / self.model.cycle.pair.pinion.base_radius,
-        }
+        out
+    }
+
+    fn responses(&self, _: &Flanks<'_>) -> Vec<Vec<f64>> {
+        vec![Vec::new(); self.nodes.len()]
+    }
+
+    fn response_tangents(&self, _: &[Vec<f64>], _: &AlterationChange) -> Option<Vec<Vec<f64>>> {
+        None
+    }
+}
+
+impl LinearContact for HertzLinear<'_> {
+    fn tangent(&self, change: &Change<'_>) -> ContactTangent {
+        self.tangents(change).swap_remove(0)
     }
 
     fn response(&self, _: &Flanks<'_>) -> Vec<f64> {

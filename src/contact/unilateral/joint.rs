@@ -19,19 +19,28 @@ use super::{Drive, Problem, UnilateralError};
 
 pub use linearised::{JointLinearised, SliceSensitivity};
 
-/// Contacts of one position's slices.
+/// A section as its contact grid sees it; several slices may stand at the same.
 #[derive(Debug, Clone, Copy)]
-pub struct JointProblem<'a> {
-    /// Weighted compliance of every slice.
+pub struct Section<'a> {
+    /// Weighted compliance, as in [`Problem`].
     pub w: &'a DMatrix<f64>,
-    /// Weighted initial gaps by slice.
-    pub gaps: &'a [Vec<f64>],
-    /// Share of each slice in the load.
-    pub weights: &'a [f64],
     /// As in [`Problem`].
     pub arm: &'a [f64],
     /// As in [`Problem`].
     pub lever: &'a [f64],
+}
+
+/// Contacts of slices that close by one approach.
+#[derive(Debug, Clone, Copy)]
+pub struct JointProblem<'a> {
+    /// The sections at which slices stand.
+    pub sections: &'a [Section<'a>],
+    /// Number of the section of each slice.
+    pub at: &'a [usize],
+    /// Weighted initial gaps by slice.
+    pub gaps: &'a [Vec<f64>],
+    /// Share of each slice in the load.
+    pub weights: &'a [f64],
     /// Mean of the slices' loads, weighted.
     pub load: f64,
     /// As in [`Problem`].
@@ -69,25 +78,40 @@ pub fn solve_joint(
 ) -> Result<JointSolution, UnilateralError> {
     let finite = |values: &[f64]| values.iter().all(|x| x.is_finite());
     let sound = problem.load.is_finite() && problem.load > 0.0;
-    if !sound || !finite(problem.arm) || !problem.gaps.iter().all(|gap| finite(gap)) {
+    let arms = problem.sections.iter().all(|section| finite(section.arm));
+    if !sound || !arms || !problem.gaps.iter().all(|gap| finite(gap)) {
         return Err(UnilateralError::BadLoad { load: problem.load });
     }
     match settle(problem, start) {
         Err(UnilateralError::Singular { .. } | UnilateralError::NotSettled { .. }) => {
-            let w = ridged(problem.w);
-            let ridged = JointProblem { w: &w, ..*problem };
+            let stiffened = RidgedSections::of(problem);
+            let sections = stiffened.sections(problem);
+            let ridged = JointProblem {
+                sections: &sections,
+                ..*problem
+            };
             settle(&ridged, &[]).or_else(|_| bracketed(&ridged))
         }
         settled => settled,
     }
 }
 
+/// The sections with what makes their compliance regular.
+struct RidgedSections(Vec<DMatrix<f64>>);
+
+impl RidgedSections {
+    fn of(problem: &JointProblem) -> Self {
+        Self(problem.sections.iter().map(|s| ridged(s.w)).collect())
+    }
+
+    fn sections<'b>(&'b self, problem: &JointProblem<'b>) -> Vec<Section<'b>> {
+        let both = problem.sections.iter().zip(&self.0);
+        both.map(|(section, w)| Section { w, ..*section }).collect()
+    }
+}
+
 fn settle(problem: &JointProblem, start: &[Vec<usize>]) -> Result<JointSolution, UnilateralError> {
-    let n = problem.arm.len();
-    let fits = start.len() == problem.gaps.len()
-        && start.iter().any(|set| !set.is_empty())
-        && start.iter().flatten().all(|&k| k < n);
-    let mut sets = if fits {
+    let mut sets = if problem.fits(start) {
         start.to_vec()
     } else {
         first_sets(problem)
@@ -98,7 +122,7 @@ fn settle(problem: &JointProblem, start: &[Vec<usize>]) -> Result<JointSolution,
     for round in 1..=MOST_ROUNDS {
         for (i, on) in on.iter_mut().enumerate() {
             if on.as_ref().is_none_or(|on| *on.active != sets[i]) {
-                *on = Some(OnSet::new(problem, i, factors.of(problem, &sets[i])?));
+                *on = Some(OnSet::new(problem, i, factors.of(problem, i, &sets[i])?));
             }
         }
         let solved: Vec<&OnSet> = on.iter().flatten().collect();
@@ -186,13 +210,27 @@ fn bracketed(problem: &JointProblem) -> Result<JointSolution, UnilateralError> {
 }
 
 impl JointProblem<'_> {
+    /// Whether sets of active points can be those of a start.
+    pub(super) fn fits(&self, start: &[Vec<usize>]) -> bool {
+        let within = |(set, gap): (&Vec<usize>, &Vec<f64>)| set.iter().all(|&k| k < gap.len());
+        start.len() == self.gaps.len()
+            && start.iter().any(|set| !set.is_empty())
+            && start.iter().zip(self.gaps).all(within)
+    }
+
+    /// The section of slice `i`.
+    fn section(&self, i: usize) -> &Section<'_> {
+        &self.sections[self.at[i]]
+    }
+
     /// The contact of slice `i` at a given approach.
     fn slice(&self, i: usize, approach: f64) -> Problem<'_> {
+        let section = self.section(i);
         Problem {
-            w: self.w,
+            w: section.w,
             gap: &self.gaps[i],
-            arm: self.arm,
-            lever: self.lever,
+            arm: section.arm,
+            lever: section.lever,
             drive: Drive::Approach(approach),
             symmetric: self.symmetric,
         }
@@ -201,32 +239,34 @@ impl JointProblem<'_> {
 
 /// The least approach at which anything touches.
 fn least_gap(problem: &JointProblem) -> f64 {
-    let of_slice = |gap: &Vec<f64>| {
-        let reduced = gap.iter().zip(problem.arm).map(|(g, a)| g / a);
+    let of_slice = |(i, gap): (usize, &Vec<f64>)| {
+        let reduced = gap.iter().zip(problem.section(i).arm).map(|(g, a)| g / a);
         reduced.fold(f64::INFINITY, f64::min)
     };
-    problem
-        .gaps
-        .iter()
+    (problem.gaps.iter().enumerate())
         .map(of_slice)
         .fold(f64::INFINITY, f64::min)
 }
 
 /// The points that touch where the nearest one alone would carry half the load.
 fn first_sets(problem: &JointProblem) -> Vec<Vec<usize>> {
-    let reduced: Vec<Vec<f64>> = (problem.gaps.iter())
-        .map(|gap| gap.iter().zip(problem.arm).map(|(g, a)| g / a).collect())
+    let reduced: Vec<Vec<f64>> = (problem.gaps.iter().enumerate())
+        .map(|(i, gap)| {
+            let arm = problem.section(i).arm;
+            gap.iter().zip(arm).map(|(g, a)| g / a).collect()
+        })
         .collect();
-    let mut nearest = (0, f64::INFINITY);
-    for gaps in &reduced {
+    let mut nearest = (0, 0, f64::INFINITY);
+    for (i, gaps) in reduced.iter().enumerate() {
         for (k, gap) in gaps.iter().enumerate() {
-            if *gap < nearest.1 {
-                nearest = (k, *gap);
+            if *gap < nearest.2 {
+                nearest = (i, k, *gap);
             }
         }
     }
-    let (k, least) = nearest;
-    let alone = problem.w[(k, k)] * problem.load / (problem.arm[k] * problem.lever[k]);
+    let (i, k, least) = nearest;
+    let section = problem.section(i);
+    let alone = section.w[(k, k)] * problem.load / (section.arm[k] * section.lever[k]);
     let touching = |gaps: &Vec<f64>| {
         (0..gaps.len())
             .filter(|&k| gaps[k] <= least + 0.5 * alone)
@@ -291,21 +331,26 @@ impl SetFactor {
     }
 }
 
-/// Factors of the sets met so far.
+/// Factors of the sets met so far, with the numbers of their sections.
 #[derive(Default)]
-pub(super) struct Factors(Vec<Arc<SetFactor>>);
+pub(super) struct Factors(Vec<(usize, Arc<SetFactor>)>);
 
 impl Factors {
+    /// Of the section of slice `i`.
     fn of(
         &mut self,
         problem: &JointProblem,
+        i: usize,
         active: &[usize],
     ) -> Result<Arc<SetFactor>, UnilateralError> {
-        if let Some(known) = self.0.iter().rev().find(|f| *f.active == active) {
+        let section = problem.at[i];
+        let same =
+            |known: &&(usize, Arc<SetFactor>)| known.0 == section && *known.1.active == active;
+        if let Some((_, known)) = self.0.iter().rev().find(same) {
             return Ok(Arc::clone(known));
         }
-        let new = Arc::new(SetFactor::new(&problem.slice(0, 0.0), active)?);
-        self.0.push(Arc::clone(&new));
+        let new = Arc::new(SetFactor::new(&problem.slice(i, 0.0), active)?);
+        self.0.push((section, Arc::clone(&new)));
         Ok(new)
     }
 }
@@ -353,7 +398,7 @@ pub(super) fn on_sets(
     sets: &[Vec<usize>],
 ) -> Result<Vec<OnSet>, UnilateralError> {
     let of_slice =
-        |(i, set): (usize, &Vec<usize>)| Ok(OnSet::new(problem, i, factors.of(problem, set)?));
+        |(i, set): (usize, &Vec<usize>)| Ok(OnSet::new(problem, i, factors.of(problem, i, set)?));
     sets.iter().enumerate().map(of_slice).collect()
 }
 

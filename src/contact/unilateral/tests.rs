@@ -318,11 +318,14 @@ fn one_slice_is_the_contact_itself() {
         };
         let alone = solve(&problem, &[]).unwrap();
         let joint = JointProblem {
-            w: &w,
+            sections: &[Section {
+                w: &w,
+                arm: &arm,
+                lever: &arm,
+            }],
+            at: &[0],
             gaps: std::slice::from_ref(&gap),
             weights: &[1.0],
-            arm: &arm,
-            lever: &arm,
             load: 2.0,
             symmetric: true,
         };
@@ -352,11 +355,14 @@ fn slices_share_one_approach_and_one_load() {
             .collect();
         let weights = [0.1, 0.3, 0.2, 0.15, 0.25];
         let problem = JointProblem {
-            w: &w,
+            sections: &[Section {
+                w: &w,
+                arm: &arm,
+                lever: &arm,
+            }],
+            at: &vec![0; gaps.len()],
             gaps: &gaps,
             weights: &weights,
-            arm: &arm,
-            lever: &arm,
             load: 0.7,
             symmetric: true,
         };
@@ -388,11 +394,14 @@ fn a_rigid_wedge_on_springs_loads_its_end_as_the_standards_say() {
         let gaps: Vec<Vec<f64>> = (0..count).map(|i| vec![wedge * place(i)]).collect();
         let weights = vec![1.0 / count as f64; count];
         let problem = JointProblem {
-            w: &w,
+            sections: &[Section {
+                w: &w,
+                arm: &[1.0],
+                lever: &[1.0],
+            }],
+            at: &vec![0; gaps.len()],
             gaps: &gaps,
             weights: &weights,
-            arm: &[1.0],
-            lever: &[1.0],
             load: mean,
             symmetric: true,
         };
@@ -427,11 +436,14 @@ fn joint_linearisation_is_that_of_differences() {
         .collect();
     let at = |gaps: &[Vec<f64>]| {
         let problem = JointProblem {
-            w: &w,
+            sections: &[Section {
+                w: &w,
+                arm: &arm,
+                lever: &arm,
+            }],
+            at: &[0; 3],
             gaps,
             weights: &[0.2, 0.5, 0.3],
-            arm: &arm,
-            lever: &arm,
             load: 3.0,
             symmetric: true,
         };

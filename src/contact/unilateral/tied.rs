@@ -32,7 +32,7 @@ const MOST_ROUNDS: usize = 30;
 const MOST_STEPS: usize = 400;
 const SETTLED: f64 = 1e-12;
 
-/// Solves `problem` with its slices tied, from the sets `start`; also the gaps by slice as the ties leave them.
+/// Solves `problem`, whose slices all stand at one section, with these tied, from the sets `start`; also the gaps by slice as the ties leave them.
 ///
 /// # Errors
 /// [`UnilateralError`].
@@ -41,10 +41,7 @@ pub fn solve_tied(
     ties: &Ties,
     start: &[Vec<usize>],
 ) -> Result<(JointSolution, Vec<Vec<f64>>), UnilateralError> {
-    let fits = start.len() == problem.gaps.len()
-        && start.iter().any(|set| !set.is_empty())
-        && start.iter().flatten().all(|&k| k < problem.arm.len());
-    let mut sets = match fits {
+    let mut sets = match problem.fits(start) {
         true => start.to_vec(),
         false => solve_joint(problem, &[])?.active,
     };

@@ -61,7 +61,8 @@ impl Meshing {
             false => (0..all.len()).map(reads).collect(),
         };
         let of_several = forward.weights();
-        let contacts = mean_contacts(of_several.as_deref(), all);
+        let slices = forward.slices();
+        let contacts = mean_contacts(of_several.as_deref(), slices, all);
         let weights = of_several.unwrap_or_else(|| vec![1.0]);
         let moments = match by_slice.as_slice() {
             [one] => one.clone(),
@@ -106,7 +107,13 @@ impl Meshing {
                     pressure: (0..contacts[q].pressure.len())
                         .map(|k| sum(&|tangent| tangent.pressure[k]))
                         .collect(),
-                    approach: sum(&|tangent| tangent.approach),
+                    approach: (weights.iter().enumerate())
+                        .map(|(i, w)| {
+                            let own = of_slice(i);
+                            let at = slices.map_or(q, |s| s.at(i, q, own.len()));
+                            w * own[at].approach
+                        })
+                        .sum(),
                 }
             };
             let contacts: Vec<ContactTangent> = (0..contacts.len()).map(mean_tangent).collect();

@@ -251,6 +251,35 @@ fn geometry(run: &Run) -> Section {
             ("speed ratio", significant(g.speed_ratio, 6)),
         ],
     );
+    let helical = g.helix.map(|helix| {
+        let degrees = |value: f64| format!("{}°", significant(value, 6));
+        Table::of_values(
+            "The helix",
+            [
+                (
+                    "helix angle at the pinion's reference circle",
+                    degrees(helix.angle_deg),
+                ),
+                (
+                    "helix angle at the base circles",
+                    degrees(helix.base_angle_deg),
+                ),
+                (
+                    "module of the transverse section",
+                    mm(helix.transverse_module),
+                ),
+                (
+                    "pressure angle of the transverse section",
+                    degrees(helix.transverse_pressure_angle_deg),
+                ),
+                ("overlap ratio", significant(helix.overlap_ratio, 6)),
+                (
+                    "total contact ratio",
+                    significant(g.total_contact_ratio(), 6),
+                ),
+            ],
+        )
+    });
     let mut wheels = Table::new("The wheels, radii in mm", ["", "pinion", "gear"]);
     type Column = fn(&WheelGeometry) -> String;
     let rows: [(&str, Column); 9] = [
@@ -273,7 +302,11 @@ fn geometry(run: &Run) -> Section {
             Cell::number(value(&g.gear)),
         ]);
     }
-    Section::new("Geometry").table(pair).table(wheels)
+    let mut section = Section::new("Geometry").table(pair);
+    if let Some(helical) = helical {
+        section = section.table(helical);
+    }
+    section.table(wheels)
 }
 
 fn mesh_and_cost(run: &Run) -> Section {

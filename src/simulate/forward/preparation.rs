@@ -383,7 +383,7 @@ impl Forward<'_> {
         }
     }
 
-    /// The slices of the face with what the gears lack in them; none where one section stands for all of it, as analytically. What effects
+    /// The slices of the face with what the gears lack in them; none where one section stands for all of it, as analytically for spur gears. What effects
     /// make missing across the face is not in them yet.
     fn slices_of_the_face(&self) -> Option<Slices> {
         let (face, width) = (&self.set.face, self.set.face_width);
@@ -396,10 +396,12 @@ impl Forward<'_> {
             0 if wanted => SLICES_OF_EFFECTS,
             stated => stated,
         };
-        if count < 2 || self.kind == ContactKind::Hertz {
+        let pair = &self.cycle.pair;
+        if count < 2 || (self.kind == ContactKind::Hertz && pair.base_helix == 0.0) {
             return None;
         }
-        let mut slices = Slices::even(count, width);
+        let positions = self.cycle.positions.len();
+        let mut slices = Slices::even(count, width).turned(pair.turned_per_mm(), positions);
         for (offset, y) in slices.offset.iter_mut().zip(&slices.place) {
             *offset = face.missing(*y, width);
         }

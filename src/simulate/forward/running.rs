@@ -139,7 +139,11 @@ impl Forward<'_> {
     /// [`ForwardError`] if a contact cannot be solved.
     pub fn contacts_at(&mut self, u: &[f64]) -> Result<Vec<PositionContact>, ForwardError> {
         let by_slice = self.all_contacts_at(u)?;
-        Ok(mean_contacts(self.weights().as_deref(), by_slice))
+        Ok(mean_contacts(
+            self.weights().as_deref(),
+            self.slices(),
+            by_slice,
+        ))
     }
 
     /// The same by slice.

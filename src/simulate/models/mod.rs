@@ -157,7 +157,7 @@ fn at(
     models.extend([elastic.hertz, elastic.fem]);
     Ok(Mounted {
         misalignment: conditions.misalignment,
-        geometry: gather::geometry(pair),
+        geometry: gather::geometry(pair, set.face_width, 0.0),
         single,
         differences: ladder::differences(&models, &spans),
         spans,

@@ -11,6 +11,9 @@ use crate::numeric::patchy::PatchyMatrix;
 use crate::wear::integrator::Jacobian;
 use crate::wear::law::{Factors, Solved};
 
+/// A Jacobian of all slices, and the factors on the coefficient that it was made with, by slice and position.
+type OfSlices = (Jacobian, Vec<Vec<Factors>>);
+
 impl<M: ContactModel + ?Sized> ArchardSystem<'_, M> {
     /// The Jacobian of one section, where the contacts for `u` are known, and the factors on the coefficient by position; none if the contact
     /// model has no sensitivities.
@@ -42,25 +45,29 @@ impl<M: ContactModel + ?Sized> ArchardSystem<'_, M> {
     }
 
     /// The Jacobian of all slices, where the contacts for `u` are known: each by itself at a given approach, and what the common approach of each
-    /// position adds. With the factors on the coefficient, by slice and position.
+    /// position adds. With the factors on the coefficient, by slice and position; none if the contact model has no sensitivities.
     pub(super) fn jacobian_of_slices(
         &self,
         model: &dyn SlicedContact,
         n: f64,
         u: &[f64],
-    ) -> Result<(Jacobian, Vec<Vec<Factors>>), WearError> {
+    ) -> Result<Option<OfSlices>, WearError> {
         let (law, joint) = (self.law_at(u), self.known(u));
         let cycle = law.cycle;
         let positions = cycle.positions.len();
         let size = cycle.stations.count();
         let sensitivities = (0..positions)
             .into_par_iter()
-            .map(|q| {
-                let contacts: Vec<&PositionContact> =
-                    (joint.slices.iter()).map(|s| &s.contacts[q]).collect();
-                model.sensitivities(q, &contacts)
+            .map(|turn| {
+                let at = model.slices().all_at(turn, positions);
+                let own = joint.slices.iter().zip(at);
+                let contacts: Vec<&PositionContact> = own.map(|(s, q)| &s.contacts[q]).collect();
+                model.sensitivities(turn, &contacts)
             })
-            .collect::<Result<Vec<_>, _>>()?;
+            .collect::<Result<Option<Vec<_>>, _>>()?;
+        let Some(sensitivities) = sensitivities else {
+            return Ok(None);
+        };
         let weights = &model.slices().weight;
         let of_slice = |(i, solved): (usize, &Solved)| {
             let view = law.view(n, &solved.u);
@@ -72,10 +79,15 @@ impl<M: ContactModel + ?Sized> ArchardSystem<'_, M> {
             for (q, (contact, reads)) in solved.contacts.iter().zip(reads).enumerate() {
                 let (local, factors) = Local::new(&law, &view, &cycle.positions[q], contact, reads);
                 all_factors.push(factors);
-                let sensitivity = &sensitivities[q][i];
+                let turn = model.slices().turn_of(i, q, positions);
+                let sensitivity = &sensitivities[turn][i];
                 local.add(&sensitivity.fixed, &mut block);
-                local.drives(&sensitivity.drive, drive.col_as_slice_mut(q));
-                local.follows(&sensitivity.follow, weights[i], follow.col_as_slice_mut(q));
+                local.drives(&sensitivity.drive, drive.col_as_slice_mut(turn));
+                local.follows(
+                    &sensitivity.follow,
+                    weights[i],
+                    follow.col_as_slice_mut(turn),
+                );
             }
             (block, drive, follow, all_factors)
         };
@@ -95,6 +107,6 @@ impl<M: ContactModel + ?Sized> ArchardSystem<'_, M> {
             drive,
             follow,
         };
-        Ok((jacobian, factors))
+        Ok(Some((jacobian, factors)))
     }
 }

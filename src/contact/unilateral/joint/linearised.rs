@@ -5,9 +5,8 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::super::UnilateralError;
-use super::super::factor::ridged;
 use super::super::tied::{TiedSystem, Ties};
-use super::{Factors, JointProblem, SetFactor};
+use super::{Factors, JointProblem, RidgedSections, SetFactor};
 
 /// A joint contact linearised on its active sets: small changes cost one back-substitution for each slice.
 ///
@@ -34,11 +33,18 @@ impl JointLinearised {
     ) -> Result<Self, UnilateralError> {
         let mut factors = Factors::default();
         let build = |factors: &mut Factors, problem: &JointProblem| {
-            (active.iter().map(|set| factors.of(problem, set))).collect::<Result<Vec<_>, _>>()
+            let all = active.iter().enumerate();
+            let each = all.map(|(i, set)| factors.of(problem, i, set));
+            each.collect::<Result<Vec<_>, _>>()
         };
         let slices = build(&mut factors, problem).or_else(|_| {
-            let w = ridged(problem.w);
-            build(&mut Factors::default(), &JointProblem { w: &w, ..*problem })
+            let stiffened = RidgedSections::of(problem);
+            let sections = stiffened.sections(problem);
+            let ridged = JointProblem {
+                sections: &sections,
+                ..*problem
+            };
+            build(&mut Factors::default(), &ridged)
         })?;
         let stiffness = (slices.iter().zip(problem.weights))
             .map(|(slice, weight)| weight * slice.lever.dot(&slice.of_arm))

@@ -1,0 +1,602 @@
+//! Claim: helical gears are transverse sections that stand turned along the face and share one turn, one torque and one wear law.
+//!
+//! Sources: ISO 21771 (geometry), ISO 6336-1 and -2 (stiffness, contact stress), springs of which the test itself finds the balance,
+//! equilibrium, symmetry, and spur gears as the limit of no helix. Tolerances: rounding where the same numbers follow another way; stated
+//! where something converges or two theories meet.
+
+#![expect(clippy::print_stderr, reason = "figures that the guide cites")]
+
+use std::f64::consts::PI;
+
+use gearwear::simulate::forward::{Conditions, Forward, GearSet, Variation};
+use gearwear::simulate::history::{HistoryTangents, Progress, WearState};
+use gearwear::simulate::members::Members;
+use gearwear::simulate::numerics::Numerics;
+use gearwear::study::Study;
+
+const MODULE: f64 = 3.0;
+const TEETH: [f64; 2] = [23.0, 67.0];
+const MODULUS: f64 = 2.06e5;
+/// Torque per face width, N·mm/mm.
+const TORQUE: f64 = 9000.0;
+
+/// A pair of steel gears: helix angle (deg), slices, face width (mm), and further tables.
+fn study(helix: f64, slices: usize, width: f64, more: &str) -> Study {
+    let text = format!(
+        "[gears]\nmodule = {MODULE}\npressure_angle = 20.0\nface_width = {width}\n\
+         [gears.pinion]\nteeth = {}\nbore_diameter = 30.0\n[gears.gear]\nteeth = {}\nbore_diameter = 60.0\n\
+         [material]\nyoungs_modulus = {MODULUS}\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+         [operation]\ntorque = {}\nspeed = 1500.0\n[wear]\ncoefficient = 6e-10\ncycles = 1e5\n\
+         [numerics]\npositions = 40\nelements_per_half_width = 2\n\
+         [face]\nslices = {slices}\nhelix_angle = {helix}\n{more}",
+        TEETH[0],
+        TEETH[1],
+        1e-3 * TORQUE * width
+    );
+    Study::parse(&text, "study.toml").unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Face width of an overlap ratio, mm.
+fn width_of(overlap: f64, helix: f64) -> f64 {
+    overlap * PI * MODULE / helix.to_radians().sin()
+}
+
+/// What a forward model needs.
+struct Bench {
+    set: GearSet,
+    members: Option<Members>,
+    conditions: Conditions,
+    numerics: Numerics,
+}
+
+impl Bench {
+    fn analytic(study: &Study) -> Self {
+        Self {
+            set: study.gear_set(),
+            members: None,
+            conditions: study.operation.simulated(&study.wear),
+            numerics: study.resolution(),
+        }
+    }
+
+    fn elastic(study: &Study) -> Self {
+        let bench = Self::analytic(study);
+        let members = bench
+            .set
+            .members(&bench.numerics, &[bench.conditions.torque], &[0.0]);
+        Self {
+            members: Some(members.unwrap()),
+            ..bench
+        }
+    }
+
+    fn forward(&self) -> Forward<'_> {
+        let members = self.members.as_ref();
+        Forward::new(&self.set, members, self.conditions, self.numerics).unwrap()
+    }
+
+    fn both(study: &Study) -> [Self; 2] {
+        [Self::analytic(study), Self::elastic(study)]
+    }
+}
+
+/// Worn to each of the ascending `stops`.
+fn states(forward: &mut Forward<'_>, stops: &[f64]) -> (Vec<WearState>, Progress) {
+    let mut progress = None;
+    let mut states = Vec::new();
+    let store = &mut |state| states.push(state);
+    forward
+        .wear(&mut progress, stops, &mut |_| true, store)
+        .unwrap();
+    (states, progress.unwrap())
+}
+
+fn largest<'v>(values: impl IntoIterator<Item = &'v f64>) -> f64 {
+    values.into_iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+}
+
+fn apart(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let off: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a - b).collect();
+    largest(&off) / largest(expected)
+}
+
+fn approaches(state: &WearState) -> Vec<f64> {
+    state.contacts.iter().map(|c| c.approach).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Largest less smallest, over the mean.
+fn ripple(values: &[f64]) -> f64 {
+    let (low, high) = values
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+            (a.min(*v), b.max(*v))
+        });
+    (high - low) / mean(values)
+}
+
+/// The transverse section of the pair without profile shift, from the formulas of ISO 21771 alone.
+struct Section {
+    /// Helix angle at the base circles, rad.
+    base_helix: f64,
+    pitch: f64,
+    base_radius: [f64; 2],
+    /// Ends of the path of contact from the pitch point, mm.
+    ends: [f64; 2],
+    sine: f64,
+    reference: [f64; 2],
+}
+
+impl Section {
+    fn new(helix: f64) -> Self {
+        let helix = helix.to_radians();
+        let angle = (20f64.to_radians().tan() / helix.cos()).atan();
+        let reference = TEETH.map(|z| 0.5 * z * MODULE / helix.cos());
+        let base_radius = reference.map(|r| r * angle.cos());
+        let beyond = |i: usize| {
+            let tip = reference[i] + MODULE;
+            (tip * tip - base_radius[i] * base_radius[i]).sqrt() - reference[i] * angle.sin()
+        };
+        Self {
+            base_helix: (helix.sin() * 20f64.to_radians().cos()).asin(),
+            pitch: PI * MODULE / helix.cos() * angle.cos(),
+            base_radius,
+            ends: [-beyond(1), beyond(0)],
+            sine: angle.sin(),
+            reference,
+        }
+    }
+
+    fn contact_ratio(&self) -> f64 {
+        (self.ends[1] - self.ends[0]) / self.pitch
+    }
+
+    fn virtual_teeth(&self, helix: f64) -> [f64; 2] {
+        TEETH.map(|z| z / (self.base_helix.cos().powi(2) * helix.to_radians().cos()))
+    }
+
+    /// c'th of ISO 6336-1 in N/(mm µm).
+    fn theoretical(&self, helix: f64) -> f64 {
+        let [z1, z2] = self.virtual_teeth(helix);
+        1.0 / (0.04723 + 0.15551 / z1 + 0.25791 / z2)
+    }
+}
+
+/// The pair by numbers: 12°, module 3 in the normal section, 30 mm.
+#[test]
+fn contact_ratios_are_those_of_the_standard() {
+    let study = study(12.0, 11, 30.0, "");
+    let pair = study.gears.pair(0.0).unwrap();
+    let section = Section::new(12.0);
+    assert!((pair.base_pitch / section.pitch - 1.0).abs() < 1e-12);
+    assert!((pair.contact_ratio / section.contact_ratio() - 1.0).abs() < 1e-9);
+    let overlap = 30.0 * 12f64.to_radians().sin() / (PI * MODULE);
+    assert!((pair.overlap_ratio(30.0) / overlap - 1.0).abs() < 1e-12);
+    assert!((pair.base_helix / section.base_helix - 1.0).abs() < 1e-12);
+    // as many mesh positions as hold the slices' places best, and no more than a quarter more
+    assert!((40..=50).contains(&study.resolution().positions));
+}
+
+/// Springs that the test places along the helix itself, with the stiffness of ISO 6336-1 and Pedrero's fall along the path: the same
+/// approach and the same line loads.
+#[test]
+fn analytic_line_loads_are_those_of_springs_along_the_helix() {
+    for (helix, slope) in [(12.0, 0.0), (12.0, 25.0), (-20.0, 15.0)] {
+        let width = width_of(1.0, f64::abs(helix));
+        let lead = format!("[face.pinion]\nlead_slope = {slope}\n");
+        let bench = Bench::analytic(&study(helix, 5, width, &lead));
+        let forward = bench.forward();
+        let (cycle, slices) = (forward.cycle(), forward.slices().unwrap());
+        let state = states(&mut bench.forward(), &[0.0]).0.remove(0);
+        let section = Section::new(helix);
+        let ratio = section.contact_ratio();
+        let top = 1e3 * section.theoretical(helix) * helix.to_radians().cos();
+        let fall = (0.5 * (1.11 + 0.5 * ratio).powi(2) - 1.17).powf(-0.5);
+        let load = TORQUE / section.base_radius[0];
+        let step = section.pitch / cycle.positions.len() as f64;
+        let mut compared = 0;
+        for (turn, position) in cycle.positions.iter().enumerate() {
+            // slice, path, stiffness, gap
+            let mut springs = Vec::new();
+            let mut at_an_end = false;
+            for (i, y) in slices.place.iter().enumerate() {
+                for tooth in -4..=4 {
+                    let path = (position.theta + f64::from(tooth)) * section.pitch
+                        + y * section.base_helix.tan();
+                    at_an_end |= section.ends.iter().any(|e| (path - e).abs() < 0.51 * step);
+                    if path > section.ends[0] && path < section.ends[1] {
+                        let along = (path - section.ends[0]) / section.pitch;
+                        let stiffness = top * (fall * (along - 0.5 * ratio)).cos();
+                        springs.push((i, path, stiffness, 1e-3 * slope * y / width));
+                    }
+                }
+            }
+            if at_an_end {
+                continue;
+            }
+            compared += 1;
+            let carried = |delta: f64| -> f64 {
+                let each = springs.iter();
+                each.map(|(_, _, c, gap)| c * (delta - gap).max(0.0) / 5.0)
+                    .sum()
+            };
+            let (mut low, mut high) = (-0.1, 1.0);
+            for _ in 0..200 {
+                let middle = 0.5 * (low + high);
+                if carried(middle) < load {
+                    low = middle
+                } else {
+                    high = middle
+                }
+            }
+            let approach = low / section.base_radius[0];
+            let found = state.contacts[turn].approach;
+            assert!((found / approach - 1.0).abs() < 1e-9, "{found} {approach}");
+            for (i, path, stiffness, gap) in &springs {
+                let q = slices.at(*i, turn, cycle.positions.len());
+                let pairs = cycle.positions[q].pairs.iter();
+                let nearest = pairs.min_by(|a, b| {
+                    let off = |p: &f64| (p - path).abs();
+                    off(&a.path).total_cmp(&off(&b.path))
+                });
+                let pair = nearest.unwrap();
+                assert!((pair.path - path).abs() < 1e-9);
+                let own = &state.slices[*i].contacts[q].pressure[pair.offset..];
+                let found: f64 = pair.length.iter().zip(own).map(|(l, p)| l * p).sum();
+                let expected = stiffness * (low - gap).max(0.0);
+                assert!((found - expected).abs() < 1e-8 * load, "{found} {expected}");
+            }
+        }
+        assert!(compared > 8, "{compared}");
+    }
+}
+
+/// With a whole number of base pitches between the ends of the face the contact lines have one total length at every turn, b ε_α/cos β_b,
+/// and the lag stays where it is; that of spur gears swings by a third of its mean.
+#[test]
+fn a_whole_overlap_keeps_contact_lines_and_lag_constant() {
+    let width = width_of(1.0, 12.0);
+    let helical = study(12.0, 10, width, "");
+    let bench = Bench::elastic(&helical);
+    let mut forward = bench.forward();
+    let state = states(&mut forward, &[0.0]).0.remove(0);
+    let (cycle, slices) = (forward.cycle(), forward.slices().unwrap());
+    let section = Section::new(12.0);
+    for turn in 0..cycle.positions.len() {
+        let lines: usize = (0..10)
+            .map(|i| {
+                let pairs = &cycle.positions[slices.at(i, turn, cycle.positions.len())].pairs;
+                let on_path = |path: f64| section.ends[0] < path && path < section.ends[1];
+                pairs.iter().filter(|pair| on_path(pair.path)).count()
+            })
+            .sum();
+        let length = lines as f64 / 10.0;
+        // to the width of one slice, where a line ends within it
+        assert!(
+            (length - section.contact_ratio()).abs() <= 0.1,
+            "{length} at {turn}"
+        );
+    }
+    let spur = Bench::elastic(&study(0.0, 2, 30.0, ""));
+    let upright = states(&mut spur.forward(), &[0.0]).0.remove(0);
+    let ripples = [ripple(&approaches(&state)), ripple(&approaches(&upright))];
+    eprintln!("lag, largest less smallest over the mean: helical {ripples:?} spur");
+    // what is left comes and goes with the elements, two for each half width here
+    assert!(ripples[1] > 0.25 && ripples[0] < 0.02, "{ripples:?}");
+    // analytically a slice comes and goes with its full stiffness: in proportion to its width
+    let analytic = |slices: usize| {
+        let bench = Bench::analytic(&study(12.0, slices, width, ""));
+        ripple(&approaches(&states(&mut bench.forward(), &[0.0]).0[0]))
+    };
+    let (coarse, fine) = (analytic(5), analytic(20));
+    eprintln!("analytically by 5 and 20 slices: {coarse}, {fine}");
+    assert!(coarse < 0.12 && fine < 0.3 * coarse, "{coarse} {fine}");
+}
+
+/// All tooth pairs of all slices carry the torque at every turn, new and worn; what is worn off is what the law says of the line loads.
+#[test]
+fn every_turn_carries_the_torque_and_the_worn_volume_is_that_of_sliding() {
+    let lead = "[face.pinion]\nlead_slope = 15.0\ncrowning = 5.0\n";
+    let study = study(12.0, 7, 30.0, lead);
+    for bench in Bench::both(&study) {
+        let mut forward = bench.forward();
+        let (states, progress) = states(&mut forward, &[0.0, 1e2, 1e5]);
+        let (cycle, slices) = (forward.cycle(), forward.slices().unwrap());
+        let positions = cycle.positions.len();
+        for state in &states {
+            for turn in 0..positions {
+                let at_turn = |i: usize| &state.slices[i].contacts[slices.at(i, turn, positions)];
+                let moment = |i: usize| -> f64 {
+                    let q = slices.at(i, turn, positions);
+                    let pairs = 0..cycle.positions[q].pairs.len();
+                    pairs
+                        .map(|index| forward.moment(q, index, at_turn(i)))
+                        .sum()
+                };
+                let torque = slices.mean((0..7).map(moment)) / forward.torque();
+                assert!((torque - 1.0).abs() < 1e-9, "{torque} at turn {turn}");
+                let turned = (0..7).map(|i| at_turn(i).approach);
+                let off = turned.map(|a| (a - state.contacts[turn].approach).abs());
+                assert!(off.fold(0.0, f64::max) < 1e-15);
+            }
+        }
+        assert!(progress.balance.error() < 3e-3);
+        // V = k ∫ F_n |v_s| dt, F_n = F_bt/cos β_b, over all slices; v_s = (1 + 1/u) y/r_b1 per path y
+        let section = Section::new(12.0);
+        let slip = (1.0 + TEETH[0] / TEETH[1]) / section.base_radius[0];
+        let step = section.pitch / positions as f64;
+        let mut work = 0.0;
+        for (slice, share) in states[0].slices.iter().zip(&slices.weight) {
+            for (position, contact) in cycle.positions.iter().zip(&slice.contacts) {
+                for pair in &position.pairs {
+                    let own = &contact.pressure[pair.offset..];
+                    let load: f64 = pair.length.iter().zip(own).map(|(l, p)| l * p).sum();
+                    work += share * load * slip * pair.path.abs() * step;
+                }
+            }
+        }
+        let expected = 6e-10 * 1e2 * work / section.base_helix.cos();
+        let lost: f64 = (cycle.stations.arc[0].windows(2))
+            .zip(states[1].depth[0].windows(2))
+            .map(|(s, h)| 0.5 * (s[1] - s[0]) * (h[0] + h[1]))
+            .sum();
+        // corners outside the path slide by another law, and new flanks change within 100 turns
+        assert!((lost / expected - 1.0).abs() < 0.02, "{lost} {expected}");
+    }
+}
+
+#[test]
+fn the_other_hand_mirrors_the_face() {
+    let worn = |helix: f64, slope: f64, elastic: bool| {
+        let lead = format!("[face.gear]\nlead_slope = {slope}\n");
+        let study = study(helix, 5, 30.0, &lead);
+        let bench = match elastic {
+            true => Bench::elastic(&study),
+            false => Bench::analytic(&study),
+        };
+        states(&mut bench.forward(), &[1e5]).0.remove(0)
+    };
+    for elastic in [false, true] {
+        let (right, left) = (worn(15.0, 12.0, elastic), worn(-15.0, -12.0, elastic));
+        for (a, b) in right.slices.iter().zip(left.slices.iter().rev()) {
+            assert!((a.face + b.face).abs() < 1e-12);
+            for side in 0..2 {
+                let worst = apart(&a.depth[side], &b.depth[side]);
+                assert!(worst < 1e-9, "{worst:e}");
+            }
+        }
+        assert!(apart(&approaches(&right), &approaches(&left)) < 1e-9);
+        // and is not the same as the same hand with the other wedge
+        let other = worn(15.0, -12.0, elastic);
+        let ends = [&right.slices[0], &other.slices[4]].map(|s| largest(&s.depth[0]));
+        assert!((ends[0] / ends[1] - 1.0).abs() > 1e-6, "{ends:?}");
+    }
+}
+
+#[test]
+fn without_a_helix_they_are_spur_gears() {
+    let lead = "[face.pinion]\nlead_slope = 12.0\n";
+    let [none, hardly] = [0.0, 1e-4].map(|helix| {
+        let bench = Bench::elastic(&study(helix, 5, 30.0, lead));
+        states(&mut bench.forward(), &[0.0, 1e5]).0
+    });
+    for (spur, helical) in none.iter().zip(&hardly) {
+        let worst = apart(&approaches(helical), &approaches(spur));
+        eprintln!("lag without a helix {worst:e}");
+        assert!(worst < 1e-6, "{worst:e}");
+        for (a, b) in helical.slices.iter().zip(&spur.slices) {
+            if spur.cycles > 0.0 {
+                let worst = apart(&a.depth[0], &b.depth[0]);
+                eprintln!("depth without a helix {worst:e}");
+                assert!(worst < 1e-5, "{worst:e}");
+            }
+        }
+    }
+    // and the swing of the lag falls steadily from theirs
+    let mut before = f64::INFINITY;
+    for helix in [0.0, 3.0, 6.0, 9.0] {
+        let bench = Bench::elastic(&study(helix, 9, 30.0, ""));
+        let swing = ripple(&approaches(&states(&mut bench.forward(), &[0.0]).0[0]));
+        eprintln!("{helix} deg: lag swings by {swing}");
+        assert!(swing < before, "{swing} after {before}");
+        before = swing;
+    }
+}
+
+/// ISO 6336-2: σ_H = Z_H Z_E √(w/ρ...) with Z_H² = 2 cos β_b cos α_wt/(cos² α_t sin α_wt): Hertz's pressure at the pitch point under the line
+/// load there, the radius that of the section normal to the contact line.
+#[test]
+fn the_pressure_at_the_pitch_point_is_that_of_the_standard() {
+    for helix in [12.0, 25.0] {
+        let mut study = study(helix, 3, 20.0, "");
+        study.numerics.elements_per_half_width = 6;
+        let section = Section::new(helix);
+        let (sin, cos) = (section.sine, (1.0 - section.sine.powi(2)).sqrt());
+        let zone = (2.0 * section.base_helix.cos() * cos / (cos * cos * sin)).sqrt();
+        let elastic = (MODULUS / (2.0 * PI * (1.0 - 0.09))).sqrt();
+        let ratio = TEETH[1] / TEETH[0];
+        for (bench, tolerance) in Bench::both(&study).iter().zip([0.01, 0.02]) {
+            let mut forward = bench.forward();
+            let state = states(&mut forward, &[0.0]).0.remove(0);
+            let cycle = forward.cycle();
+            let near = |q: &usize| {
+                let paths = cycle.positions[*q].pairs.iter().map(|p| p.path.abs());
+                paths.fold(f64::INFINITY, f64::min)
+            };
+            let q = (0..cycle.positions.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
+            let q = q.unwrap();
+            let pairs = cycle.positions[q].pairs.iter();
+            let pair = pairs.min_by(|a, b| a.path.abs().total_cmp(&b.path.abs()));
+            let pair = pair.unwrap();
+            let own = &state.slices[1].contacts[q].pressure[pair.offset..][..pair.xi.len()];
+            let load: f64 = pair.length.iter().zip(own).map(|(l, p)| l * p).sum();
+            // F_t/b of this line load in the transverse section
+            let tangential = load * cos;
+            let diameter = 2.0 * section.reference[0];
+            let expected = zone * elastic * (tangential / diameter * (ratio + 1.0) / ratio).sqrt();
+            let found = largest(own);
+            eprintln!("{helix} deg: {found} MPa, by ISO 6336-2 {expected} MPa");
+            assert!(
+                (found / expected - 1.0).abs() < tolerance,
+                "{found} {expected}"
+            );
+        }
+    }
+}
+
+/// ISO 6336-1: c_γ ∝ c'th(z_n) cos β (0.75 ε_α + 0.25). The plane section with the pressure's own share of its compliance over cos β_b against
+/// it, both relative to the spur pair of the same cutter.
+#[test]
+fn the_mesh_stiffness_falls_with_the_helix_as_the_standard_says() {
+    let stiffness = |helix: f64| {
+        let width = if helix == 0.0 {
+            30.0
+        } else {
+            width_of(1.0, helix)
+        };
+        let bench = Bench::elastic(&study(helix, 8, width, ""));
+        let state = states(&mut bench.forward(), &[0.0]).0.remove(0);
+        let section = Section::new(helix);
+        let load = TORQUE / section.base_radius[0];
+        let secant = |a: &f64| load / (1e3 * a * section.base_radius[0]);
+        let mean = mean(&approaches(&state).iter().map(secant).collect::<Vec<_>>());
+        let standard = section.theoretical(helix)
+            * helix.to_radians().cos()
+            * (0.75 * section.contact_ratio() + 0.25);
+        mean / standard
+    };
+    let spur = stiffness(0.0);
+    for (helix, tolerance) in [(8.0, 0.01), (12.0, 0.015), (20.0, 0.03), (30.0, 0.06)] {
+        let off = stiffness(helix) / spur - 1.0;
+        eprintln!(
+            "{helix} deg: mean mesh stiffness {:.2} % off the standard's fall",
+            1e2 * off
+        );
+        assert!(off.abs() < tolerance, "{helix}: {off}");
+    }
+}
+
+/// The lead of an effect is the lead of the study, whose slope is positive where the end +b/2 is the open one.
+#[test]
+fn an_effect_across_the_face_acts_as_the_lead_it_is() {
+    let by_lead = study(12.0, 5, 30.0, "[face.pinion]\nlead_slope = 14.0\n");
+    let by_effect = study(
+        12.0,
+        5,
+        30.0,
+        "[[effect]]\nkind = \"lead_misalignment\"\nslope = -14.0\n",
+    );
+    let acting = by_effect.acting(&by_effect.operation).unwrap();
+    for (bench, of_effect) in Bench::both(&by_lead).iter().zip(Bench::both(&by_effect)) {
+        let expected = states(&mut bench.forward(), &[0.0]).0.remove(0);
+        let mut forward = Forward::with_effects(
+            &of_effect.set,
+            of_effect.members.as_ref(),
+            of_effect.conditions,
+            of_effect.numerics,
+            Some(&acting),
+        )
+        .unwrap();
+        let found = states(&mut forward, &[0.0]).0.remove(0);
+        assert!(apart(&approaches(&found), &approaches(&expected)) < 1e-9);
+    }
+}
+
+/// The derivatives of depths by ln k, along the steps taken, are those of differences.
+#[test]
+fn derivatives_are_those_of_differences() {
+    let study = study(12.0, 5, 30.0, "[face.pinion]\nlead_slope = 12.0\n");
+    for bench in Bench::both(&study) {
+        let template = bench.forward();
+        let end = 1e4;
+        let k = bench.conditions.coefficient[0];
+        let variation = [Variation {
+            coefficient: [1.0; 2],
+            effects: None,
+            step: 1e-7,
+        }];
+        let mut forward = template.again([k; 2], None).unwrap();
+        let (mut progress, mut tangents) = (None, HistoryTangents::default());
+        let taken = std::cell::RefCell::new(Vec::new());
+        forward
+            .wear_with_tangents(
+                &mut progress,
+                end,
+                (&variation, &mut tangents),
+                &mut |_, p, _| {
+                    taken.borrow_mut().push(p.stand.n);
+                    true
+                },
+            )
+            .unwrap();
+        let taken = taken.into_inner();
+        let apart_by = 3e-7;
+        let ends = [-apart_by, apart_by].map(|h: f64| {
+            let mut forward = template.again([k * h.exp(); 2], None).unwrap();
+            let mut progress = None;
+            forward
+                .wear_along(&mut progress, &taken, &mut |_| ())
+                .unwrap();
+            progress.unwrap().stand.u
+        });
+        let difference: Vec<f64> = (ends[0].iter().zip(&ends[1]))
+            .map(|(a, b)| (b - a) / (2.0 * apart_by))
+            .collect();
+        let worst = apart(&tangents.depth[0], &difference);
+        eprintln!("derivative {worst:e}");
+        assert!(worst < 1e-4, "{worst:e}");
+    }
+}
+
+/// The example, coarse and short: one command, with what the report needs of the face and of the turn.
+#[test]
+fn the_example_runs_as_one_command() {
+    let text = include_str!("../examples/helical.toml")
+        .replace("slices = 11", "slices = 5")
+        .replace("cycles = 1e6", "cycles = 1e5");
+    let folder = tempfile::tempdir().unwrap();
+    let coarse = "[numerics]\npositions = 24\nelements_per_half_width = 2\nfields = 1\n";
+    let path = folder.path().join("helical.toml");
+    std::fs::write(&path, format!("{text}{coarse}")).unwrap();
+    let out = folder.path().join("out");
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_gearwear"))
+        .args(["run", "--quiet", "-o"])
+        .args([&out, &path])
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+    let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let number = |pointer: &str| summary.pointer(pointer).and_then(|v| v.as_f64()).unwrap();
+    // worked out by hand: ε_α 1.6444, ε_β 0.6618
+    assert!((number("/geometry/helix/total_contact_ratio") - 2.3062).abs() < 1e-4);
+    assert!((number("/geometry/helix/overlap_ratio") - 0.6618).abs() < 1e-4);
+    assert!(number("/face/first/load_factor") > 1.2);
+    assert!(number("/face/last/load_factor") < number("/face/first/load_factor"));
+    // the axis off by 20 µm swings the lag by 40 µm at the base circle of 33.05 mm, besides its swing over a base pitch
+    let swing = number("/transmission_error_over_a_turn_urad/first");
+    let over_a_pitch = number("/contact/te_peak_to_peak_urad");
+    let turned = 2.0 * 20.0 / Section::new(12.0).base_radius[0] * 1e3;
+    assert!(
+        (swing - turned).abs() < over_a_pitch + 5.0,
+        "{swing} {turned}"
+    );
+    let report = std::fs::read_to_string(out.join("report.html")).unwrap();
+    for part in [
+        "The helix",
+        "total contact ratio",
+        "Load per width across the face",
+        "over one turn",
+        "radius over the place across the face",
+    ] {
+        assert!(report.contains(part), "{part}");
+    }
+}
