@@ -57,8 +57,13 @@ pub(super) fn read(
         (COUPLINGS[0], Coupling::Teeth),
         (COUPLINGS[1], Coupling::None),
     ];
-    face.coupling = table.choice("coupling", &couplings)?.unwrap_or_default();
     let overlap = (width * gears.pinion.turned_per_mm()).abs();
+    let usual = if face.slices > 1 && overlap == 0.0 {
+        Coupling::Teeth
+    } else {
+        Coupling::None
+    };
+    face.coupling = table.choice("coupling", &couplings)?.unwrap_or(usual);
     if overlap > 0.0 && face.slices < 2 {
         let mut refusal = table.refuse("helix_angle", "needs slices", "face.slices of 2 or more");
         refusal.fault = Fault::Inconsistent;
