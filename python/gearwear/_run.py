@@ -14,7 +14,7 @@ def run(arguments, progress):
     """Runs the program; returns what it prints on standard output. `progress` shows its progress in a terminal or a notebook."""
     command = [sys.executable, "-m", "gearwear", *arguments]
     if progress and _progress.in_notebook():
-        code, out, message = _progress.told_below_the_cell(command)
+        code, out, message = _progress.written_below_the_cell(command)
         if code != 0:
             raise error(message, code)
         return out
