@@ -28,7 +28,7 @@ fn study(helix: f64, slices: usize, width: f64, more: &str) -> Study {
          [material]\nyoungs_modulus = {MODULUS}\npoisson_ratio = 0.3\ndensity = 7850.0\n\
          [operation]\ntorque = {}\nspeed = 1500.0\n[wear]\ncoefficient = 6e-10\ncycles = 1e5\n\
          [numerics]\npositions = 40\nelements_per_half_width = 2\n\
-         [face]\nslices = {slices}\nhelix_angle = {helix}\n{more}",
+         [face]\nslices = {slices}\ncoupling = \"none\"\nhelix_angle = {helix}\n{more}",
         TEETH[0],
         TEETH[1],
         1e-3 * TORQUE * width

@@ -424,3 +424,29 @@ fn a_saltelli_design_tells_the_share_of_every_key() {
     assert_eq!(code, Some(2), "{err}");
     assert!(err.contains("nearest is max_depth_gear_um"), "{err}");
 }
+
+/// A point is the run of the study with its values, by the analytic model too: gears that differ between the points are each point's own.
+#[test]
+fn points_of_the_analytic_model_have_their_own_gears() {
+    let home = home(STUDY);
+    assert!(
+        STUDY.contains("contact = \"hertz\""),
+        "by the analytic model"
+    );
+    succeed(
+        &home,
+        "sweep study.toml --vary gears.face_width=20,33 -o sweep",
+    );
+    let table = fs::read_to_string(home.path().join("sweep/sweep.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = (table.lines().skip(1))
+        .map(|line| line.split(',').collect())
+        .collect();
+    assert_eq!(rows.len(), 2, "{table}");
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |starts: &str| header.iter().position(|name| name.starts_with(starts));
+    let place = column("max_depth_pinion").expect(&table);
+    // the line load, and with it the depth, goes as one over the width
+    let depth = |row: &Vec<&str>| row[place].parse::<f64>().unwrap();
+    let ratio = depth(&rows[0]) / depth(&rows[1]);
+    assert!((ratio / 1.65 - 1.0).abs() < 0.05, "{ratio}: {table}");
+}

@@ -36,7 +36,7 @@ pub enum Hunting {
 
 impl Teeth {
     /// The most classes of a member unless the study says otherwise.
-    pub const USUAL_CLASSES: usize = 12;
+    pub const USUAL_CLASSES: usize = 64;
 
     /// The most meetings of two teeth that [`Hunting::Full`] takes.
     pub const MOST_MEETINGS: usize = 256;

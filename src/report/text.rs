@@ -58,6 +58,8 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     }));
     let te = (first.te_peak_to_peak_urad(), last.te_peak_to_peak_urad());
     lines.extend(change("transmission error", "µrad p-p", te.0, te.1));
+    let turn = (first.te_over_a_turn_urad(), last.te_over_a_turn_urad());
+    lines.extend(change("  over one turn", "µrad p-p", turn.0, turn.1));
     if !last.slices.is_empty() {
         let factors = (first.face_load_factor(), last.face_load_factor());
         lines.extend(change(
@@ -67,12 +69,10 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             Some(factors.1),
         ));
     }
-    let turn = (first.te_over_a_turn_urad(), last.te_over_a_turn_urad());
-    lines.extend(change("  over one turn", "µrad p-p", turn.0, turn.1));
     for member in Member::BOTH {
         if let Some(worst) = last.worst_tooth(member) {
             lines.push(format!(
-                "  {:<20}{} µm, tooth {}; the figures above are the mean tooth's",
+                "  {:<20}{} µm, tooth {}; the depth above is the mean tooth's",
                 format!("worst {} tooth", member.name()),
                 significant(worst.deepest(), 4),
                 worst.teeth[0]

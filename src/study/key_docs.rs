@@ -245,7 +245,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("teeth.pinion", "pitch_pattern", Value::Numbers, Words("all in their places"), "the same for the first teeth, repeated around the member: [-5, 0] for every second tooth proud; cut short where it does not fit into the number of teeth"),
     number("teeth.pinion", "eccentricity", &q::ECCENTRICITY, Default("0.0"), "of the member's axis: all pairs in mesh stand back by its cosine over the turn, and the lag swings; loads are shared as before"),
     number("teeth.pinion", "eccentricity_phase", &q::ECCENTRICITY_PHASE, Default("0.0"), "0: the pairs stand back most as tooth 1 passes the pitch point"),
-    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("12"), "the most classes of teeth whose wear is computed for itself; teeth that stand alike among neighbours that do are one"),
+    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("64"), "the most classes of teeth whose wear is computed for itself; teeth that stand alike among neighbours that do are one, and where there are more classes those nearest are taken together: faster, and wrong by what they differ"),
 
     doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
     doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if it is not stated, as few as 1 are taken where 5 would ask for more than 3000 unknowns on the parts of a member's flanks that touch"),

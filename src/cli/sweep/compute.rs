@@ -83,8 +83,9 @@ pub(super) fn compute(
                 .map(|&i| {
                     let study = points[i].study.as_ref();
                     let result = study.map_err(Clone::clone);
-                    let result =
-                        result.and_then(|study| one(study, &set, members.as_ref(), outputs));
+                    // a model without bodies has points of different gears in one group
+                    let result = result
+                        .and_then(|study| one(study, &study.gear_set(), members.as_ref(), outputs));
                     (i, result)
                 })
                 .collect();
