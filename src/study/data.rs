@@ -50,6 +50,7 @@ impl Study {
         let mut data = Dataset::load(path, &self.known())?;
         data.find_outliers(self.noise.outliers == Outliers::Robust);
         self.check_places_across_the_face(&data, self.effect_model())?;
+        self.check_teeth_of_rows(&data)?;
         Ok(data)
     }
 

@@ -32,6 +32,7 @@ mod size_limits;
 mod teeth;
 mod temperature;
 mod tests_table;
+mod tooth_rows;
 mod units;
 mod values;
 
@@ -399,14 +400,7 @@ impl Study {
             let Some(path) = &self.profiles[side] else {
                 continue;
             };
-            if !path.is_file() {
-                return Err(self.refuse(
-                    key,
-                    &format!("there is no file {}", path.display()),
-                    "the path of a profile file, relative to the study file",
-                    "",
-                ));
-            }
+            self.needs_file(key, path, "profile")?;
             let gear = [&mut self.gears.pinion, &mut self.gears.gear]
                 .into_iter()
                 .nth(side);
@@ -441,20 +435,31 @@ impl Study {
         Ok(self)
     }
 
+    /// Refuses a key that names a file of this kind where there is none.
+    fn needs_file(
+        &self,
+        key: &str,
+        path: &Path,
+        kind: &str,
+    ) -> std::result::Result<(), StudyError> {
+        if path.is_file() {
+            return Ok(());
+        }
+        Err(self.refuse(
+            key,
+            &format!("there is no file {}", path.display()),
+            &format!("the path of a {kind} file, relative to the study file"),
+            "",
+        ))
+    }
+
     /// The study with the measured pitch deviations of its teeth.
     fn with_pitches(mut self) -> std::result::Result<Study, StudyError> {
         for (side, key) in teeth::PITCH_KEYS.into_iter().enumerate() {
             let Some(path) = &self.pitches[side] else {
                 continue;
             };
-            if !path.is_file() {
-                return Err(self.refuse(
-                    key,
-                    &format!("there is no file {}", path.display()),
-                    "the path of a pitch file, relative to the study file",
-                    "",
-                ));
-            }
+            self.needs_file(key, path, "pitch")?;
             let gear = [&self.gears.pinion, &self.gears.gear][side];
             let chart = profile::load_pitch(path, gear)?;
             let back = &mut self.teeth.back[side];
@@ -470,14 +475,7 @@ impl Study {
             let Some(path) = &self.leads[side] else {
                 continue;
             };
-            if !path.is_file() {
-                return Err(self.refuse(
-                    key,
-                    &format!("there is no file {}", path.display()),
-                    "the path of a lead file, relative to the study file",
-                    "",
-                ));
-            }
+            self.needs_file(key, path, "lead")?;
             let rows = profile::load_lead(path, self.gears.face_width, &self.gears.pinion)?;
             self.face.lead[side].measured = rows;
         }

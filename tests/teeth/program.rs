@@ -136,6 +136,33 @@ fn rows_are_predicted_for_the_tooth_they_name() {
     assert!(swapped > 10.0, "{swapped}");
 }
 
+#[test]
+fn a_tooth_that_is_not_there_is_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
+    let test = "[[test]]\nid = \"A\"\ncycles = 1e6\n[measurements]\nfile = \"m.csv\"\n";
+    write("study.toml", &format!("{STUDY}{TEETH}{test}"));
+    let check = |tooth: &str| {
+        let row = format!("A,pinion,1e6,wear_depth,27.0,3.0,0.1,p,{tooth}\n");
+        let header = "test,member,cycles,quantity,position,value,sigma,trace,tooth\n";
+        write("m.csv", &format!("{header}{row}"));
+        line(home.path(), "check study.toml")
+    };
+    for tooth in ["1", "27", "left"] {
+        let (code, _, error) = check(tooth);
+        assert_eq!(code, Some(0), "{tooth}: {error}");
+    }
+    for tooth in ["0", "28", "-1"] {
+        let (code, _, error) = check(tooth);
+        assert_eq!(code, Some(2), "{tooth}: {error}");
+        let says = format!("m.csv:2 names tooth {tooth} of the pinion, which has 27");
+        assert!(
+            error.contains(&says) && error.contains("1 to 27"),
+            "{error}"
+        );
+    }
+}
+
 /// An axis that lies off moves all pairs in mesh alike: wear stays as it is to the byte, and the lag swings by e over the pinion's base
 /// radius, 27 cos 20° mm, once per turn of the gear.
 #[test]
