@@ -361,18 +361,25 @@ fn a_hopeless_effect_is_given_up_early() {
     assert_eq!(code, Some(0), "{err}");
     let measured = "[measurements]\nfile = \"measurements.csv\"\n";
     write("made/start.toml", study(measured));
-    let explained = |effect: &str| {
+    let fit = |effect: &str| {
         let (code, out, err) = gearwear(&home, &["add", "made/start.toml", effect, "--json"]);
         assert_eq!(code, Some(0), "{err}");
         let document: serde_json::Value = serde_json::from_str(&out).unwrap();
-        document["fit"]["given_up_explaining"].as_f64()
+        document["fit"].clone()
     };
+    let explained = |effect: &str| fit(effect)["given_up_explaining"].as_f64();
     let share = explained("tip_relief").expect("the profile does not run in");
     assert!((-0.2..0.1).contains(&share), "{share}");
     assert_eq!(explained("running_in"), None);
     let again = ["add", "made/start.toml", "tip_relief", "--force"];
     let (_, out, _) = gearwear(&home, &again);
     assert!(out.contains("given up early"), "{out}");
+    // nor do its other forms take long
+    let severe = fit("severe_transition");
+    assert!(severe["given_up_explaining"].is_number(), "{severe}");
+    assert_eq!(severe["forms"].as_array().unwrap().len(), 1, "{severe}");
+    let not_fitted = severe["forms_not_fitted"].as_array().unwrap();
+    assert!(!not_fitted.is_empty(), "{severe}");
 }
 
 /// A folder with the example of a hidden effect.

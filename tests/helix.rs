@@ -13,6 +13,8 @@ use gearwear::simulate::history::{HistoryTangents, Progress, WearState};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::Study;
+use gearwear::verify::contact_and_wear::Effort;
+use gearwear::verify::helical;
 
 const MODULE: f64 = 3.0;
 const TEETH: [f64; 2] = [23.0, 67.0];
@@ -255,32 +257,15 @@ fn analytic_line_loads_are_those_of_springs_along_the_helix() {
     }
 }
 
-/// With a whole number of base pitches between the ends of the face the contact lines have one total length at every turn, b ε_α/cos β_b,
-/// and the lag stays where it is; that of spur gears swings by a third of its mean.
+/// With a whole number of base pitches between the ends of the face the contact lines have one total length at every turn (`validate S3`), and
+/// the lag stays where it is; that of spur gears swings by a third of its mean.
 #[test]
-fn a_whole_overlap_keeps_contact_lines_and_lag_constant() {
+fn a_whole_overlap_keeps_the_lag_constant() {
     let width = width_of(1.0, 12.0);
     let helical = study(12.0, 10, width, "");
     let bench = Bench::elastic(&helical);
     let mut forward = bench.forward();
     let state = states(&mut forward, &[0.0]).0.remove(0);
-    let (cycle, slices) = (forward.cycle(), forward.slices().unwrap());
-    let section = Section::new(12.0);
-    for turn in 0..cycle.positions.len() {
-        let lines: usize = (0..10)
-            .map(|i| {
-                let pairs = &cycle.positions[slices.at(i, turn, cycle.positions.len())].pairs;
-                let on_path = |path: f64| section.ends[0] < path && path < section.ends[1];
-                pairs.iter().filter(|pair| on_path(pair.path)).count()
-            })
-            .sum();
-        let length = lines as f64 / 10.0;
-        // to the width of one slice, where a line ends within it
-        assert!(
-            (length - section.contact_ratio()).abs() <= 0.1,
-            "{length} at {turn}"
-        );
-    }
     let spur = Bench::elastic(&study(0.0, 2, 30.0, ""));
     let upright = states(&mut spur.forward(), &[0.0]).0.remove(0);
     let ripples = [ripple(&approaches(&state)), ripple(&approaches(&upright))];
@@ -407,76 +392,14 @@ fn without_a_helix_they_are_spur_gears() {
     }
 }
 
-/// ISO 6336-2: σ_H = Z_H Z_E √(w/ρ...) with Z_H² = 2 cos β_b cos α_wt/(cos² α_t sin α_wt): Hertz's pressure at the pitch point under the line
-/// load there, the radius that of the section normal to the contact line.
+/// Contact stress and mesh stiffness against the standard, contact lines of a whole overlap.
 #[test]
-fn the_pressure_at_the_pitch_point_is_that_of_the_standard() {
-    for helix in [12.0, 25.0] {
-        let mut study = study(helix, 3, 20.0, "");
-        study.numerics.elements_per_half_width = 6;
-        let section = Section::new(helix);
-        let (sin, cos) = (section.sine, (1.0 - section.sine.powi(2)).sqrt());
-        let zone = (2.0 * section.base_helix.cos() * cos / (cos * cos * sin)).sqrt();
-        let elastic = (MODULUS / (2.0 * PI * (1.0 - 0.09))).sqrt();
-        let ratio = TEETH[1] / TEETH[0];
-        for (bench, tolerance) in Bench::both(&study).iter().zip([0.01, 0.02]) {
-            let mut forward = bench.forward();
-            let state = states(&mut forward, &[0.0]).0.remove(0);
-            let cycle = forward.cycle();
-            let near = |q: &usize| {
-                let paths = cycle.positions[*q].pairs.iter().map(|p| p.path.abs());
-                paths.fold(f64::INFINITY, f64::min)
-            };
-            let q = (0..cycle.positions.len()).min_by(|a, b| near(a).total_cmp(&near(b)));
-            let q = q.unwrap();
-            let pairs = cycle.positions[q].pairs.iter();
-            let pair = pairs.min_by(|a, b| a.path.abs().total_cmp(&b.path.abs()));
-            let pair = pair.unwrap();
-            let own = &state.slices[1].contacts[q].pressure[pair.offset..][..pair.xi.len()];
-            let load: f64 = pair.length.iter().zip(own).map(|(l, p)| l * p).sum();
-            // F_t/b of this line load in the transverse section
-            let tangential = load * cos;
-            let diameter = 2.0 * section.reference[0];
-            let expected = zone * elastic * (tangential / diameter * (ratio + 1.0) / ratio).sqrt();
-            let found = largest(own);
-            eprintln!("{helix} deg: {found} MPa, by ISO 6336-2 {expected} MPa");
-            assert!(
-                (found / expected - 1.0).abs() < tolerance,
-                "{found} {expected}"
-            );
-        }
-    }
-}
-
-/// ISO 6336-1: c_γ ∝ c'th(z_n) cos β (0.75 ε_α + 0.25). The plane section with the pressure's own share of its compliance over cos β_b against
-/// it, both relative to the spur pair of the same cutter.
-#[test]
-fn the_mesh_stiffness_falls_with_the_helix_as_the_standard_says() {
-    let stiffness = |helix: f64| {
-        let width = if helix == 0.0 {
-            30.0
-        } else {
-            width_of(1.0, helix)
-        };
-        let bench = Bench::elastic(&study(helix, 8, width, ""));
-        let state = states(&mut bench.forward(), &[0.0]).0.remove(0);
-        let section = Section::new(helix);
-        let load = TORQUE / section.base_radius[0];
-        let secant = |a: &f64| load / (1e3 * a * section.base_radius[0]);
-        let mean = mean(&approaches(&state).iter().map(secant).collect::<Vec<_>>());
-        let standard = section.theoretical(helix)
-            * helix.to_radians().cos()
-            * (0.75 * section.contact_ratio() + 0.25);
-        mean / standard
-    };
-    let spur = stiffness(0.0);
-    for (helix, tolerance) in [(8.0, 0.01), (12.0, 0.015), (20.0, 0.03), (30.0, 0.06)] {
-        let off = stiffness(helix) / spur - 1.0;
-        eprintln!(
-            "{helix} deg: mean mesh stiffness {:.2} % off the standard's fall",
-            1e2 * off
-        );
-        assert!(off.abs() < tolerance, "{helix}: {off}");
+fn the_validation_family_of_helical_gears_passes() {
+    let figures = helical::all(Effort::Quick).unwrap();
+    assert_eq!(figures.len(), 9);
+    for figure in &figures {
+        eprintln!("{figure}");
+        assert!(figure.passed(), "{figure}");
     }
 }
 

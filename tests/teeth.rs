@@ -12,6 +12,8 @@ use gearwear::simulate::history::{Progress, ToothState, WearState, line_load};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::Study;
+use gearwear::verify::contact_and_wear::Effort;
+use gearwear::verify::teeth_in_turn;
 use gearwear::wear::acting::Acting;
 
 mod common;
@@ -94,99 +96,14 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
     off.fold(0.0, f64::max) / scale
 }
 
-/// Classes whose teeth stand in their places to 1e-14 µm are the model of one tooth: every second tooth (two classes), one tooth (it, two on either
-/// side, the rest), and groups around a gear.
+/// Classes that stand alike against one tooth, loads of proud teeth against springs, a mean mate against all mates.
 #[test]
-fn classes_that_stand_alike_wear_as_one_tooth() {
-    let set = set(None, "");
-    let members = members(&set);
-    for elastic in [true, false] {
-        let members = elastic.then_some(&members);
-        let plain = Forward::new(&set, members, conditions(), numerics());
-        let (one, _) = worn(&mut plain.unwrap());
-        for (name, parameters, classes) in [
-            (
-                "pitch_error",
-                vec![("deviation", 1e-14), ("alternate", 1.0)],
-                2 + 1,
-            ),
-            ("pitch_error", vec![("deviation", 1e-14)], 6 + 1),
-            (
-                "run_out",
-                vec![("amplitude", 1e-14), ("on_gear", 1.0)],
-                8 + 1,
-            ),
-        ] {
-            let acting = acting(name, &parameters);
-            let mut forward =
-                Forward::with_effects(&set, members, conditions(), numerics(), Some(&acting))
-                    .unwrap();
-            let (state, _) = worn(&mut forward);
-            assert_eq!(state.teeth.len(), classes, "{name} {parameters:?}");
-            for class in &state.teeth {
-                let off = largest_difference(&class.depth, &one.depth[class.side]);
-                assert!(off < 1e-12, "{name} {parameters:?}: {off:e}");
-            }
-        }
-    }
-}
-
-/// Unworn, the analytic model's pairs are springs of which the stiffness follows from its own shares without deviations: with every
-/// second tooth of an even number standing proud by d, pairs 1 and 2 carry w_i = c_i (δ − g_i) with c_1 (δ − g_1) + c_2 (δ − g_2) = w.
-#[test]
-fn proud_teeth_carry_what_springs_say() {
-    let set = set(Some([12, 13]), "");
-    let mut plain = Forward::new(&set, None, conditions(), numerics()).unwrap();
-    let even = plain
-        .contacts_at(&vec![0.0; plain.cycle().stations.count()])
-        .unwrap();
-    let base = plain.cycle().pair.pinion.base_radius;
-    for um in [-3.0, 2.0, 40.0] {
-        let acting = acting("pitch_error", &[("deviation", um), ("alternate", 1.0)]);
-        let mut forward =
-            Forward::with_effects(&set, None, conditions(), numerics(), Some(&acting)).unwrap();
-        let stations = forward.cycle().stations.count();
-        let passages = forward.all_contacts_at(&vec![0.0; 2 * stations]).unwrap();
-        let mut compared = 0;
-        for (q, position) in forward.cycle().positions.iter().enumerate() {
-            let loads: Vec<f64> = (position.pairs.iter())
-                .map(|pair| line_load(pair, &even[q]))
-                .collect();
-            let touching: Vec<usize> = (0..loads.len()).filter(|i| loads[*i] > 0.0).collect();
-            let [first, second] = touching[..] else {
-                continue;
-            };
-            // pairs that are there for part of the position's time only share otherwise
-            let total: f64 = loads.iter().sum();
-            let rho = |i: usize| position.pairs[i].frame.rho[0];
-            let step = forward.cycle().pair.base_pitch / 20.0;
-            let gears = &forward.cycle().pair;
-            if rho(first) < gears.rho_a + step || rho(second) > gears.rho_e - step {
-                continue;
-            }
-            let approach = even[q].approach * base;
-            let c = [loads[first], loads[second]].map(|load| load / approach);
-            for (passage, contacts) in passages.iter().enumerate() {
-                for own in 0..2 {
-                    // the own tooth is odd in the first passage, its neighbour in the second
-                    let is_odd = |i: usize| (i == own) == (passage == 0);
-                    let gap = [0, 1].map(|i| if is_odd(i) { 1e-3 * um } else { 0.0 });
-                    let closed = (total + c[0] * gap[0] + c[1] * gap[1]) / (c[0] + c[1]);
-                    let mut springs = [0, 1].map(|i| c[i] * (closed - gap[i]));
-                    if springs[0] < 0.0 {
-                        springs = [0.0, total];
-                    } else if springs[1] < 0.0 {
-                        springs = [total, 0.0];
-                    }
-                    let index = [first, second][own];
-                    let found = line_load(&position.pairs[index], &contacts[q]);
-                    let off = (found - springs[own]).abs() / total;
-                    assert!(off < 1e-9, "{um} µm, position {q}: {found} {springs:?}");
-                    compared += 1;
-                }
-            }
-        }
-        assert!(compared > 10);
+fn the_validation_family_of_teeth_passes() {
+    let figures = teeth_in_turn::all(Effort::Quick).unwrap();
+    assert_eq!(figures.len(), 14);
+    for figure in &figures {
+        eprintln!("{figure}");
+        assert!(figure.passed(), "{figure}");
     }
 }
 
@@ -241,45 +158,6 @@ fn the_mean_torque_over_all_teeth_is_the_pinions() {
             deepest(1)
         );
     }
-}
-
-/// The mean mate against every meeting of a pair whose teeth all meet (12 and 13, 156 meetings), both members out of place: a tooth is
-/// off by no more than a fifth of what teeth differ by, the mean teeth by no more than a twentieth, and less than in proportion where
-/// deviations are small.
-#[test]
-fn a_mean_mate_stands_for_all_mates() {
-    let off = |scale: f64| {
-        let back = [0, 3, -2, 1, 0, -3, 2, 0, 1, -1, 4, 0].map(|um| scale * f64::from(um));
-        let wave = |i: usize| 6.0 * scale * (std::f64::consts::TAU * i as f64 / 13.0).cos();
-        let wave: Vec<f64> = (0..13).map(wave).collect();
-        let run = |hunting: &str| {
-            let table = format!(
-                "[teeth]\nhunting = \"{hunting}\"\n\
-                 [teeth.pinion]\npitch_deviations = {back:?}\nclasses = 12\n\
-                 [teeth.gear]\npitch_deviations = {wave:?}\nclasses = 13\n"
-            );
-            let set = set(Some([12, 13]), &table);
-            let mut forward = Forward::new(&set, None, conditions(), numerics()).unwrap();
-            worn(&mut forward).0
-        };
-        let (full, average) = (run("full"), run("average"));
-        assert_eq!((full.teeth.len(), average.teeth.len()), (25, 25));
-        let (mut worst, mut spread): (f64, f64) = (0.0, 0.0);
-        for (a, b) in average.teeth.iter().zip(&full.teeth) {
-            assert_eq!((a.side, &a.teeth), (b.side, &b.teeth));
-            worst = worst.max(largest_difference(&a.depth, &b.depth));
-            spread = spread.max(largest_difference(&b.depth, &full.depth[b.side]));
-        }
-        let mean = [0, 1].map(|side| largest_difference(&average.depth[side], &full.depth[side]));
-        let mean = mean[0].max(mean[1]);
-        eprintln!(
-            "deviations times {scale}: a tooth is off by {worst:.2e}, the mean teeth by {mean:.2e}, teeth differ by {spread:.2e}"
-        );
-        assert!(worst < 0.2 * spread && mean < 0.05 * spread);
-        worst
-    };
-    let (large, small) = (off(1.0), off(0.1));
-    assert!(large < 0.05 && small < 0.1 * large, "{large} {small}");
 }
 
 /// Where the teeth of one member are all alike, and every tooth meets every other, its mean is each of its teeth: nothing is left out.

@@ -106,13 +106,19 @@ fn told(
     }
     let gears = [&study.gears.pinion, &study.gears.gear];
     let flanks = gears.map(|g| format!("{:.3} to {:.3} mm", g.form_radius, g.tip_radius));
+    let helix = gears[0].helix_angle;
+    let normal = plain(gears[0].rack.normal(helix).module);
+    let module = if helix == 0.0 {
+        format!("module {normal} mm")
+    } else {
+        format!(
+            "normal module {normal} mm, helix angle {}°",
+            plain(helix.to_degrees())
+        )
+    };
     lines.push(format!(
-        "gears:   {} and {} teeth, module {} mm; flanks {} and {}",
-        gears[0].spec.teeth,
-        gears[1].spec.teeth,
-        plain(gears[0].rack.normal(gears[0].helix_angle).module),
-        flanks[0],
-        flanks[1]
+        "gears:   {} and {} teeth, {module}; flanks {} and {}",
+        gears[0].spec.teeth, gears[1].spec.teeth, flanks[0], flanks[1]
     ));
     lines.push(format!(
         "file:    {}, {} values{}",

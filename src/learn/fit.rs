@@ -40,6 +40,17 @@ pub enum Coefficient {
     Fixed(f64),
 }
 
+/// A model at one place, with k, if free, scaled to the measurements.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Scaled {
+    /// χ² of the fit tests.
+    pub(super) square: f64,
+    /// k, mm²/N.
+    pub(super) coefficient: f64,
+    /// Predictions of each fit test, by test of the data set.
+    pub(super) predictions: Vec<Vec<f64>>,
+}
+
 /// Why there is no fit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FitError {
@@ -132,21 +143,22 @@ impl Problem<'_> {
         found.into_iter().map(|(_, start)| start).collect()
     }
 
-    /// The model at `start` with k, if free, scaled to fit: that k, and the predictions of each fit test, by test of the data set.
-    ///
-    /// # Errors
-    /// [`PredictError`] if the model has no answer there.
-    pub(super) fn scaled(&self, start: &[f64]) -> Result<(f64, Vec<Vec<f64>>), PredictError> {
+    /// The model at a place, with k scaled to the measurements; None if it has no answer there.
+    pub(super) fn scaled(&self, place: &[f64]) -> Option<Scaled> {
         let selection = self.selection(Role::Fit);
         let search = self.search(&selection, Some(&self.coefficient));
-        let state = self.state(start, selection.tests.len());
-        let (state, values) =
-            search.scaled_start(&mut selection.evaluator(self.predictor), state)?;
-        let mut all = vec![Vec::new(); self.data.tests.len()];
+        let state = self.state(place, selection.tests.len());
+        let mut evaluator = selection.evaluator(self.predictor);
+        let (state, values) = search.scaled_start(&mut evaluator, state).ok()?;
+        let mut predictions = vec![Vec::new(); self.data.tests.len()];
         for (&test, values) in selection.tests.iter().zip(&values) {
-            all[test] = values.to_vec();
+            predictions[test] = values.to_vec();
         }
-        Ok((state.log_k.exp(), all))
+        Some(Scaled {
+            square: search.square(&values),
+            coefficient: state.log_k.exp(),
+            predictions,
+        })
     }
 
     /// Whether the model at `start`, with k (if free) scaled to fit, is as near to the measurements as their noise lets it be: nothing is to be found

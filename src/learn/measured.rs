@@ -153,6 +153,44 @@ impl<'a> Measured<'a> {
         };
         act(&problem)
     }
+
+    /// What a fit leaves of the fit tests.
+    pub(super) fn misfit(&self, fit: &Fit) -> Misfit {
+        let rows = self.data.observations.iter().zip(&fit.rows);
+        let fitted = rows.filter(|(o, _)| self.roles[o.test] == Role::Fit);
+        let none = Misfit {
+            square: 0.0,
+            points: 0.0,
+        };
+        fitted.fold(none, |sum, (_, row)| Misfit {
+            square: sum.square + row.standardised.powi(2),
+            points: sum.points + 1.0,
+        })
+    }
+}
+
+/// How far a fit is from the measurements of its tests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Misfit {
+    /// χ².
+    pub(super) square: f64,
+    /// Points, which is what noise leaves of it.
+    pub(super) points: f64,
+}
+
+/// χ² per point beyond that of noise from which a fit is far from the measurements.
+const FAR: f64 = 1.0;
+
+impl Misfit {
+    /// χ² beyond that of noise.
+    pub(super) fn beyond_noise(&self) -> f64 {
+        (self.square - self.points).max(0.0)
+    }
+
+    /// Whether far more than noise is left: the last decimals of such a fit say nothing.
+    pub(super) fn is_far(&self) -> bool {
+        self.beyond_noise() > FAR * self.points
+    }
 }
 
 /// A model that tells how often it was asked.

@@ -291,7 +291,8 @@ impl<'r, 'f> Reading<'r, 'f> {
     /// weights.
     ///
     /// A whole number from 1 on in the column `tooth` names a tooth; another label says nothing. Rows without are those of the measured
-    /// tooth (number 1) where an effect lets teeth differ, else of the mean tooth.
+    /// tooth (number 1) where effects alone let teeth differ, else of the mean tooth: an effect that joins a study with a pitch chart must not
+    /// give its rows another meaning.
     fn sections(
         &self,
         member: Member,
@@ -306,8 +307,9 @@ impl<'r, 'f> Reading<'r, 'f> {
         let named = label.and_then(|label| label.trim().parse::<usize>().ok());
         let tooth = named.filter(|n| (1..=count).contains(n)).map(|n| n - 1);
         let acting = self.forward.acting();
-        let measured = acting.filter(|acting| acting.acts(Hook::ToothOffset));
-        match tooth.or(measured.map(|_| 0)) {
+        let by_effects = acting.is_some_and(|acting| acting.acts(Hook::ToothOffset));
+        let measured = (by_effects && !self.forward.states_teeth()).then_some(0);
+        match tooth.or(measured) {
             Some(tooth) => vec![(sequence.home(side(member), tooth), 1.0)],
             None => self.all_sections(member),
         }

@@ -124,6 +124,9 @@ const DIFFERENCE_K: f64 = 0.02;
 /// as fast as they are measured, take minutes to wear.
 const FARTHEST: f64 = 2.0;
 
+/// Gain of ln posterior, in tolerances, up to which a step is none: a fit would creep on the predictions' own roughness.
+const NOTHING: f64 = 0.1;
+
 /// Whitened sum of squares by which model values may have moved under derivatives that are kept.
 const MOVED: f64 = 1.0;
 
@@ -230,7 +233,7 @@ impl Search<'_> {
                 &quadratic,
                 &state,
                 scatter,
-                (&mut damping, effort.gain),
+                (&mut damping, effort.gain, NOTHING * tolerance),
                 &|next| self.distance(&taken_at, next) > effort.carry,
             );
             let Some((next, next_values, own)) = tried else {
@@ -307,7 +310,7 @@ impl Search<'_> {
         Ok(self.square(&values))
     }
 
-    /// A state with a higher posterior at this scatter, by ever shorter steps; None if there seems to be none. With the model's own derivatives
+    /// A state with a posterior higher by `least` or more at this scatter, by ever shorter steps; None if there seems to be none. With the model's own derivatives
     /// there where `far` says that they will be taken anew: they bring the predictions with them.
     fn improve(
         &self,
@@ -315,7 +318,7 @@ impl Search<'_> {
         quadratic: &Quadratic,
         state: &State,
         scatter: f64,
-        (damping, gain): (&mut f64, f64),
+        (damping, gain, least): (&mut f64, f64, f64),
         far: &dyn Fn(&State) -> bool,
     ) -> Option<(State, Values, Option<OwnDerivatives>)> {
         for trial in 0..8 {
@@ -326,12 +329,15 @@ impl Search<'_> {
                 step = quadratic.step(*damping);
                 next = self.layout.moved(state, &step.x, scatter);
             }
+            if trial > 0 && step.decrease < least {
+                return None;
+            }
             // a second trial is for steps that often fail
             let own = (trial == 0 && far(&next)).then(|| self.own(evaluator, &next));
             if let Ok(values) = self.predict(evaluator, &next) {
                 let square = self.square(&values);
                 let gained = quadratic.value - self.layout.objective(square, &next, scatter);
-                if gained > gain * step.decrease {
+                if gained > (gain * step.decrease).max(least) {
                     let good = gained > 0.75 * step.decrease;
                     *damping = if good { *damping * 0.1 } else { *damping };
                     *damping = damping.max(1e-6);
@@ -443,7 +449,7 @@ impl Search<'_> {
     }
 
     /// χ² of the predictions.
-    fn square(&self, values: &Values) -> f64 {
+    pub(super) fn square(&self, values: &Values) -> f64 {
         self.selection.square(&self.selection.joined(values))
     }
 }

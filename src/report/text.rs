@@ -94,6 +94,7 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             significant(mesh.edges_per_half_width, 2)
         ));
     }
+    lines.extend(few_slices(run).map(|words| format!("  note: {words}")));
     let cost = &run.cost;
     lines.push(format!(
         "  {:<20}{} on {}, {} wear steps, {} contact solves",
@@ -137,6 +138,24 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
 /// Edges per half width below which peak pressures of new flanks are more than some per cent off.
 const FEW_EDGES: f64 = 3.0;
 
+/// Slices of helical gears for each base pitch of overlap below which depths and the swing of the lag are some per cent off (guide/face.md).
+const FEW_SLICES: f64 = 5.0;
+
+/// What to say of helical gears whose slices stand far apart along the path of contact.
+fn few_slices(run: &Run) -> Option<String> {
+    let overlap = run.geometry.helix.as_ref()?.overlap_ratio;
+    let slices = run.states.last()?.slices.len() as f64;
+    (slices < FEW_SLICES * overlap).then(|| {
+        format!(
+            "{slices} slices for an overlap ratio of {}: neighbours stand {} base pitches apart, and the steps between them show in the transmission \
+             error; {} or more in [face] smooth them",
+            significant(overlap, 3),
+            significant(overlap / slices, 2),
+            whole((2.0 * FEW_SLICES * overlap).ceil() as usize)
+        )
+    })
+}
+
 /// What to say of gears whose axes effects have moved closer than teeth of full thickness allow.
 pub(super) fn jammed(run: &Run) -> Option<String> {
     let overlap = -run.geometry.backlash_um;
@@ -152,11 +171,19 @@ pub(super) fn jammed(run: &Run) -> Option<String> {
 pub fn asked_for(run: &Run) -> String {
     let c = &run.conditions;
     let g = &run.geometry;
+    let module = match &g.helix {
+        Some(helix) => format!(
+            "normal module {} mm, helix angle {}°, {} mm wide",
+            plain(g.module),
+            plain(helix.angle_deg),
+            plain(c.face_width)
+        ),
+        None => format!("module {} mm", plain(g.module)),
+    };
     let mut line = format!(
-        "{} and {} teeth, module {} mm, {} N·m at {} rpm, {} pinion revolutions, {} model",
+        "{} and {} teeth, {module}, {} N·m at {} rpm, {} pinion revolutions, {} model",
         g.pinion.teeth,
         g.gear.teeth,
-        plain(g.module),
         plain(c.torque / 1000.0),
         plain(c.speed_rpm),
         count(c.cycles),

@@ -211,6 +211,11 @@ impl<'a> Forward<'a> {
         self.slices.as_ref()
     }
 
+    /// Whether the study itself states that teeth differ, effects aside.
+    pub fn states_teeth(&self) -> bool {
+        !self.set.teeth.are_alike()
+    }
+
     /// Which tooth meets which; none: all teeth of each member are alike.
     pub fn sequence(&self) -> Option<&Sequence> {
         self.sequence.as_ref()

@@ -68,7 +68,8 @@ pub fn geometry(pair: &Pair, face_width: f64, placed_within: f64) -> Geometry {
         module: normal.module,
         pressure_angle_deg: normal.pressure_angle.to_degrees(),
         helix: (helix != 0.0).then(|| Helix {
-            angle_deg: helix.to_degrees(),
+            // as it was stated: radians and back leave a rounding behind
+            angle_deg: (1e9 * helix.to_degrees()).round() / 1e9,
             base_angle_deg: pair.base_helix.to_degrees(),
             transverse_module: pair.pinion.rack.module,
             transverse_pressure_angle_deg: pair.pinion.rack.pressure_angle.to_degrees(),

@@ -21,6 +21,9 @@ pub(super) const MEMBER_KEYS: &[&str] = &[
 /// Which mates a tooth meets.
 pub(super) const HUNTING: &[&str] = &["average", "full"];
 
+/// What a class is, where a number of them is refused.
+const CLASSES: &str = "a class is a group of teeth that wear alike; without the key there are as many as kinds of teeth";
+
 /// The most classes of a member: the time that a history takes grows with their square.
 pub(super) const MOST_CLASSES: usize = 64;
 
@@ -56,7 +59,7 @@ pub(super) fn read(
         let Some(member) = table.table(which.name(), MEMBER_KEYS)? else {
             continue;
         };
-        teeth.classes[side] = member.count("classes", 1..=MOST_CLASSES, "of each member")?;
+        teeth.classes[side] = member.count("classes", 1..=MOST_CLASSES, CLASSES)?;
         teeth.back[side] = stated(&member, counts[side])?;
         teeth.eccentricity[side] = eccentricity(&member)?;
         let file = member.name("pitch_file", "relative to the study file")?;

@@ -6,7 +6,7 @@ use crate::verify::contact_and_wear::{self, Effort};
 use crate::verify::convergence::{self, ConvergenceError};
 use crate::verify::{
     CaseError, Measured, SKIPPED, Skipped, calculix, challenge, elasticity, face_slices, gears,
-    paper_rows, runner::Row, worn_corner,
+    helical, paper_rows, runner::Row, teeth_in_turn, worn_corner,
 };
 
 /// Cases that belong together, as the runner takes them.
@@ -30,7 +30,7 @@ pub struct Entry {
 #[derive(Debug, Clone, Copy)]
 pub enum Work {
     /// A family with two efforts.
-    Family(fn(Effort) -> Result<Vec<Measured>, CaseError>),
+    Family(Run),
     /// A family of the elastic solver.
     Elastic(fn() -> Result<Vec<Measured>, FemError>),
     /// Whole wear histories.
@@ -56,6 +56,33 @@ pub const GROUPS: [&str; 8] = [
     "Published paper",
 ];
 
+type Run = fn(Effort) -> Result<Vec<Measured>, CaseError>;
+
+/// Faces in slices, teeth that differ, helical gears: id, title, source, reason for the tolerances, cases.
+const BEYOND_ONE_SECTION: [(&str, &str, &str, &str, Run); 3] = [
+    (
+        face_slices::ID,
+        "the face in slices",
+        face_slices::SOURCE,
+        face_slices::REASON,
+        face_slices::all,
+    ),
+    (
+        teeth_in_turn::ID,
+        "teeth that differ",
+        teeth_in_turn::SOURCE,
+        teeth_in_turn::REASON,
+        teeth_in_turn::all,
+    ),
+    (
+        helical::ID,
+        "helical gears",
+        helical::SOURCE,
+        helical::REASON,
+        helical::all,
+    ),
+];
+
 /// Every family, group by group.
 pub fn entries() -> Vec<Entry> {
     let mut all: Vec<Entry> = ELASTIC.iter().map(elastic).collect();
@@ -69,14 +96,16 @@ pub fn entries() -> Vec<Entry> {
         reason: challenge::REASON,
         work: Work::Challenge(name),
     }));
-    all.push(Entry {
-        ids: vec![face_slices::ID.to_owned()],
-        group: "Gear contact",
-        title: "the face in slices",
-        source: face_slices::SOURCE,
-        reason: face_slices::REASON,
-        work: Work::Family(face_slices::all),
-    });
+    all.extend(
+        BEYOND_ONE_SECTION.map(|(id, title, source, reason, run)| Entry {
+            ids: vec![id.to_owned()],
+            group: "Gear contact",
+            title,
+            source,
+            reason,
+            work: Work::Family(run),
+        }),
+    );
     all.push(Entry {
         ids: vec![calculix::ID.to_owned()],
         group: "Gear contact",

@@ -118,22 +118,28 @@ fn rows_are_predicted_for_the_tooth_they_name() {
         }
         text
     };
-    let chi2 = |measurements: &str| {
+    let chi2_with = |measurements: &str, effect: &str| {
         write("measurements.csv", measurements);
         write(
             "study.toml",
             &format!(
-                "{study}[noise]\ncoefficient_scatter = 0.0\ndatum = 1e-6\n[[test]]\nid = \"A\"\ncycles = 1e6\n[measurements]\nfile = \"measurements.csv\"\n"
+                "{study}{effect}[noise]\ncoefficient_scatter = 0.0\ndatum = 1e-6\n[[test]]\nid = \"A\"\ncycles = 1e6\n[measurements]\nfile = \"measurements.csv\"\n"
             ),
         );
         let json: Value =
             serde_json::from_str(&succeed(home.path(), "compare study.toml --json")).unwrap();
         json["chi2_per_point"].as_f64().unwrap()
     };
+    let chi2 = |measurements: &str| chi2_with(measurements, "");
     let right = chi2(&measured(&|tooth| if tooth == "1" { "1" } else { "5" }));
     let swapped = chi2(&measured(&|tooth| if tooth == "1" { "5" } else { "1" }));
     assert!(right < 0.05, "{right}");
     assert!(swapped > 10.0, "{swapped}");
+    // rows without a label stay those of the mean tooth beside an effect that moves a tooth by next to nothing
+    let nothing = "[[effect]]\nkind = \"pitch_error\"\ndeviation = 1e-4\n";
+    let unlabelled = measured(&|_| "");
+    let [without, with] = ["", nothing].map(|effect| chi2_with(&unlabelled, effect));
+    assert!((with / without - 1.0).abs() < 0.01, "{without} {with}");
 }
 
 #[test]

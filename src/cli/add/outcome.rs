@@ -86,6 +86,16 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             each.join(", ")
         );
     }
+    let passed_over: Vec<&str> = (addition.passed_over.iter())
+        .map(|&form| drafts[form].form())
+        .collect();
+    if !passed_over.is_empty() {
+        let _ = writeln!(
+            text,
+            "  other forms that the analytic model promises little of were not fitted: {} (--form fits one)",
+            passed_over.join(", ")
+        );
+    }
     for suspect in &comparison.sanity {
         let _ = writeln!(text, "  check first: {suspect}");
     }
@@ -100,6 +110,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
         json: json!({
             "form": chosen,
             "forms": tried,
+            "forms_not_fitted": passed_over,
             "parameters": comparison.parameters,
             "fit": comparison.fit,
             "holdout": comparison.holdout,

@@ -5,10 +5,11 @@
 
 use std::cell::OnceCell;
 
-use super::compare::{CompareError, Compared, Doing, Missed, contact_of};
+use super::compare::{CompareError, Compared, Doing, contact_of};
+use super::missed::Missed;
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::Measured;
+use crate::learn::measured::{Measured, Misfit};
 use crate::measure::Dataset;
 use crate::study::{EffectModel, FreeParameter, Study, WEAR_COEFFICIENT};
 
@@ -16,6 +17,10 @@ use crate::study::{EffectModel, FreeParameter, Study, WEAR_COEFFICIENT};
 const LEFT: f64 = 2.0;
 /// Gain of log evidence for which another form is preferred to the effect's own.
 const BETTER: f64 = 3.0;
+
+/// Share of the least misfit beyond noise, of the forms so far or without the effect, that the analytic model may leave of another form where that
+/// misfit is large: finite elements are not asked about forms that leave more.
+const PROMISING: f64 = 0.8;
 
 /// A base model with an effect more, in one of its forms.
 #[derive(Debug, Clone)]
@@ -36,6 +41,8 @@ pub struct Addition {
     pub compared: Compared,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<Tried>>,
+    /// Forms not tried for the analytic model promises little of them, and all that were tried leave far more than noise.
+    pub passed_over: Vec<usize>,
 }
 
 /// One form's fit in short.
@@ -68,24 +75,35 @@ pub fn add(
         .split_first()
         .expect("an effect has a form of its own");
     let without = without_last(&forms[0].version);
-    let missed = without.as_ref().map(|without| Missed {
-        without,
-        bench: &bench,
-        square: OnceCell::new(),
-    });
+    let missed = (without.as_ref()).map(|without| Missed::by(without, &bench));
     let missed = missed.as_ref();
     let first = |doing| watch(doing, 0);
     let own = measured.compare_from(&bench, &own.version, Vec::new(), missed, &first)?;
     let mut tried = vec![Some(in_short(&own))];
+    let mut passed_over = Vec::new();
+    let promising = Promising {
+        measured: &measured,
+        missed,
+        own: OnceCell::new(),
+        version: &forms[0].version,
+    };
     let mut best = (0, own.clone());
     for (i, form) in others.iter().enumerate() {
-        let fitted = leaves_something(&own).then(|| {
-            let places = places(form, &own.fit);
-            let other = |doing| watch(doing, i + 1);
-            measured.compare_from(&bench, &form.version, places, missed, &other)
-        });
+        let places = places(form, &own.fit);
+        let left = measured.misfit(&best.1.fit);
+        if !leaves_something(&own) {
+            tried.push(None);
+            continue;
+        }
+        if left.is_far() && !promising.is(&form.version, left, places.clone()) {
+            tried.push(None);
+            passed_over.push(i + 1);
+            continue;
+        }
+        let other = |doing| watch(doing, i + 1);
+        let fitted = measured.compare_from(&bench, &form.version, places, missed, &other);
         // a form that cannot be fitted is no reason against the others
-        let fitted = fitted.and_then(Result::ok);
+        let fitted = fitted.ok();
         tried.push(fitted.as_ref().map(in_short));
         if let Some(fitted) = fitted {
             let margin = if best.0 == 0 { BETTER } else { 0.0 };
@@ -99,7 +117,37 @@ pub fn add(
         form,
         compared,
         tried,
+        passed_over,
     })
+}
+
+/// Which forms are worth the price of finite elements where all so far leave far more than noise.
+struct Promising<'p> {
+    measured: &'p Measured<'p>,
+    missed: Option<&'p Missed<'p>>,
+    /// The effect's own form, and χ² that the analytic model promises of it.
+    version: &'p ModelVersion,
+    own: OnceCell<Option<f64>>,
+}
+
+impl Promising<'_> {
+    /// Whether the analytic model promises that a form leaves much less than the model without the effect does, and than is `left` so far or it
+    /// promises of the effect's own form; also where it promises nothing.
+    fn is(&self, version: &ModelVersion, left: Misfit, places: Vec<Vec<f64>>) -> bool {
+        let Some(base) = self.missed.and_then(|missed| missed.base(self.measured)) else {
+            return true;
+        };
+        let Some(promised) = self.measured.promised(version, base, places) else {
+            return true;
+        };
+        let is_much_less = |than: f64| {
+            let beyond = |square: f64| Misfit { square, ..left }.beyond_noise();
+            beyond(promised) < PROMISING * beyond(than)
+        };
+        let own = || self.measured.promised(self.version, base, Vec::new());
+        is_much_less(base.square)
+            && (is_much_less(left.square) || (self.own.get_or_init(own)).is_none_or(is_much_less))
+    }
 }
 
 /// The version without the effect that joined last, k free; None where parameters of other effects are free too, for then k alone

@@ -4,6 +4,7 @@
 //! study, measurements -> members -> tests on the bench -> fit of what is free -> Comparison
 //! ```
 
+use super::missed::Missed;
 use super::record::Comparison;
 use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
@@ -17,7 +18,7 @@ use crate::learn::search::Effort;
 use crate::learn::starts;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
-use crate::study::{ContactKind, FreeParameter, Role, Study, StudyError, WEAR_COEFFICIENT};
+use crate::study::{ContactKind, FreeParameter, Study, StudyError, WEAR_COEFFICIENT};
 
 /// A fit and what it says of the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,8 +129,11 @@ impl Measured<'_> {
         self.compare_from(bench, version, Vec::new(), None, watch)
     }
 
-    /// The same where a fit may start from some places too, each a value for every free parameter but k, and is given up early
-    /// where that is hopeless against `missed`.
+    /// The same where a fit may start from some places too, each a value for every free parameter but k, and is given up early where that is
+    /// hopeless against `missed`.
+    ///
+    /// Against `missed`, a fit that leaves far more than noise is not looked for from elsewhere to its end, nor with finer wear steps: its last
+    /// decimals say nothing.
     ///
     /// # Errors
     /// [`FitError`].
@@ -148,6 +152,10 @@ impl Measured<'_> {
         } else {
             Effort::for_simulations()
         };
+        let look = Effort {
+            iterations: LOOK_STEPS,
+            ..effort
+        };
         let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
         let told = |histories| {
             watch(Doing::Fitting {
@@ -157,26 +165,17 @@ impl Measured<'_> {
         };
         told(0);
         self.with_problem(bench, version, noise, &told, |problem| {
-            // values that somebody has chosen or fitted may leave nothing to look for
-            let own = starts::own_values(version);
-            let start = if own != medians(version) && problem.is_within_noise(&own) {
-                own
-            } else {
-                self.start(problem, version, places)
-            };
+            let start = self.start_of(problem, version, places);
+            let from = |start: Vec<f64>, effort| problem.fit_from(&[start], effort);
             let first = match missed {
-                None => problem.fit_from(&[start], &effort)?,
+                None => from(start, &effort)?,
                 Some(missed) => {
-                    let look = Effort {
-                        iterations: LOOK_STEPS,
-                        ..effort
-                    };
-                    let mut first = problem.fit_from(&[start], &look)?;
-                    let hopeless =
-                        |fit: &Fit| missed.explained(self, fit).filter(|s| *s < HOPELESS);
-                    if hopeless(&first).is_some() {
+                    let mut first = from(start, &look)?;
+                    let hopeless = |fit: &Fit| missed.hopeless(self, fit);
+                    if hopeless(&first).is_some() && missed.may_be_explained(self, version, &first)
+                    {
                         // not without a look from elsewhere
-                        if let Ok(second) = problem.fit_from(&[medians(version)], &look)
+                        if let Ok(second) = from(starts::medians(version), &look)
                             && second.log_posterior > first.log_posterior
                         {
                             first = second;
@@ -192,18 +191,42 @@ impl Measured<'_> {
                     }
                 }
             };
-            let fit = if first.is_settled() || version.effects.is_empty() || one_valley {
-                first
-            } else {
-                let second = problem.fit_from(&[medians(version)], &effort);
+            let is_far = |fit: &Fit| missed.is_some() && self.misfit(fit).is_far();
+            let better = |second: &Fit| second.log_posterior > first.log_posterior;
+            let second = if first.is_settled() || version.effects.is_empty() || one_valley {
+                None
+            } else if is_far(&first) {
+                let second = from(starts::medians(version), &look).ok();
                 second
-                    .ok()
-                    .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
-                    .unwrap_or(first)
+                    .filter(better)
+                    .and_then(|second| problem.go_on(&second, &effort).ok())
+            } else {
+                from(starts::medians(version), &effort).ok()
             };
-            let fit = self.refined(bench, version, problem, fit, &effort, &told)?;
+            let fit = second
+                .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
+                .unwrap_or(first);
+            let fit = if is_far(&fit) {
+                problem.judged(fit, &effort)?
+            } else {
+                self.refined(bench, version, problem, fit, &effort, &told)?
+            };
             Ok(self.compared(bench, version, fit, None))
         })
+    }
+
+    /// Values that somebody has chosen or fitted, for they may leave nothing to look for, or else what the analytic model finds.
+    fn start_of(
+        &self,
+        problem: &Problem<'_>,
+        version: &ModelVersion,
+        places: Vec<Vec<f64>>,
+    ) -> Vec<f64> {
+        let own = starts::own_values(version);
+        if own != starts::medians(version) && problem.is_within_noise(&own) {
+            return own;
+        }
+        self.start(problem, version, places)
     }
 
     /// A fit with what it says of the model.
@@ -315,62 +338,5 @@ const SMOOTH: Effort = Effort {
 
 /// Steps after which it is looked at whether a fit is hopeless.
 const LOOK_STEPS: usize = 6;
-/// Share of what is missed below which a fit is hopeless by then.
-const HOPELESS: f64 = 0.1;
-
-/// What a model without an effect misses, asked for only where a fit of the effect does not come to an end soon.
-pub(super) struct Missed<'m> {
-    /// The model without it: k alone is fitted.
-    pub(super) without: &'m ModelVersion,
-    /// Its bench.
-    pub(super) bench: &'m Bench<'m>,
-    /// χ² of the fit tests, once known; None where it cannot be computed.
-    pub(super) square: std::cell::OnceCell<Option<f64>>,
-}
-
-impl Missed<'_> {
-    /// The share of the misfit beyond noise that `fit` explains; None where it leaves little, or the model without the effect does.
-    fn explained(&self, measured: &Measured<'_>, fit: &Fit) -> Option<f64> {
-        let chi2 = |fit: &Fit| -> (f64, f64) {
-            let rows = measured.data.observations.iter().zip(&fit.rows);
-            let fitted = rows.filter(|(o, _)| measured.roles[o.test] == Role::Fit);
-            fitted.fold((0.0, 0.0), |(sum, count), (_, row)| {
-                (sum + row.standardised.powi(2), count + 1.0)
-            })
-        };
-        let (with, points) = chi2(fit);
-        if fit.converged && with < points * (1.0 + LEAST_MISSED) {
-            return None;
-        }
-        let square = self.square.get_or_init(|| {
-            let noise = NoiseModel::of(&measured.study().noise);
-            let effort = Effort {
-                iterations: 2,
-                settle: 0,
-                ..Effort::for_simulations()
-            };
-            let base = measured.with_problem(self.bench, self.without, noise, &|_| {}, |problem| {
-                problem.fit_from(&[Vec::new()], &effort)
-            });
-            base.ok().map(|base| chi2(&base).0)
-        });
-        let square = (*square)?;
-        let missed = square - points;
-        (missed > points * LEAST_MISSED).then(|| (square - with) / missed)
-    }
-}
-
-/// Misfit beyond noise, as a share of that of noise, from which an effect can be hopeless.
-const LEAST_MISSED: f64 = 0.5;
-
 /// Wear histories of one test that a fit of one parameter takes, from experience.
 const HISTORIES_PER_TEST: usize = 6;
-
-/// The priors' medians of the effects' free parameters.
-fn medians(version: &ModelVersion) -> Vec<f64> {
-    let effects = version.free.iter();
-    effects
-        .filter(|free| free.name != WEAR_COEFFICIENT)
-        .map(|free| free.prior.median().clamp(free.lower, free.upper))
-        .collect()
-}

@@ -12,6 +12,7 @@ mod fit_warnings;
 mod ladder;
 mod left_out;
 mod misfit_location;
+mod missed;
 mod prospects;
 mod ratio;
 mod record;

@@ -1,0 +1,88 @@
+//! What a model without an effect misses: against it, a fit with the effect is seen to be hopeless, and is given up.
+
+use std::cell::OnceCell;
+
+use crate::learn::bench::Bench;
+use crate::learn::fit::Scaled;
+use crate::learn::fitted::Fit;
+use crate::learn::hypothesis::version::ModelVersion;
+use crate::learn::measured::Measured;
+use crate::learn::noise::NoiseModel;
+use crate::learn::search::Effort;
+
+/// Share of what is missed below which a fit is hopeless after a look.
+const HOPELESS: f64 = 0.1;
+
+/// Misfit beyond noise, as a share of that of noise, from which an effect can be hopeless.
+const LEAST_MISSED: f64 = 0.5;
+
+/// What a model without an effect misses, asked for only where a fit of the effect does not come to an end soon, or leaves far more than noise.
+pub(super) struct Missed<'m> {
+    version: &'m ModelVersion,
+    bench: &'m Bench<'m>,
+    base: OnceCell<Option<Scaled>>,
+}
+
+impl<'m> Missed<'m> {
+    /// By the model without the effect, k alone fitted.
+    pub(super) fn by(version: &'m ModelVersion, bench: &'m Bench<'m>) -> Self {
+        Self {
+            version,
+            bench,
+            base: OnceCell::new(),
+        }
+    }
+
+    /// The model without the effect where its k fits best; None where it cannot be computed.
+    pub(super) fn base(&self, measured: &Measured<'_>) -> Option<&Scaled> {
+        let base = self.base.get_or_init(|| {
+            let noise = NoiseModel::of(&measured.study().noise);
+            let effort = Effort {
+                iterations: 2,
+                settle: 0,
+                ..Effort::for_simulations()
+            };
+            measured.with_problem(self.bench, self.version, noise, &|_| {}, |problem| {
+                let fit = problem.fit_from(&[Vec::new()], &effort).ok()?;
+                Some(Scaled {
+                    square: measured.misfit(&fit).square,
+                    ..problem.scaled(&[])?
+                })
+            })
+        });
+        base.as_ref()
+    }
+
+    /// The share that `fit` explains, if that is so little that it is hopeless.
+    pub(super) fn hopeless(&self, measured: &Measured<'_>, fit: &Fit) -> Option<f64> {
+        self.explained(measured, fit)
+            .filter(|share| *share < HOPELESS)
+    }
+
+    /// Whether the analytic model promises that an effect explains some of it, however badly `fit` does; also where it cannot tell.
+    pub(super) fn may_be_explained(
+        &self,
+        measured: &Measured<'_>,
+        version: &ModelVersion,
+        fit: &Fit,
+    ) -> bool {
+        let share = || {
+            let base = self.base(measured)?.square;
+            let promised = measured.promised(version, self.base(measured)?, Vec::new())?;
+            Some((base - promised) / (base - measured.misfit(fit).points))
+        };
+        share().is_none_or(|share| share > HOPELESS)
+    }
+
+    /// The share of the misfit beyond noise that `fit` explains; None where it leaves little, or the model without the effect does.
+    fn explained(&self, measured: &Measured<'_>, fit: &Fit) -> Option<f64> {
+        let with = measured.misfit(fit);
+        let points = with.points;
+        if fit.converged && with.square < points * (1.0 + LEAST_MISSED) {
+            return None;
+        }
+        let square = self.base(measured)?.square;
+        let missed = square - points;
+        (missed > points * LEAST_MISSED).then(|| (square - with.square) / missed)
+    }
+}
