@@ -8,7 +8,7 @@
 
 use gearwear::effects::{Combined, Surroundings, find};
 use gearwear::simulate::forward::{Conditions, Forward, GearSet};
-use gearwear::simulate::history::{Progress, ToothState, WearState, line_load};
+use gearwear::simulate::history::{Progress, ToothState, WearState};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::Study;

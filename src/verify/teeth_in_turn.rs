@@ -127,6 +127,9 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     off.fold(0.0, f64::max) / scale
 }
 
+/// What stands apart, the effect that says so, and its parameters.
+type Kind<'k> = (&'k str, &'k str, &'k [(&'k str, f64)]);
+
 /// Classes whose teeth stand in their places to 1e-14 µm are the model of one tooth: every second tooth (two classes), one tooth (it, two on
 /// either side, the rest), and groups around a gear.
 fn alike() -> Result<Vec<Measured>, CaseError> {
@@ -134,7 +137,7 @@ fn alike() -> Result<Vec<Measured>, CaseError> {
     let members = set
         .members(&numerics(), &[TORQUE], &[0.0])
         .map_err(CaseError::gears)?;
-    let kinds: [(&str, &str, &[(&str, f64)]); 3] = [
+    let kinds: [Kind<'_>; 3] = [
         (
             "every second tooth",
             "pitch_error",
