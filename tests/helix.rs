@@ -129,8 +129,6 @@ struct Section {
     base_radius: [f64; 2],
     /// Ends of the path of contact from the pitch point, mm.
     ends: [f64; 2],
-    sine: f64,
-    reference: [f64; 2],
 }
 
 impl Section {
@@ -148,8 +146,6 @@ impl Section {
             pitch: PI * MODULE / helix.cos() * angle.cos(),
             base_radius,
             ends: [-beyond(1), beyond(0)],
-            sine: angle.sin(),
-            reference,
         }
     }
 
