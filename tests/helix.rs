@@ -480,17 +480,33 @@ fn the_example_runs_as_one_command() {
     let folder = tempfile::tempdir().unwrap();
     let coarse = "[numerics]\npositions = 24\nelements_per_half_width = 2\nfields = 1\n";
     let path = folder.path().join("helical.toml");
-    std::fs::write(&path, format!("{text}{coarse}")).unwrap();
     let out = folder.path().join("out");
-    let run = std::process::Command::new(env!("CARGO_BIN_EXE_gearwear"))
-        .args(["run", "--quiet", "-o"])
-        .args([&out, &path])
-        .output()
-        .unwrap();
+    let run = |study: String, out: &std::path::Path| {
+        std::fs::write(&path, study).unwrap();
+        let run = std::process::Command::new(env!("CARGO_BIN_EXE_gearwear"))
+            .args(["run", "-o"])
+            .args([out, &path])
+            .output()
+            .unwrap();
+        let error = String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.success(), "{error}");
+        String::from_utf8(run.stdout).unwrap()
+    };
+    // two slices stand a third of a base pitch apart, which is said
+    let few = text.replace("slices = 5", "slices = 2");
+    let said = run(
+        format!("{few}{coarse}[model]\ncontact = \"hertz\"\n"),
+        &folder.path().join("few"),
+    );
     assert!(
-        run.status.success(),
-        "{}",
-        String::from_utf8_lossy(&run.stderr)
+        said.contains("note: 2 slices for an overlap ratio of 0.662"),
+        "{said}"
+    );
+    let said = run(format!("{text}{coarse}"), &out);
+    assert!(!said.contains("slices for an overlap"), "{said}");
+    assert!(
+        said.contains("normal module 3 mm, helix angle 12°"),
+        "{said}"
     );
     let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
