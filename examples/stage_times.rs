@@ -10,7 +10,8 @@ use std::sync::Mutex;
 
 use gearwear::contact::cycle::{Cycle, Stations};
 use gearwear::contact::fem::CycleCompliance;
-use gearwear::fem::{Body, element_stiffness, elements};
+use gearwear::fem::{Body, element_stiffness, elements, nodal_stress};
+use gearwear::numeric::Vec2;
 use gearwear::simulate::forward::Forward;
 use gearwear::simulate::gather;
 use gearwear::simulate::history::{Balancing, WearLaw, wear_until};
@@ -168,6 +169,33 @@ fn stages(edges: f64, order: usize) -> Result<Value, Failure> {
     note(
         "fields at one position",
         mean(|| gather::frame(&forward, &state, 1.0, 0)),
+    );
+    note(
+        "fields at one position, less the worn mesh",
+        mean(|| forward.fields(0, &state.contacts[0])),
+    );
+    let unit: Vec<_> = (bodies.iter())
+        .map(|body| [(body.interface()[0], Vec2::new(1.0, 0.0))])
+        .collect();
+    note(
+        "displacement under a load",
+        mean(|| {
+            (bodies.iter().zip(&unit))
+                .map(|(body, load)| body.solve(load))
+                .collect::<Vec<_>>()
+        }),
+    );
+    let mut displaced = Vec::new();
+    for (body, load) in bodies.iter().zip(&unit) {
+        displaced.push(body.solve(load)?);
+    }
+    note(
+        "stress at the nodes",
+        mean(|| {
+            (bodies.iter().zip(&displaced))
+                .map(|(body, u)| nodal_stress(body.mesh(), body.material(), u))
+                .collect::<Vec<_>>()
+        }),
     );
 
     let sizes: Vec<Value> = bodies

@@ -2,10 +2,15 @@
 //!
 //! Source: the conditions stated beside each error. Tolerance: none.
 
+use gearwear::contact::model::ContactError;
 use gearwear::contact::unilateral::{Drive, Problem, UnilateralError, solve};
 use gearwear::effects::formula::{Formula, FormulaError, MOST_NAMES};
 use gearwear::effects::{EffectError, Hook, Learned, LearnedError, find};
+use gearwear::simulate::forward::{Forward, ForwardError};
+use gearwear::study::Study;
 use gearwear::verify::calculix::{self, CalculixError};
+use gearwear::wear::archard::WearError;
+use gearwear::wear::integrator::StepError;
 use nalgebra::DMatrix;
 
 fn formula(hook: Hook, text: &str, parameters: &[&str]) -> FormulaError {
@@ -193,4 +198,58 @@ fn a_deck_that_calculix_cannot_read_gives_no_answer() {
         Err(CalculixError::NoSolution { .. }) => assert!(calculix::installed()),
         other => panic!("{other:?}"),
     }
+}
+
+/// The paper's pair on a coarse mesh, some of its words replaced.
+fn study(changes: &[(&str, &str)], numerics: &str) -> Study {
+    let mut text = include_str!("../validation/paper/study.toml").to_owned();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    Study::parse(&format!("{text}\n[numerics]\n{numerics}\n"), "study.toml").expect("a study")
+}
+
+/// The contact of unworn gears by finite elements.
+fn unworn(study: &Study) -> Result<(), ForwardError> {
+    let set = study.gear_set();
+    let numerics = study.resolution();
+    let conditions = study.operation.simulated(&study.wear);
+    let members = set.members(&numerics, &[conditions.torque], &[conditions.misalignment])?;
+    let mut forward = Forward::new(&set, Some(&members), conditions, numerics)?;
+    forward.wear_to(&mut None, 1.0, &mut |_, _| true)?;
+    Ok(())
+}
+
+const COARSE: &str = "elements_per_half_width = 2\npositions = 20";
+
+#[test]
+fn flanks_that_need_too_many_elements_are_refused_before_they_are_meshed() {
+    // a thousandth of the torque: edges that are 30 times shorter
+    let fine = study(
+        &[("torque = 100.0 ", "torque = 0.1 ")],
+        "elements_per_half_width = 64",
+    );
+    let error = unworn(&fine).expect_err("more unknowns than memory");
+    assert!(matches!(error, ForwardError::TooFine { .. }), "{error}");
+}
+
+#[test]
+fn gears_too_soft_for_the_load_are_refused() {
+    let steel = study(&[], COARSE);
+    assert!(unworn(&steel).is_ok());
+    let foam = study(
+        &[("youngs_modulus = 2.1e5", "youngs_modulus = 2.1e3")],
+        COARSE,
+    );
+    let error = unworn(&foam).expect_err("flanks that give way by more than half a millimetre");
+    let ForwardError::Step(StepError::System {
+        n,
+        source: WearError::Contact(ContactError::TooSoft { closing, limit, .. }),
+    }) = error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!((n, limit), (0.0, 0.5));
+    assert!(closing > limit);
 }
