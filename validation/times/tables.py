@@ -108,6 +108,8 @@ def sizes(results):
         ("values of the factors, million", *(number(1e-6 * sum(b["factor_values"] for b in m["bodies"])) for m in meshes), ""),
     ]
     for stage in ORDER:
+        if not all(stage in m["seconds"] for m in meshes):
+            continue  # measured on some meshes only
         times = [m["seconds"][stage] for m in meshes]
         quadratic = [m for m in meshes if m["order"] == 2]
         first, last = quadratic[0], quadratic[-1]
@@ -119,22 +121,15 @@ def sizes(results):
 def growth(results):
     rows = []
     for name, cases in results["growth"].items():
-        if name == "load":
+        if name in ("load", "repeats"):
             continue
+        first, last = cases[0], cases[-1]
+        each = (last["processor"] - first["processor"]) / (last["contact_solves"] - first["contact_solves"])
         for case in cases:
             key = next(k for k in ("positions", "step_tolerance", "cycles") if k in case)
-            wear = next(s["seconds"] for s in case["stages"] if s["name"] == "contact and wear")
-            rows.append(
-                (
-                    f"`{key} = {case[key]:g}`" if key == "step_tolerance" else f"`{key} = {case[key]}`",
-                    case["wear_steps"],
-                    number(case["contact_solves"], 6),
-                    number(case["processor"]),
-                    number(wear),
-                    number(1e6 * wear / case["contact_solves"]),
-                )
-            )
-    return table(("setting", "wear steps", "positions solved", "run, s", "contact and wear, s (clock)", "a position, µs"), rows)
+            further = number(1e6 * each) if case is last else ""
+            rows.append((f"`{key} = {case[key]}`", case["wear_steps"], number(case["contact_solves"], 6), number(case["processor"]), further))
+    return table(("setting", "wear steps", "positions solved", "run, s", "each further position, µs"), rows)
 
 
 def learning(results):
@@ -147,7 +142,7 @@ def learning(results):
 def threads(results):
     rows = []
     for name, cases in results["threads"].items():
-        if name == "load":
+        if name in ("load", "repeats"):
             continue
         one, two = cases
         rows.append(

@@ -3,7 +3,7 @@
     python3 validation/times/times.py target/release/gearwear target/release/examples/stage_times WORKFOLDER [PART ...]
 
 PART is machine, stages, large, growth, threads or learning; all unless named. Writes results.json and the tables of README.md beside this file; parts that are not asked
-for keep their earlier figures. Times are of the processor (user and system) unless a column says clock: other work on the machine changes them by some per cent
+for keep their earlier figures. Commands are repeated three times, or REPEATS (environment). Times are of the processor (user and system) unless a column says clock: other work on the machine changes them by some per cent
 to a half, the clock by any factor. Needs numpy."""
 
 import json
@@ -19,7 +19,7 @@ PAPER = HERE.parent / "paper/study.toml"
 # edges per Hertz half width and order of the elements: about 20, 90 and 170 thousand unknowns; and 400, which takes minutes and 4 GB
 MESHES = ((3, 1), (5, 2), (16, 2))
 LARGE = ((46, 2),)
-REPEATS = 3
+REPEATS = int(os.environ.get("REPEATS", 3))
 
 
 def spent(command, **keys):
@@ -120,7 +120,7 @@ class Measure:
             print(f"learning: compare, {tests} tests", flush=True)
             processor, clock = least(self.command("compare", study))
             out["compare"].append({"tests": tests, "processor": processor, "clock": clock})
-        for name, more in (("diagnose --fast", ["--fast"]), ("diagnose", [])):
+        for name, more in (("diagnose --fast", ["--fast"]), ("diagnose", [])):  # once each
             print(f"learning: {name}", flush=True)
             processor, clock = spent(self.command("diagnose", self.example(), *more))
             out[name] = {"processor": processor, "clock": clock}
@@ -131,7 +131,6 @@ class Measure:
         jobs = {
             "history (run)": ("run", self.study("threads"), []),
             "sweep of 8 loads": ("sweep", self.study("threads"), sweep),
-            "comparison": ("compare", self.example(), []),
             "diagnosis, --fast": ("diagnose", self.example(), ["--fast"]),
         }
         out = {}
@@ -154,6 +153,7 @@ def main():
     results = json.loads(kept.read_text()) if kept.exists() else {}
     for part in sys.argv[4:] or ("machine", "stages", "growth", "threads", "learning", "large"):
         results[part] = getattr(measure, part)()
+        results[part]["repeats"] = REPEATS
         results[part]["load"] = os.getloadavg()[0]
         kept.write_text(json.dumps(results, indent=1) + "\n")
     import tables
