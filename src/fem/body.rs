@@ -159,6 +159,11 @@ impl Body {
         self.factor.len()
     }
 
+    /// Additions and multiplications that one numerical factorisation takes.
+    pub fn factor_operations(&self) -> f64 {
+        self.factor.operations()
+    }
+
     /// The mesh as last factored.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh

@@ -139,6 +139,20 @@ impl Factor {
         self.symbolic.len_val()
     }
 
+    /// Additions and multiplications of one numerical factorisation.
+    pub(super) fn operations(&self) -> f64 {
+        let factor = self.numeric();
+        (0..self.symbolic.n_supernodes())
+            .map(|s| {
+                let node = factor.supernode(s);
+                let width = node.val().ncols() as f64;
+                let below = node.pattern().len() as f64;
+                // the block on the diagonal, the rows below it, what these take from the rest
+                width.powi(3) / 3.0 + width * width * below + width * below * below
+            })
+            .sum()
+    }
+
     fn numeric(&self) -> supernodal::SupernodalLltRef<'_, u32, f64> {
         supernodal::SupernodalLltRef::new(&self.symbolic, &self.values)
     }

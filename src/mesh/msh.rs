@@ -133,7 +133,7 @@ impl<'a> Reader<'a> {
     fn entities(&mut self) -> Result<(), String> {
         let counts = self.numbers::<usize>(4)?;
         for _ in 0..counts[0] {
-            self.next_line();
+            self.next_line().ok_or("file ends in $Entities")?;
         }
         for _ in 0..counts[1] {
             // tag, bounding box (6), number of groups, groups, ...

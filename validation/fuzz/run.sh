@@ -3,6 +3,8 @@
 #
 #   validation/fuzz/run.sh              all readers, one after another
 #   RUNS=100000 validation/fuzz/run.sh study formula
+#   TIME=600 validation/fuzz/run.sh         no longer than ten minutes each
+#   TIMEOUT=120 nice -n 19 validation/fuzz/run.sh   beside other work: the five seconds are those of the clock
 #
 # Wants cargo-fuzz (`cargo install cargo-fuzz`). Coverage needs switches that stable compilers take with RUSTC_BOOTSTRAP only.
 set -euo pipefail
@@ -18,6 +20,6 @@ for reader in "${readers[@]}"; do
   mkdir -p "corpus/$reader" "artifacts/$reader"
   echo "== $reader: $runs runs"
   READER=$reader cargo fuzz run --fuzz-dir . --sanitizer none readers "corpus/$reader" "seeds/$reader" -- \
-    -runs="$runs" -timeout=5 -rss_limit_mb=1024 -max_len=20000 -dict=words.dict \
+    -runs="$runs" -max_total_time="${TIME:-0}" -timeout="${TIMEOUT:-5}" -rss_limit_mb=1024 -max_len=20000 -dict=words.dict \
     -artifact_prefix="artifacts/$reader/" -print_final_stats=1 -verbosity=0
 done
