@@ -259,7 +259,10 @@ fn fields(bencher: Bencher, fineness: usize) {
     let mut forward = forward(&members, fineness);
     let progress = worn(&mut forward, 20_000.0);
     let state = forward.state(&progress).expect("mild contact is solved");
-    bencher.bench(|| gather::frame(&forward, &state, 1.0, black_box(0)));
+    let drawn = gather::drawn(&forward, &state)
+        .expect("a mild state is drawn")
+        .expect("there are meshes");
+    bencher.bench(|| gather::frame(&forward, &state, &drawn, 1.0, black_box(0)));
 }
 
 mod whole {

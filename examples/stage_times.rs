@@ -167,12 +167,13 @@ fn stages(edges: f64, order: usize) -> Result<Value, Failure> {
     note("one wear step", step);
     let state = forward.state(&worn)?;
     note(
-        "fields at one position",
-        mean(|| gather::frame(&forward, &state, 1.0, 0)),
+        "worn meshes of a state",
+        mean(|| gather::drawn(&forward, &state)),
     );
+    let drawn = gather::drawn(&forward, &state)?.ok_or("no meshes")?;
     note(
-        "fields at one position, less the worn mesh",
-        mean(|| forward.fields(0, &state.contacts[0])),
+        "fields at one position",
+        mean(|| gather::frame(&forward, &state, &drawn, 1.0, 0)),
     );
     let unit: Vec<_> = (bodies.iter())
         .map(|body| [(body.interface()[0], Vec2::new(1.0, 0.0))])

@@ -208,6 +208,9 @@ impl Body {
             rest = self.residual(&x, force);
         }
         let residual = norm(&rest) / scale;
+        if residual <= RESIDUAL_LIMIT {
+            return Ok((x, residual));
+        }
         let limit = RESIDUAL_LIMIT.max(8.0 * f64::EPSILON * self.cancellation(&x) / scale);
         if residual.is_nan() || residual > limit {
             return Err(FemError::Residual { residual, limit });

@@ -37,13 +37,21 @@ impl Forward<'_> {
         q: usize,
         contact: &PositionContact,
     ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
-        let points = self
-            .condensed()
-            .map(|m| [&m.members[0].mesh.points[..], &m.members[1].mesh.points[..]]);
-        points.map_or(Ok(None), |points| self.fields_on(q, contact, points))
+        let (Some(members), Some(outlines)) = (self.condensed(), self.outlines()) else {
+            return Ok(None);
+        };
+        let points = [0, 1].map(|side: usize| &members.members[side].mesh.points[..]);
+        let outlines = &outlines;
+        self.fields_on(q, contact, Surfaces { points, outlines })
     }
 
-    /// As [`Forward::fields`], pressures on the flanks with the (worn) node positions `points` of both members, mm.
+    /// The edges of both members' outlines; `None` for the analytic contact model.
+    pub fn outlines(&self) -> Option<[Vec<BoundaryEdge>; 2]> {
+        let members = self.condensed()?;
+        Some([0, 1].map(|side: usize| boundary_edges(&members.members[side].mesh)))
+    }
+
+    /// As [`Forward::fields`], pressures on (worn) `surfaces`.
     ///
     /// # Errors
     /// [`ForwardError`] if a solve misses its residual.
@@ -51,7 +59,7 @@ impl Forward<'_> {
         &self,
         q: usize,
         contact: &PositionContact,
-        points: [&[Vec2]; 2],
+        surfaces: Surfaces<'_>,
     ) -> Result<Option<[MemberFields; 2]>, ForwardError> {
         let (Some(members), Some(compliance)) = (self.condensed(), self.compliance()) else {
             return Ok(None);
@@ -60,7 +68,7 @@ impl Forward<'_> {
         let turns = member_turns(self.cycle(), position.theta);
         let fields = |side: usize| -> Result<MemberFields, FemError> {
             let member = &members.members[side];
-            let mut loads = Loads::new(points[side]);
+            let mut loads = Loads::new(surfaces.points[side], &surfaces.outlines[side]);
             loads.add(
                 self.cycle(),
                 compliance,
@@ -94,16 +102,27 @@ impl Forward<'_> {
     }
 }
 
+/// Where pressures act: node positions of both members, mm, and the edges of their outlines.
+#[derive(Debug, Clone, Copy)]
+pub struct Surfaces<'s> {
+    /// Node positions, mm, worn or not.
+    pub points: [&'s [Vec2]; 2],
+    /// As of [`Forward::outlines`].
+    pub outlines: &'s [Vec<BoundaryEdge>; 2],
+}
+
 struct Loads<'a> {
     points: &'a [Vec2],
+    outline: &'a [BoundaryEdge],
     force: Vec<Vec2>,
     pressure: Vec<f64>,
 }
 
 impl<'a> Loads<'a> {
-    fn new(points: &'a [Vec2]) -> Self {
+    fn new(points: &'a [Vec2], outline: &'a [BoundaryEdge]) -> Self {
         Self {
             points,
+            outline,
             force: vec![Vec2::zeros(); points.len()],
             pressure: vec![0.0; points.len()],
         }
@@ -124,7 +143,6 @@ impl<'a> Loads<'a> {
         member: &Member,
     ) {
         let position = &cycle.positions[q];
-        let outline = boundary_edges(&member.mesh);
         let couplings = position.pairs.iter().zip(compliance.couplings(q));
         for (index, (pair, coupling)) in couplings.enumerate() {
             let tooth = member_tooth(pair, side);
@@ -143,7 +161,7 @@ impl<'a> Loads<'a> {
             if member.order() == 2 {
                 without_suction(&mut amount);
             }
-            let share = self.shares(&chain.nodes, &outline, member.order());
+            let share = self.shares(&chain.nodes, member.order());
             for ((&node, amount), share) in chain.nodes.iter().zip(&amount).zip(&share) {
                 self.pressure[node as usize] = amount / share;
             }
@@ -152,11 +170,11 @@ impl<'a> Loads<'a> {
 
     /// ∫ φ_i ds of each of a flank's `nodes` over the whole outline, mm: the first and the last node also have a share of the
     /// fillet's and of the tip land's edge beside them.
-    fn shares(&self, nodes: &[u32], outline: &[BoundaryEdge], order: usize) -> Vec<f64> {
+    fn shares(&self, nodes: &[u32], order: usize) -> Vec<f64> {
         let at = |node: &u32| self.points[*node as usize];
         let mut share = chain_shares(&nodes.iter().map(at).collect::<Vec<_>>(), order);
         let last = nodes.len() - 1;
-        for edge in outline {
+        for edge in self.outline {
             let beside = [(edge.start, edge.end, 0), (edge.end, edge.start, order)];
             for (own, other, place) in beside {
                 let of_flank = |node| nodes.contains(&node);

@@ -3,9 +3,10 @@
 use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Gear, Member, Pair};
+use crate::mesh::BoundaryEdge;
 use crate::numeric::{Vec2, interpolate};
 use crate::simulate::blanks::DrawnMesh;
-use crate::simulate::fields::MemberFields;
+use crate::simulate::fields::{MemberFields, Surfaces};
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
 use crate::simulate::history::{SliceState, WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
@@ -250,31 +251,51 @@ fn position(plan: &Plan, forward: &Forward, q: usize, contact: &PositionContact)
     }
 }
 
-/// Fields of `state` at position `q`, of a section with `load` times the mean load; `None` for the analytic model.
+/// Both members as drawn in a wear state, at all mesh positions alike.
+pub struct Drawn {
+    meshes: [DrawnMesh; 2],
+    outlines: [Vec<BoundaryEdge>; 2],
+}
+
+/// The members as drawn in `state`; `None` for the analytic model.
 ///
 /// # Errors
-/// [`ForwardError`] if a mesh cannot follow the wear or a solve misses its residual.
-pub fn frame(
-    forward: &Forward,
-    state: &WearState,
-    load: f64,
-    q: usize,
-) -> Result<Option<FieldFrame>, ForwardError> {
+/// [`ForwardError`] if a mesh cannot follow the wear.
+pub fn drawn(forward: &Forward, state: &WearState) -> Result<Option<Drawn>, ForwardError> {
     let (Some(blanks), Some(condensed)) = (forward.blanks(), forward.condensed()) else {
         return Ok(None);
     };
     let cycle = forward.cycle();
-    let contact = &state.contacts[q];
     let depth = [&state.depth[0][..], &state.depth[1]];
-    let drawn = blanks.drawn_meshes(condensed, &cycle.pair, &cycle.stations, depth);
-    let drawn = drawn.map_err(MemberError::from)?;
-    let points = [&drawn[0].mesh.points[..], &drawn[1].mesh.points[..]];
-    let Some([pinion, gear]) = forward.fields_on(q, contact, points)? else {
+    let meshes = blanks.drawn_meshes(condensed, &cycle.pair, &cycle.stations, depth);
+    let meshes = meshes.map_err(MemberError::from)?;
+    let outlines = forward.outlines();
+    Ok(outlines.map(|outlines| Drawn { meshes, outlines }))
+}
+
+/// Fields of `state` on the members as `drawn` in it, at position `q`, of a section with `load` times the mean load; `None` for the analytic model.
+///
+/// # Errors
+/// [`ForwardError`] if a solve misses its residual.
+pub fn frame(
+    forward: &Forward,
+    state: &WearState,
+    drawn: &Drawn,
+    load: f64,
+    q: usize,
+) -> Result<Option<FieldFrame>, ForwardError> {
+    let cycle = forward.cycle();
+    let contact = &state.contacts[q];
+    let surfaces = Surfaces {
+        points: [0, 1].map(|side: usize| &drawn.meshes[side].mesh.points[..]),
+        outlines: &drawn.outlines,
+    };
+    let Some([pinion, gear]) = forward.fields_on(q, contact, surfaces)? else {
         return Ok(None);
     };
     let inclined = 1e3 * cycle.pair.cos_base_helix();
     let member = |side: usize, fields: MemberFields| {
-        let DrawnMesh { mesh, unworn } = &drawn[side];
+        let DrawnMesh { mesh, unworn } = &drawn.meshes[side];
         let mut depth = vec![0.0; mesh.points.len()];
         for chain in &mesh.flanks {
             for (&node, &s) in chain.nodes.iter().zip(&chain.arc) {

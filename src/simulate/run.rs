@@ -345,20 +345,20 @@ fn keep(
         Some((section, load)) => (section, load),
         None => (&worn, &1.0),
     };
-    let drawn = match (plan.drawn_positions, forward.blanks()) {
+    let positions = match (plan.drawn_positions, forward.blanks()) {
         (0, _) | (_, None) => 0,
         (all, Some(_)) if worn.cycles == plan.conditions.cycles => all,
         _ => 1,
     };
-    let frames = (0..drawn)
+    let drawn = match positions {
+        0 => None,
+        _ => gather::drawn(forward, section)?,
+    };
+    let frames = (0..positions)
         .into_par_iter()
-        .map(|i| {
-            gather::frame(
-                forward,
-                section,
-                *load,
-                forward.cycle().nearest(i as f64 / drawn as f64),
-            )
+        .filter_map(|i| {
+            let q = forward.cycle().nearest(i as f64 / positions as f64);
+            Some(gather::frame(forward, section, drawn.as_ref()?, *load, q))
         })
         .collect::<Result<Vec<Option<FieldFrame>>, ForwardError>>()?;
     let root_stress = if plan.root_stress && worn.cycles == plan.conditions.cycles {
