@@ -15,15 +15,15 @@ ORDER = (
     "mesh cycle, compliance",
     "one wear step",
     "contact at all positions, from nothing",
+    "worn meshes of a state",
     "fields at one position",
-    "fields at one position, less the worn mesh",
     "displacement under a load",
     "stress at the nodes",
 )
 # parts of others
 PARTS = {
     "contact at all positions, from nothing": "in a step",
-    "fields at one position, less the worn mesh": "in the fields",
+    "worn meshes of a state": "in the fields",
     "displacement under a load": "in the fields",
     "stress at the nodes": "in the fields",
 }
