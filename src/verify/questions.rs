@@ -60,6 +60,12 @@ pub fn question(family: &str) -> &'static str {
         "S1" => {
             "Do slices of the face share a load as closed forms say, and do waves across it bend a plate as they should?"
         }
+        "S2" => {
+            "Do teeth that differ share load as springs do, does a mean mate stand for all mates, and do classes that stand alike wear as one tooth?"
+        }
+        "S3" => {
+            "Have helical gears the contact stress and the mesh stiffness of the standard, and contact lines of one length where the overlap is whole?"
+        }
         "X1" => {
             "Does CalculiX, a program of others with its own contact, find the same transmission error and peak pressure?"
         }
