@@ -82,7 +82,35 @@ pub fn read_vtu(path: &Path, bytes: &[u8], gear: &Gear) -> Result<Mesh, MeshErro
         })
 }
 
+/// The longest tag of a file, bytes: VTK's own have a dozen attributes. The parser's time grows with the square of a tag's attributes
+/// (RUSTSEC-2026-0194).
+const LONGEST_TAG: usize = 4096;
+
+/// Refuses a file with a tag so long that parsing it could take minutes. Appended data, in which anything may stand, has no tags.
+fn check_tags(bytes: &[u8]) -> Result<(), String> {
+    let appended = b"<AppendedData";
+    let end = bytes.windows(appended.len()).position(|w| w == appended);
+    let text = &bytes[..end.unwrap_or(bytes.len())];
+    let mut begun = None;
+    for (place, byte) in text.iter().enumerate() {
+        match (byte, begun) {
+            // comments may be long
+            (b'<', None) if text.get(place + 1) != Some(&b'!') => begun = Some(place),
+            (b'>', Some(_)) => begun = None,
+            (_, Some(from)) if place - from > LONGEST_TAG => {
+                let line = 1 + text[..from].iter().filter(|b| **b == b'\n').count();
+                return Err(format!(
+                    "line {line} has a tag of more than {LONGEST_TAG} characters, which no VTK file needs"
+                ));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
 fn raw(bytes: &[u8]) -> Result<RawMesh, String> {
+    check_tags(bytes)?;
     let vtk = without_panic(|| Vtk::parse_xml(bytes))
         .ok_or("not a VTK XML file with inline data: its arrays have other sizes than their headers say")?
         .map_err(|e| format!("not a VTK XML file with inline data: {e}"))?;
@@ -208,6 +236,20 @@ mod tests {
 
     /// Points (0, 0), (1, 0), (0, 1) as base64, behind the first six characters of their header.
     const POINTS: &str = "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAPA/AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAAA==";
+
+    /// A hundred thousand attributes: the parser compares each with each.
+    #[test]
+    fn a_tag_that_would_take_minutes_is_refused() {
+        let points = r#"format="ascii">0 0 0 1 0 0 0 1 0</DataArray>"#;
+        let many: String = (0..100_000).map(|i| format!(" a{i}=\"\"")).collect();
+        let begun = std::time::Instant::now();
+        let refused = raw(triangle(points, &many, "").as_bytes());
+        let refused = refused.err().unwrap_or_default();
+        assert!(refused.contains("line 1 has a tag"), "{refused}");
+        assert!(begun.elapsed().as_secs_f64() < 1.0);
+        let remark = format!("<!--{}-->", "long ".repeat(2000));
+        assert!(raw(triangle(points, "", &remark).as_bytes()).is_ok());
+    }
 
     #[test]
     fn arrays_of_another_size_than_stated_make_no_panic() {
