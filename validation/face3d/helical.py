@@ -4,6 +4,7 @@
 
 Writes helical.json and helical.svg beside this file. What CalculiX has solved stays in WORKFOLDER and is not solved again. Needs numpy and `ccx`."""
 
+import dataclasses
 import json
 import os
 import resource
@@ -17,13 +18,15 @@ from face3d import COARSE, LEADS, STIFFNESS, STRIPS, picture, rows, share
 
 HERE = Path(__file__).parent
 ROUGH = (0.08, 1.8, 20, 1)
-# lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh
+# lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
 CASES = {
-    "even, between two pairs": ("even", 0.5, COARSE),
-    "even, at the pitch point": ("even", 0.0, COARSE),
-    "crown, between two pairs": ("crown", 0.5, COARSE),
-    "wedge, at the pitch point": ("wedge", 0.0, COARSE),
-    "even, rougher mesh": ("even", 0.5, ROUGH),
+    "even, between two pairs": ("even", 0.5, ROUGH, "free"),
+    "even, between two pairs, rims held": ("even", 0.5, ROUGH, "rim"),
+    "even, at the pitch point": ("even", 0.0, ROUGH, "free"),
+    "even, at the pitch point, rims held": ("even", 0.0, ROUGH, "rim"),
+    "crown, between two pairs": ("crown", 0.5, ROUGH, "free"),
+    "crown, between two pairs, rims held": ("crown", 0.5, ROUGH, "rim"),
+    "even, finer mesh": ("even", 0.5, COARSE, "free"),
 }
 UNRELIEVED = -2.9, 2.6  # mm of the path of contact from the pitch point; face of the program that wears there
 TEETH = {0.0: (-1, 0, 1), 0.5: (-1, 0)}  # of the pinion, that carry there
@@ -70,7 +73,7 @@ def of_bricks(folder, name, pair):
 
     from model import Mesh, layers, solve
 
-    lead, rotation, (size, body, count, end) = CASES[name]
+    lead, rotation, (size, body, count, end), ends = CASES[name]
     kept = folder / f"helical_{name.replace(', ', '_').replace(' ', '_')}.json"
     if not kept.exists():
         z = layers(pair.width, count, end)
@@ -80,7 +83,7 @@ def of_bricks(folder, name, pair):
         mesh = Mesh(size=size, half=5 * size + 0.04, layers=z, body=body, stiffness=STIFFNESS, steps=2)
         spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
         started = spent()
-        found = solve(pair, mesh, rotation, TEETH[rotation], missing, guess, "free", folder, kept.stem)
+        found = solve(pair, mesh, rotation, TEETH[rotation], missing, guess, ends, folder, kept.stem)
         edges, loads = np.linspace(z[0], z[-1], STRIPS + 1), {}
         for tooth, force in found["forces"].items():
             total = np.concatenate([[0.0], np.cumsum(force)]) * np.cos(pair.base_helix())
@@ -90,7 +93,31 @@ def of_bricks(folder, name, pair):
     return json.loads(kept.read_text())
 
 
-def compare(bricks, turn, loads, torque_of):
+def rigid(lead, pair):
+    """What the pinion turns by for the mean lead deviation alone, µrad."""
+    return 1e6 * sum(LEADS[lead][1](pair.width * ((i + 0.5) / 1000 - 0.5), pair.width) for i in range(1000)) / 1000 / pair.gears()[0].base
+
+
+def mesh_error(folder, pair):
+    """Turn of straight teeth of the transverse section in plane strain, tooth 0 at the pitch point: of the finest mesh over that of ROUGH."""
+    import numpy as np
+
+    from model import Mesh, solve
+
+    kept = folder / "helical_plane.json"
+    if not kept.exists():
+        straight = dataclasses.replace(pair, helix=0.0, torque=pair.torque / pair.width)
+        turns = {}
+        for name, (size, body) in {"rough": ROUGH[:2], "finest": (0.025, 0.5)}.items():
+            mesh = Mesh(size=size, half=5 * size + 0.04, layers=np.array([-0.5, 0.5]), body=body, stiffness=STIFFNESS, steps=2)
+            guess = 0.003 / pair.gears()[0].base
+            turns[name] = 1e6 * solve(straight, mesh, 0.0, (0,), lambda z: 0.0, guess, "plane", folder, f"helical_plane_{name}")["turn"]
+        kept.write_text(json.dumps(turns))
+    turns = json.loads(kept.read_text())
+    return turns["finest"] / turns["rough"]
+
+
+def compare(bricks, turn, loads, torque_of, freed):
     """Differences of slices from bricks."""
     import numpy as np
 
@@ -106,6 +133,7 @@ def compare(bricks, turn, loads, torque_of):
         "torque_of_loads_over_stated": {"bricks": torque_of(both[0]), "slices": torque_of(both[1])},
         "error": {
             "turn": turn / bricks["turn_urad"] - 1,
+            "turn_mesh_error_removed": turn / freed - 1,
             "k_hbeta": factor[1] / factor[0] - 1,
             "load": float(abs(both[1] - both[0]).max() / both[0].max()),
             "load_of_teeth": float(max(abs(loads[t] - theirs[t]).max() for t in loads) / max(load.max() for load in theirs.values())),
@@ -141,15 +169,19 @@ def main():
         sys.exit(f"no case {unknown[0]!r}; there are: {', '.join(map(repr, CASES))}")
     pair = pair_of(study())
     torque_of = lambda strips: float(strips.mean() * pair.width * pair.gears()[0].base / pair.torque)
+    stiff = mesh_error(folder, pair)
+    print(f"straight teeth in plane strain: the finest mesh gives way {stiff:.4f} times as much")
     results = {}
     for name in wanted:
-        lead, rotation, _ = CASES[name]
+        lead, rotation, _, ends = CASES[name]
         bricks = of_bricks(folder, name, pair)
-        found = compare(bricks, *of_program(slices(program, folder, lead), pair, rotation), torque_of)
-        results[name] = {"lead": lead, "position": rotation, "bricks": bricks, "slices": found}
+        freed = bricks["turn_mesh_error_removed_urad"] = rigid(lead, pair) + (bricks["turn_urad"] - rigid(lead, pair)) * stiff
+        found = compare(bricks, *of_program(slices(program, folder, lead), pair, rotation), torque_of, freed)
+        results[name] = {"lead": lead, "position": rotation, "ends": ends, "bricks": bricks, "slices": found}
         error, factor = found["error"], found["k_hbeta"]
         print(f"{name}: {bricks['nodes']} nodes, {bricks['processor_seconds']} s")
         print(f"  turn {bricks['turn_urad']:.1f} µrad by bricks, {found['turn_urad']:.1f} by slices ({100 * error['turn']:+.1f} %)")
+        print(f"  mesh freed {freed:.1f} µrad ({100 * error['turn_mesh_error_removed']:+.1f} %)")
         print(f"  K_Hbeta {factor['bricks']:.3f}, {factor['slices']:.3f} ({100 * error['k_hbeta']:+.1f} %)")
         print(f"  load off by {100 * error['load']:.1f} % of the largest, of single teeth by {100 * error['load_of_teeth']:.1f} %")
         print(f"  shares {found['share_of_tooth']}, torque {found['torque_of_loads_over_stated']}", flush=True)

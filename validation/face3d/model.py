@@ -100,7 +100,8 @@ def solve(pair, mesh, rotation, teeth, lead, closing, ends, folder, name):
 
     `rotation`: base pitches from the pitch point; `teeth`: of the pinion, that touch; `lead(z)`: mm missing; `closing`: rad, a guess of the turn, by
     which the flanks overlap at first. `ends`: "free", "mirror" (do not move along the axis), "half" (so the first one
-    only: mid-face, where the rest is its mirror image; the torque is that of the half) or "plane" (no node does)."""
+    only: mid-face, where the rest is its mirror image; the torque is that of the half), "rim" (so all below the
+    root circles: axial forces bend no wheel) or "plane" (no node does)."""
     gears = pair.gears()
     base_pitch = 2 * np.pi * gears[0].base / pair.teeth[0]
     tangent = [g.base * np.tan(g.alpha) for g in gears]
@@ -183,8 +184,11 @@ def solve(pair, mesh, rotation, teeth, lead, closing, ends, folder, name):
     else:
         for side in (0, 1):
             n = len(sections[side][0].nodes)
-            for k in {"free": (), "mirror": (0, count), "half": (0,)}[ends]:
+            for k in {"free": (), "mirror": (0, count), "half": (0,), "rim": ()}[ends]:
                 lines += [f"{offset[side] + k * n + i + 1}, 3, 3" for i in range(n)]
+            if ends == "rim":
+                below = np.flatnonzero(np.hypot(*sections[side][0].nodes.T) < gears[side].root - 1e-6)
+                lines += [f"{offset[side] + k * n + i + 1}, 3, 3" for k in range(count + 1) for i in below]
     lines.append("*EQUATION")
     for i in bore[0]:
         x, y = placed[i]
