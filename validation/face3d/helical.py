@@ -7,6 +7,7 @@ Writes helical.json and helical.svg beside this file. What CalculiX has solved s
 import dataclasses
 import json
 import os
+import re
 import resource
 import shutil
 import subprocess
@@ -28,7 +29,9 @@ CASES = {
     "crown, between two pairs, rims held": ("crown", 0.5, ROUGH, "rim"),
     "even, finer mesh": ("even", 0.5, COARSE, "free"),
 }
-UNRELIEVED = -2.9, 2.6  # mm of the path of contact from the pitch point; face of the program that wears there
+# solved only where they are asked for
+BY_NAME = {"even, at the pitch point, rims held", "crown, between two pairs", "crown, between two pairs, rims held", "even, finer mesh"}
+UNRELIEVED = -2.9, 2.6  # mm of the path of contact from the pitch point
 TEETH = {0.0: (-1, 0, 1), 0.5: (-1, 0)}  # of the pinion, that carry there
 
 
@@ -45,15 +48,24 @@ def slices(program, folder, lead):
     return name
 
 
+def new_flanks(file):
+    return [row for row in rows(file) if float(row["cycles"]) == 0]
+
+
+def turn_of(run, rotation):
+    """Turn of the pinion in µrad, between the positions of the program."""
+    import numpy as np
+
+    angles = sorted((float(row["position"]), float(row["angle"])) for row in new_flanks(run / "transmission_error.csv"))
+    return float(np.interp(rotation, *zip(*angles), period=1.0))
+
+
 def of_program(run, pair, rotation):
     """Turn in µrad, and by tooth the line load of the strips, N per mm of face."""
     import numpy as np
 
-    first = lambda file: [row for row in rows(run / file) if float(row["cycles"]) == 0]
-    angles = sorted((float(row["position"]), float(row["angle"])) for row in first("transmission_error.csv"))
-    turn = float(np.interp(rotation, *zip(*angles), period=1.0))
     # mean over the face where a section is at that place of the path
-    mean = sorted((float(row["path"]), float(row["line_load"])) for row in first("contact.csv"))
+    mean = sorted((float(row["path"]), float(row["line_load"])) for row in new_flanks(run / "contact.csv"))
     base_pitch = pair.base_pitch()
     count = study()["face"]["slices"]
     heights = pair.width * ((np.arange(count) + 0.5) / count - 0.5)
@@ -64,7 +76,7 @@ def of_program(run, pair, rotation):
         # relieved flanks touch where relief is still small: how slices differ there is taken from where it begins
         line = [w * share(run, float(np.clip(y, *UNRELIEVED)))[i] for i, (w, y) in enumerate(zip(line, at))]
         loads[tooth] = np.reshape(line, (STRIPS, -1)).mean(axis=1)
-    return turn, loads
+    return turn_of(run, rotation), loads
 
 
 def of_bricks(folder, name, pair):
@@ -93,13 +105,29 @@ def of_bricks(folder, name, pair):
     return json.loads(kept.read_text())
 
 
+def straight(program, folder, pair):
+    """Turn of straight teeth of the transverse section by one section of the program, tooth 0 at the pitch point, µrad."""
+    import numpy as np
+
+    name, file = folder / "helical_straight", folder / "helical_straight.toml"
+    text = (HERE / "helical.toml").read_text().split("[face]")[0]
+    angle = np.degrees(pair.pressure_angle)
+    stated = {"module": pair.module, "pressure_angle": angle, "addendum": pair.addendum, "dedendum": pair.dedendum, "fillet_radius": pair.fillet}
+    for key, value in stated.items():
+        text = re.sub(rf"(?m)^{key} = [\d.]+", f"{key} = {float(value)!r}", text)
+    file.write_text(text)
+    if not (name / "summary.json").exists():
+        subprocess.run([program, "run", file, "-o", name, "--quiet"], check=True)
+    return turn_of(name, 0.0)
+
+
 def rigid(lead, pair):
     """What the pinion turns by for the mean lead deviation alone, µrad."""
     return 1e6 * sum(LEADS[lead][1](pair.width * ((i + 0.5) / 1000 - 0.5), pair.width) for i in range(1000)) / 1000 / pair.gears()[0].base
 
 
 def mesh_error(folder, pair):
-    """Turn of straight teeth of the transverse section in plane strain, tooth 0 at the pitch point: of the finest mesh over that of ROUGH."""
+    """Turns, µrad, of straight teeth of the transverse section in plane strain, tooth 0 at the pitch point, by mesh."""
     import numpy as np
 
     from model import Mesh, solve
@@ -113,11 +141,10 @@ def mesh_error(folder, pair):
             guess = 0.003 / pair.gears()[0].base
             turns[name] = 1e6 * solve(straight, mesh, 0.0, (0,), lambda z: 0.0, guess, "plane", folder, f"helical_plane_{name}")["turn"]
         kept.write_text(json.dumps(turns))
-    turns = json.loads(kept.read_text())
-    return turns["finest"] / turns["rough"]
+    return json.loads(kept.read_text())
 
 
-def compare(bricks, turn, loads, torque_of, freed):
+def compare(bricks, turn, loads, torque_of):
     """Differences of slices from bricks."""
     import numpy as np
 
@@ -133,7 +160,7 @@ def compare(bricks, turn, loads, torque_of, freed):
         "torque_of_loads_over_stated": {"bricks": torque_of(both[0]), "slices": torque_of(both[1])},
         "error": {
             "turn": turn / bricks["turn_urad"] - 1,
-            "turn_mesh_error_removed": turn / freed - 1,
+            "turn_mesh_error_removed": turn / bricks["turn_mesh_error_removed_urad"] - 1 if "turn_mesh_error_removed_urad" in bricks else None,
             "k_hbeta": factor[1] / factor[0] - 1,
             "load": float(abs(both[1] - both[0]).max() / both[0].max()),
             "load_of_teeth": float(max(abs(loads[t] - theirs[t]).max() for t in loads) / max(load.max() for load in theirs.values())),
@@ -163,29 +190,35 @@ def main():
     program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    wanted = sys.argv[3:] or list(CASES)
-    unknown = [name for name in wanted if name not in CASES]
+    wanted = sys.argv[3:] or ["plane", *(name for name in CASES if name not in BY_NAME)]
+    unknown = [name for name in wanted if name not in ("plane", *CASES)]
     if unknown:
-        sys.exit(f"no case {unknown[0]!r}; there are: {', '.join(map(repr, CASES))}")
+        sys.exit(f"no case {unknown[0]!r}; there are: 'plane', {', '.join(map(repr, CASES))}")
     pair = pair_of(study())
     torque_of = lambda strips: float(strips.mean() * pair.width * pair.gears()[0].base / pair.torque)
-    stiff = mesh_error(folder, pair)
-    print(f"straight teeth in plane strain: the finest mesh gives way {stiff:.4f} times as much")
-    results = {}
+    results, stiff = {}, None
+    if "plane" in wanted:
+        results["plane"] = {**mesh_error(folder, pair), "section": straight(program, folder, pair)}
+        stiff = results["plane"]["finest"] / results["plane"]["rough"]
+        print("plane:", ", ".join(f"{key} {turn:.1f} µrad" for key, turn in results["plane"].items()))
     for name in wanted:
+        if name == "plane":
+            continue
         lead, rotation, _, ends = CASES[name]
         bricks = of_bricks(folder, name, pair)
-        freed = bricks["turn_mesh_error_removed_urad"] = rigid(lead, pair) + (bricks["turn_urad"] - rigid(lead, pair)) * stiff
-        found = compare(bricks, *of_program(slices(program, folder, lead), pair, rotation), torque_of, freed)
+        if stiff:
+            bricks["turn_mesh_error_removed_urad"] = rigid(lead, pair) + (bricks["turn_urad"] - rigid(lead, pair)) * stiff
+        found = compare(bricks, *of_program(slices(program, folder, lead), pair, rotation), torque_of)
         results[name] = {"lead": lead, "position": rotation, "ends": ends, "bricks": bricks, "slices": found}
         error, factor = found["error"], found["k_hbeta"]
         print(f"{name}: {bricks['nodes']} nodes, {bricks['processor_seconds']} s")
         print(f"  turn {bricks['turn_urad']:.1f} µrad by bricks, {found['turn_urad']:.1f} by slices ({100 * error['turn']:+.1f} %)")
-        print(f"  mesh freed {freed:.1f} µrad ({100 * error['turn_mesh_error_removed']:+.1f} %)")
+        if stiff:
+            print(f"  mesh freed {bricks['turn_mesh_error_removed_urad']:.1f} µrad ({100 * error['turn_mesh_error_removed']:+.1f} %)")
         print(f"  K_Hbeta {factor['bricks']:.3f}, {factor['slices']:.3f} ({100 * error['k_hbeta']:+.1f} %)")
         print(f"  load off by {100 * error['load']:.1f} % of the largest, of single teeth by {100 * error['load_of_teeth']:.1f} %")
         print(f"  shares {found['share_of_tooth']}, torque {found['torque_of_loads_over_stated']}", flush=True)
-    (HERE / "helical.svg").write_text(picture({name: curves(entry) for name, entry in results.items()}, pair.width))
+    (HERE / "helical.svg").write_text(picture({name: curves(entry) for name, entry in results.items() if name != "plane"}, pair.width))
     (HERE / "helical.json").write_text(json.dumps(results, indent=1) + "\n")
 
 
