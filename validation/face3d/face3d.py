@@ -182,9 +182,9 @@ PANELS = {"wedge": "wedge of 12 µm, one pair", "crown": "crown of 8 µm, one pa
 COLOURS = {"bricks": ("#222222", "none", "CalculiX, bricks"), "teeth": ("#c44e52", "7 4", 'slices, coupling = "teeth"'), "none": ("#4c72b0", "2 3", 'slices, coupling = "none"')}
 
 
-def picture(panels, width):
+def picture(panels, width, most=2.0):
     """Line load over the mean across the face: panels by title, each a list of curves, the model and its loads."""
-    wide, high, left, top, gap, most = 330, 260, 60, 40, 60, 2.0
+    wide, high, left, top, gap = 330, 260, 60, 40, 60
     full = left + len(panels) * (wide + gap)
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {full} {top + high + 100}" font-family="sans-serif" font-size="13">',
