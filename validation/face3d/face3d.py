@@ -115,28 +115,13 @@ def of_bricks(folder, name):
     """The same of CalculiX, kept in `folder`."""
     import numpy as np
 
-    from model import Mesh, Pair, layers, solve
+    from model import Mesh, layers, pair_of, solve
 
     lead, rotation, (size, body, count, end), ends = CASES[name]
     kept = folder / f"{name.replace(', ', '_').replace(' ', '_')}.json"
     if kept.exists():
         return json.loads(kept.read_text())
-    whole = study()
-    gears = whole["gears"]
-    both = [gears["pinion"], gears["gear"]]
-    pair = Pair(
-        teeth=tuple(g["teeth"] for g in both),
-        module=gears["module"],
-        pressure_angle=np.radians(gears["pressure_angle"]),
-        addendum=gears["addendum"],
-        dedendum=gears["dedendum"],
-        fillet=gears["fillet_radius"],
-        bores=tuple(g["bore_diameter"] for g in both),
-        width=gears["face_width"],
-        modulus=whole["material"]["youngs_modulus"],
-        poisson=whole["material"]["poisson_ratio"],
-        torque=1e3 * whole["operation"]["torque"],
-    )
+    pair = pair_of(study())
     width = pair.width
     z = layers(width, count, end)
     half = lead != "wedge" and ends != "plane"
@@ -197,9 +182,9 @@ PANELS = {"wedge": "wedge of 12 µm, one pair", "crown": "crown of 8 µm, one pa
 COLOURS = {"bricks": ("#222222", "none", "CalculiX, bricks"), "teeth": ("#c44e52", "7 4", 'slices, coupling = "teeth"'), "none": ("#4c72b0", "2 3", 'slices, coupling = "none"')}
 
 
-def picture(panels, width):
-    """Line load over the mean across the face, a panel for each lead."""
-    wide, high, left, top, gap, most = 330, 260, 60, 40, 60, 2.0
+def picture(panels, width, most=2.0):
+    """Line load over the mean across the face: panels by title, each a list of curves, the model and its loads."""
+    wide, high, left, top, gap = 330, 260, 60, 40, 60
     full = left + len(panels) * (wide + gap)
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {full} {top + high + 100}" font-family="sans-serif" font-size="13">',
@@ -217,7 +202,7 @@ def picture(panels, width):
         for tick in (-10, -5, 0, 5, 10):
             x = at(tick, 0)[0]
             out.append(f'<text x="{x:.1f}" y="{top + high + 18}" text-anchor="middle">{tick}</text>')
-        for key, load in curves.items():
+        for key, load in curves:
             colour, dash, _ = COLOURS[key]
             places = [at(width * ((i + 0.5) / len(load) - 0.5), value) for i, value in enumerate(load)]
             line = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
@@ -225,7 +210,8 @@ def picture(panels, width):
             if key == "bricks":
                 out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="2.6" fill="{colour}"/>' for x, y in places]
         out.append(f'<text x="{x0 + wide / 2}" y="{top + high + 40}" text-anchor="middle">mm from mid-face</text>')
-    for number, (colour, dash, words) in enumerate(COLOURS.values()):
+    shown = {key for curves in panels.values() for key, _ in curves}
+    for number, (colour, dash, words) in enumerate(COLOURS[key] for key in COLOURS if key in shown):
         x, y = left + 240 * number, top + high + 74
         out.append(f'<line x1="{x}" x2="{x + 40}" y1="{y - 4}" y2="{y - 4}" stroke="{colour}" stroke-width="1.8" stroke-dasharray="{dash}"/>')
         out.append(f'<text x="{x + 48}" y="{y}">{words}</text>')
@@ -277,7 +263,7 @@ def main():
             curves[coupling] = load
         results[name] = entry
         if name in PANELS:
-            panels[PANELS[name]] = curves
+            panels[PANELS[name]] = list(curves.items())
     (HERE / "results.json").write_text(json.dumps(results, indent=1) + "\n")
     if panels:
         (HERE / "load.svg").write_text(picture(panels, study()["gears"]["face_width"]))

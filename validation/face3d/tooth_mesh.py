@@ -1,4 +1,4 @@
-"""A spur gear's section in quadrilaterals, from equations of its own: involute flanks, the trochoid of the rack's rounded tip, a rim down to the bore.
+"""A gear's transverse section in quadrilaterals, from equations of its own: involute flanks, the trochoid of the rack's rounded tip, a rim down to the bore.
 
 Teeth -1, 0 and 1 are there, in front of a whole ring; the other teeth are left out, since nothing loads them. Tooth 0 stands along the x axis. The
 flank that carries is the one at positive angles. Lengths in mm."""
@@ -21,23 +21,26 @@ def graded(start, length, growth, largest):
     return nodes * (length / nodes[-1])
 
 
-def around(low, high, centre, size, half, growth, largest):
-    """Nodes from `low` to `high`: `size` within `half` of `centre`, coarser beyond."""
+def around(low, high, centre, size, half, growth, largest, counted):
+    """Nodes from `low` to `high`: `size` within `half` of `centre`, coarser beyond. As many as if the centre were `counted`."""
     count = max(2, round(2 * half / size))
     inner = np.linspace(centre - half, centre + half, count + 1)
-    below = centre - half - graded(size * growth, centre - half - low, growth, largest)
-    above = centre + half + graded(size * growth, high - centre - half, growth, largest)
+    room = lambda length, usual: graded(size * growth, usual, growth, largest) * (length / usual)
+    below = centre - half - room(centre - half - low, counted - half - low)
+    above = centre + half + room(high - centre - half, high - counted - half)
     return np.concatenate([below[:0:-1], inner, above[1:]])
 
 
 class Gear:
-    def __init__(self, teeth, module, pressure_angle, addendum, dedendum, fillet, bore):
+    def __init__(self, teeth, module, pressure_angle, addendum, dedendum, fillet, bore, relief=(0.0, 1.0)):
+        """`relief`: what is missing at the tip, and from how far before it on, mm along the path of contact."""
         self.teeth, self.module, self.alpha = teeth, module, pressure_angle
         self.pitch = 0.5 * module * teeth
         self.base = self.pitch * np.cos(pressure_angle)
         self.tip = self.pitch + addendum * module
         self.root = self.pitch - dedendum * module
         self.bore = 0.5 * bore
+        self.relief = relief
         self.rounding = fillet * module
         # the rack's rounding: its centre's depth below the reference line, and half the width between the two centres
         self.depth = (dedendum - fillet) * module
@@ -48,7 +51,14 @@ class Gear:
     def flank(self, radius):
         """Angle of the flank from the middle of its tooth."""
         alpha = np.arccos(np.clip(self.base / radius, -1.0, 1.0))
-        return 0.5 * np.pi / self.teeth + involute(self.alpha) - involute(alpha)
+        amount, length = self.relief
+        before = self.base * (np.tan(np.arccos(self.base / self.tip)) - np.tan(alpha))
+        missing = amount * np.clip(1.0 - before / length, 0.0, 1.0)
+        return 0.5 * np.pi / self.teeth + involute(self.alpha) - involute(alpha) - missing / self.base
+
+    def middle(self):
+        """Radius in the middle of the flank, by arc length."""
+        return np.sqrt(0.5 * (self.form() ** 2 + self.tip**2))
 
     def trochoid(self, share):
         """The fillet from the root circle (0) to the flank (1): radius, angle from the middle of the tooth."""
@@ -77,12 +87,12 @@ class Gear:
 class Section:
     """Nodes (x, y), quadrilaterals, and by tooth the edges of the flank that carries."""
 
-    def __init__(self, gear, contact_radii, size, half, body=1.0):
+    def __init__(self, gear, contact_radii, size, half, body=1.0, counted=None):
         """`contact_radii`: by tooth where it touches; other teeth are coarse. `size`: edge within `half` of that
-        place. `body`: edges elsewhere, over the usual ones."""
+        place. `body`: edges elsewhere, over the usual ones. `counted`: radius; sections that touch elsewhere have the nodes of one that touches there, moved."""
         self.gear, self.nodes, self.quads, self.edges = gear, [], [], {}
         coarse, growth = 0.22 * gear.module * body, 1.0 + 0.35 * body
-        self.body, self.growth = body, growth
+        self.body, self.growth, self.counted = body, growth, counted
         teeth = (-1, 0, 1)
         columns = []
         for tooth in teeth:
@@ -144,10 +154,13 @@ class Section:
             stations = np.linspace(low, high, max(3, round((high - low) / coarse)) + 1)
             across = np.linspace(0.0, 1.0, 1 + round(4 / self.body))
         else:
-            room = min(arc(touch) - low, high - arc(touch)) - 2.0 * size
+            counted = self.counted or touch
+            room = min(arc(counted) - low, high - arc(counted)) - 2.0 * size
             assert room > 0.5 * half, "contact too near the end of the flank"
-            stations = around(low, high, arc(touch), size, min(half, room), self.growth, coarse)
-            width = 2 * touch * gear.flank(touch)
+            half = min(half, room)
+            centre = np.clip(arc(touch), low + half + 2.0 * size, high - half - 2.0 * size)
+            stations = around(low, high, centre, size, half, self.growth, coarse, arc(counted))
+            width = 2 * counted * gear.flank(counted)
             across = graded(size, width, self.growth, 0.3 * gear.module * self.body) / width
         fillet = np.linspace(0.0, 1.0, 1 + round((5 if touch is not None else 3) / self.body))
         curve = gear.profile((fillet[:-1], radius(stations)))

@@ -1,0 +1,226 @@
+"""Holds helical gears in slices against the pair in three dimensions, solved by CalculiX.
+
+    python3 validation/face3d/helical.py PROGRAM WORKFOLDER [CASE ...]
+
+Writes helical.json and helical.svg beside this file. What CalculiX has solved stays in WORKFOLDER and is not solved again. Needs numpy and `ccx`."""
+
+import dataclasses
+import json
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+from face3d import COARSE, LEADS, STIFFNESS, STRIPS, picture, rows, share
+
+HERE = Path(__file__).parent
+ROUGH = (0.08, 1.8, 20, 1)
+# lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
+CASES = {
+    "even, between two pairs": ("even", 0.5, ROUGH, "free"),
+    "even, between two pairs, rims held": ("even", 0.5, ROUGH, "rim"),
+    "even, at the pitch point": ("even", 0.0, ROUGH, "free"),
+    "even, at the pitch point, rims held": ("even", 0.0, ROUGH, "rim"),
+    "crown, between two pairs": ("crown", 0.5, ROUGH, "free"),
+    "crown, between two pairs, rims held": ("crown", 0.5, ROUGH, "rim"),
+    "even, finer mesh": ("even", 0.5, COARSE, "free"),
+}
+# solved only where they are asked for
+BY_NAME = {"even, at the pitch point, rims held", "crown, between two pairs, rims held", "even, finer mesh"}
+UNRELIEVED = -2.9, 2.6  # mm of the path of contact from the pitch point
+TEETH = {0.0: (-1, 0, 1), 0.5: (-1, 0)}  # of the pinion, that carry there
+
+
+def study():
+    return tomllib.loads((HERE / "helical.toml").read_text())
+
+
+def slices(program, folder, lead):
+    """A run of the program."""
+    name, file = folder / f"helical_{lead}", folder / f"helical_{lead}.toml"
+    file.write_text((HERE / "helical.toml").read_text() + f"\n[face.pinion]\n{LEADS[lead][0]}\n")
+    if not (name / "summary.json").exists():
+        subprocess.run([program, "run", file, "-o", name, "--quiet"], check=True)
+    return name
+
+
+def new_flanks(file):
+    return [row for row in rows(file) if float(row["cycles"]) == 0]
+
+
+def turn_of(run, rotation):
+    """Turn of the pinion in µrad, between the positions of the program."""
+    import numpy as np
+
+    angles = sorted((float(row["position"]), float(row["angle"])) for row in new_flanks(run / "transmission_error.csv"))
+    return float(np.interp(rotation, *zip(*angles), period=1.0))
+
+
+def of_program(run, pair, rotation):
+    """Turn in µrad, and by tooth the line load of the strips, N per mm of face."""
+    import numpy as np
+
+    # mean over the face where a section is at that place of the path
+    mean = sorted((float(row["path"]), float(row["line_load"])) for row in new_flanks(run / "contact.csv"))
+    base_pitch = pair.base_pitch()
+    count = study()["face"]["slices"]
+    heights = pair.width * ((np.arange(count) + 0.5) / count - 0.5)
+    loads = {}
+    for tooth in TEETH[rotation]:
+        at = (rotation + tooth) * base_pitch + heights * np.tan(pair.base_helix())
+        line = [np.interp(y, *zip(*mean), left=0.0, right=0.0) for y in at]
+        # relieved flanks touch where relief is still small: how slices differ there is taken from where it begins
+        line = [w * share(run, float(np.clip(y, *UNRELIEVED)))[i] for i, (w, y) in enumerate(zip(line, at))]
+        loads[tooth] = np.reshape(line, (STRIPS, -1)).mean(axis=1)
+    return turn_of(run, rotation), loads
+
+
+def of_bricks(folder, name, pair):
+    """The same of CalculiX, kept in `folder`."""
+    import numpy as np
+
+    from model import Mesh, layers, solve
+
+    lead, rotation, (size, body, count, end), ends = CASES[name]
+    kept = folder / f"helical_{name.replace(', ', '_').replace(' ', '_')}.json"
+    if not kept.exists():
+        z = layers(pair.width, count, end)
+        missing = lambda at: LEADS[lead][1](at, pair.width)
+        base = pair.gears()[0].base
+        guess = (max(map(missing, z)) + 0.003) / base  # at first the flanks overlap by 3 µm where they do least
+        mesh = Mesh(size=size, half=5 * size + 0.04, layers=z, body=body, stiffness=STIFFNESS, steps=2)
+        spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+        started = spent()
+        found = solve(pair, mesh, rotation, TEETH[rotation], missing, guess, ends, folder, kept.stem)
+        edges, loads = np.linspace(z[0], z[-1], STRIPS + 1), {}
+        for tooth, force in found["forces"].items():
+            total = np.concatenate([[0.0], np.cumsum(force)]) * np.cos(pair.base_helix())
+            loads[tooth] = (np.diff(np.interp(edges, z, total)) / np.diff(edges)).tolist()
+        answer = {"turn_urad": 1e6 * found["turn"], "load_N_per_mm": loads, "nodes": found["nodes"], "processor_seconds": round(spent() - started)}
+        kept.write_text(json.dumps(answer))
+    return json.loads(kept.read_text())
+
+
+def straight(program, folder, pair):
+    """Turn of straight teeth of the transverse section by one section of the program, tooth 0 at the pitch point, µrad."""
+    import numpy as np
+
+    name, file = folder / "helical_straight", folder / "helical_straight.toml"
+    text = (HERE / "helical.toml").read_text().split("[face]")[0]
+    angle = np.degrees(pair.pressure_angle)
+    stated = {"module": pair.module, "pressure_angle": angle, "addendum": pair.addendum, "dedendum": pair.dedendum, "fillet_radius": pair.fillet}
+    for key, value in stated.items():
+        text = re.sub(rf"(?m)^{key} = [\d.]+", f"{key} = {float(value)!r}", text)
+    file.write_text(text)
+    if not (name / "summary.json").exists():
+        subprocess.run([program, "run", file, "-o", name, "--quiet"], check=True)
+    return turn_of(name, 0.0)
+
+
+def rigid(lead, pair):
+    """What the pinion turns by for the mean lead deviation alone, µrad."""
+    return 1e6 * sum(LEADS[lead][1](pair.width * ((i + 0.5) / 1000 - 0.5), pair.width) for i in range(1000)) / 1000 / pair.gears()[0].base
+
+
+def mesh_error(folder, pair):
+    """Turns, µrad, of straight teeth of the transverse section in plane strain, tooth 0 at the pitch point, by mesh."""
+    import numpy as np
+
+    from model import Mesh, solve
+
+    kept = folder / "helical_plane.json"
+    if not kept.exists():
+        straight = dataclasses.replace(pair, helix=0.0, torque=pair.torque / pair.width)
+        turns = {}
+        for name, (size, body) in {"rough": ROUGH[:2], "finest": (0.025, 0.5)}.items():
+            mesh = Mesh(size=size, half=5 * size + 0.04, layers=np.array([-0.5, 0.5]), body=body, stiffness=STIFFNESS, steps=2)
+            guess = 0.003 / pair.gears()[0].base
+            turns[name] = 1e6 * solve(straight, mesh, 0.0, (0,), lambda z: 0.0, guess, "plane", folder, f"helical_plane_{name}")["turn"]
+        kept.write_text(json.dumps(turns))
+    return json.loads(kept.read_text())
+
+
+def compare(bricks, turn, loads, torque_of):
+    """Differences of slices from bricks."""
+    import numpy as np
+
+    theirs = {tooth: np.array(bricks["load_N_per_mm"][str(tooth)]) for tooth in loads}
+    both = [sum(theirs.values()), sum(loads.values())]
+    factor = [float(load.max() / load.mean()) for load in both]
+    part = lambda of, tooth: float(of[tooth].sum() / sum(of.values()).sum())
+    return {
+        "turn_urad": turn,
+        "load_N_per_mm": {str(tooth): load.tolist() for tooth, load in loads.items()},
+        "k_hbeta": {"bricks": factor[0], "slices": factor[1]},
+        "share_of_tooth": {str(tooth): {"bricks": part(theirs, tooth), "slices": part(loads, tooth)} for tooth in loads},
+        "torque_of_loads_over_stated": {"bricks": torque_of(both[0]), "slices": torque_of(both[1])},
+        "error": {
+            "turn": turn / bricks["turn_urad"] - 1,
+            "turn_mesh_error_removed": turn / bricks["turn_mesh_error_removed_urad"] - 1 if "turn_mesh_error_removed_urad" in bricks else None,
+            "k_hbeta": factor[1] / factor[0] - 1,
+            "load": float(abs(both[1] - both[0]).max() / both[0].max()),
+            "load_of_teeth": float(max(abs(loads[t] - theirs[t]).max() for t in loads) / max(load.max() for load in theirs.values())),
+        },
+    }
+
+
+def curves(entry):
+    """Of both models the load of all teeth and of each, over the mean."""
+    import numpy as np
+
+    out = []
+    for key in ("bricks", "slices"):
+        loads = np.array(list(entry[key]["load_N_per_mm"].values()))
+        out += [({"slices": "none"}.get(key, key), load / loads.sum(axis=0).mean()) for load in [loads.sum(axis=0), *loads]]
+    return out
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    if shutil.which("ccx") is None:
+        print("skipped: CalculiX (the program ccx) is not installed")
+        return
+    from model import pair_of
+
+    program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
+    wanted = sys.argv[3:] or ["plane", *(name for name in CASES if name not in BY_NAME)]
+    unknown = [name for name in wanted if name not in ("plane", *CASES)]
+    if unknown:
+        sys.exit(f"no case {unknown[0]!r}; there are: 'plane', {', '.join(map(repr, CASES))}")
+    pair = pair_of(study())
+    torque_of = lambda strips: float(strips.mean() * pair.width * pair.gears()[0].base / pair.torque)
+    results, stiff = {}, None
+    if "plane" in wanted:
+        results["plane"] = {**mesh_error(folder, pair), "section": straight(program, folder, pair)}
+        stiff = results["plane"]["finest"] / results["plane"]["rough"]
+        print("plane:", ", ".join(f"{key} {turn:.1f} µrad" for key, turn in results["plane"].items()))
+    for name in wanted:
+        if name == "plane":
+            continue
+        lead, rotation, _, ends = CASES[name]
+        bricks = of_bricks(folder, name, pair)
+        if stiff:
+            bricks["turn_mesh_error_removed_urad"] = rigid(lead, pair) + (bricks["turn_urad"] - rigid(lead, pair)) * stiff
+        found = compare(bricks, *of_program(slices(program, folder, lead), pair, rotation), torque_of)
+        results[name] = {"lead": lead, "position": rotation, "ends": ends, "bricks": bricks, "slices": found}
+        error, factor = found["error"], found["k_hbeta"]
+        print(f"{name}: {bricks['nodes']} nodes, {bricks['processor_seconds']} s")
+        print(f"  turn {bricks['turn_urad']:.1f} µrad by bricks, {found['turn_urad']:.1f} by slices ({100 * error['turn']:+.1f} %)")
+        if stiff:
+            print(f"  mesh freed {bricks['turn_mesh_error_removed_urad']:.1f} µrad ({100 * error['turn_mesh_error_removed']:+.1f} %)")
+        print(f"  K_Hbeta {factor['bricks']:.3f}, {factor['slices']:.3f} ({100 * error['k_hbeta']:+.1f} %)")
+        print(f"  load off by {100 * error['load']:.1f} % of the largest, of single teeth by {100 * error['load_of_teeth']:.1f} %")
+        print(f"  shares {found['share_of_tooth']}, torque {found['torque_of_loads_over_stated']}", flush=True)
+    (HERE / "helical.svg").write_text(picture({name: curves(entry) for name, entry in results.items() if name != "plane"}, pair.width, most=2.25))
+    (HERE / "helical.json").write_text(json.dumps(results, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
