@@ -14,10 +14,8 @@ use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
 use gearwear::study::Study;
 use gearwear::verify::contact_and_wear::Effort;
-use gearwear::verify::helical;
+use gearwear::verify::helical::{self, MODULE, Section, TEETH};
 
-const MODULE: f64 = 3.0;
-const TEETH: [f64; 2] = [23.0, 67.0];
 const MODULUS: f64 = 2.06e5;
 /// Torque per face width, N·mm/mm.
 const TORQUE: f64 = 9000.0;
@@ -121,49 +119,6 @@ fn ripple(values: &[f64]) -> f64 {
     (high - low) / mean(values)
 }
 
-/// The transverse section of the pair without profile shift, from the formulas of ISO 21771 alone.
-struct Section {
-    /// Helix angle at the base circles, rad.
-    base_helix: f64,
-    pitch: f64,
-    base_radius: [f64; 2],
-    /// Ends of the path of contact from the pitch point, mm.
-    ends: [f64; 2],
-}
-
-impl Section {
-    fn new(helix: f64) -> Self {
-        let helix = helix.to_radians();
-        let angle = (20f64.to_radians().tan() / helix.cos()).atan();
-        let reference = TEETH.map(|z| 0.5 * z * MODULE / helix.cos());
-        let base_radius = reference.map(|r| r * angle.cos());
-        let beyond = |i: usize| {
-            let tip = reference[i] + MODULE;
-            (tip * tip - base_radius[i] * base_radius[i]).sqrt() - reference[i] * angle.sin()
-        };
-        Self {
-            base_helix: (helix.sin() * 20f64.to_radians().cos()).asin(),
-            pitch: PI * MODULE / helix.cos() * angle.cos(),
-            base_radius,
-            ends: [-beyond(1), beyond(0)],
-        }
-    }
-
-    fn contact_ratio(&self) -> f64 {
-        (self.ends[1] - self.ends[0]) / self.pitch
-    }
-
-    fn virtual_teeth(&self, helix: f64) -> [f64; 2] {
-        TEETH.map(|z| z / (self.base_helix.cos().powi(2) * helix.to_radians().cos()))
-    }
-
-    /// c'th of ISO 6336-1 in N/(mm µm).
-    fn theoretical(&self, helix: f64) -> f64 {
-        let [z1, z2] = self.virtual_teeth(helix);
-        1.0 / (0.04723 + 0.15551 / z1 + 0.25791 / z2)
-    }
-}
-
 /// The pair by numbers: 12°, module 3 in the normal section, 30 mm.
 #[test]
 fn contact_ratios_are_those_of_the_standard() {
@@ -192,7 +147,7 @@ fn analytic_line_loads_are_those_of_springs_along_the_helix() {
         let state = states(&mut bench.forward(), &[0.0]).0.remove(0);
         let section = Section::new(helix);
         let ratio = section.contact_ratio();
-        let top = 1e3 * section.theoretical(helix) * helix.to_radians().cos();
+        let top = 1e3 * section.theoretical() * helix.to_radians().cos();
         let fall = (0.5 * (1.11 + 0.5 * ratio).powi(2) - 1.17).powf(-0.5);
         let load = TORQUE / section.base_radius[0];
         let step = section.pitch / cycle.positions.len() as f64;

@@ -24,8 +24,10 @@ pub const SOURCE: &str = "ISO 21771, ISO 6336-1 and ISO 6336-2; equal lengths of
 pub const REASON: &str = "1 and 2 % of the contact stress: cells of the analytic contact and edges of the mesh, six on the half width; the standard's mesh stiffness bends the tooth in its normal \
      section, slices in the transverse one, further apart the larger the helix";
 
-const MODULE: f64 = 3.0;
-const TEETH: [f64; 2] = [23.0, 67.0];
+/// Module of the normal section, mm.
+pub const MODULE: f64 = 3.0;
+/// Numbers of teeth of pinion and gear.
+pub const TEETH: [f64; 2] = [23.0, 67.0];
 const MODULUS: f64 = 2.06e5;
 const POISSON: f64 = 0.3;
 /// Torque per face width, N·mm/mm.
@@ -101,21 +103,24 @@ fn unworn<T>(
 }
 
 /// The transverse section of the pair without profile shift, from the formulas of ISO 21771 alone.
-struct Section {
+pub struct Section {
     helix: f64,
-    base_helix: f64,
+    /// Helix angle at the base circles, rad.
+    pub base_helix: f64,
     /// Transverse base pitch, mm.
-    pitch: f64,
-    base_radius: [f64; 2],
-    reference: [f64; 2],
+    pub pitch: f64,
+    /// Base radii of pinion and gear, mm.
+    pub base_radius: [f64; 2],
     /// Ends of the path of contact from the pitch point, mm.
-    ends: [f64; 2],
+    pub ends: [f64; 2],
+    reference: [f64; 2],
     /// Transverse pressure angle, rad.
     angle: f64,
 }
 
 impl Section {
-    fn new(helix: f64) -> Self {
+    /// Of teeth with the helix angle `helix`, degrees.
+    pub fn new(helix: f64) -> Self {
         let helix = helix.to_radians();
         let normal = 20f64.to_radians();
         let angle = (normal.tan() / helix.cos()).atan();
@@ -130,21 +135,26 @@ impl Section {
             base_helix: (helix.sin() * normal.cos()).asin(),
             pitch: PI * MODULE / helix.cos() * angle.cos(),
             base_radius,
-            reference,
             ends: [-beyond(1), beyond(0)],
+            reference,
             angle,
         }
     }
 
-    fn contact_ratio(&self) -> f64 {
+    /// ε_α.
+    pub fn contact_ratio(&self) -> f64 {
         (self.ends[1] - self.ends[0]) / self.pitch
+    }
+
+    /// c'_th of ISO 6336-1 with the virtual numbers of teeth, N/(mm µm).
+    pub fn theoretical(&self) -> f64 {
+        let [z1, z2] = TEETH.map(|z| z / (self.base_helix.cos().powi(2) * self.helix.cos()));
+        1.0 / (0.04723 + 0.15551 / z1 + 0.25791 / z2)
     }
 
     /// Mesh stiffness of ISO 6336-1 to a factor that all pairs of these numbers of teeth share.
     fn mesh_stiffness(&self) -> f64 {
-        let [z1, z2] = TEETH.map(|z| z / (self.base_helix.cos().powi(2) * self.helix.cos()));
-        let theoretical = 1.0 / (0.04723 + 0.15551 / z1 + 0.25791 / z2);
-        theoretical * self.helix.cos() * (0.75 * self.contact_ratio() + 0.25)
+        self.theoretical() * self.helix.cos() * (0.75 * self.contact_ratio() + 0.25)
     }
 
     /// Contact stress of ISO 6336-2 at the pitch point, MPa, under a line load of the transverse section, N/mm.
