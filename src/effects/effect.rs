@@ -65,6 +65,11 @@ impl Hook {
         }
     }
 
+    /// Whether it changes how the teeth touch, and not only how what touches wears.
+    pub fn changes_contact(self) -> bool {
+        !matches!(self, Hook::WearFactor | Hook::AddedDepth)
+    }
+
     /// What the hook gives where nothing acts.
     pub fn neutral(self) -> f64 {
         match self {

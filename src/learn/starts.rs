@@ -11,7 +11,7 @@ use super::hypothesis::version::ModelVersion;
 use super::measured::Measured;
 use super::noise::NoiseModel;
 use super::search::Effort;
-use crate::effects::ParamRole;
+use crate::effects::{Hook, ParamRole};
 use crate::simulate::forward::ContactKind;
 use crate::study::{FreeParameter, WEAR_COEFFICIENT};
 
@@ -77,13 +77,19 @@ impl Measured<'_> {
     }
 
     /// χ² of the fit tests that a fit of a version promises by the analytic model, anchored at the model without the effect that joined last; None
-    /// where that does not tell, for the effect has no strength to take away.
+    /// where that does not tell: the analytic model knows too little of the effect, or it has no strength to take away.
     pub(super) fn promised(
         &self,
         version: &ModelVersion,
         without: &Scaled,
         places: Vec<Vec<f64>>,
     ) -> Option<f64> {
+        // it knows of friction only the torque, of a face one section, and not how fast weak waves of the profile wear
+        let last = version.effects.specs().last()?;
+        let unseen = last.hook() == Hook::Friction || last.acts_across_the_face();
+        if unseen || of_last(version).any(is_phase) && last.hook() == Hook::Profile {
+            return None;
+        }
         let noise = NoiseModel::of(&self.study().noise);
         let fit = self.analytic_fit(version, noise, (&faint(version)?, without), places)?;
         Some(self.misfit(&fit).square)

@@ -296,7 +296,21 @@ impl EffectSpec {
 
     /// Whether it lets teeth of a member differ.
     pub fn acts_on_teeth(&self) -> bool {
-        matches!(&self.law, Law::Card(card) if card.hook == effects::Hook::ToothOffset)
+        self.hook() == effects::Hook::ToothOffset
+    }
+
+    /// Where it acts.
+    pub fn hook(&self) -> effects::Hook {
+        match &self.law {
+            Law::Card(card) => card.hook,
+            Law::Formula { formula, .. } => formula.hook(),
+            Law::Learned(learned) => learned.law.hook(),
+        }
+    }
+
+    /// Whether it acts through slices of the face.
+    pub fn acts_across_the_face(&self) -> bool {
+        matches!(&self.law, Law::Card(card) if card.acts_across_the_face())
     }
 
     /// Keys of the study's optional tables without which it cannot act with these values.

@@ -195,8 +195,8 @@ impl Candidate {
 
     /// Whether it changes how the teeth touch, and not only how what touches wears.
     pub(in crate::learn) fn changes_contact(&self) -> bool {
-        let wears = |hook| matches!(hook, Hook::WearFactor | Hook::AddedDepth);
-        self.effects.cards().iter().any(|card| !wears(card.hook))
+        let cards = self.effects.cards();
+        cards.iter().any(|card| card.hook.changes_contact())
     }
 
     /// Whether both are single effects of which one card or the other says that they are mistaken for one another.
