@@ -220,19 +220,25 @@ def picture(panels, width, most=2.0):
     return "\n".join([*out, "</svg>", ""])
 
 
-def main():
+def asked_for(words, cases, by_name):
+    """Program, folder and cases of the command line; ends where it asks for what is not there, and with 0 where CalculiX is not."""
     if len(sys.argv) < 3:
-        sys.exit(__doc__)
+        sys.exit(words)
     if shutil.which("ccx") is None:
         print("skipped: CalculiX (the program ccx) is not installed")
-        return
+        sys.exit()
+    wanted = sys.argv[3:] or [name for name in cases if name not in by_name]
+    unknown = [name for name in wanted if name not in cases]
+    if unknown:
+        sys.exit(f"no case {unknown[0]!r}; there are: {', '.join(map(repr, cases))}")
     program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    wanted = sys.argv[3:] or [name for name in CASES if name not in BY_NAME]
-    unknown = [name for name in wanted if name not in CASES]
-    if unknown:
-        sys.exit(f"no case {unknown[0]!r}; there are: {', '.join(map(repr, CASES))}")
+    return program, folder, wanted
+
+
+def main():
+    program, folder, wanted = asked_for(__doc__, CASES, BY_NAME)
     couplings = {"even": [None], "wedge": ["none", "teeth"], "crown": ["none", "teeth"]}
     runs = {(lead, c): slices(program, folder, lead, c) for lead in {CASES[name][0] for name in wanted} for c in couplings[lead]}
     results, panels = {}, {}

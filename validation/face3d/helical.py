@@ -6,16 +6,13 @@ Writes helical.json and helical.svg beside this file. What CalculiX has solved s
 
 import dataclasses
 import json
-import os
 import re
 import resource
-import shutil
 import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
-from face3d import COARSE, LEADS, STIFFNESS, STRIPS, picture, rows, share
+from face3d import COARSE, LEADS, STIFFNESS, STRIPS, asked_for, picture, rows, share
 
 HERE = Path(__file__).parent
 ROUGH = (0.08, 1.8, 20, 1)
@@ -180,20 +177,9 @@ def curves(entry):
 
 
 def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    if shutil.which("ccx") is None:
-        print("skipped: CalculiX (the program ccx) is not installed")
-        return
     from model import pair_of
 
-    program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    os.environ.setdefault("OMP_NUM_THREADS", "1")
-    wanted = sys.argv[3:] or ["plane", *(name for name in CASES if name not in BY_NAME)]
-    unknown = [name for name in wanted if name not in ("plane", *CASES)]
-    if unknown:
-        sys.exit(f"no case {unknown[0]!r}; there are: 'plane', {', '.join(map(repr, CASES))}")
+    program, folder, wanted = asked_for(__doc__, ("plane", *CASES), BY_NAME)
     pair = pair_of(study())
     torque_of = lambda strips: float(strips.mean() * pair.width * pair.gears()[0].base / pair.torque)
     results, stiff = {}, None
