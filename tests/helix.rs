@@ -486,6 +486,7 @@ fn the_example_runs_as_one_command() {
         "Load per width across the face",
         "over one turn",
         "radius over the place across the face",
+        "not tied to their neighbours",
     ] {
         assert!(report.contains(part), "{part}");
     }

@@ -145,8 +145,8 @@ const FEW_EDGES: f64 = 3.0;
 const FEW_SLICES: f64 = 5.0;
 
 /// What to say of the load across helical gears; figures of validation/face3d.
-pub(super) const HELICAL_SLICES: &str = "slices of helical gears are not tied to their neighbours: where contact lines end the load is larger than shown, by 11 to 27 % at \
-     single positions of a pair solved in three dimensions (guide/face.md)";
+pub(super) const HELICAL_SLICES: &str = "slices of helical gears are not tied to their neighbours and carry too little where contact lines end: the largest load across the face came out \
+     11 to 27 % low at single positions of a pair solved in three dimensions (guide/face.md)";
 
 /// What to say of helical gears whose slices stand far apart along the path of contact.
 fn few_slices(run: &Run) -> Option<String> {

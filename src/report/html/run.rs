@@ -125,10 +125,14 @@ fn wear(run: &Run) -> Section {
 }
 
 fn contact(run: &Run) -> Section {
-    Section::new("Contact over the mesh cycle").with_slider().plots(plots::contact_of_run(run)).note(
+    let section = Section::new("Contact over the mesh cycle").with_slider().plots(plots::contact_of_run(run)).note(
         "Load shares and pressures of every tooth pair as it passes along the path of contact; crosses: pairs that touch with a \
          tip corner, whose pressure is the mean over 0.02 modules.",
-    )
+    );
+    if run.geometry.helix.is_none() {
+        return section;
+    }
+    section.note(format!("Note: {}.", text::HELICAL_SLICES))
 }
 
 fn stress(run: &Run) -> Section {
