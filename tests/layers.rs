@@ -31,6 +31,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "anchored",
             "bench",
             "candidate_model",
+            "cheaper",
             "evaluate",
             "fidelity",
             "fit",

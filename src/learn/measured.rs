@@ -154,6 +154,12 @@ impl<'a> Measured<'a> {
         act(&problem)
     }
 
+    /// Number of measurements of the fit tests.
+    pub(super) fn fitted_points(&self) -> usize {
+        let rows = self.data.observations.iter();
+        rows.filter(|o| self.roles[o.test] == Role::Fit).count()
+    }
+
     /// What a fit leaves of the fit tests.
     pub(super) fn misfit(&self, fit: &Fit) -> Misfit {
         let rows = self.data.observations.iter().zip(&fit.rows);

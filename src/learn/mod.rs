@@ -16,6 +16,7 @@
 mod anchored;
 mod bench;
 mod candidate_model;
+mod cheaper;
 mod checks;
 pub mod climb;
 mod comparison;

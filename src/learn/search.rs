@@ -130,6 +130,9 @@ const NOTHING: f64 = 0.1;
 /// Whitened sum of squares by which model values may have moved under derivatives that are kept.
 const MOVED: f64 = 1.0;
 
+/// Loss of ln posterior allowed to a fit for its misfit, from which on derivatives as they are serve as well as new ones.
+const FAR: f64 = 3.0;
+
 /// Model values per test.
 type Values = Vec<Arc<[f64]>>;
 /// The model's own derivatives per test, as far as it has any.
@@ -199,6 +202,7 @@ impl Search<'_> {
             let tolerance = effort.tolerance + effort.share * beyond;
             let floor = effort.floor + effort.share * beyond;
             let settled = rounds == effort.settle
+                || effort.share * beyond > FAR
                 || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
             if promised <= tolerance {
                 if !settled {

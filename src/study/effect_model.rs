@@ -294,6 +294,11 @@ impl EffectSpec {
             .collect()
     }
 
+    /// Whether the value of a parameter has been stated.
+    pub fn is_stated(&self) -> bool {
+        self.parameters.iter().any(|parameter| parameter.stated)
+    }
+
     /// Whether it lets teeth of a member differ.
     pub fn acts_on_teeth(&self) -> bool {
         self.hook() == effects::Hook::ToothOffset

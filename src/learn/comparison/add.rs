@@ -5,7 +5,7 @@
 
 use std::cell::OnceCell;
 
-use super::compare::{CompareError, Compared, Doing, contact_of};
+use super::compare::{CompareError, Compared, Doing, FAR_SHARE, contact_of};
 use super::missed::Missed;
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
@@ -84,7 +84,9 @@ pub fn add(
     let promising = Promising {
         measured: &measured,
         missed,
-        own: OnceCell::new(),
+        own: own
+            .promised
+            .map_or_else(OnceCell::new, |own| OnceCell::from(Some(own))),
         version: &forms[0].version,
     };
     let mut best = (0, own.clone());
@@ -107,6 +109,13 @@ pub fn add(
         tried.push(fitted.as_ref().map(in_short));
         if let Some(fitted) = fitted {
             let margin = if best.0 == 0 { BETTER } else { 0.0 };
+            // fits that stay far from the measurements are made no more finely
+            let rough = if left.is_far() {
+                FAR_SHARE * left.beyond_noise()
+            } else {
+                0.0
+            };
+            let margin = margin + rough;
             if fitted.fit.log_evidence > best.1.fit.log_evidence + margin {
                 best = (i + 1, fitted);
             }

@@ -9,16 +9,16 @@ use super::record::Comparison;
 use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
 use crate::learn::bench::Bench;
-use crate::learn::fit::{FitError, Problem};
+use crate::learn::fit::{FitError, Problem, Scaled};
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::measured::Measured;
 use crate::learn::noise::NoiseModel;
 use crate::learn::search::Effort;
-use crate::learn::starts;
+use crate::learn::starts::Start;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
-use crate::study::{ContactKind, FreeParameter, Study, StudyError, WEAR_COEFFICIENT};
+use crate::study::{ContactKind, EffectSpec, FreeParameter, Study, StudyError, WEAR_COEFFICIENT};
 
 /// A fit and what it says of the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +29,8 @@ pub struct Compared {
     pub comparison: Comparison,
     /// Where the fit was given up early: the share that it had explained of what the model without its last effect misses beyond noise.
     pub given_up: Option<f64>,
+    /// χ² of the fit tests that a cheaper model promised; None where none was asked.
+    pub(super) promised: Option<f64>,
 }
 
 /// What a comparison is at.
@@ -152,6 +154,10 @@ impl Measured<'_> {
         } else {
             Effort::for_simulations()
         };
+        let effort = Effort {
+            share: missed.map_or(effort.share, |_| FAR_SHARE),
+            ..effort
+        };
         let look = Effort {
             iterations: LOOK_STEPS,
             ..effort
@@ -164,18 +170,31 @@ impl Measured<'_> {
             });
         };
         told(0);
+        let sized = bench.is_elastic() && !version.effects.is_empty();
+        let version = &if sized {
+            self.sized(version)
+        } else {
+            version.clone()
+        };
+        let dear = version.effects.specs().last().is_some_and(multiplies_work);
+        let without = missed.filter(|_| dear).and_then(|missed| missed.base(self));
         self.with_problem(bench, version, noise, &told, |problem| {
-            let start = self.start_of(problem, version, places);
-            let from = |start: Vec<f64>, effort| problem.fit_from(&[start], effort);
+            let start = self.start_of(problem, version, places, without);
+            let from = |start, effort: &Effort| problem.fit_from(&[start], effort);
             let first = match missed {
-                None => from(start, &effort)?,
+                None => from(start.values, &effort)?,
                 Some(missed) => {
-                    let mut first = from(start, &look)?;
                     let hopeless = |fit: &Fit| missed.hopeless(self, fit);
-                    if hopeless(&first).is_some() && missed.may_be_explained(self, version, &first)
-                    {
+                    let promised = |start: &Start| missed.promises(self, version, start.promised);
+                    let little = without.is_some() && !promised(&start);
+                    let glance = Effort {
+                        iterations: if little { 1 } else { LOOK_STEPS },
+                        ..effort
+                    };
+                    let mut first = from(start.values.clone(), &glance)?;
+                    if hopeless(&first).is_some() && promised(&start) {
                         // not without a look from elsewhere
-                        if let Ok(second) = from(starts::medians(version), &look)
+                        if let Ok(second) = from(version.medians(), &look)
                             && second.log_posterior > first.log_posterior
                         {
                             first = second;
@@ -184,7 +203,10 @@ impl Measured<'_> {
                     match hopeless(&first) {
                         Some(share) => {
                             let first = problem.judged(first, &effort)?;
-                            return Ok(self.compared(bench, version, first, Some(share)));
+                            return Ok(Compared {
+                                given_up: Some(share),
+                                ..self.compared(bench, version, first, start.promised)
+                            });
                         }
                         None if first.converged => first,
                         None => problem.go_on(&first, &effort)?,
@@ -196,12 +218,12 @@ impl Measured<'_> {
             let second = if first.is_settled() || version.effects.is_empty() || one_valley {
                 None
             } else if is_far(&first) {
-                let second = from(starts::medians(version), &look).ok();
+                let second = from(version.medians(), &look).ok();
                 second
                     .filter(better)
                     .and_then(|second| problem.go_on(&second, &effort).ok())
             } else {
-                from(starts::medians(version), &effort).ok()
+                from(version.medians(), &effort).ok()
             };
             let fit = second
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
@@ -211,22 +233,26 @@ impl Measured<'_> {
             } else {
                 self.refined(bench, version, problem, fit, &effort, &told)?
             };
-            Ok(self.compared(bench, version, fit, None))
+            Ok(self.compared(bench, version, fit, start.promised))
         })
     }
 
-    /// Values that somebody has chosen or fitted, for they may leave nothing to look for, or else what the analytic model finds.
+    /// Values that somebody has chosen or fitted, for they may leave nothing to look for, or else what a cheaper model finds.
     fn start_of(
         &self,
         problem: &Problem<'_>,
         version: &ModelVersion,
         places: Vec<Vec<f64>>,
-    ) -> Vec<f64> {
-        let own = starts::own_values(version);
-        if own != starts::medians(version) && problem.is_within_noise(&own) {
-            return own;
+        without: Option<&Scaled>,
+    ) -> Start {
+        let own = version.own_values();
+        if version.is_chosen() && own != version.medians() && problem.is_within_noise(&own) {
+            return Start {
+                values: own,
+                promised: None,
+            };
         }
-        self.start(problem, version, places)
+        self.start(problem, version, places, without)
     }
 
     /// A fit with what it says of the model.
@@ -235,7 +261,7 @@ impl Measured<'_> {
         bench: &Bench<'_>,
         version: &ModelVersion,
         fit: Fit,
-        given_up: Option<f64>,
+        promised: Option<f64>,
     ) -> Compared {
         let mut comparison = Comparison::new(self.study(), &self.data, &fit);
         let closed = self.closed_backlash(bench, version, &fit);
@@ -246,7 +272,8 @@ impl Measured<'_> {
         Compared {
             fit,
             comparison,
-            given_up,
+            given_up: None,
+            promised,
         }
     }
 
@@ -335,6 +362,14 @@ const SMOOTH: Effort = Effort {
     share: 3e-4,
     gain: 0.1,
 };
+
+/// Part of the misfit beyond noise that a fit of an effect more may leave of ln posterior: what such a fit is asked is how much the effect takes away.
+pub(super) const FAR_SHARE: f64 = 2e-3;
+
+/// Whether an effect multiplies the work of fine elements: by the slices of the face, or by the teeth that differ.
+fn multiplies_work(effect: &EffectSpec) -> bool {
+    effect.acts_across_the_face() || effect.acts_on_teeth()
+}
 
 /// Steps after which it is looked at whether a fit is hopeless.
 const LOOK_STEPS: usize = 6;

@@ -59,17 +59,18 @@ impl<'m> Missed<'m> {
             .filter(|share| *share < HOPELESS)
     }
 
-    /// Whether the analytic model promises that an effect explains some of it, however badly `fit` does; also where it cannot tell.
-    pub(super) fn may_be_explained(
+    /// Whether a cheaper model promises that an effect explains some of it, by χ² `promised` where it was asked already; also where it cannot tell.
+    pub(super) fn promises(
         &self,
         measured: &Measured<'_>,
         version: &ModelVersion,
-        fit: &Fit,
+        promised: Option<f64>,
     ) -> bool {
         let share = || {
-            let base = self.base(measured)?.square;
-            let promised = measured.promised(version, self.base(measured)?, Vec::new())?;
-            Some((base - promised) / (base - measured.misfit(fit).points))
+            let base = self.base(measured)?;
+            let promised = promised.or_else(|| measured.promised(version, base, Vec::new()))?;
+            let noise = measured.fitted_points() as f64;
+            Some((base.square - promised) / (base.square - noise))
         };
         share().is_none_or(|share| share > HOPELESS)
     }

@@ -1,7 +1,7 @@
 //! A model as a fit takes it: its effects, and what is free in them.
 
 use crate::learn::parameters::Parameter;
-use crate::study::{EffectModel, EffectSpec, FreeParameter, Study};
+use crate::study::{EffectModel, EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
 
 /// One version of a model: its effects, and what of it a fit may adjust.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +47,45 @@ impl ModelVersion {
         }
         self
     }
+
+    /// Whether a fit would begin at values that somebody has chosen or fitted, not at those of the catalogue.
+    pub(in crate::learn) fn is_chosen(&self) -> bool {
+        let specs = self.effects.specs();
+        let catalogue = specs
+            .iter()
+            .flat_map(EffectSpec::fitted)
+            .map(|free| free.value);
+        specs.iter().any(EffectSpec::is_stated)
+            || !catalogue.eq(self.free_of_effects().map(|free| free.value))
+    }
+
+    /// The free parameters but k.
+    pub(in crate::learn) fn free_of_effects(&self) -> impl Iterator<Item = &FreeParameter> {
+        let free = self.free.iter();
+        free.filter(|free| free.name != WEAR_COEFFICIENT)
+    }
+
+    /// Those of the effect that joined last.
+    pub(in crate::learn) fn of_last(&self) -> impl Iterator<Item = &FreeParameter> {
+        let last = self.free_of_effects().last().map(effect);
+        (self.free_of_effects()).filter(move |free| Some(effect(free)) == last)
+    }
+
+    /// The version's own values of its free parameters but k.
+    pub(in crate::learn) fn own_values(&self) -> Vec<f64> {
+        self.free_of_effects().map(|free| free.value).collect()
+    }
+
+    /// The priors' medians of the same.
+    pub(in crate::learn) fn medians(&self) -> Vec<f64> {
+        self.free_of_effects()
+            .map(|free| free.prior.median().clamp(free.lower, free.upper))
+            .collect()
+    }
+}
+
+fn effect(free: &FreeParameter) -> &str {
+    free.name.split('.').next().unwrap_or_default()
 }
 
 /// A free parameter of a study as a fit takes it.
