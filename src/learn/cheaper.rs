@@ -23,7 +23,7 @@ const LOOK: Effort = Effort {
     ..Effort::STAY
 };
 /// The same of coarse elements.
-const COARSE_STEPS: usize = 6;
+const COARSE_STEPS: usize = 5;
 /// From so many free parameters of an effect on, places spread over their priors are looked at: so many for each parameter, and so many
 /// for a wave, whose lengths and phases all have valleys of their own.
 const MANY: usize = 3;
@@ -40,7 +40,7 @@ const KEEP: usize = 6;
 pub(super) enum Cheaper {
     /// The analytic contact model, coarsely resolved: a hundredth of the price.
     Analytic,
-    /// Coarse finite elements: a tenth of the price.
+    /// Coarse finite elements: a sixth of the price.
     Coarse,
 }
 
@@ -120,11 +120,14 @@ impl Measured<'_> {
             all.extend(places);
             let mut starts = anchored.nearest(all, KEEP);
             let mut look = LOOK;
-            if cheaper == Cheaper::Coarse {
-                look.iterations = COARSE_STEPS;
-            }
-            if cheaper == Cheaper::Analytic || starts.is_empty() {
-                starts.extend([version.own_values(), version.medians()]);
+            match cheaper {
+                Cheaper::Analytic => starts.extend([version.own_values(), version.medians()]),
+                Cheaper::Coarse => {
+                    look.iterations = COARSE_STEPS;
+                    if starts.is_empty() {
+                        starts.push(version.own_values());
+                    }
+                }
             }
             starts.dedup();
             anchored.fit_from(&starts, &look).ok()

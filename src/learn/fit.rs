@@ -109,6 +109,19 @@ impl Problem<'_> {
         Ok(self.finish(&fit, found, &evaluator))
     }
 
+    /// The same problem, its searches beginning with another k (mm²/N) if that is free; None: the same.
+    pub(super) fn beginning_at(&self, coefficient: Option<f64>) -> Problem<'_> {
+        let mut begins = self.coefficient.clone();
+        if let (Coefficient::Free(k), Some(value)) = (&mut begins, coefficient) {
+            k.start = value.clamp(k.lower, k.upper);
+        }
+        Problem {
+            coefficient: begins,
+            parameters: self.parameters.clone(),
+            ..*self
+        }
+    }
+
     /// Places spread over the priors.
     pub fn places(&self, count: usize) -> Vec<Vec<f64>> {
         let place = |i: usize| -> Vec<f64> {

@@ -5,6 +5,7 @@
 
 use super::cheaper::{Anchor, Cheaper};
 use super::fit::{Problem, Scaled};
+use super::fitted::Fit;
 use super::hypothesis::version::ModelVersion;
 use super::measured::Measured;
 use super::noise::NoiseModel;
@@ -19,8 +20,26 @@ const FAINT: f64 = 0.05;
 pub(super) struct Start {
     /// A value for each free parameter but k.
     pub(super) values: Vec<f64>,
+    /// The cheaper model's fit with these values; None where they are not from one.
+    pub(super) fit: Option<Fit>,
     /// χ² of the fit tests that the cheaper model promises of the fit; None where none was asked.
     pub(super) promised: Option<f64>,
+}
+
+impl Start {
+    /// At values that no cheaper model has found.
+    pub(super) fn at(values: Vec<f64>) -> Self {
+        Self {
+            values,
+            fit: None,
+            promised: None,
+        }
+    }
+
+    /// k to begin with, mm²/N; None: the version's own.
+    pub(super) fn coefficient(&self) -> Option<f64> {
+        self.fit.as_ref().map(|fit| fit.coefficient)
+    }
 }
 
 impl Measured<'_> {
@@ -57,18 +76,14 @@ impl Measured<'_> {
         without: Option<&Scaled>,
     ) -> Start {
         let own = version.own_values();
-        let at_own = |own| Start {
-            values: own,
-            promised: None,
-        };
         if version.of_last().count() == 0 {
-            return at_own(own);
+            return Start::at(own);
         }
         let (anchor, least) = match (without, faint(version)) {
             (Some(without), Some(place)) => (Anchor::at(place, without.clone()), None),
             (_, faint) => {
                 let Some(fine) = problem.scaled(&own) else {
-                    return at_own(own);
+                    return Start::at(own);
                 };
                 let least = fine.square;
                 let faint = faint.and_then(|place| Some((problem.scaled(&place)?, place)));
@@ -81,23 +96,29 @@ impl Measured<'_> {
         };
         let cheaper = Cheaper::that_starts(version);
         let Some(found) = self.cheaper_fit(cheaper, version, problem.noise, &anchor, places) else {
-            return at_own(own);
+            return Start::at(own);
         };
         let promised = self.misfit(&found).square;
-        let parameters = found.parameters.into_iter();
+        let parameters = found.parameters.iter();
         let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
         let values: Vec<f64> = values.map(|p| p.value).collect();
         let nearer = |least| {
-            let scaled = problem.scaled(&values);
+            let begins = problem.beginning_at(Some(found.coefficient));
+            let scaled = begins.scaled(&values);
             scaled.is_some_and(|scaled| scaled.square < least)
         };
-        Start {
-            values: if least.is_none_or(nearer) {
-                values
-            } else {
-                own
-            },
-            promised: Some(promised),
+        let promised = Some(promised);
+        if least.is_none_or(nearer) {
+            Start {
+                values,
+                fit: Some(found),
+                promised,
+            }
+        } else {
+            Start {
+                promised,
+                ..Start::at(own)
+            }
         }
     }
 

@@ -294,9 +294,17 @@ impl EffectSpec {
             .collect()
     }
 
-    /// Whether the value of a parameter has been stated.
-    pub fn is_stated(&self) -> bool {
-        self.parameters.iter().any(|parameter| parameter.stated)
+    /// Whether a parameter that a fit adjusts has another value than the catalogue gives it; true of laws that are not from the catalogue.
+    pub fn is_set(&self) -> bool {
+        let Law::Card(card) = &self.law else {
+            return true;
+        };
+        let fitted = |name: &str| self.fitted().iter().any(|free| free.name == name);
+        let Ok(plain) = Self::of_card(card, &[]) else {
+            return true;
+        };
+        let mut both = self.parameters.iter().zip(&plain.parameters);
+        both.any(|(own, plain)| own.value != plain.value && fitted(&own.name))
     }
 
     /// Whether it lets teeth of a member differ.

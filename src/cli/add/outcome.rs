@@ -43,7 +43,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     if let Some(share) = addition.compared.given_up {
         let _ = writeln!(
             text,
-            "  given up early: after a few steps the effect explains {:.0} % of what the model without it misses; it is hardly the one \
+            "  given up early: the effect explains {:.0} % of what the model without it misses; it is hardly the one \
              (gearwear diagnose ranks them all)",
             100.0 * share.max(0.0)
         );
@@ -92,7 +92,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     if !passed_over.is_empty() {
         let _ = writeln!(
             text,
-            "  other forms that the analytic model promises little of were not fitted: {} (--form fits one)",
+            "  other forms that a cheaper model promises little of were not fitted: {} (--form fits one)",
             passed_over.join(", ")
         );
     }

@@ -18,8 +18,8 @@ const LEFT: f64 = 2.0;
 /// Gain of log evidence for which another form is preferred to the effect's own.
 const BETTER: f64 = 3.0;
 
-/// Share of the least misfit beyond noise, of the forms so far or without the effect, that the analytic model may leave of another form where that
-/// misfit is large: finite elements are not asked about forms that leave more.
+/// Share of the least misfit beyond noise, of the forms so far or without the effect, that a cheaper model may leave of another form where that
+/// misfit is large: fine elements are not asked about forms that leave more.
 const PROMISING: f64 = 0.8;
 
 /// A base model with an effect more, in one of its forms.
@@ -41,7 +41,7 @@ pub struct Addition {
     pub compared: Compared,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<Tried>>,
-    /// Forms not tried for the analytic model promises little of them, and all that were tried leave far more than noise.
+    /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
     pub passed_over: Vec<usize>,
 }
 
@@ -130,17 +130,17 @@ pub fn add(
     })
 }
 
-/// Which forms are worth the price of finite elements where all so far leave far more than noise.
+/// Which forms are worth the price of fine elements where all so far leave far more than noise.
 struct Promising<'p> {
     measured: &'p Measured<'p>,
     missed: Option<&'p Missed<'p>>,
-    /// The effect's own form, and χ² that the analytic model promises of it.
+    /// The effect's own form, and χ² that a cheaper model promises of it.
     version: &'p ModelVersion,
     own: OnceCell<Option<f64>>,
 }
 
 impl Promising<'_> {
-    /// Whether the analytic model promises that a form leaves much less than the model without the effect does, and than is `left` so far or it
+    /// Whether a cheaper model promises that a form leaves much less than the model without the effect does, and than is `left` so far or it
     /// promises of the effect's own form; also where it promises nothing.
     fn is(&self, version: &ModelVersion, left: Misfit, places: Vec<Vec<f64>>) -> bool {
         let Some(base) = self.missed.and_then(|missed| missed.base(self.measured)) else {

@@ -180,6 +180,7 @@ impl Measured<'_> {
         let without = missed.filter(|_| dear).and_then(|missed| missed.base(self));
         self.with_problem(bench, version, noise, &told, |problem| {
             let start = self.start_of(problem, version, places, without);
+            let problem = &problem.beginning_at(start.coefficient());
             let from = |start, effort: &Effort| problem.fit_from(&[start], effort);
             let first = match missed {
                 None => from(start.values, &effort)?,
@@ -187,11 +188,13 @@ impl Measured<'_> {
                     let hopeless = |fit: &Fit| missed.hopeless(self, fit);
                     let promised = |start: &Start| missed.promises(self, version, start.promised);
                     let little = without.is_some() && !promised(&start);
-                    let glance = Effort {
-                        iterations: if little { 1 } else { LOOK_STEPS },
-                        ..effort
+                    let glance = (start.fit.as_ref().filter(|_| little))
+                        .and_then(|cheaper| problem.go_on(cheaper, &Effort::STAY).ok())
+                        .filter(|fit| hopeless(fit).is_some());
+                    let mut first = match glance {
+                        Some(fit) => fit,
+                        None => from(start.values.clone(), &look)?,
                     };
-                    let mut first = from(start.values.clone(), &glance)?;
                     if hopeless(&first).is_some() && promised(&start) {
                         // not without a look from elsewhere
                         if let Ok(second) = from(version.medians(), &look)
@@ -247,10 +250,7 @@ impl Measured<'_> {
     ) -> Start {
         let own = version.own_values();
         if version.is_chosen() && own != version.medians() && problem.is_within_noise(&own) {
-            return Start {
-                values: own,
-                promised: None,
-            };
+            return Start::at(own);
         }
         self.start(problem, version, places, without)
     }

@@ -19,7 +19,8 @@ const BADLY_KNOWN: f64 = 0.25;
 /// All that there is to say.
 pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
     let mut warnings = Vec::new();
-    if !fit.converged {
+    // one without a step was given up, which is said where it is
+    if !fit.converged && fit.iterations > 0 {
         warnings.push(format!(
             "the fit did not converge in {} steps",
             fit.iterations

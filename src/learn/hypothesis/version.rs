@@ -51,12 +51,10 @@ impl ModelVersion {
     /// Whether a fit would begin at values that somebody has chosen or fitted, not at those of the catalogue.
     pub(in crate::learn) fn is_chosen(&self) -> bool {
         let specs = self.effects.specs();
-        let catalogue = specs
-            .iter()
-            .flat_map(EffectSpec::fitted)
-            .map(|free| free.value);
-        specs.iter().any(EffectSpec::is_stated)
-            || !catalogue.eq(self.free_of_effects().map(|free| free.value))
+        let own = |spec: &EffectSpec| spec.fitted().into_iter();
+        let stated = specs.iter().flat_map(own).map(|free| free.value);
+        let begins = self.free_of_effects().map(|free| free.value);
+        specs.iter().any(EffectSpec::is_set) || !stated.eq(begins)
     }
 
     /// The free parameters but k.
