@@ -380,6 +380,11 @@ fn a_hopeless_effect_is_given_up_early() {
     assert_eq!(severe["forms"].as_array().unwrap().len(), 1, "{severe}");
     let not_fitted = severe["forms_not_fitted"].as_array().unwrap();
     assert!(!not_fitted.is_empty(), "{severe}");
+    // where slices of the face multiply the work, coarse ones promise nothing of the other forms
+    let lead = fit("lead_misalignment");
+    assert!(lead["given_up_explaining"].is_number(), "{lead}");
+    assert_eq!(lead["forms"].as_array().unwrap().len(), 1, "{lead}");
+    assert_eq!(lead["warnings"], serde_json::json!([]), "{lead}");
 }
 
 /// A folder with the example of a hidden effect.

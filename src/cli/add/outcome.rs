@@ -83,7 +83,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
         let _ = writeln!(
             text,
             "  form of the law: {chosen} (chi2 per point by form: {})",
-            each.join(", ")
+            each.join("; ")
         );
     }
     let passed_over: Vec<&str> = (addition.passed_over.iter())
@@ -93,7 +93,8 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
         let _ = writeln!(
             text,
             "  other forms that a cheaper model promises little of were not fitted: {} (--form fits one)",
-            passed_over.join(", ")
+            // some names have commas of their own
+            passed_over.join("; ")
         );
     }
     for suspect in &comparison.sanity {
