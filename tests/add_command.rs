@@ -385,6 +385,10 @@ fn a_hopeless_effect_is_given_up_early() {
     assert!(lead["given_up_explaining"].is_number(), "{lead}");
     assert_eq!(lead["forms"].as_array().unwrap().len(), 1, "{lead}");
     assert_eq!(lead["warnings"], serde_json::json!([]), "{lead}");
+    // what was not followed to its end has no interval
+    for parameter in [&severe, &lead].map(|fit| &fit["parameters"][1]) {
+        assert!(parameter["interval_95"].is_null(), "{parameter}");
+    }
 }
 
 /// A folder with the example of a hidden effect.

@@ -46,19 +46,20 @@ impl Measured<'_> {
     /// The version with a wear coefficient, if that is free, near the measured one: a first guess may be far off, and the analytic model
     /// sets it right at a hundredth of the price of finite elements.
     pub(super) fn sized(&self, version: &ModelVersion) -> ModelVersion {
-        let mut version = version.clone();
+        let mut sized = version.clone();
+        let mut free = sized.free.iter_mut();
+        let Some(k) = free.find(|free| free.name == WEAR_COEFFICIENT) else {
+            return sized;
+        };
         let noise = NoiseModel::of(&self.study().noise);
         let own = version.own_values();
-        let sized = self.by(Cheaper::Analytic, &version, noise, |analytic| {
+        let measured = self.by(Cheaper::Analytic, version, noise, |analytic| {
             Some(analytic.scaled(&own)?.coefficient)
         });
-        let mut free = version.free.iter_mut();
-        if let Some(k) = free.find(|free| free.name == WEAR_COEFFICIENT)
-            && let Some(sized) = sized
-        {
-            k.value = sized.clamp(k.lower, k.upper);
+        if let Some(measured) = measured {
+            k.value = measured.clamp(k.lower, k.upper);
         }
-        version
+        sized
     }
 
     /// Where a fit of a version's `problem` is to start: where a cheaper model's own fit to the measurements ends, from the best of `places` and of
@@ -99,15 +100,13 @@ impl Measured<'_> {
             return Start::at(own);
         };
         let promised = self.misfit(&found).square;
-        let parameters = found.parameters.iter();
-        let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
-        let values: Vec<f64> = values.map(|p| p.value).collect();
+        let values = of_effects(&found);
         let nearer = |least| {
             let begins = problem.beginning_at(Some(found.coefficient));
             let scaled = begins.scaled(&values);
             scaled.is_some_and(|scaled| scaled.square < least)
         };
-        let promised = Some(promised);
+        let promised = Some(promised).filter(|_| cheaper == Cheaper::that_promises(version));
         if least.is_none_or(nearer) {
             Start {
                 values,
@@ -132,10 +131,27 @@ impl Measured<'_> {
     ) -> Option<f64> {
         let noise = NoiseModel::of(&self.study().noise);
         let anchor = Anchor::at(faint(version)?, without.clone());
-        let cheaper = Cheaper::that_promises(version);
-        let fit = self.cheaper_fit(cheaper, version, noise, &anchor, places)?;
+        let (starts, promises) = (
+            Cheaper::that_starts(version),
+            Cheaper::that_promises(version),
+        );
+        let mut places = places;
+        // valleys are told apart by the model that starts fits
+        if starts != promises
+            && let Some(found) = self.cheaper_fit(starts, version, noise, &anchor, places.clone())
+        {
+            places.push(of_effects(&found));
+        }
+        let fit = self.cheaper_fit(promises, version, noise, &anchor, places)?;
         Some(self.misfit(&fit).square)
     }
+}
+
+/// Values of a fit's parameters but k.
+fn of_effects(fit: &Fit) -> Vec<f64> {
+    let parameters = fit.parameters.iter();
+    let values = parameters.filter(|p| p.name != WEAR_COEFFICIENT);
+    values.map(|p| p.value).collect()
 }
 
 /// The version's own values with hardly any of the effect that joined last; None if it has no strength to take away.

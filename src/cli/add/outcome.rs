@@ -61,6 +61,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     if let Some(chi2) = chi2(&comparison.holdout) {
         let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
     }
+    // semicolons between forms: some names have commas of their own
     let tried: Vec<Value> = (drafts.iter().zip(&addition.tried))
         .filter_map(|(draft, tried)| {
             let tried = (*tried)?;
@@ -93,7 +94,6 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
         let _ = writeln!(
             text,
             "  other forms that a cheaper model promises little of were not fitted: {} (--form fits one)",
-            // some names have commas of their own
             passed_over.join("; ")
         );
     }

@@ -33,6 +33,16 @@ pub struct Compared {
     pub(super) promised: Option<f64>,
 }
 
+impl Compared {
+    /// The same where a fit ended before its last decimals: some standard deviations may be left to go.
+    fn without_intervals(mut self) -> Self {
+        for parameter in &mut self.comparison.parameters {
+            parameter.interval_95 = None;
+        }
+        self
+    }
+}
+
 /// What a comparison is at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Doing {
@@ -185,30 +195,16 @@ impl Measured<'_> {
             let first = match missed {
                 None => from(start.values, &effort)?,
                 Some(missed) => {
-                    let hopeless = |fit: &Fit| missed.hopeless(self, fit);
-                    let promised = |start: &Start| missed.promises(self, version, start.promised);
-                    let little = without.is_some() && !promised(&start);
-                    let glance = (start.fit.as_ref().filter(|_| little))
-                        .and_then(|cheaper| problem.go_on(cheaper, &Effort::STAY).ok())
-                        .filter(|fit| hopeless(fit).is_some());
-                    let mut first = match glance {
-                        Some(fit) => fit,
-                        None => from(start.values.clone(), &look)?,
-                    };
-                    if hopeless(&first).is_some() && promised(&start) {
-                        // not without a look from elsewhere
-                        if let Ok(second) = from(version.medians(), &look)
-                            && second.log_posterior > first.log_posterior
-                        {
-                            first = second;
-                        }
-                    }
-                    match hopeless(&first) {
+                    let little =
+                        without.is_some() && !missed.promises(self, version, start.promised);
+                    let first = self.look(problem, version, missed, &start, little, &look)?;
+                    match missed.hopeless(self, &first) {
                         Some(share) => {
                             let first = problem.judged(first, &effort)?;
+                            let compared = self.compared(bench, version, first, start.promised);
                             return Ok(Compared {
                                 given_up: Some(share),
-                                ..self.compared(bench, version, first, start.promised)
+                                ..compared.without_intervals()
                             });
                         }
                         None if first.converged => first,
@@ -231,13 +227,42 @@ impl Measured<'_> {
             let fit = second
                 .filter(|second| second.log_posterior > first.log_posterior + effort.tolerance)
                 .unwrap_or(first);
-            let fit = if is_far(&fit) {
-                problem.judged(fit, &effort)?
-            } else {
-                self.refined(bench, version, problem, fit, &effort, &told)?
-            };
+            if is_far(&fit) {
+                let fit = problem.judged(fit, &effort)?;
+                let compared = self.compared(bench, version, fit, start.promised);
+                return Ok(compared.without_intervals());
+            }
+            let fit = self.refined(bench, version, problem, fit, &effort, &told)?;
             Ok(self.compared(bench, version, fit, start.promised))
         })
+    }
+
+    /// A look at a fit against what the model without its last effect `missed`: where a cheaper model promises `little` at that model's end, else some steps
+    /// from `start`, and if these are hopeless though more is promised, from the priors' medians too.
+    fn look(
+        &self,
+        problem: &Problem<'_>,
+        version: &ModelVersion,
+        missed: &Missed<'_>,
+        start: &Start,
+        little: bool,
+        look: &Effort,
+    ) -> Result<Fit, FitError> {
+        let is_hopeless = |fit: &Fit| missed.hopeless(self, fit).is_some();
+        if little
+            && let Some(cheaper) = &start.fit
+            && let Ok(fit) = problem.go_on(cheaper, &Effort::STAY)
+            && is_hopeless(&fit)
+        {
+            return Ok(fit);
+        }
+        let first = problem.fit_from(std::slice::from_ref(&start.values), look)?;
+        if is_hopeless(&first) && missed.promises(self, version, start.promised) {
+            let second = problem.fit_from(&[version.medians()], look).ok();
+            let better = second.filter(|second| second.log_posterior > first.log_posterior);
+            return Ok(better.unwrap_or(first));
+        }
+        Ok(first)
     }
 
     /// Values that somebody has chosen or fitted, for they may leave nothing to look for, or else what a cheaper model finds.

@@ -89,7 +89,7 @@ pub struct ParameterRecord {
     pub sigma: f64,
     /// Whether it lies on a bound.
     pub at_bound: bool,
-    /// 95 % interval; None where the fit supports none: it did not converge, or its value lies outside.
+    /// 95 % interval; None where the fit supports none: it did not converge, was given up or ended far from the measurements, or its value lies outside.
     pub interval_95: Option<[f64; 2]>,
     /// Unit.
     pub unit: String,

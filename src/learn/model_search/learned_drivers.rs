@@ -136,15 +136,16 @@ pub(in crate::learn) fn learned_driver(
     best_first(&mut found);
     let gain = |fit: &LearnedFit| fit.log_evidence - without.log_evidence;
     let ((law, best), others) = found.split_first()?;
-    if gain(best) < LEAST_GAIN {
-        return None;
-    }
     let both = |role| {
         Some([
             chi2(measured, &without, role)?,
             chi2(measured, &best.fit, role)?,
         ])
     };
+    let fitted = both(Role::Fit)?;
+    if !is_worth(gain(best), fitted) {
+        return None;
+    }
     Some(LearnedAnswer {
         name: law.name(),
         acts: law.hook.name().to_owned(),
@@ -160,7 +161,7 @@ pub(in crate::learn) fn learned_driver(
         sigma: deviations(&best.law, &best.fit),
         size: best.law.size,
         length: best.law.length,
-        fit_chi2_per_point: both(Role::Fit)?,
+        fit_chi2_per_point: fitted,
         holdout_chi2_per_point: both(Role::Holdout),
         decided_by: Fidelity::Screening,
         others: (others.iter())
@@ -172,10 +173,29 @@ pub(in crate::learn) fn learned_driver(
     })
 }
 
+/// Whether a law is worth its freedom: by its gain of ln evidence, and since it lowers χ² per point of the fit tests. Evidence alone may rise while the
+/// residuals grow, where their correlated model error takes up what the law leaves.
+fn is_worth(gain: f64, [before, after]: [f64; 2]) -> bool {
+    gain >= LEAST_GAIN && after < before
+}
+
 /// χ² per point of the tests with a role; None if they have no points.
 fn chi2(measured: &Measured<'_>, fit: &Fit, role: Role) -> Option<f64> {
     let rows = measured.data.observations.iter().zip(&fit.rows);
     let own = rows.filter(|(o, _)| measured.roles[o.test] == role);
     let squares: Vec<f64> = own.map(|(_, row)| row.standardised.powi(2)).collect();
     (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / squares.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A law that raises χ² is never offered, whatever its evidence; nor one that gains little.
+    #[test]
+    fn laws_that_leave_more_are_not_offered() {
+        assert!(is_worth(111.0, [6.91, 3.0]));
+        assert!(!is_worth(111.0, [6.91, 7.55]));
+        assert!(!is_worth(0.5 * LEAST_GAIN, [6.91, 3.0]));
+    }
 }

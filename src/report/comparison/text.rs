@@ -246,6 +246,10 @@ fn next(lines: &mut Vec<String>, result: &super::Result<'_>) {
             "           gearwear add {name} EFFECT   if you know it; `gearwear effects` lists them"
         ));
     } else {
-        lines.push("next:      nothing is missing that these measurements could show".to_owned());
+        // a trend over many points can be certain where no single place stands out
+        let name = result.name;
+        lines.push(format!(
+            "next:      no place stands out; gearwear diagnose {name} looks for trends weaker than the noise of a point"
+        ));
     }
 }

@@ -66,10 +66,19 @@ pub fn conclusion(result: &Result<'_>) -> String {
         };
         if b > NO_BETTER * a {
             sentences.push(format!(
-                "From {} to {} the error on {} does not fall ({} to {}): that step explains nothing new.",
+                "From {} to {} the error on {} {} ({} to {}): that step explains nothing new.",
                 before.study,
                 after.study,
-                if after.holdout_chi2_per_point.is_some() { "held-out tests" } else { "the fit tests" },
+                if after.holdout_chi2_per_point.is_some() {
+                    "held-out tests"
+                } else {
+                    "the fit tests"
+                },
+                if b < a {
+                    "falls by too little to count"
+                } else {
+                    "does not fall"
+                },
                 significant(a, 3),
                 significant(b, 3)
             ));
