@@ -7,9 +7,9 @@
 use gearwear::analytic::hertz_line;
 use gearwear::effects::{CATALOGUE, Card, Combined, Surroundings, find};
 use gearwear::simulate::forward::{Conditions, Forward, GearSet};
-use gearwear::simulate::history::{WearState, worn_area};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
+use gearwear::simulate::wear_state::{WearState, worn_area};
 use gearwear::study::Study;
 use gearwear::wear::acting::{Acting, Age, PairLoad};
 use gearwear::wear::factors::{Worn, factors};

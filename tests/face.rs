@@ -10,9 +10,10 @@ use gearwear::contact::fem::FemContact;
 use gearwear::contact::model::ContactModel;
 use gearwear::gear::{Coupling, Face, Lead};
 use gearwear::simulate::forward::{Conditions, Forward, GearSet, Variation};
-use gearwear::simulate::history::{HistoryTangents, Progress, WearState};
+use gearwear::simulate::history::{HistoryTangents, Progress};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
+use gearwear::simulate::wear_state::WearState;
 use gearwear::study::Study;
 
 const STUDY: &str = include_str!("../validation/paper/study.toml");

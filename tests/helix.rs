@@ -9,9 +9,10 @@
 use std::f64::consts::PI;
 
 use gearwear::simulate::forward::{Conditions, Forward, GearSet, Variation};
-use gearwear::simulate::history::{HistoryTangents, Progress, WearState};
+use gearwear::simulate::history::{HistoryTangents, Progress};
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
+use gearwear::simulate::wear_state::WearState;
 use gearwear::study::Study;
 use gearwear::verify::contact_and_wear::Effort;
 use gearwear::verify::helical::{self, MODULE, Section, TEETH};

@@ -12,8 +12,8 @@ use std::f64::consts::TAU;
 use gearwear::effects::{Combined, Effect, Hook, Learned, Local, ProfileAt, Surroundings, formula};
 use gearwear::gear::Member;
 use gearwear::simulate::forward::{Conditions, Forward, GearSet};
-use gearwear::simulate::history::{WearState, worn_area};
 use gearwear::simulate::numerics::Numerics;
+use gearwear::simulate::wear_state::{WearState, worn_area};
 use gearwear::study::{LearnedLaw, Study};
 use gearwear::wear::acting::Acting;
 

@@ -24,11 +24,11 @@ use gearwear::paper::{self, Inputs};
 use gearwear::report::models::{document, summary};
 use gearwear::report::write_models;
 use gearwear::simulate::forward::{Conditions, Forward, GearSet};
-use gearwear::simulate::history::line_load;
 use gearwear::simulate::models::{
     Cause, Comparison, Kind, Mounted, Prescribed, Quantity, Task, compare,
 };
 use gearwear::simulate::numerics::Numerics;
+use gearwear::simulate::wear_state::line_load;
 use gearwear::wear::archard::ArchardSystem;
 use serde_json::Value;
 

@@ -8,9 +8,10 @@
 
 use gearwear::effects::{Combined, Surroundings, find};
 use gearwear::simulate::forward::{Conditions, Forward, GearSet};
-use gearwear::simulate::history::{Progress, ToothState, WearState};
+use gearwear::simulate::history::Progress;
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
+use gearwear::simulate::wear_state::{ToothState, WearState};
 use gearwear::study::Study;
 use gearwear::verify::contact_and_wear::Effort;
 use gearwear::verify::teeth_in_turn;

@@ -9,7 +9,7 @@ use crate::learn::trajectory::Node;
 use crate::measure::{FacePlace, Observation, Place, Quantity, Subject};
 use crate::numeric::interpolate;
 use crate::simulate::forward::{Forward, ForwardError, GearSet, Variation};
-use crate::simulate::history::worn_area;
+use crate::simulate::wear_state::worn_area;
 use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::Moment;
 use meshing::{Meshing, MeshingTangent};

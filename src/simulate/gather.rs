@@ -8,7 +8,6 @@ use crate::numeric::{Vec2, interpolate};
 use crate::simulate::blanks::DrawnMesh;
 use crate::simulate::fields::{MemberFields, Surfaces};
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
-use crate::simulate::history::{SliceState, WearState, line_load, worn_area};
 use crate::simulate::members::MemberError;
 use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
@@ -18,6 +17,7 @@ use crate::simulate::result::{
 use crate::simulate::run::Plan;
 use crate::simulate::touching_strip::TouchingStrip;
 use crate::simulate::turn::alike_over_a_turn;
+use crate::simulate::wear_state::{SliceState, WearState, line_load, worn_area};
 use crate::wear::passage::Passage;
 
 /// What was asked for.

@@ -20,4 +20,5 @@ pub mod root_stress;
 pub mod run;
 pub mod touching_strip;
 mod turn;
+pub mod wear_state;
 pub mod worn_away;

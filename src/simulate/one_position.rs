@@ -5,9 +5,9 @@ use crate::contact::fem::{CycleCompliance, FemContact};
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactModel, PositionContact};
 use crate::simulate::forward::{Conditions, ForwardError, GearSet};
-use crate::simulate::history::line_load;
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
+use crate::simulate::wear_state::line_load;
 
 /// One solved mesh position.
 pub struct OnePosition {

@@ -7,8 +7,8 @@ use crate::fem::largest_principal;
 use crate::gear::Gear;
 use crate::mesh::{Mesh, boundary_edges};
 use crate::simulate::forward::{Forward, ForwardError};
-use crate::simulate::history::{WearState, line_load};
 use crate::simulate::result::RootStress;
+use crate::simulate::wear_state::{WearState, line_load};
 
 /// The largest first principal stress in the loaded fillet of pinion and gear over the mesh cycle; `None` for a model without a mesh.
 ///

@@ -10,11 +10,12 @@ use crate::mesh::Quality;
 use crate::simulate::checkpoint::{Checkpoint, Stored};
 use crate::simulate::forward::{Conditions, ContactKind, Forward, ForwardError, Fresh, GearSet};
 use crate::simulate::gather;
-use crate::simulate::history::{Progress, StepReport, WearState};
+use crate::simulate::history::{Progress, StepReport};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
 use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, RootStress, Run, State};
 use crate::simulate::root_stress;
+use crate::simulate::wear_state::WearState;
 use crate::simulate::worn_away::WornAway;
 use crate::wear::acting::Acting;
 

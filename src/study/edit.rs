@@ -254,8 +254,8 @@ impl Edit<'_> {
         let study = self.study;
         let numerics = &study.numerics;
         let paths = [
-            (super::PROFILE_KEYS[0], &study.profiles[0]),
-            (super::PROFILE_KEYS[1], &study.profiles[1]),
+            (super::named_files::PROFILE_KEYS[0], &study.profiles[0]),
+            (super::named_files::PROFILE_KEYS[1], &study.profiles[1]),
             ("measurements.file", &study.measurements),
             ("measurements.tests", &study.tests_file),
             ("numerics.mesh_pinion", &numerics.mesh_pinion),

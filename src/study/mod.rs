@@ -20,6 +20,7 @@ mod gears;
 mod key_docs;
 mod learned;
 mod materials;
+mod named_files;
 mod numerics;
 mod operation;
 mod profile;
@@ -82,9 +83,6 @@ const ROOT_KEYS: &[&str] = &[
     "teeth",
     "numerics",
 ];
-
-/// The keys that name measured profiles, pinion and gear.
-const PROFILE_KEYS: [&str; 2] = ["gears.pinion.profile_file", "gears.gear.profile_file"];
 
 /// Every table with its keys, in the order of the contract.
 pub const KEYS: &[(&str, &[&str])] = &[
@@ -372,114 +370,6 @@ impl Study {
                 Err(StudyError::new(diagnostic.with_span(span), source))
             }
         }
-    }
-
-    /// The files that the study names.
-    pub fn inputs(&self) -> Vec<&Path> {
-        let meshes = [&self.numerics.mesh_pinion, &self.numerics.mesh_gear];
-        let all = meshes
-            .into_iter()
-            .chain(&self.profiles)
-            .chain(&self.leads)
-            .chain(&self.pitches)
-            .chain([&self.measurements, &self.tests_file]);
-        all.filter_map(Option::as_deref).collect()
-    }
-
-    /// The study with what the files hold that it names.
-    fn with_files(self) -> std::result::Result<Study, StudyError> {
-        self.with_profiles()?
-            .with_leads()?
-            .with_pitches()?
-            .with_slices()
-    }
-
-    /// The study with the measured profiles on its flanks.
-    fn with_profiles(mut self) -> std::result::Result<Study, StudyError> {
-        for (side, key) in PROFILE_KEYS.into_iter().enumerate() {
-            let Some(path) = &self.profiles[side] else {
-                continue;
-            };
-            self.needs_file(key, path, "profile")?;
-            let gear = [&mut self.gears.pinion, &mut self.gears.gear]
-                .into_iter()
-                .nth(side);
-            if let Some(gear) = gear {
-                gear.set_profile(&profile::load(path, gear)?);
-            }
-        }
-        Ok(self)
-    }
-
-    /// The study, if its contact model knows slices, and either these or teeth that differ.
-    fn with_slices(self) -> std::result::Result<Study, StudyError> {
-        let sliced = match self.contact {
-            ContactKind::Fem => true,
-            // of spur gears an effect across the face is a factor on the load of one section there
-            ContactKind::Hertz => self.gears.pinion.helix_angle != 0.0,
-            ContactKind::Paper => false,
-        };
-        if !sliced {
-            self.one_section(&format!("contact = \"{}\"", self.contact.name()))?;
-        }
-        if self.contact == ContactKind::Paper {
-            self.teeth_alike("contact = \"paper\"")?;
-        }
-        if !self.teeth.are_alike() {
-            self.one_section("teeth that differ ([teeth])")?;
-        }
-        let of_teeth = |spec: &&EffectSpec| spec.acts_on_teeth();
-        if let Some(spec) = self.effects.specs().iter().find(of_teeth) {
-            self.one_section(&format!("the effect {}", spec.name))?;
-        }
-        Ok(self)
-    }
-
-    /// Refuses a key that names a file of this kind where there is none.
-    fn needs_file(
-        &self,
-        key: &str,
-        path: &Path,
-        kind: &str,
-    ) -> std::result::Result<(), StudyError> {
-        if path.is_file() {
-            return Ok(());
-        }
-        Err(self.refuse(
-            key,
-            &format!("there is no file {}", path.display()),
-            &format!("the path of a {kind} file, relative to the study file"),
-            "",
-        ))
-    }
-
-    /// The study with the measured pitch deviations of its teeth.
-    fn with_pitches(mut self) -> std::result::Result<Study, StudyError> {
-        for (side, key) in teeth::PITCH_KEYS.into_iter().enumerate() {
-            let Some(path) = &self.pitches[side] else {
-                continue;
-            };
-            self.needs_file(key, path, "pitch")?;
-            let gear = [&self.gears.pinion, &self.gears.gear][side];
-            let chart = profile::load_pitch(path, gear)?;
-            let back = &mut self.teeth.back[side];
-            back.resize(chart.len(), 0.0);
-            back.iter_mut().zip(chart).for_each(|(b, c)| *b += c);
-        }
-        Ok(self)
-    }
-
-    /// The study with the measured leads of its flanks.
-    fn with_leads(mut self) -> std::result::Result<Study, StudyError> {
-        for (side, key) in face::LEAD_KEYS.into_iter().enumerate() {
-            let Some(path) = &self.leads[side] else {
-                continue;
-            };
-            self.needs_file(key, path, "lead")?;
-            let rows = profile::load_lead(path, self.gears.face_width, &self.gears.pinion)?;
-            self.face.lead[side].measured = rows;
-        }
-        Ok(self)
     }
 
     fn sections(source: &Source, folder: &Path) -> Result<(Study, Spans)> {

@@ -13,9 +13,9 @@ use crate::gear::Member;
 use crate::measure::{Observation, Quantity};
 use crate::numeric::interpolate;
 use crate::simulate::forward::Forward;
-use crate::simulate::history::{WearState, worn_area};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
+use crate::simulate::wear_state::{WearState, worn_area};
 use crate::study::{Study, Wear};
 use crate::verify::Measured;
 

@@ -2,8 +2,9 @@
 
 use crate::gear::Member;
 use crate::simulate::forward::{ContactKind, Forward, Preparation};
-use crate::simulate::history::{Progress, line_load};
+use crate::simulate::history::Progress;
 use crate::simulate::touching_strip::TouchingStrip;
+use crate::simulate::wear_state::line_load;
 use crate::verify::{CaseError, Measured};
 
 /// Distance from the pitch point up to which peak pressures are held to the tighter bound, mm along the path of contact.

@@ -9,9 +9,9 @@ use crate::gear::{BasicRack, Gear, Pair, ToothSpec};
 use crate::material::Elastic;
 use crate::numeric::{Vec2, rotate};
 use crate::simulate::forward::GearSet;
-use crate::simulate::history::line_load;
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
+use crate::simulate::wear_state::line_load;
 use crate::verify::CaseError;
 
 /// A gear pair with its nominal load.

@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use crate::simulate::forward::Forward;
-use crate::simulate::history::WearState;
+use crate::simulate::wear_state::WearState;
 use crate::study::Study;
 use crate::verify::contact_and_wear::Effort;
 use crate::verify::{CaseError, Measured};

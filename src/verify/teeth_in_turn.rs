@@ -6,9 +6,9 @@
 
 use crate::effects::{Combined, Surroundings, find};
 use crate::simulate::forward::{Conditions, Forward, GearSet};
-use crate::simulate::history::{WearState, line_load};
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
+use crate::simulate::wear_state::{WearState, line_load};
 use crate::study::Study;
 use crate::verify::contact_and_wear::Effort;
 use crate::verify::{CaseError, Measured};

@@ -4,7 +4,7 @@ use crate::contact::model::PositionContact;
 use crate::contact::tangent::ContactTangent;
 use crate::learn::trajectory::Node;
 use crate::simulate::forward::{Forward, ForwardError, Variation};
-use crate::simulate::history::mean_contacts;
+use crate::simulate::wear_state::mean_contacts;
 use crate::wear::passage::{Moment, Passage};
 
 /// What follows from the contacts of a worn state.

@@ -3,9 +3,9 @@
 use super::{ContactKind, Forward, ForwardError, Preparation, Variation};
 use crate::contact::model::PositionContact;
 use crate::simulate::history::{
-    Balancing, HistoryTangents, Progress, StepReport, WearLaw, WearState, contacts_at,
-    mean_contacts, state_of, wear_with_tangents,
+    Balancing, HistoryTangents, Progress, StepReport, WearLaw, wear_with_tangents,
 };
+use crate::simulate::wear_state::{WearState, contacts_at, mean_contacts, state_of};
 use crate::wear::archard::WearError;
 use crate::wear::integrator::StepError;
 
@@ -129,7 +129,7 @@ impl Forward<'_> {
     /// # Errors
     /// [`ForwardError`] if a contact cannot be solved.
     pub fn state(&self, progress: &Progress) -> Result<WearState, ForwardError> {
-        Ok(self.with_model(|model| state_of(model, progress))??)
+        Ok(self.with_model(|model| state_of(model, &progress.stand, progress.displaced()))??)
     }
 
     /// The contact of every position at the depths `u` (mm at the stations of pinion and gear), looked for as widely as it takes; of several

@@ -7,7 +7,7 @@ use crate::contact::frame::Touch;
 use crate::contact::model::PositionContact;
 use crate::gear::{Member, Pair, Region};
 use crate::numeric::interpolate;
-use crate::simulate::history::line_load;
+use crate::simulate::wear_state::line_load;
 
 /// Places per part at which curves are compared: the midpoints of as many equal steps.
 pub(super) const PLACES: usize = 200;

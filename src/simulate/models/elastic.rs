@@ -10,9 +10,9 @@ use crate::contact::fem::FemContact;
 use crate::contact::frame::Touch;
 use crate::contact::model::{ContactModel, PositionContact};
 use crate::simulate::forward::{Conditions, Forward, ForwardError, GearSet};
-use crate::simulate::history::WearState;
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
+use crate::simulate::wear_state::WearState;
 use crate::wear::archard::ArchardSystem;
 use crate::wear::integrator::WearSystem;
 

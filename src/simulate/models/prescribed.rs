@@ -10,7 +10,7 @@ use crate::contact::frame::Touch;
 use crate::contact::model::{ContactError, ContactModel, PositionContact};
 use crate::contact::slices::Flanks;
 use crate::contact::tangent::{Given, LinearContact};
-use crate::simulate::history::line_load;
+use crate::simulate::wear_state::line_load;
 
 /// Hertz contact under prescribed line loads; wear does not change it.
 #[derive(Debug, Clone)]
