@@ -94,6 +94,11 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             significant(mesh.edges_per_half_width, 2)
         ));
     }
+    if let Some([mesh, _]) = &run.mesh
+        && mesh.element == "T3"
+    {
+        lines.push(format!("  note: {LINEAR}"));
+    }
     lines.extend(few_slices(run).map(|words| format!("  note: {words}")));
     if run.geometry.helix.is_some() {
         lines.push(format!("  note: {HELICAL_SLICES}"));
@@ -140,6 +145,10 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
 
 /// Edges per half width below which peak pressures of new flanks are more than some per cent off.
 const FEW_EDGES: f64 = 3.0;
+
+/// What to say of linear elements; figures of `gearwear init` with `order = 1` and 2, one `gearwear run` each.
+const LINEAR: &str = "linear elements (numerics.order = 1): peak pressures of new flanks came out 13 % high on the pair of a published study, 6 % once worn; \
+     depths and the transmission error are within 3 %";
 
 /// Slices of helical gears for each base pitch of overlap below which depths and the swing of the lag are some per cent off (guide/face.md).
 const FEW_SLICES: f64 = 5.0;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde_json::Value;
 
-use super::home::{FEM, number};
+use super::home::{FEM, Home, STUDY, number};
 
 /// The same digits; these tests' JSON reader may be off by one in the last place.
 fn assert_same(in_json: f64, in_table: f64) {
@@ -333,4 +333,20 @@ fn the_terminal_gets_the_figures_and_json_the_summary() {
         document.as_object_mut().unwrap().remove("cost");
     }
     assert_eq!(printed, written);
+}
+
+/// Linear elements are said to be rough, quadratic ones not.
+#[test]
+fn linear_elements_come_with_a_note() {
+    for (order, said) in [("order = 1", true), ("order = 2", false)] {
+        let home = Home::with(&[]);
+        home.write("study.toml", &STUDY.replace("order = 1", order));
+        let answer = home.succeed("run study.toml -o out");
+        assert_eq!(
+            answer.out.contains("note: linear elements"),
+            said,
+            "{}",
+            answer.out
+        );
+    }
 }
