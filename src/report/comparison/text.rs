@@ -246,10 +246,10 @@ fn next(lines: &mut Vec<String>, result: &super::Result<'_>) {
             "           gearwear add {name} EFFECT   if you know it; `gearwear effects` lists them"
         ));
     } else {
-        // a trend over many points can be certain where no single place stands out
+        // a trend over many points can be certain below the noise of each
         let name = result.name;
         lines.push(format!(
-            "next:      no place stands out; gearwear diagnose {name} looks for trends weaker than the noise of a point"
+            "next:      χ² per point is that of noise; gearwear diagnose {name} looks for trends weaker than that"
         ));
     }
 }
