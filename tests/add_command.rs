@@ -370,7 +370,32 @@ fn a_hopeless_effect_is_given_up_early() {
     let explained = |effect: &str| fit(effect)["given_up_explaining"].as_f64();
     let share = explained("tip_relief").expect("the profile does not run in");
     assert!((-0.2..0.1).contains(&share), "{share}");
-    assert_eq!(explained("running_in"), None);
+    // the right effect beside the model without it; on top of that another betters nothing
+    let right = fit("running_in");
+    assert!(right["given_up_explaining"].is_null(), "{right}");
+    let (_, out, _) = gearwear(&home, &["compare", "made/start.toml", "--json", "--quiet"]);
+    let base: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let number = |of: &serde_json::Value, pointer: &str| of.pointer(pointer).unwrap().as_f64();
+    let without = number(&right, "/without_chi2_per_point").unwrap();
+    let compared = number(&base, "/fit/chi2_per_point").unwrap();
+    assert!(
+        (without / compared - 1.0).abs() < 1e-3,
+        "{without} {compared}"
+    );
+    write("made/known.toml", study(&format!("{hidden}{measured}")));
+    let (_, out, _) = gearwear(&home, &["add", "made/known.toml", "tip_relief"]);
+    assert!(
+        out.contains("(without it ") && out.contains("leave it out"),
+        "{out}"
+    );
+    // a name that is wrong is told before a file that stands in the way
+    let misspelt = ["add", "made/known.toml", "tip_relief", "--set", "lenght=3"];
+    let (code, _, err) = gearwear(&home, &misspelt);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("lenght") && !err.contains("there already"),
+        "{err}"
+    );
     let again = ["add", "made/start.toml", "tip_relief", "--force"];
     let (_, out, _) = gearwear(&home, &again);
     assert!(out.contains("given up early"), "{out}");

@@ -220,6 +220,13 @@ fn what_was_put_in_is_found_and_only_the_right_effect_helps() {
     for key in ["value", "sigma", "at_bound", "name"] {
         assert!(!steps[1]["parameters"][1][key].is_null(), "{key}");
     }
+    // rivals are judged against what both add to
+    for rival in [1, 2] {
+        let against = &steps[rival]["against"];
+        assert_eq!(against, "try/base.toml", "{steps}");
+        let factor = number(&steps, &format!("/{rival}/improvement/holdout_factor"));
+        assert!((factor - held[0] / held[rival]).abs() < 1e-9 * factor);
+    }
     // a member's own k is part of a version
     let text = fs::read_to_string(folder.join("base.toml")).unwrap();
     fs::write(

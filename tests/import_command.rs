@@ -292,8 +292,8 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         ),
         (
             "radius;100000\n26;1\n",
-            "import table.csv --study study.toml --test A",
-            "--sigma states one standard deviation",
+            "import table.csv --study study.toml --test A --sigma -0.1",
+            "--sigma -0.1: one standard deviation",
         ),
         (
             "radius;2000000\n26;1\n",
@@ -374,6 +374,117 @@ fn a_check_tells_what_was_understood_and_what_could_be_concluded() {
         told.contains("check first: wear_depth has the other sign"),
         "{told}"
     );
+}
+
+/// Rows of a measurement file, changed one by one, the header as it is.
+fn changed(text: &str, change: impl Fn(&mut Vec<String>)) -> String {
+    let rows = text.lines().map(|row| {
+        let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+        if cells.len() > 6 && cells[0] != "test" {
+            change(&mut cells);
+        }
+        cells.join(",") + "\n"
+    });
+    rows.collect()
+}
+
+#[test]
+fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
+    let home = home();
+    succeed(&home, "synthesize study.toml -o data --seed 2 --noise 0.05");
+    let good = read(&home, "data/measurements.csv");
+    let told = |text: &str| {
+        fs::write(home.path().join("m.csv"), text).unwrap();
+        succeed(&home, "check study.toml")
+    };
+    let right = told(&good);
+    assert!(
+        right.contains("signs, units and zeros look right") && !right.contains("warning:"),
+        "{right}"
+    );
+    let of_gear = changed(&good, |cells| {
+        if cells[1] == "gear" {
+            cells[2] = (cells[2].parse::<f64>().unwrap() * 27.0 / 53.0).to_string();
+        }
+    });
+    let said = told(&of_gear);
+    assert!(
+        said.contains("the gear's rows stand at 27/53 of the pinion's cycles"),
+        "{said}"
+    );
+    let depths = |row: &&str| row.contains("wear_depth");
+    let again: String = good
+        .lines()
+        .filter(depths)
+        .take(5)
+        .collect::<Vec<_>>()
+        .join("\n");
+    let again = changed(&again, |cells| cells[6] = "0.3".to_owned());
+    let said = told(&(good.clone() + &again));
+    assert!(said.contains("5 rows say again"), "{said}");
+    // each row's own depth for the largest of its curve
+    let small = changed(&good, |cells| {
+        if cells[3] == "wear_depth" {
+            let value: f64 = cells[5].parse().unwrap();
+            cells[6] = (0.02f64.hypot(0.05 * value)).to_string();
+        }
+    });
+    let said = told(&small);
+    assert!(
+        said.contains("the stated sigma of the depths does not fit"),
+        "{said}"
+    );
+}
+
+/// The analytic model knows too little of what stands over a rotation to find its sign: finite elements are asked.
+#[test]
+fn a_check_finds_a_transmission_error_that_runs_the_other_way() {
+    let home = home();
+    let by_fem = STUDY.replace("contact = \"hertz\"", "contact = \"fem\"");
+    fs::write(home.path().join("study.toml"), by_fem).unwrap();
+    succeed(&home, "synthesize study.toml -o data --seed 2");
+    let turned = changed(&read(&home, "data/measurements.csv"), |cells| {
+        if cells[3] == "transmission_error" {
+            cells[5] = (-cells[5].parse::<f64>().unwrap()).to_string();
+            // of less weight than the depths, which k is then fitted to
+            cells[6] = (8.0 * cells[6].parse::<f64>().unwrap()).to_string();
+        }
+    });
+    fs::write(home.path().join("m.csv"), turned).unwrap();
+    let said = succeed(&home, "check study.toml");
+    assert!(
+        said.contains("check first: transmission_error runs against the computed one"),
+        "{said}"
+    );
+}
+
+/// Without a sigma the column stays empty; a table that was taken already is known again, whatever its sigma.
+#[test]
+fn a_sigma_may_be_left_out_and_hides_no_second_copy() {
+    let home = home();
+    let table = "radius;100000\n26;1.5\n27;1\n";
+    fs::write(home.path().join("table.csv"), table).unwrap();
+    let import = "import table.csv --study study.toml --test A";
+    let (code, _, message) = line(&home, &format!("{import} -o m.csv"));
+    // two points have no neighbours to estimate it from
+    assert_eq!(code, Some(2));
+    assert!(message.contains("sigma"), "{message}");
+    succeed(&home, &format!("{import} --sigma 0.2 -o m.csv"));
+    let again = format!("{import} --sigma 0.3 --relative-sigma 0.1 -o m.csv --append");
+    let (code, _, message) = line(&home, &again);
+    assert_eq!(code, Some(2));
+    assert!(message.contains("--repeat 2"), "{message}");
+    let curve: String = (0..20)
+        .map(|i| {
+            let noise = if i % 3 == 0 { 0.1 } else { -0.05 };
+            format!("{};{}\n", 26.0 + 0.1 * f64::from(i), 5.0 + noise)
+        })
+        .collect();
+    let curve = format!("radius;100000\n{curve}");
+    fs::write(home.path().join("table.csv"), curve).unwrap();
+    let shown = succeed(&home, &format!("{import} -o empty.csv"));
+    assert!(shown.contains("sigma    left empty"), "{shown}");
+    assert!(read(&home, "empty.csv").contains("A,pinion,100000,wear_depth,26,5.1,,"));
 }
 
 /// As a German spreadsheet saves it: Windows-1252, marks between thousands, a column for people.

@@ -32,6 +32,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "bench",
             "candidate_model",
             "cheaper",
+            "collinear",
             "evaluate",
             "fidelity",
             "fit",

@@ -12,7 +12,7 @@ use std::sync::Mutex;
 use gearwear::effects::Prior;
 use gearwear::learn::{
     Coefficient, Effort, Fit, Linearised, ModelError, Move, NoiseModel, Parameter, PredictError,
-    Predictor, Problem,
+    Predictor, Problem, SigmaModel,
 };
 use gearwear::measure::{Dataset, Observation, Quantity, Subject, Trace};
 use gearwear::study::{Role, Scatter};
@@ -196,7 +196,7 @@ fn noise(scatter: Scatter) -> NoiseModel {
         datum_um: 0.5,
         tilt_um: 0.0,
         shift_mm: 0.0,
-        sigma_factor: 1.0,
+        sigma: SigmaModel::AS_STATED,
         scatter,
         model_error: None,
     }

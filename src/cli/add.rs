@@ -18,7 +18,7 @@ use clap::Args;
 
 use self::drafts::{Draft, card, draft, forms, setting, settings};
 use self::outcome::{Fitted, Report, fitted};
-use self::target::{target, writable, write_whole};
+use self::target::{is_free, target, writable, write_whole};
 use super::{CliError, Context, Outcome, inputs};
 use crate::learn::diagnose::Decided;
 use crate::learn::{AddedForm, ModelVersion};
@@ -106,18 +106,19 @@ fn add(
 ) -> Result<Outcome, CliError> {
     let card = card(&args.effect)?;
     let study = Study::load(&args.study)?;
-    let target = target(args, &study)?;
-    writable(&target).map_err(|source| CliError::Io {
-        doing: "write",
-        path: target.clone(),
-        source,
-    })?;
     let set = settings(args, card)?;
+    let target = target(args, &study)?;
     let own_is_set = set.iter().any(|(name, _)| name != WEAR_COEFFICIENT);
     let mut drafts = Vec::new();
     for form in forms(card, args.form.as_deref(), own_is_set, &study)? {
         drafts.push(draft(args, card, form, &study, &target, &set)?);
     }
+    is_free(&target, args)?;
+    writable(&target).map_err(|source| CliError::Io {
+        doing: "write",
+        path: target.clone(),
+        source,
+    })?;
     let mut report = Report {
         values: set,
         fit: None,

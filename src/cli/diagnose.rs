@@ -101,6 +101,7 @@ fn one(
     let mut document = json!(diagnosis);
     document[inputs::KEY] = json!(inputs::identity(&study)?);
     let study_name = path.display().to_string();
+    document["next_step"] = json!(diagnosis.next_step.replace("STUDY", &study_name));
     let page = report::diagnosis::page(&study.title, &diagnosis, &study_name);
     let map = report::discrepancy::csv(&diagnosis.discrepancy)?;
     let left = &diagnosis.residual_drivers;

@@ -1,5 +1,6 @@
 //! `gearwear import`: a table from a spreadsheet as rows of a measurement file, the mapping shown before anything is written.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
@@ -51,11 +52,18 @@ pub struct ImportArgs {
     /// Lost material is negative in the table
     #[arg(long)]
     turn_sign: bool,
-    /// One standard deviation of every value, in the quantity's own unit (um of depth)
-    #[arg(long, value_name = "SIGMA")]
+    /// One standard deviation of every value, in the quantity's own unit (um of depth) [default: left empty, and estimated from the scatter of
+    /// neighbouring points wherever the file is read]
+    #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
     sigma: Option<f64>,
     /// A further standard deviation as a share of each value (0.03: three percent), for scatter that grows with the wear
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.0,
+        requires = "sigma",
+        allow_negative_numbers = true
+    )]
     relative_sigma: f64,
     /// The instrument's zero is the same for all checkpoints: no trace of its own for each
     #[arg(long)]
@@ -280,12 +288,16 @@ fn wide(
             quantity.name()
         )));
     }
-    let sigma = args.sigma.filter(|sigma| *sigma > 0.0).ok_or_else(|| {
-        unusable(format!(
-            "--sigma states one standard deviation of the values, above 0 {}: how well does a repeated measurement agree?",
+    if let Some(sigma) = args
+        .sigma
+        .filter(|sigma| !(*sigma > 0.0 && sigma.is_finite()))
+    {
+        return Err(unusable(format!(
+            "--sigma {sigma}: one standard deviation of the values in {}, above 0. How well does a repeated measurement agree? Without --sigma \
+             it is estimated from the scatter of neighbouring points",
             quantity.unit()
-        ))
-    })?;
+        )));
+    }
     if !(0.0..1.0).contains(&args.relative_sigma) {
         return Err(unusable(format!(
             "--relative-sigma {}: a share of the value, 0 to below 1",
@@ -313,7 +325,7 @@ fn wide(
         unit: args.unit.as_deref(),
         turn_sign: args.turn_sign,
         decimal: args.decimal.map(Decimal::from),
-        sigma,
+        sigma: args.sigma,
         relative_sigma: args.relative_sigma,
         traces: !args.no_traces,
     };
@@ -368,7 +380,7 @@ fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping
          down     {down}\n\
          across   {across}\n\
          values   {} of the {} in test {}, in {unit}{sign}\n\
-         sigma    {} {} for each{}\n\
+         sigma    {}\n\
          traces   {}\n",
         named(args, sheet),
         if words.is_empty() {
@@ -379,12 +391,7 @@ fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping
         wanted.quantity.name(),
         wanted.member.name(),
         wanted.test,
-        wanted.sigma,
-        wanted.quantity.unit(),
-        match wanted.relative_sigma {
-            0.0 => String::new(),
-            share => format!(", and {} % of the value", 100.0 * share),
-        },
+        sigma_in_words(wanted),
         if wanted.traces {
             "one for each checkpoint: the instrument's zero is not known (--no-traces: it is the same for all)"
         } else {
@@ -407,6 +414,34 @@ fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping
         let _ = writeln!(text, "  {row}");
     }
     text
+}
+
+fn sigma_in_words(wanted: &Wanted<'_>) -> String {
+    let Some(sigma) = wanted.sigma else {
+        return "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned();
+    };
+    let share = match wanted.relative_sigma {
+        0.0 => String::new(),
+        share => format!(", and {} % of the value", 100.0 * share),
+    };
+    format!("{sigma} {} for each{share}", wanted.quantity.unit())
+}
+
+/// Rows by all that they say but sigma, which may be stated otherwise when a table is taken a second time.
+fn readings(header: &str, rows: &str) -> Vec<Vec<String>> {
+    let sigma = header.split(',').position(|name| name == "sigma");
+    let mut reader = csv::ReaderBuilder::new();
+    let reader = reader.has_headers(false).flexible(true).comment(Some(b'#'));
+    let mut reader = reader.from_reader(rows.as_bytes());
+    let records = reader.records().filter_map(std::result::Result::ok);
+    let without = |record: csv::StringRecord| {
+        let fields = record.iter().enumerate();
+        fields
+            .filter(|(at, _)| Some(*at) != sigma)
+            .map(|(_, field)| field.to_owned())
+            .collect()
+    };
+    records.map(without).collect()
 }
 
 /// The text of the file with these rows.
@@ -436,12 +471,14 @@ fn whole(args: &ImportArgs, header: &str, rows: &[String]) -> Result<String, Cli
                     path.display()
                 )));
             }
-            let known: std::collections::BTreeSet<&str> = before.lines().collect();
-            if let Some(row) = rows.iter().find(|row| known.contains(row.as_str())) {
+            let known: BTreeSet<Vec<String>> = readings(header, &before).into_iter().collect();
+            let new = readings(header, &rows.join("\n"));
+            if let Some(at) = new.iter().position(|row| known.contains(row)) {
                 return Err(CliError::Unusable(format!(
-                    "{} has the row {row} already: was this table appended before? --repeat 2 is for a second measurement at the same \
+                    "{} has the reading {} already: was this table appended before? --repeat 2 is for a second measurement at the same \
                      checkpoints",
-                    path.display()
+                    path.display(),
+                    rows[at]
                 )));
             }
             text = before;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CliError, Context, Outcome, fitting, folder};
-use crate::learn::{self, Item, Version, compare_all, contact_of};
+use crate::learn::{self, Item, Version, compare_all, contact_of, precursors};
 use crate::measure::Dataset;
 use crate::report::{self, ladder};
 use crate::study::Study;
@@ -65,12 +65,12 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
         .iter()
         .map(|(study, _)| study.effects().iter().map(|e| e.name.clone()).collect())
         .collect();
-    let versions: Vec<Version<'_>> = (0..items.len())
-        .map(|i| Version {
+    let versions: Vec<Version<'_>> = (precursors(&effects).into_iter().enumerate())
+        .map(|(i, before)| Version {
             study: &names[i],
             effects: &effects[i],
             comparison: &compared[i].comparison,
-            comparable: i > 0 && learn::differences(items[i - 1], items[i]).is_empty(),
+            before: before.filter(|&before| learn::differences(items[before], items[i]).is_empty()),
         })
         .collect();
     let result = ladder::Result {

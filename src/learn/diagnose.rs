@@ -114,12 +114,9 @@ pub fn diagnose(
     };
     watch(0.08, "fitting the base model".to_owned());
     let mut base = context.base(Candidate::base(measured.study()))?;
-    let sigma_factor = noise_level::sigma_factor(&context.likelihood, &base.fitted.found.model);
-    if sigma_factor > 1.0 {
-        let noise = NoiseModel {
-            sigma_factor,
-            ..noise
-        };
+    let sigma = noise_level::sigma_model(&context.likelihood, &base.fitted.found.model);
+    if sigma != noise.sigma {
+        let noise = NoiseModel { sigma, ..noise };
         context.likelihood = Likelihood::new(measured, noise, Role::Fit);
         base = context.base(Candidate::base(measured.study()))?;
     }

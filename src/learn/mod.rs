@@ -19,6 +19,7 @@ mod candidate_model;
 mod cheaper;
 mod checks;
 pub mod climb;
+mod collinear;
 mod comparison;
 mod decision;
 pub mod diagnose;
@@ -56,12 +57,13 @@ mod synthesize;
 mod trajectory;
 
 pub use bench::{Bench, MeasuredTest, Workshop};
+pub use checks::noise_level::stated_sigma;
 pub use comparison::{
     AddLearnedError, AddedForm, Addition, Cell, CompareError, Compared, Comparison, Curve,
     CurvePoint, Doing, Group, Improvement, Item, LadderStep, LearnedAddition, LeftOut, Outlier,
     ParameterRecord, Prospects, Ratio, Share, TestRecord, Tried, Validation, Version, Watch, add,
-    add_learned, compare, compare_all, contact_of, curves, differences, ladder, left_out,
-    prospects,
+    add_learned, compare, compare_all, contact_of, curves, data_warnings, differences, ladder,
+    left_out, precursors, prospects,
 };
 pub use fit::{Coefficient, FitError, Problem};
 pub use fitted::{Fit, Jacobian, RowFit, TestFit};
@@ -69,7 +71,7 @@ pub use gear_model::{EffectsOf, GearModel};
 pub use hypothesis::version::ModelVersion;
 pub use learned_law::{LearnError, LearnedFit, TriedProcess, WantedLaw};
 pub use measured::Measured;
-pub use noise::{Datum, ModelError, NoiseModel};
+pub use noise::{Datum, ModelError, NoiseModel, SigmaModel};
 pub use parameters::{COEFFICIENT, Estimate, Parameter};
 pub use posterior::{Density, Posterior, Scale};
 pub use predictor::{Linearised, Move, PredictError, Predictor};

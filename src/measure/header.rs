@@ -154,8 +154,28 @@ fn names() -> String {
     format!("{}; optional {}", list(must), list(may))
 }
 
+/// Other names that people give to columns.
+const SYNONYMS: [(&str, &[&str]); 5] = [
+    (
+        "sigma",
+        &["sd", "std", "stdev", "s", "u", "uncertainty", "error"],
+    ),
+    ("cycles", &["n", "revolutions", "load_cycles", "time"]),
+    ("position", &["radius", "r", "x", "place"]),
+    (
+        "value",
+        &["depth", "wear", "y", "measured", "wear_depth", "mass"],
+    ),
+    ("member", &["part", "body", "gear"]),
+];
+
 fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
-    let near = nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default();
+    let (plain, _) = name_and_unit(name);
+    let meant = (SYNONYMS.iter()).find(|(_, others)| others.contains(&plain.as_str()));
+    let near = meant.map_or_else(
+        || nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default(),
+        |(column, _)| column,
+    );
     let hint = if row.len() == 1 && name.contains([';', '\t', '|']) {
         "columns are separated by commas, semicolons or tabulators".to_owned()
     } else if name.parse::<f64>().is_ok() || row.record.iter().all(|f| !is_column(f)) {

@@ -111,7 +111,7 @@ pub fn page(result: &Result<'_>, study: &str) -> Page {
             study: name,
             effects,
             comparison,
-            comparable: i > 0,
+            before: i.checked_sub(1),
         })
         .collect();
     let rungs = ladder::Result {

@@ -135,8 +135,12 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
             "what solving the contact by finite elements changes, and why"
         };
         lines.push(format!(
-            "Next: gearwear models {} shows {what}",
-            study.display()
+            "Next: gearwear models {} shows {what}{}",
+            study.display(),
+            match run.conditions.test {
+                Some(_) => ", at the study's own operation",
+                None => "",
+            }
         ));
     }
     lines.push(String::new());

@@ -44,6 +44,22 @@ fn one_spoiled_curve_is_named_and_no_effect() {
     }
 }
 
+/// Noise of 0.05 µm and 3 % of each curve's largest depth, stated as 0.03 µm and 3 % of each value: where little is worn it is understated many
+/// times, at the deepest points hardly, and no factor on sigma mends that.
+#[test]
+fn a_sigma_of_the_wrong_shape_is_no_cause() {
+    let mut data = synthetic("", 0.05, 0.03, 25);
+    for o in &mut data.observations {
+        if o.quantity == Quantity::WearDepth {
+            o.sigma = 0.03f64.hypot(0.03 * o.value);
+        }
+    }
+    let found = diagnosed_of(data);
+    let words = ["stated sigma of the depths", "% of the largest depth"];
+    assert!(warns(&found, &words), "{:?}", found.warnings);
+    assert_eq!(found.verdict, Verdict::NothingMissing, "{}", says(&found));
+}
+
 #[test]
 fn zeros_that_change_between_curves_without_traces_are_suspected() {
     let mut data = synthetic("", 0.05, 0.03, 22);

@@ -405,19 +405,19 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
             study: "base.toml",
             effects: &none,
             comparison: &before,
-            comparable: true,
+            before: None,
         },
         Version {
             study: "wrong.toml",
             effects: &names[0],
             comparison: &mistaken,
-            comparable: true,
+            before: Some(0),
         },
         Version {
             study: "right.toml",
             effects: &names[1],
             comparison: &after,
-            comparable: true,
+            before: Some(0),
         },
     ]);
     // 300 and 150 points: standard deviations of 0.08 and 0.115 about 0.93; four of them.

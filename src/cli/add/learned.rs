@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::json;
 
-use super::target::{folder, target, writable, write_whole};
+use super::target::{folder, is_free, target, writable, write_whole};
 use super::{AddArgs, CliError, Context, Outcome};
 use crate::effects::Hook;
 use crate::learn::{AddLearnedError, LearnError, LearnedAddition, Share, WantedLaw, add_learned};
@@ -18,6 +18,7 @@ pub(super) fn execute(args: &AddArgs, context: &Context) -> Result<Outcome, CliE
     let wanted = wanted(args)?;
     let study = Study::load(&args.study)?;
     let target = target(args, &study)?;
+    is_free(&target, args)?;
     let io = |source| CliError::Io {
         doing: "write",
         path: target.clone(),

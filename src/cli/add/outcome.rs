@@ -24,6 +24,9 @@ pub(super) struct Fitted {
     pub(super) text: String,
 }
 
+/// Fall of χ² up to which an effect's parameters may have followed noise: 1 % of χ² with three degrees of freedom.
+const CHANCE: f64 = 11.3;
+
 /// A fit in words and in the command's document.
 pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
@@ -55,11 +58,23 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
         );
     }
     let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
+    let without = addition.without_chi2_per_point;
     if let Some(chi2) = chi2(&comparison.fit) {
-        let _ = writeln!(text, "  chi2 per point of the fit tests: {chi2}");
+        let without = without.map_or(String::new(), |chi2| format!(" (without it {chi2:.3})"));
+        let _ = writeln!(text, "  chi2 per point of the fit tests: {chi2}{without}");
     }
     if let Some(chi2) = chi2(&comparison.holdout) {
         let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
+    }
+    let with = comparison.fit.chi2_per_point;
+    if let Some((with, without)) = with.zip(without)
+        && addition.compared.given_up.is_none()
+        && with > without - CHANCE / comparison.fit.points.max(1) as f64
+    {
+        let _ = writeln!(
+            text,
+            "  the effect betters nothing that noise would not: leave it out"
+        );
     }
     // semicolons between forms: some names have commas of their own
     let tried: Vec<Value> = (drafts.iter().zip(&addition.tried))
@@ -114,6 +129,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             "forms_not_fitted": passed_over,
             "parameters": comparison.parameters,
             "fit": comparison.fit,
+            "without_chi2_per_point": without,
             "holdout": comparison.holdout,
             "converged": comparison.converged,
             "given_up_explaining": addition.compared.given_up,

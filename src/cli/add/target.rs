@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use super::{AddArgs, CliError};
 use crate::study::Study;
 
-/// Where the new study goes; refuses to overwrite unasked.
+/// Where the new study goes.
 pub(super) fn target(args: &AddArgs, study: &Study) -> Result<PathBuf, CliError> {
     let target = args.output.clone().unwrap_or_else(|| {
         let mut name = args.study.file_stem().unwrap_or_default().to_owned();
-        name.push(format!("+{}.toml", args.effect));
+        // no colon: some file systems take none
+        name.push(format!("+{}.toml", args.effect.replace(':', "-")));
         args.study.with_file_name(name)
     });
     if target.is_dir() {
@@ -40,10 +41,17 @@ pub(super) fn target(args: &AddArgs, study: &Study) -> Result<PathBuf, CliError>
             input.display()
         )));
     }
-    if target.exists() && !args.force {
-        return Err(CliError::Exists { path: target });
-    }
     Ok(target)
+}
+
+/// Refuses to overwrite unasked.
+pub(super) fn is_free(target: &Path, args: &AddArgs) -> Result<(), CliError> {
+    if target.exists() && !args.force {
+        return Err(CliError::Exists {
+            path: target.to_owned(),
+        });
+    }
+    Ok(())
 }
 
 /// The file under which a target is written before it gets its name.

@@ -1,7 +1,7 @@
 //! Whether the model that nothing is said to be missing from leaves more than noise.
 //!
 //! ```text
-//! Q = Σ ((measured − model − datum)/σ)²         N rows, σ as stated
+//! Q = Σ ((measured − model − datum)/σ)²         N rows, σ as stated, or where that has the wrong shape as neighbours scatter
 //! z = ((Q/N)^(1/3) − (1 − 2/(9N)))/√(2/(9N))    P(χ²_N ≥ Q) = erfc(z/√2)/2
 //! said if   P < 0.001   and   Q/N > max(1.1, s)²          s: scatter of neighbours along traces over σ, where there are enough
 //! ```
@@ -16,6 +16,8 @@ use serde::Serialize;
 
 use super::noise_level;
 use crate::learn::likelihood::Likelihood;
+use crate::learn::noise::SigmaModel;
+use crate::measure::Observation;
 
 /// Largest error of stated noise sizes that is taken for ordinary, as a factor.
 const ORDINARY: f64 = 1.1;
@@ -25,7 +27,7 @@ const NO_CHANCE: f64 = 1e-3;
 /// How well the base model fits where nothing is missing.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GoodnessOfFit {
-    /// Mean squared residual in stated sigmas.
+    /// Mean squared residual, in stated sigmas; where their shape is wrong, in those by which neighbours scatter.
     pub chi2_per_point: f64,
     /// Number of rows.
     pub points: usize,
@@ -40,6 +42,18 @@ pub struct GoodnessOfFit {
 impl GoodnessOfFit {
     /// Of a model's values for all rows.
     pub(in crate::learn) fn new(likelihood: &Likelihood<'_>, model: &[f64]) -> Self {
+        if !matches!(likelihood.noise.sigma, SigmaModel::Stated { .. }) {
+            // neighbours scatter as this σ by the choice of it
+            let rows: Vec<&Observation> = (0..likelihood.len())
+                .map(|i| likelihood.observation(i))
+                .collect();
+            let sigma = likelihood.noise.sigma.of(&rows);
+            let off = likelihood.standardised(model);
+            let squares = (off.iter().zip(rows).zip(sigma))
+                .map(|((z, row), sigma)| (z * row.sigma / sigma).powi(2));
+            let chi2_per_point = squares.sum::<f64>() / likelihood.len() as f64;
+            return Self::of(chi2_per_point, likelihood.len(), None);
+        }
         Self::of(
             likelihood.chi2_per_point(model),
             likelihood.len(),

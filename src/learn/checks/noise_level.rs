@@ -1,16 +1,22 @@
-//! Whether measurements scatter more, or much less, than their stated σ.
+//! Whether measurements scatter as their stated σ say: more, much less, or elsewhere.
 //!
 //! ```text
 //! d_i = (x_i − x_{i−1})/(s_i − s_{i−1}) − (x_{i+1} − x_i)/(s_{i+1} − s_i)      x: measured minus model, s: position
 //! σ/stated = √(median(d²/var d)/0.4549)
+//! L = −N ln(mean |d|/√var d) − Σ ln √var d                                   ln likelihood of N differences as Laplace's law has it
 //! ```
 //! Whatever is smooth along a trace drops out of such differences (Rice, Ann. Statist. 12, 1984; with positions as Gasser, Sroka &
 //! Jennen-Steinmetz, Biometrika 73, 1986); 0.4549 is the median of χ² with one degree of freedom. Evidence knows only the stated σ: if that
-//! is too small by two, noise is four times as discrimination, and something seems to be missing.
+//! is too small by two, noise is four times as discrimination, and something seems to be missing. If it is too small at some points and too
+//! large at others, no factor mends that: then a σ of another shape, a constant and a share of each curve's largest depth, is
+//! taken where the differences speak for it by L. Laplace's law, since outliers shall not decide; neighbouring differences share two points
+//! of three, and the sizes of normal ones are correlated by 4/9, so that L/2 is what independent ones would have.
 
-use std::collections::BTreeMap;
-
+use crate::learn::fitted::Fit;
 use crate::learn::likelihood::Likelihood;
+use crate::learn::noise::SigmaModel;
+use crate::measure::neighbours::curves;
+use crate::measure::{Dataset, Observation, Quantity};
 
 /// Differences needed for an estimate.
 const LEAST: usize = 100;
@@ -22,11 +28,57 @@ const TOLERATED: f64 = 1.2;
 /// Scatter over stated σ below which neighbours are too smooth to be independent, or σ is overstated.
 const SMOOTH: f64 = 0.67;
 
-/// The factor on the stated σ that the scatter along traces calls for: 1 or above [`TOLERATED`].
-pub(in crate::learn) fn sigma_factor(likelihood: &Likelihood<'_>, model: &[f64]) -> f64 {
-    scatter(likelihood, model)
-        .filter(|found| *found > TOLERATED)
-        .unwrap_or(1.0)
+/// Log likelihood of independent differences by which σ of another shape must be more likely than the stated: odds of 20,000 to 1.
+const ANOTHER_SHAPE: f64 = 10.0;
+
+/// Steps in which the floor's part of a middle curve's σ is tried.
+const PARTS: u8 = 10;
+
+/// The σ that the scatter along traces calls for: as stated, unless that is clearly too small or of the wrong shape.
+pub(in crate::learn) fn sigma_model(likelihood: &Likelihood<'_>, model: &[f64]) -> SigmaModel {
+    of_residual(&rows(likelihood), &likelihood.residual(model))
+}
+
+fn of_residual(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
+    let differences = differences(rows, residual);
+    if let Some(shape) = another_shape(rows, &differences) {
+        return shape;
+    }
+    let scatter = scale(&differences, &SigmaModel::AS_STATED.of(rows));
+    let factor = scatter.filter(|found| *found > TOLERATED).unwrap_or(1.0);
+    SigmaModel::Stated { factor }
+}
+
+/// How neighbouring points scatter about a fit where that is not as their stated σ say, in words.
+pub fn stated_sigma(data: &Dataset, fit: &Fit) -> Option<String> {
+    let rows: Vec<&Observation> = data.observations.iter().collect();
+    let residual = (rows.iter().zip(&fit.rows)).map(|(o, row)| row.standardised * o.sigma);
+    let residual: Vec<f64> = residual.collect();
+    scatter_in_words(of_residual(&rows, &residual))
+}
+
+/// The same of the σ that the scatter calls for.
+pub(in crate::learn) fn scatter_in_words(sigma: SigmaModel) -> Option<String> {
+    let depths = |found: String| {
+        format!(
+            "the stated sigma of the depths does not fit how neighbouring points scatter, which is by {found}: leave the column sigma empty, and it \
+             is estimated for every command"
+        )
+    };
+    match sigma {
+        SigmaModel::Stated { factor: 1.0 } => None,
+        SigmaModel::Stated { factor } => Some(format!(
+            "neighbouring points of a trace scatter {factor:.1} times as much as their stated sigma"
+        )),
+        SigmaModel::OfCurve { floor, share } => {
+            let of_largest = format!("{:.1} % of the largest depth of their curve", 100.0 * share);
+            Some(depths(match (floor, share) {
+                (0.0, _) => of_largest,
+                (_, 0.0) => format!("{floor:.3} µm at all depths"),
+                _ => format!("{floor:.3} µm and {of_largest}"),
+            }))
+        }
+    }
 }
 
 /// Scatter over stated σ where that is far too little for independent points.
@@ -36,27 +88,45 @@ pub(in crate::learn) fn too_smooth(likelihood: &Likelihood<'_>, model: &[f64]) -
 
 /// Scatter along traces over stated σ; None if there is too little to tell.
 pub(in crate::learn) fn scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
-    let residual = likelihood.residual(model);
-    let mut curves: BTreeMap<_, Vec<[f64; 3]>> = BTreeMap::new();
-    for (i, x) in residual.iter().enumerate() {
-        let o = likelihood.observation(i);
-        if let Some(position) = o.position {
-            let curve = (o.test, o.member, o.quantity, o.cycles.to_bits(), o.trace);
-            let points = curves.entry(curve).or_default();
-            points.push([position, *x, o.sigma]);
-        }
-    }
-    over_stated(curves.into_values().collect())
+    let (rows, residual) = (rows(likelihood), likelihood.residual(model));
+    let stated = SigmaModel::AS_STATED.of(&rows);
+    scale(&differences(&rows, &residual), &stated)
 }
 
-/// Of curves of (position, residual, stated σ).
-fn over_stated(curves: Vec<Vec<[f64; 3]>>) -> Option<f64> {
-    let mut squares = Vec::new();
-    for mut curve in curves {
-        curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
+fn rows<'a>(likelihood: &'a Likelihood<'_>) -> Vec<&'a Observation> {
+    (0..likelihood.len())
+        .map(|i| likelihood.observation(i))
+        .collect()
+}
+
+/// A difference of three neighbours' residuals from which whatever is straight drops out.
+#[derive(Debug, Clone, Copy)]
+struct Difference {
+    rows: [usize; 3],
+    weights: [f64; 3],
+    value: f64,
+}
+
+impl Difference {
+    /// Its standard deviation where the rows have these.
+    fn sigma(&self, sigma: &[f64]) -> f64 {
+        let terms = self.rows.iter().zip(self.weights);
+        terms
+            .map(|(&row, weight)| (weight * sigma[row]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    }
+}
+
+/// All along the curves of some rows.
+fn differences(rows: &[&Observation], residual: &[f64]) -> Vec<Difference> {
+    let place = |row: usize| rows[row].position.unwrap_or(0.0);
+    let mut found = Vec::new();
+    for curve in curves(rows) {
         for three in curve.windows(3) {
-            let [a, b, c] = [three[0], three[1], three[2]];
-            let (before, after) = (b[0] - a[0], c[0] - b[0]);
+            let three = [three[0], three[1], three[2]];
+            let [a, b, c] = three.map(place);
+            let (before, after) = (b - a, c - b);
             if before <= 0.0 || after <= 0.0 {
                 continue;
             }
@@ -65,17 +135,74 @@ fn over_stated(curves: Vec<Vec<[f64; 3]>>) -> Option<f64> {
                 before.recip() + after.recip(),
                 -after.recip(),
             ];
-            let points = [a, b, c];
-            let sum = |of: &dyn Fn(usize) -> f64| (0..3).map(of).sum::<f64>();
-            let difference = sum(&|i| weights[i] * points[i][1]);
-            squares.push(difference.powi(2) / sum(&|i| (weights[i] * points[i][2]).powi(2)));
+            let terms = three.iter().zip(weights);
+            found.push(Difference {
+                rows: three,
+                weights,
+                value: terms.map(|(&row, weight)| weight * residual[row]).sum(),
+            });
         }
     }
-    if squares.len() < LEAST {
+    found
+}
+
+/// Scatter over these σ; None of too few differences.
+fn scale(differences: &[Difference], sigma: &[f64]) -> Option<f64> {
+    if differences.len() < LEAST {
         return None;
     }
+    let mut squares: Vec<f64> = (differences.iter())
+        .map(|d| (d.value / d.sigma(sigma)).powi(2))
+        .collect();
     squares.sort_by(f64::total_cmp);
     Some((squares[squares.len() / 2] / MEDIAN).sqrt())
+}
+
+/// L of independent differences, for σ known up to a factor.
+fn log_likelihood(differences: &[Difference], sigma: &[f64]) -> f64 {
+    let count = differences.len() as f64;
+    let (mut mean, mut logs) = (0.0, 0.0);
+    for d in differences {
+        let own = d.sigma(sigma);
+        mean += d.value.abs() / (own * count);
+        logs += own.ln();
+    }
+    0.5 * (-count * mean.ln() - logs)
+}
+
+/// A σ of depths of which the shape is far likelier than that of the stated.
+fn another_shape(rows: &[&Observation], all: &[Difference]) -> Option<SigmaModel> {
+    let depths: Vec<Difference> = (all.iter())
+        .filter(|d| rows[d.rows[0]].quantity == Quantity::WearDepth)
+        .copied()
+        .collect();
+    let stated = log_likelihood(&depths, &SigmaModel::AS_STATED.of(rows));
+    let mut largest: Vec<f64> = (curves(rows).iter())
+        .filter(|curve| rows[curve[0]].quantity == Quantity::WearDepth)
+        .map(|curve| {
+            curve
+                .iter()
+                .map(|&i| rows[i].value.abs())
+                .fold(0.0, f64::max)
+        })
+        .collect();
+    largest.sort_by(f64::total_cmp);
+    let middle = *largest.get(largest.len() / 2)?;
+    let of = |part: u8| {
+        let part = f64::from(part) / f64::from(PARTS);
+        let model = |scale: f64| SigmaModel::OfCurve {
+            floor: scale * part * middle,
+            share: scale * (1.0 - part),
+        };
+        let unit = model(1.0).of(rows);
+        Some((
+            log_likelihood(&depths, &unit),
+            model(scale(&depths, &unit)?),
+        ))
+    };
+    let found = (0..=PARTS).filter_map(of);
+    let (likelihood, best) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (likelihood - stated > ANOTHER_SHAPE).then_some(best)
 }
 
 #[cfg(test)]
@@ -83,32 +210,98 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_chacha::rand_core::{Rng, SeedableRng};
 
-    use super::over_stated;
+    use super::*;
+    use crate::measure::Subject;
 
-    /// Eight traces, unevenly spaced, with a smooth misfit of 30 stated sigmas and normal noise of `level` of them.
-    fn curves(level: f64) -> Vec<Vec<[f64; 3]>> {
+    /// Traces of 50 points, unevenly spaced, trace by trace twice as deep, with a smooth misfit of 30 sigmas of 0.1 and normal noise: of each
+    /// row as `noise` has it of the trace's largest depth and its own, stated as `stated` has it.
+    fn traces(
+        count: i32,
+        noise: &dyn Fn(f64, f64) -> f64,
+        stated: &dyn Fn(f64, f64) -> f64,
+    ) -> (Vec<Observation>, Vec<f64>) {
         let mut random = ChaCha8Rng::seed_from_u64(7);
         let mut uniform = || 1.0 - (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
-        let mut point = |i: u8| {
-            let s = (f64::from(i) + 0.3 * f64::from(i % 2)) / 50.0;
-            [s, 0.1 * (30.0 * (4.0 * s).sin() + level * normal()), 0.1]
-        };
-        (0..8).map(|_| (0..50).map(&mut point).collect()).collect()
+        let (mut rows, mut residual) = (Vec::new(), Vec::new());
+        for trace in 0..count {
+            let largest = 2f64.powi(trace);
+            for i in 0..50 {
+                let s = (f64::from(i) + 0.3 * f64::from(i % 2)) / 50.0;
+                let value = largest * (1.0 - 0.9 * s);
+                residual.push(3.0 * (4.0 * s).sin() + noise(largest, value) * normal());
+                rows.push(Observation {
+                    test: 0,
+                    member: Subject::Pinion,
+                    cycles: f64::from(trace),
+                    quantity: Quantity::WearDepth,
+                    position: Some(s),
+                    value,
+                    sigma: stated(largest, value),
+                    trace: None,
+                    line: 0,
+                    face: None,
+                    tooth: None,
+                });
+            }
+        }
+        (rows, residual)
+    }
+
+    fn found(of: &(Vec<Observation>, Vec<f64>)) -> (Option<f64>, Option<SigmaModel>) {
+        let rows: Vec<&Observation> = of.0.iter().collect();
+        let differences = differences(&rows, &of.1);
+        let stated = SigmaModel::AS_STATED.of(&rows);
+        let shape = another_shape(&rows, &differences);
+        (scale(&differences, &stated), shape)
     }
 
     #[test]
     fn noise_counts_and_a_smooth_misfit_does_not() {
         // 384 differences: a standard error of some 5 %
         for level in [0.3, 1.0, 2.0] {
-            let found = over_stated(curves(level)).unwrap();
-            assert!((found / level - 1.0).abs() < 0.15, "{found} of {level}");
+            let (scatter, shape) = found(&traces(8, &|_, _| 0.1 * level, &|_, _| 0.1));
+            let scatter = scatter.unwrap();
+            assert!((scatter / level - 1.0).abs() < 0.15, "{scatter} of {level}");
+            assert_eq!(shape, None);
         }
     }
 
     #[test]
     fn few_points_say_nothing() {
-        let few = curves(3.0).into_iter().take(2).collect();
-        assert_eq!(over_stated(few), None);
+        let few = traces(2, &|_, _| 0.3, &|_, _| 0.1);
+        assert_eq!(found(&few), (None, None));
+    }
+
+    /// A σ of the right shape stands whatever its level is, and one of the wrong shape is found out: level and own depth for the largest.
+    #[test]
+    fn a_sigma_of_the_wrong_shape_is_found_out() {
+        let of_largest = |largest: f64, _: f64| 0.03 * largest;
+        let of_own = |_: f64, value: f64| 0.1f64.hypot(0.03 * value);
+        let same = |_: f64, _: f64| 0.2;
+        let right: [&dyn Fn(f64, f64) -> f64; 3] = [&of_largest, &of_own, &same];
+        for noise in right {
+            let half = |largest: f64, value: f64| 0.5 * noise(largest, value);
+            assert_eq!(found(&traces(8, noise, &half)).1, None);
+        }
+        let shape = found(&traces(8, &of_largest, &of_own)).1;
+        let Some(SigmaModel::OfCurve { floor, share }) = shape else {
+            panic!("{shape:?}");
+        };
+        // the middle of the largest depths is 16
+        let middle = floor / 16.0 + share;
+        assert!(
+            (middle / 0.03 - 1.0).abs() < 0.15 && share > 0.8 * middle,
+            "{shape:?}"
+        );
+        let shape = found(&traces(8, &same, &of_largest)).1;
+        let Some(SigmaModel::OfCurve { floor, share }) = shape else {
+            panic!("{shape:?}");
+        };
+        let middle = floor + 16.0 * share;
+        assert!(
+            (middle / 0.2 - 1.0).abs() < 0.15 && floor > 0.8 * middle,
+            "{shape:?}"
+        );
     }
 }

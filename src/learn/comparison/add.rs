@@ -39,6 +39,8 @@ pub struct Addition {
     pub form: usize,
     /// Its fit.
     pub compared: Compared,
+    /// χ² per point of the fit tests without the effect, k fitted anew; None where other effects' parameters are free too.
+    pub without_chi2_per_point: Option<f64>,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<Tried>>,
     /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
@@ -122,9 +124,12 @@ pub fn add(
         }
     }
     let (form, compared) = best;
+    let without = missed.and_then(|missed| missed.base(&measured));
+    let points = measured.fitted_points() as f64;
     Ok(Addition {
         form,
         compared,
+        without_chi2_per_point: without.map(|without| without.square / points),
         tried,
         passed_over,
     })

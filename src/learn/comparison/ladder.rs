@@ -19,13 +19,16 @@ pub struct LadderStep {
     pub rms_um: Option<f64>,
     /// What was free.
     pub parameters: Vec<ParameterRecord>,
-    /// Change from the step before; None for the first, and where the two cannot be judged against each other.
+    /// The earlier version that it is judged against: the one that it adds something to.
+    #[serde(default)]
+    pub against: Option<String>,
+    /// Change from that; None for the first, and where the two cannot be judged against each other.
     pub improvement: Option<Improvement>,
     /// Whether the fit converged with no parameter on a bound.
     pub sound: bool,
 }
 
-/// What one step of the ladder gains over the one before. Above 1, or above 0 for the evidence, is better.
+/// What one step of the ladder gains over the version that it is judged against. Above 1, or above 0 for the evidence, is better.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Improvement {
     /// χ² per point of the fit tests before over after. It hardly ever falls: a free parameter more always fits better.
@@ -47,32 +50,40 @@ pub struct Version<'a> {
     pub effects: &'a [String],
     /// How it compares.
     pub comparison: &'a Comparison,
-    /// Whether its errors can be judged against those of the version before: the same measurements, tests, roles and noise.
-    pub comparable: bool,
+    /// Place of the earlier version that it is judged against; None for the first, and where the two have not the same measurements, tests,
+    /// roles and noise.
+    pub before: Option<usize>,
 }
 
-/// The versions in the order given, each with what it gains over the one before.
+/// The earlier version that each adds something to: of those whose effects it has too the one with the most, the last of several; the one before
+/// it where there is none.
+pub fn precursors(effects: &[Vec<String>]) -> Vec<Option<usize>> {
+    let of = |(place, own): (usize, &Vec<String>)| {
+        let earlier = (0..place).filter(|&i| effects[i].iter().all(|name| own.contains(name)));
+        let most = earlier.max_by_key(|&i| (effects[i].len(), i));
+        most.or_else(|| place.checked_sub(1))
+    };
+    effects.iter().enumerate().map(of).collect()
+}
+
+/// The versions in the order given, each with what it gains over the one that it is judged against.
 pub fn ladder(versions: &[Version<'_>]) -> Vec<LadderStep> {
-    let before = std::iter::once(None).chain(versions.iter().map(Some));
-    versions
-        .iter()
-        .zip(before)
-        .map(|(version, before)| {
-            let now = version.comparison;
-            LadderStep {
-                study: version.study.to_owned(),
-                effects: version.effects.to_vec(),
-                fit_chi2_per_point: now.fit.chi2_per_point,
-                holdout_chi2_per_point: now.holdout.chi2_per_point,
-                rms_um: now.rms_um,
-                parameters: now.parameters.clone(),
-                improvement: before
-                    .filter(|_| version.comparable)
-                    .map(|before| Improvement::between(before.comparison, now)),
-                sound: now.converged && now.parameters.iter().all(|p| !p.at_bound),
-            }
-        })
-        .collect()
+    let step = |version: &Version<'_>| {
+        let now = version.comparison;
+        let before = version.before.map(|before| &versions[before]);
+        LadderStep {
+            study: version.study.to_owned(),
+            effects: version.effects.to_vec(),
+            fit_chi2_per_point: now.fit.chi2_per_point,
+            holdout_chi2_per_point: now.holdout.chi2_per_point,
+            rms_um: now.rms_um,
+            parameters: now.parameters.clone(),
+            against: before.map(|before| before.study.to_owned()),
+            improvement: before.map(|before| Improvement::between(before.comparison, now)),
+            sound: now.converged && now.parameters.iter().all(|p| !p.at_bound),
+        }
+    };
+    versions.iter().map(step).collect()
 }
 
 impl Improvement {
@@ -85,5 +96,29 @@ impl Improvement {
             log_evidence: (before.fit.points == after.fit.points)
                 .then_some(after.log_evidence - before.log_evidence),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::precursors;
+
+    #[test]
+    fn rivals_are_judged_against_what_they_add_to() {
+        let of = |effects: &[&str]| -> Vec<String> {
+            effects.iter().map(|name| (*name).to_owned()).collect()
+        };
+        let versions = [
+            of(&[]),
+            of(&["a"]),
+            of(&["b"]),
+            of(&["a", "c"]),
+            of(&["d"]),
+            of(&["a", "c"]),
+        ];
+        let expected = [None, Some(0), Some(0), Some(1), Some(0), Some(3)];
+        assert_eq!(precursors(&versions), expected);
+        // nothing that either adds to
+        assert_eq!(precursors(&[of(&["a"]), of(&["b"])]), [None, Some(0)]);
     }
 }

@@ -6,7 +6,7 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::residual_statistics::{Fitted, fitted};
 use crate::learn::fitted::{Fit, RowFit};
@@ -29,6 +29,8 @@ const FAR_FROM_STATED: f64 = 300.0;
 /// Misfit beyond the noise, in its standard deviations, and share of it that constants must explain to be told.
 const REAL: f64 = 10.0;
 const CONSTANTS: f64 = 0.85;
+/// Deviation up to which two counts of cycles are the same.
+const SAME_CYCLES: f64 = 0.005;
 /// How much of what constants leave a factor on each curve may leave at least: a law of wear changes a curve in proportion.
 const BETTER_THAN_FACTORS: f64 = 0.5;
 
@@ -46,7 +48,38 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
         said.extend(constants(&fitted(data, fit)));
     }
+    said.extend(gear_revolutions(study, data));
     said
+}
+
+/// Tests of which the gear's rows stand at the pinion's cycles over the gear ratio.
+fn gear_revolutions(study: &Study, data: &Dataset) -> Option<String> {
+    let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
+    let ratio = f64::from(pinion) / f64::from(gear);
+    let cycles = |test: usize, member: Subject| {
+        let own = data.observations.iter();
+        let own = own.filter(|o| o.test == test && o.member == member && o.cycles > 0.0);
+        let bits: BTreeSet<u64> = own.map(|o| o.cycles.to_bits()).collect();
+        bits.into_iter().map(f64::from_bits).collect::<Vec<f64>>()
+    };
+    let turned = |test: &usize| {
+        let (of_pinion, of_gear) = (cycles(*test, Subject::Pinion), cycles(*test, Subject::Gear));
+        let pairs = || of_pinion.iter().zip(&of_gear);
+        !of_pinion.is_empty()
+            && of_pinion.len() == of_gear.len()
+            && pairs().all(|(p, g)| (g / (ratio * p) - 1.0).abs() < SAME_CYCLES)
+    };
+    let tests: Vec<&str> = (0..data.tests.len())
+        .filter(|test| (ratio - 1.0).abs() > 2.0 * SAME_CYCLES && turned(test))
+        .map(|test| data.tests[test].as_str())
+        .collect();
+    (!tests.is_empty()).then(|| {
+        format!(
+            "in {} the gear's rows stand at {pinion}/{gear} of the pinion's cycles: cycles are revolutions of the pinion for both members; if these \
+             are the gear's own, multiply them by {gear}/{pinion}",
+            tests.join(", ")
+        )
+    })
 }
 
 /// The fitted rows as if all tests had worn by the common k: where the data make no sense, tests' own lie orders of magnitude apart.
@@ -273,13 +306,13 @@ fn far_from_stated(k: f64, stated: f64) -> Option<String> {
     if k <= 0.0 || stated <= 0.0 || (k / stated).ln().abs() < FAR_FROM_STATED.ln() {
         return None;
     }
-    let (word, by) = match k / stated {
-        ratio if ratio > 1.0 => ("above", ratio),
-        ratio => ("below", ratio.recip()),
+    let (word, by, hint) = match k / stated {
+        ratio if ratio > 1.0 => ("above", ratio, "nm for µm"),
+        ratio => ("below", ratio.recip(), "mm for µm, g for mg"),
     };
     Some(format!(
         "k = {k:.1e} mm²/N comes out {by:.0} times {word} the wear.coefficient that the study states, {stated:.1e}: unless that is a mere guess, look \
-         at the units of the measured values (µm, mg), of cycles (pinion revolutions) and of the torque"
+         at the units of the measured values ({hint}), of cycles (pinion revolutions) and of the torque"
     ))
 }
 

@@ -3,6 +3,7 @@
 
 use serde::Deserialize;
 
+use super::next::NextExperiment;
 use super::plan::{LEADERS, LEADING, Leader};
 use crate::learn::decision::Verdict;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
@@ -18,6 +19,9 @@ pub struct Decided {
     pub verdict: Verdict,
     /// Candidates, the most probable first.
     pub ranking: Vec<DecidedCandidate>,
+    /// The test that it proposes.
+    #[serde(default)]
+    pub next_experiment: Option<NextExperiment>,
 }
 
 /// One candidate of a finished diagnosis.
@@ -162,6 +166,7 @@ mod tests {
             let decided = Decided {
                 verdict: Verdict::Effect,
                 ranking: (probabilities.iter().map(|&p| candidate("coating", p))).collect(),
+                next_experiment: None,
             };
             decided.leaders().iter().map(|c| c.probability).collect()
         };

@@ -9,6 +9,8 @@ use crate::learn::hypothesis::candidate::NotJudged;
 pub(super) const LEADING: f64 = 8.0;
 /// Least and most leading candidates.
 pub(super) const LEADERS: [usize; 2] = [2, 4];
+/// Least weight of a rival: a diagnosis is a model too.
+const LEAST_WEIGHT: f64 = 0.01;
 
 /// A plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,6 +54,13 @@ pub struct Leader {
     pub probability: Option<f64>,
 }
 
+impl Leader {
+    /// What telling the first leader from it counts.
+    pub(super) fn weight(&self) -> f64 {
+        self.probability.map_or(1.0, |p| p.max(LEAST_WEIGHT))
+    }
+}
+
 /// One feasible test with one quantity measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RankedTest {
@@ -61,7 +70,8 @@ pub struct RankedTest {
     pub quantity: String,
     /// Number of changes against the study's operation.
     pub changes: usize,
-    /// Mean over the pairs of expected χ² after refitting, each counted up to 60.
+    /// Mean over the pairs of expected χ² after refitting, each counted up to 60, and by the probability of the leader's rival where a diagnosis
+    /// gives it.
     pub expected_chi2: f64,
     /// The leader against each other candidate.
     pub separates: Vec<Separated>,

@@ -106,10 +106,11 @@ pub fn plan_after(
             || "No feasible test could be computed.".to_owned(),
             |best| {
                 format!(
-                    "Next: {} with {}; {}",
+                    "Next: {} with {}; {}.{}",
                     best.quantity.replace('_', " "),
                     changes(&best.test, &plainest),
-                    best.why
+                    best.why,
+                    proposed(decided, best, &plainest)
                 )
             },
         ),
@@ -120,6 +121,20 @@ pub fn plan_after(
         repetition_chi2: repetition,
         tests,
     }))
+}
+
+/// What the diagnosis proposed, where that is another test.
+fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Operation) -> String {
+    let next = decided.and_then(|decided| decided.next_experiment.as_ref());
+    next.filter(|next| next.test != best.test)
+        .map_or(String::new(), |next| {
+            format!(
+                " The diagnosis proposed {}, where {} differ most with everything measured at once; here one quantity is measured, and all leaders \
+                 count by their probability.",
+                changes(&next.test, plain),
+                next.separates.join(" and ")
+            )
+        })
 }
 
 /// Where the leaders come from, in words.
@@ -181,14 +196,17 @@ fn leaders(base: &FittedCandidate, screened: &[FittedCandidate]) -> Vec<(FittedC
 struct QuantityDiscrimination {
     quantity: Option<Quantity>,
     chi2: Vec<f64>,
+    /// What each of these counts.
+    weights: Vec<f64>,
     /// Where the leader's wear differs most from the second one's.
     place: Option<Place>,
 }
 
 impl QuantityDiscrimination {
     fn score(&self) -> f64 {
-        let capped: f64 = self.chi2.iter().map(|c| c.min(ENOUGH)).sum();
-        capped / self.chi2.len().max(1) as f64
+        let pairs = self.chi2.iter().zip(&self.weights);
+        let capped: f64 = pairs.map(|(chi2, weight)| weight * chi2.min(ENOUGH)).sum();
+        capped / self.weights.iter().sum::<f64>().max(f64::MIN_POSITIVE)
     }
 }
 
@@ -234,6 +252,7 @@ fn told(
         QuantityDiscrimination {
             quantity: Some(quantity),
             chi2,
+            weights: leaders[1..].iter().map(|(_, l)| l.weight()).collect(),
             place: Place::of(&data, &said[0].values, &said[1].values),
         }
     };
@@ -265,15 +284,18 @@ fn row(
             chi2: *chi2,
         })
         .collect();
-    let least = told.chi2.iter().copied().fold(f64::INFINITY, f64::min);
-    let weakest = separates.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2));
-    let weakest = weakest.map_or(String::new(), |s| {
-        format!(
-            "; hardest to tell apart: {} and {}, χ² {least:.0}, {}",
-            s.pair[0],
-            s.pair[1],
-            strength(least)
-        )
+    let said = |s: &Separated| {
+        let [one, other] = &s.pair;
+        format!("{one} and {other}, χ² {:.0}, {}", s.chi2, strength(s.chi2))
+    };
+    let likeliest = separates.first();
+    let hardest = separates.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    let pairs = likeliest.map_or(String::new(), |s| {
+        let hardest = hardest.filter(|h| h.pair != s.pair);
+        let hardest = hardest.map_or(String::new(), |h| {
+            format!("; hardest to tell apart: {}", said(h))
+        });
+        format!("; {}{hardest}", said(s))
     });
     let depth = told
         .place
@@ -286,7 +308,7 @@ fn row(
             )
         });
     RankedTest {
-        why: format!("{}{weakest}{depth}", purpose(&test, &plain(context))),
+        why: format!("{}{pairs}{depth}", purpose(&test, &plain(context))),
         quantity: told.quantity.map_or("", Quantity::name).to_owned(),
         changes,
         expected_chi2: told.score(),

@@ -4,10 +4,13 @@ use super::ranked::parameters;
 use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
+use crate::learn::collinear::act_together;
 use crate::learn::decision::posterior::Posterior;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::Hypothesis;
 use crate::learn::model_search::context::Context;
+use crate::learn::noise::SigmaModel;
+use crate::learn::parameters::Estimate;
 
 /// Share of a parameter's prior outside of which a value is told.
 const UNHEARD_OF: f64 = 1e-3;
@@ -26,19 +29,23 @@ pub(in crate::learn) fn warnings(
             "decided by the analytic contact model, whose curves differ by 1 to 2 % from finite elements and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
         );
     }
-    let factor = likelihood.noise.sigma_factor;
-    if factor > 1.0 {
-        warnings.push(format!(
-            "neighbouring points of a trace scatter {factor:.1} times as much as their stated sigma: it was taken that much larger here"
-        ));
-    }
-    if let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model) {
+    let sigma = likelihood.noise.sigma;
+    let scatter = noise_level::scatter_in_words(sigma);
+    warnings.extend(
+        scatter.map(|words| format!("{words}. It was taken so here; χ² is still in stated sigmas")),
+    );
+    if sigma == SigmaModel::AS_STATED
+        && let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model)
+    {
         warnings.push(format!(
             "neighbouring points of a trace scatter only {smooth:.2} times their stated sigma: if the traces were filtered their points are not independent and every probability here is too bold; if sigma is overstated, weak effects stay hidden"
         ));
     }
     let data = &likelihood.measured.data;
-    warnings.extend(data.outliers_in_words());
+    // rows stand apart by so many stated sigmas
+    if matches!(sigma, SigmaModel::Stated { .. }) {
+        warnings.extend(data.outliers_in_words());
+    }
     warnings.extend(data.places_not_used());
     let alone = measured_once(likelihood);
     if alone.len() == likelihood.tests.len() {
@@ -98,6 +105,7 @@ pub(in crate::learn) fn warnings(
                 p.value
             ));
         }
+        warnings.extend(together(leader));
         if posterior
             .decision
             .probability(&leader.candidate.hypothesis())
@@ -114,6 +122,26 @@ pub(in crate::learn) fn warnings(
         ));
     }
     warnings
+}
+
+/// Which of its effects' parameters the data know only together.
+fn together(fitted: &FittedCandidate) -> Vec<String> {
+    let candidate = &fitted.candidate;
+    let c = &fitted.covariance;
+    let first = c.nrows() - candidate.parameters.len();
+    let own: Vec<usize> = (candidate.inherited..candidate.parameters.len()).collect();
+    let sd = |i: usize| c[(first + i, first + i)].max(f64::MIN_POSITIVE).sqrt();
+    let estimate = |&i: &usize| {
+        let mode = fitted.found.state.theta[i];
+        candidate.parameters[i].estimate(mode, mode, sd(i))
+    };
+    let estimates: Vec<Estimate> = own.iter().map(estimate).collect();
+    let row = |&i: &usize| -> Vec<f64> {
+        let all = own.iter();
+        all.map(|&j| c[(first + i, first + j)] / (sd(i) * sd(j)))
+            .collect()
+    };
+    act_together(&estimates, &own.iter().map(row).collect::<Vec<_>>())
 }
 
 /// Parameters of the added effects that lie outside nearly all of what the catalogue holds for possible.

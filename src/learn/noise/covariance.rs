@@ -42,9 +42,7 @@ impl Covariance {
         further: &[(&[f64], ModelError)],
     ) -> Self {
         let picked: Vec<&Observation> = rows.iter().map(|&row| &data.observations[row]).collect();
-        let sigma: Vec<f64> = (picked.iter())
-            .map(|o| model.sigma_factor * o.sigma)
-            .collect();
+        let sigma = model.sigma.of(&picked);
         let traces = trace_errors(&picked, &sigma, model);
         let mut errors: Vec<(Vec<f64>, ModelError)> = Vec::new();
         if let Some(error) = model.model_error {

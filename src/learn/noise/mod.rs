@@ -8,6 +8,7 @@
 
 mod covariance;
 mod model_error;
+mod sigma_model;
 mod trace;
 
 use nalgebra::DMatrix;
@@ -17,6 +18,7 @@ use crate::study;
 pub(super) use covariance::Covariance;
 pub use model_error::ModelError;
 pub(super) use model_error::amplitudes;
+pub use sigma_model::SigmaModel;
 pub use trace::Datum;
 
 /// The noise model's settings.
@@ -29,8 +31,8 @@ pub struct NoiseModel {
     pub tilt_um: f64,
     /// Prior standard deviation of the shift of a wear trace's radii, mm.
     pub shift_mm: f64,
-    /// Factor on the stated σ.
-    pub sigma_factor: f64,
+    /// Which σ the rows get.
+    pub sigma: SigmaModel,
     /// Scatter of the wear coefficient between tests.
     pub scatter: study::Scatter,
     /// Error of the model itself, correlated along a trace and over cycles.
@@ -44,7 +46,7 @@ impl NoiseModel {
             datum_um: noise.datum_um,
             tilt_um: noise.tilt_um,
             shift_mm: noise.shift_mm,
-            sigma_factor: 1.0,
+            sigma: SigmaModel::AS_STATED,
             scatter: noise.coefficient_scatter,
             model_error: None,
         }

@@ -97,8 +97,8 @@ pub struct Wanted<'a> {
     pub turn_sign: bool,
     /// How decimals are written; the numbers say it otherwise.
     pub decimal: Option<Decimal>,
-    /// One standard deviation, in the quantity's unit.
-    pub sigma: f64,
+    /// One standard deviation, in the quantity's unit; left empty where it is not known.
+    pub sigma: Option<f64>,
     /// Another, independent one as a share of the value.
     pub relative_sigma: f64,
     /// Whether each checkpoint is a trace with a zero of its own.
@@ -242,9 +242,10 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
             } else {
                 String::new()
             };
-            let sigma = match wanted.relative_sigma {
-                0.0 => wanted.sigma,
-                share => rounded(wanted.sigma.hypot(share * value)),
+            let sigma = match (wanted.sigma, wanted.relative_sigma) {
+                (None, _) => String::new(),
+                (Some(sigma), 0.0) => sigma.to_string(),
+                (Some(sigma), share) => rounded(sigma.hypot(share * value)).to_string(),
             };
             format!(
                 "{},{},{cycles},{},{},{},{},{}",

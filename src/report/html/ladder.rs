@@ -32,6 +32,7 @@ fn errors(result: &Result<'_>) -> Section {
             "",
             "study",
             "effects",
+            "against",
             "χ² fit",
             "change",
             "χ² held out",
@@ -52,6 +53,9 @@ fn errors(result: &Result<'_>) -> Section {
             Cell::number((i + 1).to_string()),
             Cell::Code(step.study.clone()),
             Cell::text(effects(step)),
+            step.against
+                .as_ref()
+                .map_or(Cell::text(""), |before| Cell::Code(before.clone())),
             number(step.fit_chi2_per_point),
             gain(|i| i.fit_factor),
             number(step.holdout_chi2_per_point),

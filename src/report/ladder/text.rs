@@ -56,11 +56,11 @@ pub fn conclusion(result: &Result<'_>) -> String {
             format!("Least error on {of}: {with}, {change}; 1 is the noise floor.")
         });
     }
-    for pair in result.steps.windows(2) {
-        let (before, after) = (&pair[0], &pair[1]);
-        if after.improvement.is_none() {
+    for after in &result.steps {
+        let named = |name: &String| result.steps.iter().find(|step| step.study == *name);
+        let Some(before) = after.against.as_ref().and_then(named) else {
             continue;
-        }
+        };
         let (Some(a), Some(b)) = (judge(before), judge(after)) else {
             continue;
         };
@@ -103,6 +103,14 @@ fn notes(result: &Result<'_>) -> Vec<String> {
         .collect()
 }
 
+/// Whether a version is judged against another than the line above it.
+fn against_another_line(result: &Result<'_>) -> bool {
+    let pairs = result.steps.windows(2);
+    let other =
+        |pair: &[LadderStep]| (pair[1].against.as_ref()).is_some_and(|a| *a != pair[0].study);
+    pairs.into_iter().any(other)
+}
+
 /// A table for the terminal, the conclusion, where the files are.
 pub fn summary(result: &Result<'_>, folder: &Path) -> String {
     let mut lines = Vec::new();
@@ -115,13 +123,14 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
         "  {:<width$}{:>11}{:>9}{:>11}{:>9}{:>10}  {}",
         "study", "fit chi2", "", "held out", "", "rms µm", "effects"
     ));
+    let rivals = against_another_line(result);
     let number = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 3));
     for step in &result.steps {
         let gain = |of: fn(&crate::learn::Improvement) -> Option<f64>| {
             factor(step.improvement.as_ref().and_then(of))
         };
         lines.push(format!(
-            "  {:<width$}{:>11}{:>9}{:>11}{:>9}{:>10}  {}{}",
+            "  {:<width$}{:>11}{:>9}{:>11}{:>9}{:>10}  {}{}{}",
             step.study,
             number(step.fit_chi2_per_point),
             gain(|i| i.fit_factor),
@@ -129,7 +138,11 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
             gain(|i| i.holdout_factor),
             number(step.rms_um),
             effects(step),
-            if step.sound { "" } else { "   (fit doubtful)" }
+            if step.sound { "" } else { "   (fit doubtful)" },
+            match &step.against {
+                Some(before) if rivals => format!("   (against {before})"),
+                _ => String::new(),
+            }
         ));
     }
     lines.push(String::new());

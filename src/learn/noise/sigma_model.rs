@@ -1,0 +1,52 @@
+//! Which standard deviation each row's own noise gets.
+
+use crate::measure::neighbours::curves;
+use crate::measure::{Observation, Quantity};
+
+/// Which σ the rows get; all but depths along a curve keep the stated one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SigmaModel {
+    /// The stated σ times a factor.
+    Stated {
+        /// 1: as stated.
+        factor: f64,
+    },
+    /// Of depths the same along a curve.
+    OfCurve {
+        /// µm.
+        floor: f64,
+        /// What joins it, as a share of the curve's largest depth.
+        share: f64,
+    },
+}
+
+impl SigmaModel {
+    /// As stated.
+    pub const AS_STATED: Self = Self::Stated { factor: 1.0 };
+
+    /// σ of every row, in its unit.
+    pub(in crate::learn) fn of(self, rows: &[&Observation]) -> Vec<f64> {
+        let factor = match self {
+            Self::Stated { factor } => factor,
+            _ => 1.0,
+        };
+        let mut sigma: Vec<f64> = rows.iter().map(|o| factor * o.sigma).collect();
+        for curve in curves(rows) {
+            let depths = rows[curve[0]].quantity == Quantity::WearDepth;
+            let values = curve.iter().map(|&i| rows[i].value.abs());
+            let own = self.of_curve(values.fold(0.0, f64::max));
+            if let Some(own) = own.filter(|own| depths && *own > 0.0) {
+                curve.iter().for_each(|&i| sigma[i] = own);
+            }
+        }
+        sigma
+    }
+
+    /// σ of the depths of a curve by its largest; None where each row has its own.
+    fn of_curve(self, largest: f64) -> Option<f64> {
+        match self {
+            Self::Stated { .. } => None,
+            Self::OfCurve { floor, share } => Some(floor + share * largest),
+        }
+    }
+}
