@@ -41,12 +41,14 @@ pub(in crate::learn) fn sigma_model(likelihood: &Likelihood<'_>, model: &[f64]) 
 
 fn of_residual(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
     let differences = differences(rows, residual);
-    if let Some(shape) = another_shape(rows, &differences) {
-        return shape;
-    }
+    // points that were filtered, or made without noise, say nothing of σ
     let scatter = scale(&differences, &SigmaModel::AS_STATED.of(rows));
-    let factor = scatter.filter(|found| *found > TOLERATED).unwrap_or(1.0);
-    SigmaModel::Stated { factor }
+    let Some(scatter) = scatter.filter(|found| *found >= SMOOTH) else {
+        return SigmaModel::AS_STATED;
+    };
+    another_shape(rows, &differences).unwrap_or(SigmaModel::Stated {
+        factor: if scatter > TOLERATED { scatter } else { 1.0 },
+    })
 }
 
 /// How neighbouring points scatter about a fit where that is not as their stated σ say, in words.
@@ -284,6 +286,10 @@ mod tests {
             let half = |largest: f64, value: f64| 0.5 * noise(largest, value);
             assert_eq!(found(&traces(8, noise, &half)).1, None);
         }
+        // smoother than any noise of the stated size: filtered, and no ground to take σ for smaller
+        let (rows, residual) = traces(8, &|largest, _| 0.003 * largest, &of_own);
+        let rows: Vec<&Observation> = rows.iter().collect();
+        assert_eq!(of_residual(&rows, &residual), SigmaModel::AS_STATED);
         let shape = found(&traces(8, &of_largest, &of_own)).1;
         let Some(SigmaModel::OfCurve { floor, share }) = shape else {
             panic!("{shape:?}");
