@@ -358,16 +358,9 @@ fn a_check_tells_what_was_understood_and_what_could_be_concluded() {
     }
     assert!(home.path().join("study.out/check/report.html").is_file());
     // depths with the other sign
-    let turned: String = read(&home, "m.csv")
-        .lines()
-        .map(|row| {
-            let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
-            if cells.len() > 5 && cells[3] == "wear_depth" {
-                cells[5] = (-cells[5].parse::<f64>().unwrap()).to_string();
-            }
-            cells.join(",") + "\n"
-        })
-        .collect();
+    let turned = changed(&read(&home, "m.csv"), |cells| {
+        turn(cells, "wear_depth");
+    });
     fs::write(home.path().join("m.csv"), turned).unwrap();
     let told = succeed(&home, "check study.toml");
     assert!(
@@ -388,6 +381,19 @@ fn changed(text: &str, change: impl Fn(&mut Vec<String>)) -> String {
     rows.collect()
 }
 
+fn number(cell: &str) -> f64 {
+    cell.parse().unwrap()
+}
+
+/// Turns the sign of a row's value if it is of this quantity.
+fn turn(cells: &mut [String], quantity: &str) -> bool {
+    let own = cells[3] == quantity;
+    if own {
+        cells[5] = (-number(&cells[5])).to_string();
+    }
+    own
+}
+
 #[test]
 fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
     let home = home();
@@ -404,7 +410,7 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
     );
     let of_gear = changed(&good, |cells| {
         if cells[1] == "gear" {
-            cells[2] = (cells[2].parse::<f64>().unwrap() * 27.0 / 53.0).to_string();
+            cells[2] = (number(&cells[2]) * 27.0 / 53.0).to_string();
         }
     });
     let said = told(&of_gear);
@@ -425,8 +431,7 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
     // each row's own depth for the largest of its curve
     let small = changed(&good, |cells| {
         if cells[3] == "wear_depth" {
-            let value: f64 = cells[5].parse().unwrap();
-            cells[6] = (0.02f64.hypot(0.05 * value)).to_string();
+            cells[6] = 0.02f64.hypot(0.05 * number(&cells[5])).to_string();
         }
     });
     let said = told(&small);
@@ -444,10 +449,9 @@ fn a_check_finds_a_transmission_error_that_runs_the_other_way() {
     fs::write(home.path().join("study.toml"), by_fem).unwrap();
     succeed(&home, "synthesize study.toml -o data --seed 2");
     let turned = changed(&read(&home, "data/measurements.csv"), |cells| {
-        if cells[3] == "transmission_error" {
-            cells[5] = (-cells[5].parse::<f64>().unwrap()).to_string();
+        if turn(cells, "transmission_error") {
             // of less weight than the depths, which k is then fitted to
-            cells[6] = (8.0 * cells[6].parse::<f64>().unwrap()).to_string();
+            cells[6] = (8.0 * number(&cells[6])).to_string();
         }
     });
     fs::write(home.path().join("m.csv"), turned).unwrap();
@@ -469,6 +473,9 @@ fn a_sigma_may_be_left_out_and_hides_no_second_copy() {
     // two points have no neighbours to estimate it from
     assert_eq!(code, Some(2));
     assert!(message.contains("sigma"), "{message}");
+    let (code, _, message) = line(&home, &format!("{import} --relative-sigma 0.1"));
+    assert_eq!(code, Some(2));
+    assert!(message.contains("--sigma <SIGMA>"), "{message}");
     succeed(&home, &format!("{import} --sigma 0.2 -o m.csv"));
     let again = format!("{import} --sigma 0.3 --relative-sigma 0.1 -o m.csv --append");
     let (code, _, message) = line(&home, &again);

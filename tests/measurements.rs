@@ -99,6 +99,8 @@ refusals! {
         => MissingKey "" at 1:49, "no row after the header", "one row per measured value", "holds no measurement";
     no_header: "A,pinion,250000,wear_depth,26.31,3.42,0.15,A-p-1\n"
         => UnknownKey "A" at 1:1, "`A`", "test, member, cycles", "first line that is no comment names the columns";
+    another_name_of_a_column: with("sigma,trace", "sd,trace")
+        => UnknownKey "sd" at 2:44, "`sd`", "value, sigma", "the nearest column is `sigma`";
     misspelt_column: with("quantity", "quantitiy")
         => UnknownKey "quantitiy" at 2:20, "`quantitiy`", "quantity, position", "the nearest column is `quantity`";
     nameless_column: with("sigma,trace", "sigma,,trace")

@@ -61,6 +61,13 @@ fn it_writes_what_it_prints_and_threads_change_nothing() {
     let written: Value =
         serde_json::from_slice(&std::fs::read(target.join("diagnosis.json")).unwrap()).unwrap();
     assert_eq!(document, written);
+    let next = document["next_step"].as_str().unwrap();
+    let named = study.display().to_string();
+    assert!(!next.contains("STUDY"), "{next}");
+    assert!(
+        !next.contains("gearwear ") || next.contains(&named),
+        "{next}"
+    );
     assert!(target.join("report.html").is_file());
     let map = std::fs::read_to_string(target.join("discrepancy.csv")).unwrap();
     assert!(

@@ -93,10 +93,10 @@ fn gearwear() -> assert_cmd::Command {
 
 /// What `add` says, and the law that it wrote.
 fn learned(path: &Path, name: &str) -> (Value, LearnedLaw) {
-    let new = path.with_file_name("new.toml");
+    let stem = path.file_stem().unwrap().to_string_lossy();
+    let new = path.with_file_name(format!("{stem}+{}.toml", name.replace(':', "-")));
     let output = gearwear()
-        .args(["add", "--json", "--quiet", "--force", "-o"])
-        .arg(&new)
+        .args(["add", "--json", "--quiet", "--force"])
         .arg(path)
         .arg(name)
         .output()
@@ -150,7 +150,7 @@ fn an_unknown_rhythm_is_found_and_predicts_another_test() {
     // the study that was written says the same
     let output = gearwear()
         .args(["compare", "--json", "--quiet"])
-        .arg(path.with_file_name("new.toml"))
+        .arg(path.with_file_name("study+learned-cycles.toml"))
         .output()
         .unwrap();
     assert!(output.status.success());

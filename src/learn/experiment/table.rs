@@ -316,3 +316,23 @@ fn row(
         test,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::QuantityDiscrimination;
+
+    /// A rival counts by its probability, and χ² up to 60.
+    #[test]
+    fn what_is_likelier_counts_more() {
+        let score = |chi2: [f64; 2], weights: [f64; 2]| {
+            let told = QuantityDiscrimination {
+                chi2: chi2.into(),
+                weights: weights.into(),
+                ..QuantityDiscrimination::default()
+            };
+            told.score()
+        };
+        assert!((score([10.0, 50.0], [0.27, 0.03]) - 14.0).abs() < 1e-12);
+        assert!((score([10.0, 500.0], [1.0, 1.0]) - 35.0).abs() < 1e-12);
+    }
+}
