@@ -8,7 +8,7 @@ use std::sync::Arc;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::prelude::ReborrowMut;
 use faer::sparse::linalg::solvers::Lu;
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{ColMut, Mat, MatMut};
 use rayon::prelude::*;
 
@@ -133,20 +133,35 @@ impl Shifted {
         if n < LEAST_UNKNOWNS {
             return None;
         }
-        let most = MOST_FILLED * (n * n) as f64;
-        let mut entries = Vec::new();
+        let most = (MOST_FILLED * (n * n) as f64) as usize;
+        let mut starts = Vec::with_capacity(n + 1);
+        let (mut rows, mut values) = (Vec::new(), Vec::new());
         for j in 0..n {
-            let off_diagonal = jacobian.column(j).filter(|&(i, _)| i != j);
-            let scaled =
-                off_diagonal.map(|(i, value)| Triplet::new(i as u32, j as u32, -factor * value));
-            entries.extend(scaled);
-            let own = 1.0 - factor * jacobian[(j, j)];
-            entries.push(Triplet::new(j as u32, j as u32, own));
-            if entries.len() as f64 > most {
+            starts.push(rows.len() as u32);
+            let mut met_diagonal = false;
+            let mut put = |i: usize, value: f64| {
+                rows.push(i as u32);
+                values.push(value);
+            };
+            for (i, value) in jacobian.column(j) {
+                if i >= j && !met_diagonal {
+                    met_diagonal = true;
+                    put(j, 1.0 - factor * if i == j { value } else { 0.0 });
+                }
+                if i != j {
+                    put(i, -factor * value);
+                }
+            }
+            if !met_diagonal {
+                put(j, 1.0);
+            }
+            if rows.len() > most {
                 return None;
             }
         }
-        let matrix = SparseColMat::try_new_from_triplets(n, n, &entries).ok()?;
+        starts.push(rows.len() as u32);
+        let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);
+        let matrix = SparseColMat::new(pattern, values);
         Some(Self::Sparse(Box::new(matrix.sp_lu().ok()?)))
     }
 
