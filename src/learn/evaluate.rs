@@ -62,11 +62,6 @@ impl<'a> Evaluator<'a> {
             .collect()
     }
 
-    /// Whether the model gives derivatives of its own.
-    pub(super) fn has_derivatives(&self) -> bool {
-        self.predictor.has_derivatives()
-    }
-
     /// The model's own derivatives at all points, along each point's moves and by ln k; none where it has none, or none that are finite. The
     /// predictions that come with them are kept.
     pub(super) fn derivatives(

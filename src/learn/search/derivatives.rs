@@ -54,17 +54,6 @@ impl Search<'_> {
         evaluator.derivatives(&points)
     }
 
-    /// The model's own derivatives where it has any, else forward differences.
-    pub(super) fn derivatives(
-        &self,
-        evaluator: &mut Evaluator<'_>,
-        state: &State,
-        values: &Values,
-    ) -> Result<Derivatives, PredictError> {
-        let own = self.own(evaluator, state);
-        self.with_differences(evaluator, state, values, own)
-    }
-
     /// The model's `own` derivatives of each test, and where there are none forward differences of all tests in one round; where a prediction
     /// fails, the other side is tried, then narrower ones.
     pub(super) fn with_differences(
@@ -75,20 +64,8 @@ impl Search<'_> {
         own: OwnDerivatives,
     ) -> Result<Derivatives, PredictError> {
         let params = self.layout.parameters.len();
-        let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
-        let mut jacobian =
-            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
-        for (test, own) in own.iter().enumerate() {
-            let Some(own) = own else { continue };
-            for (from, &row) in self.selection.rows[test].iter().enumerate() {
-                for p in 0..params {
-                    jacobian[(row, p)] = own[(from, p)];
-                }
-                if moves_k {
-                    jacobian[(row, params + test)] = own[(from, params)];
-                }
-            }
-        }
+        let moves_k = self.moves_k();
+        let mut jacobian = self.of_own(&own);
         let mut asked = Vec::new();
         for test in (0..own.len()).filter(|&test| own[test].is_none()) {
             for p in 0..params {
@@ -126,7 +103,31 @@ impl Search<'_> {
         })
     }
 
-    /// Where a search comes to rest: the model's own derivatives, else central differences.
+    /// The model's `own` derivatives as rows; zeros for the tests without.
+    fn of_own(&self, own: &OwnDerivatives) -> DMatrix<f64> {
+        let params = self.layout.parameters.len();
+        let mut jacobian =
+            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
+        for (test, own) in own.iter().enumerate() {
+            let Some(own) = own else { continue };
+            for (from, &row) in self.selection.rows[test].iter().enumerate() {
+                for p in 0..params {
+                    jacobian[(row, p)] = own[(from, p)];
+                }
+                if self.moves_k() {
+                    jacobian[(row, params + test)] = own[(from, params)];
+                }
+            }
+        }
+        jacobian
+    }
+
+    /// Whether the wear coefficient of a test may move.
+    fn moves_k(&self) -> bool {
+        self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0)
+    }
+
+    /// Where a search comes to rest: the model's own derivatives of each test, and of those without central differences.
     pub(super) fn at_rest(
         &self,
         evaluator: &mut Evaluator<'_>,
@@ -134,16 +135,11 @@ impl Search<'_> {
         values: &Values,
         quadratic: &Quadratic,
     ) -> Result<DMatrix<f64>, PredictError> {
-        if evaluator.has_derivatives() {
-            let derivatives = self.derivatives(evaluator, state, values)?;
-            if derivatives.exact {
-                return Ok(derivatives.jacobian);
-            }
-        }
-        self.central(evaluator, state, values, quadratic)
+        let own = self.own(evaluator, state);
+        self.central(evaluator, state, values, &own, quadratic)
     }
 
-    /// Central differences of all tests in one round, over two posterior standard deviations to each side, but at least two and at most ten
+    /// The model's `own` derivatives of each test, and of those without central differences in one round, over two posterior standard deviations to each side, but at least two and at most ten
     /// times as wide as a forward difference: a standard deviation that is too small because the last derivatives took roughness for
     /// change must not make the next ones as rough.
     fn central(
@@ -151,13 +147,14 @@ impl Search<'_> {
         evaluator: &mut Evaluator<'_>,
         state: &State,
         values: &Values,
+        own: &OwnDerivatives,
         quadratic: &Quadratic,
     ) -> Result<DMatrix<f64>, PredictError> {
         let params = self.layout.parameters.len();
-        let moves_k = self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0);
+        let moves_k = self.moves_k();
         let covariance = quadratic.mapped_covariance();
         let mut asked = Vec::new();
-        for test in 0..self.selection.tests.len() {
+        for test in (0..own.len()).filter(|&test| own[test].is_none()) {
             for p in 0..params {
                 let (prior, at) = (&self.layout.parameters[p], state.theta[p]);
                 let usual = self.parameters[p].difference(at).abs();
@@ -184,8 +181,7 @@ impl Search<'_> {
                 found.splice(sides, evaluator.all(&again));
             }
         }
-        let mut jacobian =
-            DMatrix::zeros(self.selection.len(), params + self.selection.tests.len());
+        let mut jacobian = self.of_own(own);
         for (&(test, column, low, high), pair) in asked.iter().zip(found.chunks_exact(2)) {
             // a side without an answer is replaced by the middle
             let ends = match (&pair[0], &pair[1]) {
