@@ -194,6 +194,7 @@ pub fn history(
         tolerance,
         floor,
         first_step,
+        hesitates: false,
         least_growth: 1e-10 * floor,
     };
     let mut stand = Stand::new(fresh, control);

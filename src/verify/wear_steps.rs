@@ -76,6 +76,7 @@ fn fixed_steps(steps: usize) -> Result<Vec<f64>, CaseError> {
         tolerance: f64::MAX,
         floor: 1.0,
         first_step: step,
+        hesitates: false,
         least_growth: 0.0,
     };
     let mut stand = Stand::new(vec![0.0; system.x.len()], loose);
@@ -213,6 +214,7 @@ pub fn explicit_limit(elements: usize, tolerance: f64) -> Result<Vec<Measured>, 
         tolerance,
         floor,
         first_step: 100.0 * limit,
+        hesitates: false,
         least_growth: 0.0,
     };
     let mut stand = Stand::new(disturbed.clone(), control);

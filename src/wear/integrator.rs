@@ -98,6 +98,8 @@ pub struct StepControl {
     pub ceiling: f64,
     /// First step (unit of n); later ones follow the error.
     pub first_step: f64,
+    /// Whether the step after a refused one is no longer than it.
+    pub hesitates: bool,
     /// Growth of the fastest unknown in a step below which the integration gives up (unit of u).
     pub least_growth: f64,
 }
@@ -187,6 +189,7 @@ pub fn advance<S: WearSystem>(
     let jacobian = system.jacobian(n, &stand.u).map_err(fail)?;
     let rate = system.rate(n, &stand.u).map_err(fail)?;
     let mut step = stand.step;
+    let mut refused = false;
     loop {
         // stretch a little rather than leave a sliver before the end
         let tau = if n + 1.01 * step >= end {
@@ -216,10 +219,15 @@ pub fn advance<S: WearSystem>(
             .sum();
         let error = (squares / k1.len() as f64).sqrt() / (control.tolerance * scale);
         // the error is of second order in the step
-        let factor = if error > 0.0 {
-            (SAFETY / error.sqrt()).clamp(0.2, 4.0)
+        let most = if refused && control.hesitates {
+            1.0
         } else {
             4.0
+        };
+        let factor = if error > 0.0 {
+            (SAFETY / error.sqrt()).clamp(0.2, most)
+        } else {
+            most
         };
         if error <= 1.0 {
             let before = stand.u.clone();
@@ -244,6 +252,7 @@ pub fn advance<S: WearSystem>(
             });
         }
         stand.rejected += 1;
+        refused = true;
         let shorter = factor.min(0.7);
         step = tau * shorter;
         let growth =
@@ -330,6 +339,7 @@ mod tests {
             floor: 1.0,
             ceiling: f64::INFINITY,
             first_step: 1.0 / steps as f64,
+            hesitates: false,
             least_growth: 0.0,
         };
         let mut stand = Stand::new(vec![0.0, 0.0], loose);
@@ -363,6 +373,7 @@ mod tests {
                 floor: 1e-3,
                 ceiling,
                 first_step: 1e-3,
+                hesitates: false,
                 least_growth: 1e-9,
             };
             let mut stand = Stand::new(vec![100.0, 100f64.sin()], control);
@@ -375,6 +386,37 @@ mod tests {
         assert!(error(f64::INFINITY) > 5.0 * error(1.0));
     }
 
+    /// A rate that jumps where the first unknown passes 1: the step that is refused there is not followed by a longer one.
+    #[test]
+    fn hesitates_after_a_refused_step() {
+        struct Jump;
+        impl WearSystem for Jump {
+            type Error = std::convert::Infallible;
+            fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, Self::Error> {
+                Ok(vec![if u[0] < 1.0 { 1.0 } else { 1.5 }])
+            }
+            fn jacobian(&mut self, _: f64, _: &[f64]) -> Result<Option<Jacobian>, Self::Error> {
+                Ok(None)
+            }
+        }
+        let grown = |hesitates| {
+            let control = StepControl {
+                tolerance: 0.1,
+                floor: 1.0,
+                ceiling: f64::INFINITY,
+                first_step: 0.9,
+                hesitates,
+                least_growth: 1e-9,
+            };
+            let mut stand = Stand::new(vec![0.5], control);
+            let step = advance(&mut Jump, &mut stand, 1e9, control).unwrap();
+            assert!(stand.rejected > 0);
+            stand.step / step.length()
+        };
+        assert!(grown(false) > 1.0);
+        assert!(grown(true) <= 1.0);
+    }
+
     #[test]
     fn follows_its_tolerance() {
         let error = |tolerance| {
@@ -383,6 +425,7 @@ mod tests {
                 floor: 1.0,
                 ceiling: f64::INFINITY,
                 first_step: 1e-3,
+                hesitates: false,
                 least_growth: 1e-9,
             };
             let mut stand = Stand::new(vec![0.0, 0.0], control);
