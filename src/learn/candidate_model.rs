@@ -37,6 +37,7 @@ pub(super) fn model<'b>(bench: &'b Bench<'b>, candidate: &'b Candidate) -> GearM
         }),
     )
     .stretching(effects.stretches_time())
+    .giving_up()
 }
 
 /// Predictions of all tests of a likelihood at a state, by test of the likelihood.

@@ -5,14 +5,14 @@
 mod derivatives;
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::effects::{Combined, Hook, Local};
 use crate::learn::bench::Bench;
 use crate::learn::observe::Reading;
 use crate::learn::predictor::{Linearised, Move, PredictError, Predictor};
 use crate::learn::trajectory::Trajectory;
-use crate::measure::Observation;
+use crate::measure::{Observation, Quantity};
 use crate::simulate::forward::{Forward, ForwardError, Mounting, Variation};
 use crate::wear::acting::Acting;
 
@@ -26,6 +26,12 @@ pub struct GearModel<'a> {
     stretches: bool,
     /// Each with its derivatives, without, or both.
     histories: Mutex<HashMap<Key, Vec<Arc<Trajectory>>>>,
+    /// Whether histories are given up that wear far deeper than was measured.
+    gives_up: bool,
+    /// Those that were, and the cycles at which they had come so far.
+    given_up: Mutex<HashMap<Key, f64>>,
+    /// The largest depth of each test's first history, mm.
+    first: Mutex<HashMap<usize, f64>>,
     mountings: Mutex<HashMap<usize, Vec<Mounted>>>,
 }
 
@@ -39,6 +45,13 @@ type Mounted = (Vec<u64>, Mounting);
 /// mounting holds a mesh cycle and its compliance.
 const MOUNTINGS: usize = 3;
 
+/// How many times as deep as measured, or as its first history, a test is worn before that is given up.
+const TOO_DEEP: f64 = 4.0;
+
+fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 impl<'a> GearModel<'a> {
     /// The model with `effects`, from parameter values in the order that callers of [`Predictor::predict`] use.
     pub fn new(bench: &'a Bench<'a>, effects: EffectsOf<'a>) -> Self {
@@ -47,6 +60,9 @@ impl<'a> GearModel<'a> {
             effects,
             stretches: false,
             histories: Mutex::default(),
+            gives_up: false,
+            given_up: Mutex::default(),
+            first: Mutex::default(),
             mountings: Mutex::default(),
         }
     }
@@ -55,6 +71,27 @@ impl<'a> GearModel<'a> {
     pub fn stretching(mut self, stretches: bool) -> Self {
         self.stretches = stretches;
         self
+    }
+
+    /// The same, without an answer where a test wears far deeper than its measurements and its first history: a fit's trial steps lead there, no
+    /// fit ends there, and following them costs more than the rest of the fit. The first history of each test is always followed, so it must be asked for
+    /// before others of that test.
+    pub(super) fn giving_up(mut self) -> Self {
+        self.gives_up = true;
+        self
+    }
+
+    /// How deep a history of a test is followed, mm.
+    fn deepest(&self, test: usize) -> f64 {
+        let first = locked(&self.first).get(&test).copied();
+        let Some(first) = first.filter(|_| self.gives_up) else {
+            return f64::INFINITY;
+        };
+        let depths = (self.bench.tests[test].observations.iter())
+            .filter(|o| o.quantity == Quantity::WearDepth)
+            .map(|o| 1e-3 * o.value);
+        let measured = depths.reduce(f64::max);
+        measured.map_or(f64::INFINITY, |depth| TOO_DEEP * depth.max(first))
     }
 
     /// The history of a test up to `cycles` at least, with its derivatives by `variations` if there are any.
@@ -67,11 +104,7 @@ impl<'a> GearModel<'a> {
         cycles: f64,
         variations: &[Variation],
     ) -> Result<Arc<Trajectory>, ForwardError> {
-        let kept = || {
-            self.histories
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-        };
+        let kept = || locked(&self.histories);
         let same = |history: &Arc<Trajectory>| history.parameters() == variations.len();
         let serves = |history: &&Arc<Trajectory>| {
             history.reaches(cycles) && (variations.is_empty() || same(history))
@@ -84,8 +117,18 @@ impl<'a> GearModel<'a> {
             }
             known.iter().find(|known| same(known)).cloned()
         };
+        let deepest = self.deepest(key.0);
+        let too_deep_at = locked(&self.given_up).get(&key).copied();
+        if let Some(cycles) = too_deep_at.filter(|at| *at <= cycles) {
+            return Err(ForwardError::TooDeep { cycles, deepest });
+        }
         let mut longer = known.map_or_else(Trajectory::default, |known| (*known).clone());
-        longer.reach(forward, cycles, variations)?;
+        let reached = longer.reach(forward, cycles, variations, deepest);
+        if let Err(ForwardError::TooDeep { cycles, .. }) = &reached {
+            locked(&self.given_up).insert(key.clone(), *cycles);
+        }
+        reached?;
+        (locked(&self.first).entry(key.0)).or_insert_with(|| longer.deepest());
         let longer = Arc::new(longer);
         let mut kept = kept();
         let all = kept.entry(key).or_default();
@@ -108,11 +151,7 @@ impl<'a> GearModel<'a> {
         if !acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
             return template.again(coefficients, acting);
         }
-        let kept = || {
-            self.mountings
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-        };
+        let kept = || locked(&self.mountings);
         let known = kept().get_mut(&test).and_then(|mountings| {
             let at = mountings.iter().position(|(own, _)| own == bits)?;
             mountings[at..].rotate_left(1);

@@ -138,7 +138,8 @@ impl<'a> Measured<'a> {
                 })
             }),
         )
-        .stretching(effects.stretches_time());
+        .stretching(effects.stretches_time())
+        .giving_up();
         let problem = Problem {
             data: &self.data,
             roles: &self.roles,

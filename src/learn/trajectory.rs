@@ -44,16 +44,23 @@ impl Trajectory {
         self.tangents.depth.len()
     }
 
+    /// The largest depth so far, mm.
+    pub(super) fn deepest(&self) -> f64 {
+        let depths = self.progress.iter().flat_map(|p| p.max_depth);
+        depths.fold(0.0, f64::max)
+    }
+
     /// Wears on until `cycles` lie between two steps with a further one behind, with the derivatives by `variations`: the same ones
-    /// every time.
+    /// every time; not deeper than `deepest` (mm).
     ///
     /// # Errors
-    /// [`ForwardError`] if a step before `cycles` fails.
+    /// [`ForwardError`] if a step before `cycles` fails or goes deeper.
     pub(super) fn reach(
         &mut self,
         forward: &mut Forward,
         cycles: f64,
         variations: &[Variation],
+        deepest: f64,
     ) -> Result<(), ForwardError> {
         let Self {
             nodes,
@@ -69,12 +76,20 @@ impl Trajectory {
             progress.forget_sets();
         }
         let with = (variations, &mut *tangents);
+        let mut too_deep = None;
         let outcome =
             forward.wear_with_tangents(progress, f64::MAX, with, &mut |_, progress, tangents| {
                 nodes.push(node(progress, tangents));
-                !enough(nodes, cycles)
+                if progress.max_depth.iter().any(|depth| *depth > deepest) {
+                    too_deep = Some(progress.stand.n);
+                }
+                too_deep.is_none() && !enough(nodes, cycles)
             });
         match outcome {
+            Ok(_) if !enough(nodes, cycles) => Err(ForwardError::TooDeep {
+                cycles: too_deep.unwrap_or_default(),
+                deepest,
+            }),
             // the step beyond is a help only
             Err(_) if nodes.len() >= 3 && nodes.iter().any(|n| n.cycles >= cycles) => Ok(()),
             outcome => outcome.map(|_| ()),

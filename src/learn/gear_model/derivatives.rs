@@ -168,7 +168,7 @@ impl GearModel<'_> {
             let mut moved = history.along(&mut forward)?;
             // in stretched time the last row may lie beyond the other's steps
             if let Some(last) = self.last(&run).filter(|last| !moved.reaches(*last)) {
-                moved.reach(&mut forward, last, &[])?;
+                moved.reach(&mut forward, last, &[], f64::INFINITY)?;
             }
             self.read_off(&run, &mut forward, &moved, &[], &|reading, o| reading.of(o))
         };

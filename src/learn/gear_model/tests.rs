@@ -33,6 +33,34 @@ fn study() -> Study {
     Study::parse(&format!("{text}\n{coarse}"), "study.toml").unwrap()
 }
 
+/// Measured are 1 µm. The first history is followed however deep it goes, later ones not beyond four times that depth; what was given up is not begun
+/// again, and less of it is.
+#[test]
+fn wear_far_deeper_than_measured_is_given_up_after_the_first_history() {
+    let study = study();
+    let rows =
+        "test,member,cycles,quantity,position,value,sigma\nA,pinion,4e5,wear_depth,27.3,1,1\n";
+    let data = Dataset::parse(rows, "m.csv", &study.known()).unwrap();
+    let measured = Measured::new(&study, data);
+    let workshop = measured.workshop(ContactKind::Hertz).unwrap();
+    let bench = measured.bench(&workshop).unwrap();
+    let model = || GearModel::new(&bench, Box::new(|_| Combined::default()));
+    let (k, wild) = (study.wear.coefficient, 30.0 * study.wear.coefficient);
+    let free = model();
+    let [usual, deep] = [k, wild].map(|k| free.predict(0, k, &[]).unwrap());
+    let bounded = model().giving_up();
+    assert_eq!(bounded.predict(0, k, &[]).unwrap(), usual);
+    let error = bounded.predict(0, wild, &[]).unwrap_err();
+    assert!(error.reason.contains("deeper than"), "{error}");
+    assert_eq!(bounded.predict(0, wild, &[]).unwrap_err(), error);
+    assert_eq!(
+        bounded.predict(0, 2.0 * k, &[]).unwrap(),
+        free.predict(0, 2.0 * k, &[]).unwrap()
+    );
+    let begins_wild = model().giving_up();
+    assert_eq!(begins_wild.predict(0, wild, &[]).unwrap(), deep);
+}
+
 /// How far apart the compared histories lie, relative: the first is too far for a history that is bent or has a kink there, the second too near
 /// for steep laws. A wrong derivative misses both.
 const APART: [f64; 2] = [3e-7, 1e-8];

@@ -45,6 +45,14 @@ pub enum ForwardError {
     /// A wear step failed.
     #[error("{0}")]
     Step(#[from] StepError<WearError>),
+    /// Wear went deeper than it was followed.
+    #[error("after {cycles:.3e} cycles the flanks are worn deeper than {:.0} µm", 1e3 * .deepest)]
+    TooDeep {
+        /// Pinion revolutions.
+        cycles: f64,
+        /// Depth up to which wear was followed, mm.
+        deepest: f64,
+    },
     /// Members or their compliance are missing since a preparation failed.
     #[error("the contact of these gears could not be prepared before")]
     Unprepared,
