@@ -2,7 +2,7 @@
 //! a run that ends where the measurement was taken.
 //!
 //! Source: the same model worn step by step to each checkpoint with a step tolerance twenty times finer. Tolerance: 0.4 % of the trace's
-//! largest depth at the fits' own step tolerance of 4e-3, on a coarse mesh.
+//! largest depth at the fits' own step tolerance of 2e-3, on a coarse mesh.
 
 use std::path::Path;
 

@@ -38,9 +38,10 @@ pub struct Workshop {
     members: Vec<Vec<(f64, Members)>>,
 }
 
-/// Step tolerance with which fits begin, looser than a run's own: it costs 0.05 % of the largest depth, and more than measurements with 2 %
-/// noise forgive where a law jumps (coating, severe transition). Whether it is too loose shows where the fit ends ([`Bench::finer`]).
-const STEP_TOLERANCE: f64 = 4e-3;
+/// Step tolerance with which fits begin, that of a run by default: whether it is too loose shows where the fit ends ([`Bench::finer`]). Twice as
+/// loose saves a fifth of the steps and costs more than that where contacts are deep and wide: every fourth step is refused there, and histories hang so
+/// roughly on their parameters that derivatives must be taken by differences, each of a history more.
+const STEP_TOLERANCE: f64 = 2e-3;
 
 /// How much finer each refinement is: steps are of second order.
 const REFINEMENT: f64 = 0.25;
@@ -236,19 +237,31 @@ impl<'a> Bench<'a> {
     /// # Errors
     /// As [`Workshop::bench`].
     pub fn finer(&self) -> Result<Option<Self>, ForwardError> {
-        let tolerance = REFINEMENT * self.step_tolerance;
-        if tolerance < FINEST_TOLERANCE {
+        if self.step_tolerance <= FINEST_TOLERANCE {
             return Ok(None);
         }
+        let tolerance = (REFINEMENT * self.step_tolerance).max(FINEST_TOLERANCE);
+        self.stepping(tolerance).map(Some)
+    }
+
+    /// The same tests with wear steps so rough that they only tell what may matter.
+    ///
+    /// # Errors
+    /// As [`Workshop::bench`].
+    pub(super) fn rougher(&self) -> Result<Self, ForwardError> {
+        self.stepping(self.step_tolerance.max(LOOK_STEP))
+    }
+
+    fn stepping(&self, tolerance: f64) -> Result<Self, ForwardError> {
         let templates = self.templates.iter();
-        Ok(Some(Self {
+        Ok(Self {
             shop: self.shop,
             step_tolerance: tolerance,
             tests: self.tests.clone(),
             templates: templates
                 .map(|template| template.stepping(tolerance))
                 .collect::<Result<_, ForwardError>>()?,
-        }))
+        })
     }
 }
 

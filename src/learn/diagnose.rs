@@ -93,7 +93,7 @@ pub fn diagnose(
     } else {
         Some((
             workshop(deciding, Fidelity::Middle)?,
-            measured.workshop(deciding)?,
+            workshop(deciding, Fidelity::Full)?,
         ))
     };
     let benches = match &finer {

@@ -28,6 +28,9 @@ const MIDDLE_EDGES: f64 = 2.5;
 const MIDDLE_POSITIONS: usize = 50;
 const MIDDLE_STEP: f64 = 5e-3;
 
+/// Error of a wear step of the fine ones: they are asked where candidates stand, not how predictions change.
+const FULL_STEP: f64 = 4e-3;
+
 impl Fidelity {
     /// As it stands in the result file.
     pub fn name(self) -> &'static str {
@@ -62,7 +65,10 @@ impl Fidelity {
                 condense_after: f64::INFINITY,
                 ..fine
             },
-            Self::Full => fine,
+            Self::Full => Numerics {
+                step_tolerance: fine.step_tolerance.max(FULL_STEP),
+                ..fine
+            },
         }
     }
 }

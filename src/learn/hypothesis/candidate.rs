@@ -220,6 +220,11 @@ impl Candidate {
         !cards.is_empty() && cards.iter().all(|card| card.acts_across_the_face())
     }
 
+    /// Whether it costs many times a section: slices of the face or classes of teeth.
+    pub(in crate::learn) fn is_costly(&self) -> bool {
+        self.acts_across_the_face() || self.acts_on_single_teeth()
+    }
+
     /// Whether every added effect has its card's own form.
     pub(in crate::learn) fn is_own_form(&self) -> bool {
         self.forms.iter().all(Option::is_none)

@@ -4,8 +4,7 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::screening::{LOOK, SCREEN, in_play};
-use crate::learn::candidate_model::{Anchored, AnchoredOn, model};
-use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
+use crate::learn::candidate_model::{AnchoredOn, model};
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::gear_model::GearModel;
@@ -38,11 +37,6 @@ const SHARP_SHARE: f64 = 0.15;
 /// Share of the leader's gain by which a form must be behind the best form of its effect not to be fitted: the analytic model is right to a tenth of
 /// that where the rate is not sharp in the pressure.
 const BEHIND_FORM: f64 = 0.15;
-/// Share of the attainable fall of χ² below which nothing explains what is there.
-const EXPLAINED: f64 = 0.85;
-/// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face or on single teeth is too little
-/// for a fit: slices and classes of teeth cost many times a section.
-const LINEARISED_SHARE: f64 = 0.25;
 /// Share of the leader's gain below which what moves single teeth is left to screening: the analytic model shares the load between them as
 /// elements do, but for the corners.
 const SINGLE_TEETH_SHARE: f64 = 0.25;
@@ -167,54 +161,13 @@ impl Context<'_> {
             .collect()
     }
 
-    /// Looks by coarse finite elements, from the first starts on, for what the analytic model may not see: where no candidate explains what
-    /// is there, and across the face also where the leader is what that is mistaken for.
-    pub(in crate::learn) fn with_unseen(
+    /// A candidate with its fit by coarse finite elements.
+    pub(super) fn refined(
         &self,
         base: &BaseFit,
-        refined: Vec<FittedCandidate>,
-        smooth: &SmoothDiscrepancy,
-    ) -> Vec<FittedCandidate> {
-        let fallen = |j: &FittedCandidate| base.fitted.square - j.square;
-        let most = refined.iter().map(fallen).fold(0.0, f64::max);
-        if smooth.drop < smooth.spread() {
-            return refined;
-        }
-        let explained = most > EXPLAINED * smooth.drop;
-        let leader = (refined.iter()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
-        let forms_are_one = self.likelihood.states_places_across_the_face();
-        let looked_at = |judged: &FittedCandidate| {
-            let candidate = &judged.candidate;
-            if !candidate.acts_across_the_face() {
-                return !explained && candidate.may_be_unseen();
-            }
-            let alike = leader.is_some_and(|l| candidate.is_look_alike_of(&l.candidate));
-            let settled = explained && judged.fidelity != Fidelity::Screening;
-            (!explained || alike) && !settled && (candidate.is_own_form() || !forms_are_one)
-        };
-        let bar = LINEARISED_SHARE * 0.5 * smooth.drop;
-        let anew = |judged: &FittedCandidate| {
-            let candidate = &judged.candidate;
-            let predictor =
-                Anchored::new(model(self.middle, candidate), base.fitted.offset.clone());
-            let starts = self.starts(base, candidate, &predictor);
-            let costly = candidate.acts_across_the_face() || candidate.acts_on_single_teeth();
-            if costly && starts.first()?.0 < bar {
-                return None;
-            }
-            let found = self.look(candidate, &predictor, starts, &SCREEN)?;
-            let found = self.refined(base, candidate.clone(), found);
-            (found.log_evidence > judged.log_evidence).then_some(found)
-        };
-        let better: Vec<Option<FittedCandidate>> = (refined.par_iter())
-            .map(|judged| looked_at(judged).then(|| anew(judged)).flatten())
-            .collect();
-        (refined.into_iter().zip(better))
-            .map(|(judged, better)| better.unwrap_or(judged))
-            .collect()
-    }
-
-    fn refined(&self, base: &BaseFit, candidate: Candidate, found: Found) -> FittedCandidate {
+        candidate: Candidate,
+        found: Found,
+    ) -> FittedCandidate {
         let offset = base.fitted.offset.clone();
         FittedCandidate::new(
             &self.likelihood,

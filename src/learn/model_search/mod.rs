@@ -16,3 +16,4 @@ mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
 mod screening;
+mod unseen;

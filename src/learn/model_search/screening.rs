@@ -99,20 +99,29 @@ impl Context<'_> {
         candidate: &Candidate,
         predictor: &Anchored<'_>,
     ) -> Vec<(f64, State)> {
-        let seen = |values: &[f64]| {
-            let state = base.added(candidate, values);
-            let (_, predicted) = self.at_measured_wear(state, candidate, predictor)?;
-            let rescaled = self.likelihood.rescaled(&predicted);
-            let change: Vec<f64> = (rescaled.iter().zip(&base.fitted.found.model))
-                .map(|(f, b)| f - b)
-                .collect();
-            Some(base.visible(&self.likelihood, &change))
-        };
+        let seen = |values: &[f64]| self.seen(base, candidate, predictor, values);
         let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
             .map(|(gain, values)| (gain, base.added(candidate, &values)))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         starts
+    }
+
+    /// The visible change of the fitted base model by a candidate with these values of the added parameters; None if it has no answer there.
+    pub(super) fn seen(
+        &self,
+        base: &BaseFit,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+        values: &[f64],
+    ) -> Option<DVector<f64>> {
+        let state = base.added(candidate, values);
+        let (_, predicted) = self.at_measured_wear(state, candidate, predictor)?;
+        let rescaled = self.likelihood.rescaled(&predicted);
+        let change: Vec<f64> = (rescaled.iter().zip(&base.fitted.found.model))
+            .map(|(f, b)| f - b)
+            .collect();
+        Some(base.visible(&self.likelihood, &change))
     }
 
     /// The state, with its predictions, where k may have to be another one to bring wear to the size of what was measured: neither a
@@ -196,7 +205,7 @@ pub(in crate::learn) fn scaled_starts(
 }
 
 /// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change, and that amplitude.
-fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> (f64, f64) {
+pub(super) fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> (f64, f64) {
     let length = seen.norm_squared();
     if length < 1e-12 {
         return (0.0, 0.0);
@@ -208,7 +217,10 @@ fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> (f64, f64) {
 }
 
 /// Largest fall of χ²/2 by any sum of two changes, and their shares in it; None if they are one.
-fn plane_gain(seen: [&DVector<f64>; 2], residual: &DVector<f64>) -> Option<(f64, [f64; 2])> {
+pub(super) fn plane_gain(
+    seen: [&DVector<f64>; 2],
+    residual: &DVector<f64>,
+) -> Option<(f64, [f64; 2])> {
     let dot = |i: usize, j: usize| seen[i].dot(seen[j]);
     let gram = Matrix2::new(dot(0, 0), dot(0, 1), dot(1, 0), dot(1, 1));
     let along = Vector2::new(seen[0].dot(residual), seen[1].dot(residual));

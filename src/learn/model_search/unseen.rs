@@ -1,0 +1,137 @@
+//! What the analytic model may not see at all is looked at by coarse finite elements, from the first starts on.
+//!
+//! Slices of the face and classes of teeth cost these many times a section, and most candidates that act through them gain nothing. So whether a fit is worth
+//! that price is told with rough wear steps, of candidates with two opposite starts by one of them alone as long as what it brings, with either sign, is far
+//! too little.
+
+use rayon::prelude::*;
+
+use super::context::Context;
+use super::screening::{SCREEN, linear_gain, plane_gain};
+use crate::learn::bench::Bench;
+use crate::learn::candidate_model::{Anchored, model, offset, predictions};
+use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
+use crate::learn::fidelity::Fidelity;
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::quadratic::State;
+
+/// Share of the attainable fall of χ² below which nothing explains what is there.
+const EXPLAINED: f64 = 0.85;
+/// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face or on single teeth is too little
+/// for a fit; and that of one start with either sign for a look at the others.
+const ROUGH_SHARE: f64 = 0.2;
+const EITHER_SIGN_SHARE: f64 = 0.1;
+
+/// A bench with rough wear steps, and what its base model lacks to the one that decides.
+struct Rough<'b> {
+    bench: Bench<'b>,
+    offset: Vec<Vec<f64>>,
+}
+
+impl Context<'_> {
+    /// Looks by coarse finite elements, from the first starts on, for what the analytic model may not see: where no candidate explains what
+    /// is there, and across the face also where the leader is what that is mistaken for.
+    pub(in crate::learn) fn with_unseen(
+        &self,
+        base: &BaseFit,
+        refined: Vec<FittedCandidate>,
+        smooth: &SmoothDiscrepancy,
+    ) -> Vec<FittedCandidate> {
+        let fallen = |j: &FittedCandidate| base.fitted.square - j.square;
+        let most = refined.iter().map(fallen).fold(0.0, f64::max);
+        if smooth.drop < smooth.spread() {
+            return refined;
+        }
+        let explained = most > EXPLAINED * smooth.drop;
+        let leader = (refined.iter()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
+        let forms_are_one = self.likelihood.states_places_across_the_face();
+        let looked_at = |judged: &FittedCandidate| {
+            let candidate = &judged.candidate;
+            if !candidate.acts_across_the_face() {
+                return !explained && candidate.may_be_unseen();
+            }
+            let alike = leader.is_some_and(|l| candidate.is_look_alike_of(&l.candidate));
+            let settled = explained && judged.fidelity != Fidelity::Screening;
+            (!explained || alike) && !settled && (candidate.is_own_form() || !forms_are_one)
+        };
+        let wanted: Vec<bool> = refined.iter().map(looked_at).collect();
+        let costly =
+            (refined.iter().zip(&wanted)).any(|(j, wanted)| *wanted && j.candidate.is_costly());
+        let rough = costly.then(|| self.rough(base)).flatten();
+        let attainable = 0.5 * smooth.drop;
+        let anew = |judged: &FittedCandidate| {
+            let candidate = &judged.candidate;
+            let predictor =
+                Anchored::new(model(self.middle, candidate), base.fitted.offset.clone());
+            let starts = match rough.as_ref().filter(|_| candidate.is_costly()) {
+                Some(rough) => self.worthwhile(base, candidate, rough, attainable)?,
+                None => self.starts(base, candidate, &predictor),
+            };
+            let found = self.look(candidate, &predictor, starts, &SCREEN)?;
+            let found = self.refined(base, candidate.clone(), found);
+            (found.log_evidence > judged.log_evidence).then_some(found)
+        };
+        let better: Vec<Option<FittedCandidate>> = (refined.par_iter().zip(&wanted))
+            .map(|(judged, wanted)| wanted.then(|| anew(judged)).flatten())
+            .collect();
+        (refined.into_iter().zip(better))
+            .map(|(judged, better)| better.unwrap_or(judged))
+            .collect()
+    }
+
+    /// None where the base model cannot be worn with rough steps.
+    fn rough(&self, base: &BaseFit) -> Option<Rough<'_>> {
+        let bench = self.middle.rougher().ok()?;
+        let candidate = &base.fitted.candidate;
+        let on = |bench: &Bench<'_>| {
+            let model = model(bench, candidate);
+            predictions(
+                &self.likelihood,
+                &model,
+                candidate,
+                &base.fitted.found.state,
+            )
+            .ok()
+        };
+        let mut offset = offset(&self.likelihood, &on(self.middle)?, &on(&bench)?);
+        for (offset, of_middle) in offset.iter_mut().zip(&base.fitted.offset) {
+            offset.iter_mut().zip(of_middle).for_each(|(o, m)| *o += m);
+        }
+        Some(Rough { bench, offset })
+    }
+
+    /// The starts of a costly candidate if with rough wear steps their linearised gain is worth a fit; None if not.
+    fn worthwhile(
+        &self,
+        base: &BaseFit,
+        candidate: &Candidate,
+        rough: &Rough<'_>,
+        attainable: f64,
+    ) -> Option<Vec<(f64, State)>> {
+        let predictor = Anchored::new(model(&rough.bench, candidate), rough.offset.clone());
+        if self.gain_of_one(base, candidate, &predictor)? < EITHER_SIGN_SHARE * attainable {
+            return None;
+        }
+        let starts = self.starts(base, candidate, &predictor);
+        (starts.first()?.0 >= ROUGH_SHARE * attainable).then_some(starts)
+    }
+
+    /// The gain (of ln likelihood) of the first start in the linearised model, with either sign; of a wave with any phase.
+    fn gain_of_one(
+        &self,
+        base: &BaseFit,
+        candidate: &Candidate,
+        predictor: &Anchored<'_>,
+    ) -> Option<f64> {
+        let seen = |values: &[f64]| self.seen(base, candidate, predictor, values);
+        if let Some([first, second]) = candidate.quarters.first() {
+            let (first, second) = (seen(first)?, seen(second)?);
+            return Some(plane_gain([&first, &second], &base.residual)?.0);
+        }
+        let along = seen(candidate.starts.first()?)?;
+        let (gain, _) = linear_gain(&along, &base.residual);
+        let (other, _) = linear_gain(&-along, &base.residual);
+        Some(gain.max(other))
+    }
+}
