@@ -244,7 +244,7 @@ impl Problem<'_> {
         held.scatter = Scatter::Relative(fit.scatter);
         let mut evaluator = held_out.evaluator(self.predictor);
         let state = self.state_of(&fit, held_out.tests.len());
-        let found = held.run(&mut evaluator, state, effort)?;
+        let found = held.run(&mut evaluator, state, &effort.of_held_out())?;
         self.rows_of(&held, &found, &mut fit.rows, &mut fit.datums);
         self.tests_of(&held, &found, &mut fit.tests);
         fit.tests.sort_by_key(|test| test.test);

@@ -86,6 +86,22 @@ impl Effort {
             gain: GAIN,
         }
     }
+
+    /// The same for held-out tests. Each has one unknown, its own k, within the scatter of the others; of it only what it leaves of the misfit is
+    /// stated, so it need not be followed into the roughness of simulations. Known functions (no settling) are.
+    pub(super) fn of_held_out(self) -> Self {
+        if self.settle == 0 {
+            return self;
+        }
+        Self {
+            iterations: self.iterations.min(4),
+            tolerance: self.tolerance.max(0.1),
+            floor: self.floor.max(0.5),
+            settle: 1,
+            gain: self.gain.max(0.1),
+            ..self
+        }
+    }
 }
 
 /// One problem of some tests.
@@ -126,6 +142,9 @@ const FARTHEST: f64 = 2.0;
 
 /// Gain of ln posterior, in tolerances, up to which a step is none: a fit would creep on the predictions' own roughness.
 const NOTHING: f64 = 0.1;
+
+/// The same, of what the misfit beyond noise adds to the tolerance: far from the measurements a fit that gains little in a step has many to go.
+const CREEP: f64 = 0.5;
 
 /// Whitened sum of squares by which model values may have moved under derivatives that are kept.
 const MOVED: f64 = 1.0;
@@ -201,6 +220,7 @@ impl Search<'_> {
             let beyond = 0.5 * (normal.square - self.selection.len() as f64).max(0.0);
             let tolerance = effort.tolerance + effort.share * beyond;
             let floor = effort.floor + effort.share * beyond;
+            let least = NOTHING * effort.tolerance + CREEP * effort.share * beyond;
             let settled = rounds == effort.settle
                 || effort.share * beyond > FAR
                 || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
@@ -237,7 +257,7 @@ impl Search<'_> {
                 &quadratic,
                 &state,
                 scatter,
-                (&mut damping, effort.gain, NOTHING * tolerance),
+                (&mut damping, effort.gain, least),
                 &|next| self.distance(&taken_at, next) > effort.carry,
             );
             let Some((next, next_values, own)) = tried else {

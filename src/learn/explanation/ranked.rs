@@ -177,7 +177,7 @@ fn held_out(context: &Context<'_>, held: &Likelihood<'_>, fitted: &FittedCandida
             &candidate.parameters,
             state,
             fitted.found.scatter,
-            &Effort::for_simulations(),
+            &Effort::for_simulations().of_held_out(),
         )
         .ok()?;
     Some(held.chi2_per_point(&found.model))
