@@ -289,6 +289,8 @@ fn the_files_of_a_comparison_agree() {
     ] {
         number(&written, pointer);
     }
+    let next = written["next_step"].as_str().unwrap();
+    assert!(next.contains("gearwear diagnose try/base.toml"), "{next}");
     let places = written["where"].as_array().unwrap();
     let counted: u64 = places.iter().map(|p| p["points"].as_u64().unwrap()).sum();
     assert_eq!(counted, written["points"].as_u64().unwrap());

@@ -72,7 +72,7 @@ fn one(path: &Path, target: &Path, context: &Context) -> Result<Outcome, CliErro
     };
     let written = report::write_comparison(&result, target)?;
     Ok(Outcome {
-        json: comparison::document(&compared.comparison)?,
+        json: comparison::document(&result)?,
         text: comparison::summary(&result, &written.folder),
         success: true,
     })

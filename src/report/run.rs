@@ -142,7 +142,7 @@ pub fn write_comparison(
     result: &comparison::Result<'_>,
     folder: &Path,
 ) -> Result<Written, OutputError> {
-    let document = comparison::document(result.comparison)?;
+    let document = comparison::document(result)?;
     let further = [("residuals.csv", comparison::residuals(result)?)];
     let page = html::comparison(result);
     write_page_with(&page, "comparison.json", &document, &further, folder)

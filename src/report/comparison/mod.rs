@@ -33,9 +33,12 @@ pub struct Result<'a> {
 ///
 /// # Errors
 /// [`OutputError`] if a figure has no JSON form.
-pub fn document(comparison: &Comparison) -> std::result::Result<Value, OutputError> {
-    serde_json::to_value(comparison).map_err(|source| OutputError::Json {
+pub fn document(result: &Result<'_>) -> std::result::Result<Value, OutputError> {
+    let figures = serde_json::to_value(result.comparison);
+    let mut document = figures.map_err(|source| OutputError::Json {
         file: "comparison.json".to_owned(),
         source,
-    })
+    })?;
+    document["next_step"] = Value::String(text::next_step(result));
+    Ok(document)
 }

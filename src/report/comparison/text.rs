@@ -111,7 +111,7 @@ pub fn summary(result: &super::Result<'_>, folder: &Path) -> String {
     ] {
         lines.push(format!("{what} {}", folder.join(file).display()));
     }
-    next(&mut lines, result);
+    lines.push(format!("next:      {}", next_step(result)));
     lines.push(String::new());
     lines.join("\n")
 }
@@ -231,25 +231,19 @@ fn tests(lines: &mut Vec<String>, tests: &[TestRecord]) {
     }
 }
 
-fn next(lines: &mut Vec<String>, result: &super::Result<'_>) {
+/// What to do next.
+pub(super) fn next_step(result: &super::Result<'_>) -> String {
+    let name = result.name;
     if !result.comparison.sanity.is_empty() {
-        lines.push(format!(
-            "next:      put right what stands under `check first`, then gearwear compare {}",
-            result.name
-        ));
+        format!("put right what stands under `check first`, then gearwear compare {name}")
     } else if lacks(result.comparison) {
-        let name = result.name;
-        lines.push(format!(
-            "next:      gearwear diagnose {name}     which effect is missing"
-        ));
-        lines.push(format!(
-            "           gearwear add {name} EFFECT   if you know it; `gearwear effects` lists them"
-        ));
+        format!(
+            "gearwear diagnose {name} names the effect that is missing; gearwear add {name} EFFECT if you know it (`gearwear effects` lists them)"
+        )
     } else {
         // a trend over many points can be certain below the noise of each
-        let name = result.name;
-        lines.push(format!(
-            "next:      χ² per point is that of noise; gearwear diagnose {name} looks for trends weaker than that"
-        ));
+        format!(
+            "χ² per point is that of noise; gearwear diagnose {name} looks for trends weaker than that"
+        )
     }
 }
