@@ -38,9 +38,9 @@ pub struct Workshop {
     members: Vec<Vec<(f64, Members)>>,
 }
 
-/// Step tolerance with which fits begin, that of a run by default: whether it is too loose shows where the fit ends ([`Bench::finer`]). Twice as
-/// loose saves a fifth of the steps and costs more than that where contacts are deep and wide: every fourth step is refused there, and histories hang so
-/// roughly on their parameters that derivatives must be taken by differences, each of a history more.
+/// Step tolerance with which fits begin: that of a run by default. Whether it is too loose shows where the fit ends ([`Bench::finer`]). Twice as
+/// loose saves a fifth of the steps but costs more than it saves where contacts are deep and wide: every fourth step is refused there, and
+/// predictions become so rough in their parameters that derivatives must be taken by differences, each of which costs a history.
 const STEP_TOLERANCE: f64 = 2e-3;
 
 /// How much finer each refinement is: steps are of second order.
@@ -244,7 +244,7 @@ impl<'a> Bench<'a> {
         self.stepping(tolerance).map(Some)
     }
 
-    /// The same tests with wear steps so rough that they only tell what may matter.
+    /// The same tests with rough wear steps: good enough to rule out what cannot matter.
     ///
     /// # Errors
     /// As [`Workshop::bench`].

@@ -28,7 +28,7 @@ const MIDDLE_EDGES: f64 = 2.5;
 const MIDDLE_POSITIONS: usize = 50;
 const MIDDLE_STEP: f64 = 5e-3;
 
-/// Error of a wear step of the fine ones: they are asked where candidates stand, not how predictions change.
+/// Step tolerance of the fine ones: they compare candidates where these stand and need no smooth derivatives.
 const FULL_STEP: f64 = 4e-3;
 
 impl Fidelity {

@@ -28,7 +28,7 @@ pub struct GearModel<'a> {
     histories: Mutex<HashMap<Key, Vec<Arc<Trajectory>>>>,
     /// Whether histories are given up that wear far deeper than was measured.
     gives_up: bool,
-    /// Those that were, and the cycles at which they had come so far.
+    /// Those that were, with the cycles at which they were.
     given_up: Mutex<HashMap<Key, f64>>,
     /// The largest depth of each test's first history, mm.
     first: Mutex<HashMap<usize, f64>>,
@@ -73,9 +73,9 @@ impl<'a> GearModel<'a> {
         self
     }
 
-    /// The same, without an answer where a test wears far deeper than its measurements and its first history: a fit's trial steps lead there, no
-    /// fit ends there, and following them costs more than the rest of the fit. The first history of each test is always followed, so it must be asked for
-    /// before others of that test.
+    /// The same, but histories that wear far deeper than was measured (and than the test's first history) are given up: trial steps of a fit lead
+    /// there, no fit ends there, and following them would cost more than the rest of the fit. The first history of a test is always followed to
+    /// its end, so it must be asked for before the others of that test.
     pub(super) fn giving_up(mut self) -> Self {
         self.gives_up = true;
         self

@@ -87,8 +87,8 @@ impl Effort {
         }
     }
 
-    /// The same for held-out tests. Each has one unknown, its own k, within the scatter of the others; of it only what it leaves of the misfit is
-    /// stated, so it need not be followed into the roughness of simulations. Known functions (no settling) are.
+    /// The same for held-out tests. Each has one unknown, its own k, of which only the remaining misfit is reported, so it need not be
+    /// followed into the roughness of simulations. Functions without roughness (no settling) are.
     pub(super) fn of_held_out(self) -> Self {
         if self.settle == 0 {
             return self;
@@ -143,7 +143,7 @@ const FARTHEST: f64 = 2.0;
 /// Gain of ln posterior, in tolerances, up to which a step is none: a fit would creep on the predictions' own roughness.
 const NOTHING: f64 = 0.1;
 
-/// The same, of what the misfit beyond noise adds to the tolerance: far from the measurements a fit that gains little in a step has many to go.
+/// The same as a share of what the misfit beyond noise adds to the tolerance: far from the measurements, a fit that gains little in a step would need many.
 const CREEP: f64 = 0.5;
 
 /// Whitened sum of squares by which model values may have moved under derivatives that are kept.

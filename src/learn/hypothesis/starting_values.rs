@@ -9,8 +9,8 @@ use crate::study::FreeParameter;
 
 /// How many places of the priors are looked at besides.
 pub(super) const SPREAD: usize = 8;
-/// How many standard deviations a large amount is.
-const LARGE: f64 = 4.0;
+/// How many standard deviations large amounts are.
+const LARGE: [f64; 2] = [4.0, 8.0];
 /// How many lengths of waves are looked at, which have a valley each, and how weak, as a share of the prior's median: changes are to be linear.
 const WAVES: usize = 12;
 const WEAK_WAVE: f64 = 0.25;
@@ -133,7 +133,7 @@ fn far(free: &FreeParameter) -> Vec<f64> {
         }
         // of what acts in one way only, a small amount may do nothing at all
         Prior::Normal { sd, .. } if free.neutral == Some(free.lower) => {
-            vec![free.lower + LARGE * sd]
+            LARGE.map(|sds| free.lower + sds * sd).to_vec()
         }
         Prior::Normal { .. } | Prior::HalfNormal { .. } => Vec::new(),
     };

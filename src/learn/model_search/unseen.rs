@@ -1,8 +1,8 @@
-//! What the analytic model may not see at all is looked at by coarse finite elements, from the first starts on.
+//! Candidates that the analytic model may not see at all, looked at by coarse finite elements from their first starts on.
 //!
-//! Slices of the face and classes of teeth cost these many times a section, and most candidates that act through them gain nothing. So whether a fit is worth
-//! that price is told with rough wear steps, of candidates with two opposite starts by one of them alone as long as what it brings, with either sign, is far
-//! too little.
+//! Candidates that act through slices of the face or classes of teeth cost many times a section, and most of them gain nothing. Rough wear steps
+//! therefore estimate first whether a fit is worth its price. Where a candidate has two opposite starts, one of them is enough to rule it out: its
+//! linearised gain with either sign must reach a share of what is attainable.
 
 use rayon::prelude::*;
 
@@ -117,7 +117,8 @@ impl Context<'_> {
         (starts.first()?.0 >= ROUGH_SHARE * attainable).then_some(starts)
     }
 
-    /// The gain (of ln likelihood) of the first start in the linearised model, with either sign; of a wave with any phase.
+    /// The gain (of ln likelihood) in the linearised model, with either sign, of the first start if another is its mirror image, else of the best; of
+    /// a wave with any phase.
     fn gain_of_one(
         &self,
         base: &BaseFit,
@@ -129,9 +130,18 @@ impl Context<'_> {
             let (first, second) = (seen(first)?, seen(second)?);
             return Some(plane_gain([&first, &second], &base.residual)?.0);
         }
-        let along = seen(candidate.starts.first()?)?;
-        let (gain, _) = linear_gain(&along, &base.residual);
-        let (other, _) = linear_gain(&-along, &base.residual);
-        Some(gain.max(other))
+        let gain = |values: &Vec<f64>| {
+            let along = seen(values)?;
+            let (gain, _) = linear_gain(&along, &base.residual);
+            let (other, _) = linear_gain(&-along, &base.residual);
+            Some(gain.max(other))
+        };
+        let first = candidate.starts.first()?;
+        let mirrored: Vec<f64> = first.iter().map(|value| -value).collect();
+        if candidate.starts.contains(&mirrored) {
+            return gain(first);
+        }
+        // of what both signs do alike, a small amount may do nothing
+        candidate.starts.iter().filter_map(gain).reduce(f64::max)
     }
 }

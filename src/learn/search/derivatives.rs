@@ -127,7 +127,7 @@ impl Search<'_> {
         self.layout.coefficient.is_some() || self.scatter != Scatter::Relative(0.0)
     }
 
-    /// Where a search comes to rest: the model's own derivatives of each test, and of those without central differences.
+    /// Where a search comes to rest: the model's own derivatives of the tests that have them, central differences of the others.
     pub(super) fn at_rest(
         &self,
         evaluator: &mut Evaluator<'_>,
@@ -139,9 +139,9 @@ impl Search<'_> {
         self.central(evaluator, state, values, &own, quadratic)
     }
 
-    /// The model's `own` derivatives of each test, and of those without central differences in one round, over two posterior standard deviations to each side, but at least two and at most ten
-    /// times as wide as a forward difference: a standard deviation that is too small because the last derivatives took roughness for
-    /// change must not make the next ones as rough.
+    /// The model's `own` derivatives of the tests that have them; of the others central differences in one round, over two posterior standard
+    /// deviations to each side, but at least two and at most ten times as wide as a forward difference: a standard deviation that is too small
+    /// because the last derivatives took roughness for change must not make the next ones as rough.
     fn central(
         &self,
         evaluator: &mut Evaluator<'_>,
