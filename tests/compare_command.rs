@@ -538,6 +538,7 @@ fn spoiled(home: &TempDir, change: impl Fn(&mut Vec<String>)) -> Value {
 
 /// Member, quantity, value and sigma of a row.
 const MEMBER: usize = 1;
+const CYCLES: usize = 2;
 const QUANTITY: usize = 3;
 const VALUE: usize = 5;
 const SIGMA: usize = 6;
@@ -616,6 +617,45 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
             }
         },
         &["53 times more wear", "one tooth"],
+    );
+    let of_b = |cells: &[String]| cells[0] == "B";
+    told(
+        &|cells| {
+            if is(cells, "wear_depth") && of_b(cells) {
+                times(cells, -1.0);
+            }
+        },
+        &["wear_depth has the other sign in test B than in the others"],
+    );
+    told(
+        &|cells| {
+            if is(cells, "wear_depth") && of_b(cells) {
+                times(cells, 1e-3);
+            }
+        },
+        &[
+            "in test B the",
+            "times less wear than its masses",
+            "look like mm",
+        ],
+    );
+    told(
+        &|cells| {
+            if of_b(cells) {
+                let cycles: f64 = cells[CYCLES].parse().unwrap();
+                cells[CYCLES] = (cycles * 27.0 / 53.0).to_string();
+            }
+        },
+        &["the last rows of test B stand at 27/53 of the cycles"],
+    );
+    told(
+        &|cells| {
+            // a worn trace that is given as one from before the first cycle
+            if is(cells, "wear_depth") && of_b(cells) && cells[CYCLES].parse() == Ok(6e5) {
+                cells[CYCLES] = "0".to_owned();
+            }
+        },
+        &["a trace of test B at 0 cycles"],
     );
     let shift = |cells: &mut Vec<String>| {
         if is(cells, "wear_depth") {

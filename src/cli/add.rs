@@ -120,6 +120,7 @@ fn add(
         source,
     })?;
     let mut report = Report {
+        set: set.len(),
         values: set,
         fit: None,
         text: String::new(),

@@ -8,7 +8,7 @@ use serde_json::json;
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, fitting, folder};
 use crate::learn::{ModelVersion, Prospects, contact_of, data_warnings, prospects, stated_sigma};
-use crate::measure::{Dataset, Observation, Place};
+use crate::measure::{Dataset, Observation, Place, Quantity};
 use crate::report::format::{count, plain, significant};
 use crate::report::{self, comparison};
 use crate::study::{Role, Study};
@@ -16,7 +16,7 @@ use crate::study::{Role, Study};
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Reads the study and its measurements, fits the model (by its analytic contact; by finite elements where something was\nmeasured over a rotation; seconds) to look for wrong signs, units and zeros, and draws measurements against it. Exit code 2 where something cannot be read.\n\nExamples:\n  gearwear check study.toml\n  gearwear check study.toml -o looked-at"
+    after_help = "Reads the study and its measurements, fits the model (by its analytic contact; by finite elements where something was\nmeasured over a rotation or depths have no trace; seconds) to look for wrong signs, units and zeros, and draws measurements against it. Exit code 2 where something cannot be read.\n\nExamples:\n  gearwear check study.toml\n  gearwear check study.toml -o looked-at"
 )]
 pub struct CheckArgs {
     #[command(flatten)]
@@ -78,10 +78,13 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
 }
 
 /// The study by the analytic model, for what is looked for is far larger than what the models differ by; unless something stands over a
-/// rotation, whose curve hangs on the deflection of the teeth.
+/// rotation, whose curve hangs on the deflection of the teeth, or depths have no trace, whose zeros may be off by less than the models differ.
 fn quick(study: &Study, data: &Dataset) -> Result<Study, CliError> {
-    let turns = |o: &Observation| o.quantity.place() == Place::Rotation;
-    if data.observations.iter().any(turns) {
+    let fine = |o: &Observation| {
+        let has_no_datum = o.quantity == Quantity::WearDepth && o.trace.is_none();
+        o.quantity.place() == Place::Rotation || has_no_datum
+    };
+    if data.observations.iter().any(fine) {
         return Ok(study.clone());
     }
     let mut edit = study.edit();
@@ -210,8 +213,12 @@ fn told(
             ""
         };
         let bare = data.observations.iter().all(|o| o.test != number);
+        let misaligned = match test.conditions.misalignment_mm {
+            0.0 => String::new(),
+            mm => format!(", misalignment {} mm", plain(mm)),
+        };
         lines.push(format!(
-            "test {}: {} N·m, {} rpm, {} cycles{held}{}",
+            "test {}: {} N·m, {} rpm{misaligned}, {} cycles{held}{}",
             test.id,
             plain(1e-3 * test.conditions.torque_nmm),
             plain(test.conditions.speed_rpm),

@@ -249,7 +249,6 @@ impl Problem<'_> {
         self.tests_of(&held, &found, &mut fit.tests);
         fit.tests.sort_by_key(|test| test.test);
         fit.datums.sort_by_key(|datum| datum.trace);
-        fit.converged &= found.converged;
         fit.evaluations += evaluator.evaluations();
         Ok(fit)
     }

@@ -24,9 +24,6 @@ pub(super) struct Fitted {
     pub(super) text: String,
 }
 
-/// Fall of χ² up to which an effect's parameters may have followed noise: 1 % of χ² with three degrees of freedom.
-const CHANCE: f64 = 11.3;
-
 /// A fit in words and in the command's document.
 pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
@@ -41,7 +38,8 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             }
             None => NO_INTERVAL.to_owned(),
         };
-        let _ = writeln!(text, "    {}: {known}{at_bound}", p.name);
+        let value = with_unit(significant(p.value, 4), &p.unit);
+        let _ = writeln!(text, "  {} = {value}   {known}{at_bound}", p.name);
     }
     if let Some(share) = addition.compared.given_up {
         let _ = writeln!(
@@ -66,11 +64,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     if let Some(chi2) = chi2(&comparison.holdout) {
         let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
     }
-    let with = comparison.fit.chi2_per_point;
-    if let Some((with, without)) = with.zip(without)
-        && addition.compared.given_up.is_none()
-        && with > without - CHANCE / comparison.fit.points.max(1) as f64
-    {
+    if addition.compared.given_up.is_none() && addition.betters_nothing() {
         let _ = writeln!(
             text,
             "  the effect betters nothing that noise would not: leave it out"
@@ -141,7 +135,10 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
 
 /// What the command tells.
 pub(super) struct Report {
+    /// Values that were set, then those fitted.
     pub(super) values: Vec<(String, f64)>,
+    /// How many were set.
+    pub(super) set: usize,
     pub(super) fit: Option<Value>,
     pub(super) text: String,
 }
@@ -150,7 +147,7 @@ impl Report {
     pub(super) fn outcome(self, target: &Path) -> Outcome {
         let shown = target.display().to_string();
         let mut text = format!("wrote {shown}\n");
-        for (name, value) in &self.values {
+        for (name, value) in &self.values[..self.set] {
             let _ = writeln!(text, "  {name} = {value:?}");
         }
         text.push_str(&self.text);

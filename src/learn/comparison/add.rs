@@ -11,12 +11,15 @@ use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::measured::{Measured, Misfit};
 use crate::measure::Dataset;
-use crate::study::{EffectModel, FreeParameter, Study, WEAR_COEFFICIENT};
+use crate::study::{EffectModel, Study, WEAR_COEFFICIENT};
 
 /// χ² per point beyond 1, in standard deviations of noise, with which another form is tried.
 const LEFT: f64 = 2.0;
 /// Gain of log evidence for which another form is preferred to the effect's own.
 const BETTER: f64 = 3.0;
+
+/// Fall of χ² up to which an effect's parameters may have followed noise: 1 % of χ² with three degrees of freedom.
+const CHANCE: f64 = 11.3;
 
 /// Share of the least misfit beyond noise, of the forms so far or without the effect, that a cheaper model may leave of another form where that
 /// misfit is large: fine elements are not asked about forms that leave more.
@@ -39,12 +42,21 @@ pub struct Addition {
     pub form: usize,
     /// Its fit.
     pub compared: Compared,
-    /// χ² per point of the fit tests without the effect, k fitted anew; None where other effects' parameters are free too.
+    /// χ² per point of the fit tests without the effect, what else is free fitted anew; None where that cannot be computed.
     pub without_chi2_per_point: Option<f64>,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<Tried>>,
     /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
     pub passed_over: Vec<usize>,
+}
+
+impl Addition {
+    /// Whether the effect betters nothing that noise would not.
+    pub fn betters_nothing(&self) -> bool {
+        let fit = &self.compared.comparison.fit;
+        let fall = self.without_chi2_per_point.zip(fit.chi2_per_point);
+        fall.is_some_and(|(without, with)| with > without - CHANCE / fit.points.max(1) as f64)
+    }
 }
 
 /// One form's fit in short.
@@ -77,8 +89,10 @@ pub fn add(
         .split_first()
         .expect("an effect has a form of its own");
     let without = without_last(&forms[0].version);
-    let missed = (without.as_ref()).map(|without| Missed::by(without, &bench));
-    let missed = missed.as_ref();
+    let without = (without.as_ref()).map(|without| Missed::by(without, &bench));
+    // where others are fitted along, how much of them the effect takes over shows at the end of the fit only
+    let alone = is_free_alone(&forms[0].version);
+    let missed = without.as_ref().filter(|_| alone);
     let first = |doing| watch(doing, 0);
     let own = measured.compare_from(&bench, &own.version, Vec::new(), missed, &first)?;
     let mut tried = vec![Some(in_short(&own))];
@@ -124,15 +138,19 @@ pub fn add(
         }
     }
     let (form, compared) = best;
-    let without = missed.and_then(|missed| missed.base(&measured));
+    let without = (without.as_ref()).and_then(|without| without.base(&measured));
     let points = measured.fitted_points() as f64;
-    Ok(Addition {
+    let mut addition = Addition {
         form,
         compared,
         without_chi2_per_point: without.map(|without| without.square / points),
         tried,
         passed_over,
-    })
+    };
+    if addition.betters_nothing() {
+        addition.compared = addition.compared.without_intervals();
+    }
+    Ok(addition)
 }
 
 /// Which forms are worth the price of fine elements where all so far leave far more than noise.
@@ -164,23 +182,20 @@ impl Promising<'_> {
     }
 }
 
-/// The version without the effect that joined last, k free; None where parameters of other effects are free too, for then k alone
-/// does not make the model that it joined.
+/// The version without the effect that joined last; what is free of the others stays free.
 fn without_last(version: &ModelVersion) -> Option<ModelVersion> {
     let (last, before) = version.effects.specs().split_last()?;
     let own = format!("{}.", last.name);
-    let of_k = |free: &FreeParameter| free.name == WEAR_COEFFICIENT;
-    let mut free = version.free.iter();
-    let alone = free.all(|free| of_k(free) || free.name.starts_with(&own));
-    alone.then(|| ModelVersion {
+    let others = (version.free.iter()).filter(|free| !free.name.starts_with(&own));
+    Some(ModelVersion {
         effects: EffectModel::new(before.to_vec()),
-        free: version
-            .free
-            .iter()
-            .filter(|free| of_k(free))
-            .cloned()
-            .collect(),
+        free: others.cloned().collect(),
     })
+}
+
+/// Whether nothing is free but k and the effect that joined last.
+fn is_free_alone(version: &ModelVersion) -> bool {
+    version.free_of_effects().count() == version.of_last().count()
 }
 
 /// Whether χ² per point of the fit tests is beyond that of noise.

@@ -34,8 +34,9 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// The same where a fit ended before its last decimals: some standard deviations may be left to go.
-    fn without_intervals(mut self) -> Self {
+    /// The same where a fit ended before its last decimals, or where its effect has no hold on the measurements: some standard deviations may be
+    /// left to go.
+    pub(super) fn without_intervals(mut self) -> Self {
         for parameter in &mut self.comparison.parameters {
             parameter.interval_95 = None;
         }

@@ -24,7 +24,7 @@ pub(super) struct Missed<'m> {
 }
 
 impl<'m> Missed<'m> {
-    /// By the model without the effect, k alone fitted.
+    /// By the model without the effect, what else is free fitted anew.
     pub(super) fn by(version: &'m ModelVersion, bench: &'m Bench<'m>) -> Self {
         Self {
             version,
@@ -33,20 +33,22 @@ impl<'m> Missed<'m> {
         }
     }
 
-    /// The model without the effect where its k fits best; None where it cannot be computed.
+    /// The misfit of the model without the effect where it fits best, and its predictions at the study's own values; None where it cannot be
+    /// computed.
     pub(super) fn base(&self, measured: &Measured<'_>) -> Option<&Scaled> {
         let base = self.base.get_or_init(|| {
             let noise = NoiseModel::of(&measured.study().noise);
+            let own = self.version.own_values();
             let effort = Effort {
-                iterations: 2,
+                iterations: 2 + 2 * own.len(),
                 settle: 0,
                 ..Effort::for_simulations()
             };
             measured.with_problem(self.bench, self.version, noise, &|_| {}, |problem| {
-                let fit = problem.fit_from(&[Vec::new()], &effort).ok()?;
+                let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
                 Some(Scaled {
                     square: measured.misfit(&fit).square,
-                    ..problem.scaled(&[])?
+                    ..problem.scaled(&own)?
                 })
             })
         });

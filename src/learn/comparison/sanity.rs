@@ -6,6 +6,8 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod single_tests;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::residual_statistics::{Fitted, fitted};
@@ -38,17 +40,28 @@ const BETTER_THAN_FACTORS: f64 = 0.5;
 pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let of_one_k = of_one_k(data, fit);
     let rows: Vec<Fitted<'_>> = data.observations.iter().zip(&of_one_k).collect();
-    let mut said = signs(&rows);
+    let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
     if said.is_empty() {
-        said.extend(depths_and_masses(study, &rows));
+        let of_tests = single_tests::depths_and_masses(study, &rows);
+        said.extend(
+            of_tests.unwrap_or_else(|| depths_and_masses(study, &rows).into_iter().collect()),
+        );
         said.extend(other_units(study, &rows));
         said.extend(coefficient(fit.coefficient));
         if said.is_empty() {
             said.extend(far_from_stated(fit.coefficient, study.wear.coefficient));
         }
+        if said.is_empty() {
+            said.extend(single_tests::coefficients(study, data, fit));
+        }
         said.extend(constants(&fitted(data, fit)));
+        said.extend(single_tests::worn_before_the_first_cycle(
+            study,
+            &fitted(data, fit),
+        ));
     }
     said.extend(gear_revolutions(study, data));
+    said.extend(single_tests::short_of_their_cycles(study, data));
     said
 }
 
@@ -98,10 +111,11 @@ fn of_one_k(data: &Dataset, fit: &Fit) -> Vec<RowFit> {
     .collect()
 }
 
-/// s of some rows, and the share of their weighted squares that it explains.
+/// s of some rows, in its standard deviations too, and the share of their weighted squares that it explains.
 #[derive(Debug, Clone, Copy)]
 struct Scale {
     factor: f64,
+    sigmas: f64,
     explains: f64,
 }
 
@@ -132,6 +146,7 @@ fn scale(rows: &[Fitted<'_>], quantity: Quantity, member: Option<Subject>) -> Op
     }
     (own.len() > 2 && ff > 0.0 && yy > own.len() as f64).then(|| Scale {
         factor: fy / ff,
+        sigmas: fy / ff.sqrt(),
         explains: fy * fy / (ff * yy),
     })
 }

@@ -279,7 +279,7 @@ fn forms(card: &'static Card, base: &Candidate, study: &Study) -> Vec<Candidate>
     let all = std::iter::once(None).chain(others.map(Some));
     all.filter_map(|form| {
         let (mut candidate, fitted) = of_form(card, form, base, study)?;
-        candidate.starts = starts(&fitted);
+        candidate.starts = starts(&fitted, candidate.acts_across_the_face());
         let own = &candidate.parameters[base.inherited..];
         if let Some(phase) = phase(&fitted) {
             candidate.quarters = quarters(own, &fitted, phase);

@@ -14,8 +14,9 @@ const LARGE: [f64; 2] = [4.0, 8.0];
 /// How many lengths of waves are looked at, which have a valley each, and how weak, as a share of the prior's median: changes are to be linear.
 const WAVES: usize = 12;
 const WEAK_WAVE: f64 = 0.25;
-/// The defaults, the priors' medians, the mirror image of each where both signs are possible, and a weak effect.
-pub(super) fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
+/// The defaults, the priors' medians, the mirror image of each where both signs are possible, a weak effect, and large amounts: across the face
+/// too, for the middle of a face feels nothing of a lead that does not lift its ends off.
+pub(super) fn starts(fitted: &[FreeParameter], across_the_face: bool) -> Vec<Vec<f64>> {
     let defaults: Vec<f64> = fitted.iter().map(|f| f.value).collect();
     let medians: Vec<f64> = fitted.iter().map(median).collect();
     let mirrored = |values: &[f64]| -> Vec<f64> {
@@ -28,7 +29,8 @@ pub(super) fn starts(fitted: &[FreeParameter]) -> Vec<Vec<f64>> {
     // Effects far from the defaults act far from linearly: each end of a wide prior is tried too.
     let ends = (0..fitted.len()).flat_map(|i| {
         let medians = medians.clone();
-        far(&fitted[i]).into_iter().map(move |value| {
+        let values = far(&fitted[i], across_the_face).into_iter();
+        values.map(move |value| {
             let mut values = medians.clone();
             values[i] = value;
             values
@@ -120,7 +122,7 @@ fn weak_ratio(free: &FreeParameter) -> Option<f64> {
 
 /// Values one standard deviation from the middle of a parameter's prior, and for a scale beyond which nothing happens much smaller ones
 /// too: conditions may lie far below what is usual, and from too large a scale no search sees a slope.
-fn far(free: &FreeParameter) -> Vec<f64> {
+fn far(free: &FreeParameter, across_the_face: bool) -> Vec<f64> {
     let values = match free.prior {
         Prior::Uniform { low, high } => [0.2, 0.8].map(|share| low + share * (high - low)).to_vec(),
         Prior::LogNormal { median, spread } => {
@@ -134,6 +136,11 @@ fn far(free: &FreeParameter) -> Vec<f64> {
         // of what acts in one way only, a small amount may do nothing at all
         Prior::Normal { sd, .. } if free.neutral == Some(free.lower) => {
             LARGE.map(|sds| free.lower + sds * sd).to_vec()
+        }
+        Prior::HalfNormal { sd } if across_the_face => LARGE.map(|sds| sds * sd).to_vec(),
+        Prior::Normal { mean, sd } if across_the_face => {
+            let large = LARGE.iter().flat_map(|sds| [sds * sd, -sds * sd]);
+            large.map(|amount| mean + amount).collect()
         }
         Prior::Normal { .. } | Prior::HalfNormal { .. } => Vec::new(),
     };

@@ -36,8 +36,10 @@ const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
-/// How many starts are followed at most.
-const FOLLOWED: usize = 2;
+/// Amplitudes of starts across the face: a lead does little until it lifts an end of the face off, and much from there on.
+const NEAR_AMPLITUDES: [f64; 2] = [2.0 / 3.0, 1.5];
+/// Difference of two gains, relative, below which the starts are mirror images.
+const MIRRORED: f64 = 1e-6;
 /// Change of ln k from which wear is worn anew with it.
 const SCALED: f64 = 0.1;
 
@@ -153,7 +155,7 @@ impl Context<'_> {
         Some((state, model))
     }
 
-    /// A fit from the first of the starts, and from a near second.
+    /// A fit from the first of the starts, and from a near second that is not its mirror image.
     pub(in crate::learn) fn look(
         &self,
         candidate: &Candidate,
@@ -163,9 +165,13 @@ impl Context<'_> {
     ) -> Option<Found> {
         let best = starts.first()?.0;
         let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
-        let second = effort.iterations > 0 && starts.get(1).is_some_and(|s| near(s.0));
+        let differs = |gain: f64| (best - gain).abs() > MIRRORED * best.abs();
+        let second = (starts.iter()).position(|s| near(s.0) && differs(s.0));
+        let second = second.filter(|_| effort.iterations > 0);
         let parameters = &candidate.parameters;
-        (starts.into_iter().take(if second { FOLLOWED } else { 1 }))
+        let followed = starts.into_iter().enumerate();
+        let followed = followed.filter(|(i, _)| *i == 0 || Some(*i) == second);
+        (followed.map(|(_, start)| start))
             .filter_map(|(_, state)| {
                 let state = match effort.iterations {
                     // not fitted on: k stays where the base model is best
@@ -195,7 +201,7 @@ pub(in crate::learn) fn scaled_starts(
     alone.chain(waves).filter_map(move |(first, second)| {
         let along = seen(first)?;
         let Some(second) = second else {
-            let (gain, amplitude) = linear_gain(&along, left);
+            let (gain, amplitude) = linear_gain(&along, left, amplitudes(candidate));
             let amplitude = amplitude.max(LEAST_AMPLITUDE);
             return Some((gain, candidate.scaled(first, amplitude)));
         };
@@ -204,14 +210,27 @@ pub(in crate::learn) fn scaled_starts(
     })
 }
 
-/// Largest fall of χ²/2 by an amplitude between 0 and 4 of a change, and that amplitude.
-pub(super) fn linear_gain(seen: &DVector<f64>, residual: &DVector<f64>) -> (f64, f64) {
+/// Amplitudes of a start's change between which the linearised model is trusted.
+pub(super) fn amplitudes(candidate: &Candidate) -> [f64; 2] {
+    if candidate.acts_across_the_face() {
+        NEAR_AMPLITUDES
+    } else {
+        [0.0, 4.0]
+    }
+}
+
+/// Largest fall of χ²/2 by one of the `amplitudes` of a change, and that amplitude.
+pub(super) fn linear_gain(
+    seen: &DVector<f64>,
+    residual: &DVector<f64>,
+    [least, most]: [f64; 2],
+) -> (f64, f64) {
     let length = seen.norm_squared();
     if length < 1e-12 {
         return (0.0, 0.0);
     }
     let along = seen.dot(residual);
-    let amplitude = (along / length).clamp(0.0, 4.0);
+    let amplitude = (along / length).clamp(least, most);
     let gain = amplitude * along - 0.5 * amplitude * amplitude * length;
     (gain, amplitude)
 }

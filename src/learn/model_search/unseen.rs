@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use super::context::Context;
-use super::screening::{SCREEN, linear_gain, plane_gain};
+use super::screening::{SCREEN, amplitudes, linear_gain, plane_gain};
 use crate::learn::bench::Bench;
 use crate::learn::candidate_model::{Anchored, model, offset, predictions};
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
@@ -110,16 +110,16 @@ impl Context<'_> {
         attainable: f64,
     ) -> Option<Vec<(f64, State)>> {
         let predictor = Anchored::new(model(&rough.bench, candidate), rough.offset.clone());
-        if self.gain_of_one(base, candidate, &predictor)? < EITHER_SIGN_SHARE * attainable {
+        if self.gain_of_either_sign(base, candidate, &predictor)? < EITHER_SIGN_SHARE * attainable {
             return None;
         }
         let starts = self.starts(base, candidate, &predictor);
         (starts.first()?.0 >= ROUGH_SHARE * attainable).then_some(starts)
     }
 
-    /// The gain (of ln likelihood) in the linearised model, with either sign, of the first start if another is its mirror image, else of the best; of
-    /// a wave with any phase.
-    fn gain_of_one(
+    /// The largest gain (of ln likelihood) of its starts in the linearised model, each with either sign and so one of two that mirror each other;
+    /// of a wave with any phase.
+    fn gain_of_either_sign(
         &self,
         base: &BaseFit,
         candidate: &Candidate,
@@ -132,16 +132,19 @@ impl Context<'_> {
         }
         let gain = |values: &Vec<f64>| {
             let along = seen(values)?;
-            let (gain, _) = linear_gain(&along, &base.residual);
-            let (other, _) = linear_gain(&-along, &base.residual);
+            let amplitudes = amplitudes(candidate);
+            let (gain, _) = linear_gain(&along, &base.residual, amplitudes);
+            let (other, _) = linear_gain(&-along, &base.residual, amplitudes);
             Some(gain.max(other))
         };
-        let first = candidate.starts.first()?;
-        let mirrored: Vec<f64> = first.iter().map(|value| -value).collect();
-        if candidate.starts.contains(&mirrored) {
-            return gain(first);
+        // small amounts may do nothing where large ones do
+        let mut looked_at: Vec<&Vec<f64>> = Vec::new();
+        for values in &candidate.starts {
+            let mirrored: Vec<f64> = values.iter().map(|value| -value).collect();
+            if !looked_at.contains(&&mirrored) {
+                looked_at.push(values);
+            }
         }
-        // of what both signs do alike, a small amount may do nothing
-        candidate.starts.iter().filter_map(gain).reduce(f64::max)
+        looked_at.into_iter().filter_map(gain).reduce(f64::max)
     }
 }

@@ -1,0 +1,171 @@
+//! What is wrong with the measurements of one test, where those of the others are right.
+
+use std::collections::BTreeSet;
+
+use super::super::residual_statistics::Fitted;
+use super::{EXPLAINS, FAR_FROM_STATED, SAME_CYCLES, rounded, scale};
+use crate::learn::fitted::Fit;
+use crate::measure::{Dataset, Quantity, Subject};
+use crate::study::Study;
+
+/// Standard deviations of s below 0 from which a single test's sign is doubted.
+const SURE: f64 = 6.0;
+/// Mean square of what a trace from before the first cycle shows beyond its datum, in noise, from which it is no noise.
+const WORN: f64 = 4.0;
+/// Into how many parts a test is usually divided.
+const USUAL_PARTS: [u32; 6] = [2, 3, 4, 5, 8, 10];
+
+/// Each test that has rows, with these.
+fn by_test<'r, 'd>(
+    study: &'r Study,
+    rows: &'r [Fitted<'d>],
+) -> impl Iterator<Item = (&'r str, Vec<Fitted<'d>>)> {
+    let of = move |test: usize| {
+        let own: Vec<Fitted<'d>> = rows
+            .iter()
+            .filter(|(o, _)| o.test == test)
+            .copied()
+            .collect();
+        (study.tests[test].id.as_str(), own)
+    };
+    (0..study.tests.len())
+        .map(of)
+        .filter(|(_, own)| !own.is_empty())
+}
+
+/// Quantities of some tests that run against the computed ones; None where that is so of none or of all.
+pub(super) fn signs(study: &Study, rows: &[Fitted<'_>]) -> Option<Vec<String>> {
+    let turned = |quantity, member| {
+        let scales: Vec<_> = by_test(study, rows)
+            .filter_map(|(id, own)| Some((id, scale(&own, quantity, member)?)))
+            .collect();
+        let turned: Vec<&str> = scales
+            .iter()
+            .filter(|(_, s)| s.sigmas < -SURE && s.explains > EXPLAINS)
+            .map(|(id, _)| *id)
+            .collect();
+        if turned.len() < scales.len() {
+            turned
+        } else {
+            Vec::new()
+        }
+    };
+    let [pinion, gear] =
+        [Subject::Pinion, Subject::Gear].map(|member| turned(Quantity::WearDepth, Some(member)));
+    let mass = ("mass_loss", turned(Quantity::MassLoss, None));
+    let kinds = if pinion == gear {
+        vec![("wear_depth", pinion), mass]
+    } else {
+        vec![
+            ("wear_depth of the pinion", pinion),
+            ("wear_depth of the gear", gear),
+            mass,
+        ]
+    };
+    let said: Vec<String> = (kinds.into_iter())
+        .filter(|(_, tests)| !tests.is_empty())
+        .map(|(whose, tests)| {
+            format!(
+                "{whose} has the other sign in test {} than in the others: lost material counts positive. Turn the sign of these values and compare \
+                 again; k and all that follows mean nothing until then",
+                tests.join(", ")
+            )
+        })
+        .collect();
+    (!said.is_empty()).then_some(said)
+}
+
+/// Depths and masses of some tests that call for different coefficients; None where that is so of none, or of all that have both.
+pub(super) fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<Vec<String>> {
+    let both = |own: &[Fitted<'_>]| {
+        let has = |quantity| own.iter().any(|(o, _)| o.quantity == quantity);
+        has(Quantity::WearDepth) && has(Quantity::MassLoss)
+    };
+    let tests: Vec<_> = by_test(study, rows).filter(|(_, own)| both(own)).collect();
+    let said: Vec<String> = tests
+        .iter()
+        .filter_map(|(id, own)| {
+            Some(format!(
+                "in test {id} {}",
+                super::depths_and_masses(study, own)?
+            ))
+        })
+        .collect();
+    (!said.is_empty() && said.len() < tests.len()).then_some(said)
+}
+
+/// A test whose own k lies hundreds of times from those of the others.
+pub(super) fn coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
+    let own: Vec<(usize, f64)> = (fit.tests.iter())
+        .filter(|test| test.coefficient > 0.0 && measured(test.test))
+        .map(|test| (test.test, test.coefficient.ln()))
+        .collect();
+    let off = |&(test, k): &(usize, f64)| {
+        let mut others: Vec<f64> = own.iter().filter(|o| o.0 != test).map(|o| o.1).collect();
+        others.sort_by(f64::total_cmp);
+        let middle = *others.get(others.len() / 2)?;
+        // of two tests nobody knows which is off
+        (others.len() > 1 && (k - middle).abs() > FAR_FROM_STATED.ln()).then(|| {
+            let (word, by) = if k > middle { ("above", k - middle) } else { ("below", middle - k) };
+            format!(
+                "test {} wears with a k {} times {word} that of the others: look at the units of its values (mm for µm, g for mg), of its cycles \
+                 and of its torque",
+                study.tests[test].id,
+                rounded(by.exp())
+            )
+        })
+    };
+    own.iter().filter_map(off).collect()
+}
+
+/// Traces from before the first cycle that are not flat.
+pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[Fitted<'_>]) -> Vec<String> {
+    let first = |(o, _): &&Fitted<'_>| o.quantity == Quantity::WearDepth && o.cycles == 0.0;
+    let before: Vec<Fitted<'_>> = rows.iter().filter(first).copied().collect();
+    let worn = |(id, own): (&str, Vec<Fitted<'_>>)| {
+        let square: f64 = own.iter().map(|(_, row)| row.standardised.powi(2)).sum();
+        let largest = own
+            .iter()
+            .map(|(_, row)| row.residual.abs())
+            .fold(0.0, f64::max);
+        (square > WORN * own.len() as f64).then(|| {
+            format!(
+                "a trace of test {id} at 0 cycles is up to {} µm off, though nothing is worn there: look at its cycles, or leave it out",
+                rounded(largest)
+            )
+        })
+    };
+    by_test(study, &before).filter_map(worn).collect()
+}
+
+/// Tests whose last rows stand at the pinion's teeth over the gear's of the cycles that the study states: those are the gear's revolutions. A
+/// usual part of a test, half or three quarters, says nothing.
+pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<String> {
+    let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
+    let ratio = f64::from(pinion) / f64::from(gear);
+    let is_usual = |parts: &u32| {
+        let part = ratio * f64::from(*parts);
+        (part - part.round()).abs() < 2.0 * SAME_CYCLES * part
+    };
+    if USUAL_PARTS.iter().any(is_usual) {
+        return None;
+    }
+    let tests: BTreeSet<usize> = data.observations.iter().map(|o| o.test).collect();
+    let short = |test: &usize| {
+        let own = data.observations.iter().filter(|o| o.test == *test);
+        let last = own.map(|o| o.cycles).fold(0.0, f64::max);
+        let stated = study.tests[*test].conditions.cycles;
+        (last / (ratio * stated) - 1.0).abs() < SAME_CYCLES
+    };
+    let tests: Vec<&str> = (tests.iter().filter(|test| short(test)))
+        .map(|test| study.tests[*test].id.as_str())
+        .collect();
+    (!tests.is_empty()).then(|| {
+        format!(
+            "the last rows of test {} stand at {pinion}/{gear} of the cycles that the study states: cycles are revolutions of the pinion for both members; if \
+             these are the gear's own, multiply them by {gear}/{pinion}",
+            tests.join(", ")
+        )
+    })
+}
