@@ -388,6 +388,21 @@ fn a_hopeless_effect_is_given_up_early() {
         out.contains("(without it ") && out.contains("leave it out"),
         "{out}"
     );
+    // so it is where the effect that is there is fitted along, and what noise alone has set has no interval
+    let free = "[fit]\nfree = [\"wear.coefficient\", \"running_in.amplitude\"]\n";
+    write(
+        "made/free.toml",
+        study(&format!("{hidden}{measured}{free}")),
+    );
+    let (code, out, err) = gearwear(&home, &["add", "made/free.toml", "tip_relief", "--json"]);
+    assert_eq!(code, Some(0), "{err}");
+    let beside: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let without = number(&beside, "/fit/without_chi2_per_point").unwrap();
+    let with = number(&beside, "/fit/fit/chi2_per_point").unwrap();
+    assert!((without - with).abs() < 0.05, "{without} {with}");
+    for parameter in beside["fit"]["parameters"].as_array().unwrap() {
+        assert!(parameter["interval_95"].is_null(), "{parameter}");
+    }
     // a name that is wrong is told before a file that stands in the way
     let misspelt = ["add", "made/known.toml", "tip_relief", "--set", "lenght=3"];
     let (code, _, err) = gearwear(&home, &misspelt);
