@@ -82,10 +82,17 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
         "how k scatters between tests",
         "how k scatters between tests: a second fit test",
     );
+    let held_out = study.tests.iter().find(|test| test.role == Role::Holdout);
     judge(
         rows(Role::Holdout).next().is_some(),
         "whether what was fitted holds elsewhere (held-out tests)",
-        "whether what is fitted holds elsewhere: give a test at other conditions role = \"holdout\"",
+        &match held_out {
+            Some(test) => format!(
+                "whether what is fitted holds elsewhere: test {} is held out but has no row in the measurements",
+                test.id
+            ),
+            None => "whether what is fitted holds elsewhere: give a test at other conditions role = \"holdout\"".to_owned(),
+        },
     );
     said
 }

@@ -328,10 +328,7 @@ fn against(log: f64) -> String {
     if log > 14.0 {
         "more than a million times less probable".to_owned()
     } else {
-        format!(
-            "about {:.0} times less probable by the data",
-            log.max(0.0).exp()
-        )
+        format!("about {:.0} times less probable", log.max(0.0).exp())
     }
 }
 

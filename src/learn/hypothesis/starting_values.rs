@@ -164,3 +164,28 @@ fn mirror(free: &FreeParameter, value: f64) -> f64 {
         _ => value,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::find;
+    use crate::study::EffectSpec;
+
+    /// Of a prior with a standard deviation of 8 µm: at mid-face a wedge of 6 µm does nothing, one of 60 µm halves the wear.
+    #[test]
+    fn large_leads_are_starts_of_either_sign_and_at_mid_face_of_one() {
+        let card = find("lead_misalignment").unwrap();
+        let starts_of = |form| {
+            let fitted = EffectSpec::of_form(card, form, &[]).unwrap().fitted();
+            starts(&fitted, true)
+        };
+        let own = starts_of(None);
+        for slope in [6.0, -6.0, 32.0, -32.0, 64.0, -64.0] {
+            assert!(own.contains(&vec![slope]), "{slope}: {own:?}");
+        }
+        let mid_face = card.forms.iter().find(|form| form.name == "mid-face");
+        let mid_face = starts_of(mid_face);
+        assert!(mid_face.contains(&vec![64.0]), "{mid_face:?}");
+        assert!(mid_face.iter().all(|start| start[0] > 0.0), "{mid_face:?}");
+    }
+}

@@ -48,7 +48,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
         };
         sentences.push(if best != steps[0] && least > NO_BETTER * first {
             format!(
-                "No version does better on {of} than {}, χ² per point {}; 1 is the noise floor.",
+                "No version does noticeably better on {of} than {}, χ² per point {}; 1 is the noise floor.",
                 steps[0].study,
                 significant(first, 3)
             )
