@@ -61,7 +61,7 @@ fn a_sheet_with_a_column_for_each_checkpoint_is_shown_and_then_written() {
         "down     radius, mm, 26 to 28.5\n",
         "across   pinion revolutions, 100000 250000\n",
         "values   wear_depth of the pinion in test A, in mm, their sign turned\n",
-        "empty    1 cells without a value",
+        "empty    1 cell without a value passed over\n",
         "A,pinion,100000,wear_depth,26,3.1,0.2,A-pinion-100000\n",
         "nothing is written yet",
     ] {
@@ -228,7 +228,7 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         (
             "radius;100000 [mm]\n26,5;1\n",
             "import table.csv --study study.toml --test A --sigma 0.2 --unit um",
-            "the headers say mm, --unit says um",
+            "the header says mm, --unit says um",
         ),
         (
             "radius [furlong];100000\n26,5;1\n",
@@ -259,11 +259,6 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             "marks between thousands are left out",
         ),
         ("26,5;1,2;2,3\n27,5;1,1;2,2\n", table, "no header row"),
-        (
-            "",
-            "import tables.xlsx --sheet rows --study study.toml --test A --turn-sign",
-            "--turn-sign is for tables with a column for each checkpoint",
-        ),
         (
             "radius;100000\n40;1\n",
             table,
@@ -520,5 +515,394 @@ fn a_german_spreadsheet_is_read_as_it_is() {
     assert!(
         masses.contains(",value,sigma,trace\nA,pinion,100000,mass_loss,,4.2,0.4,\n"),
         "{masses}"
+    );
+}
+
+/// Writes a table and imports it.
+fn import(home: &TempDir, text: &str, options: &str) -> (Option<i32>, String, String) {
+    fs::write(home.path().join("table.csv"), text).unwrap();
+    line(
+        home,
+        &format!("import table.csv --study study.toml {options}"),
+    )
+}
+
+/// As [`import`], and it has to succeed: what is shown, and the rows of the file without its header.
+fn rows(home: &TempDir, text: &str, options: &str) -> (String, String) {
+    let (code, shown, error) = import(home, text, &format!("{options} -o out.csv --force"));
+    assert_eq!(code, Some(0), "{text}: {error}");
+    let written = read(home, "out.csv");
+    let (header, rows) = written.split_once('\n').unwrap();
+    assert!(header.starts_with("test,member,cycles,quantity,position,value,sigma,trace"));
+    (shown, rows.to_owned())
+}
+
+/// As [`import`], and it has to be refused: the message.
+fn refused(home: &TempDir, text: &str, options: &str) -> String {
+    let (code, _, message) = import(home, text, options);
+    assert_eq!(code, Some(2), "{text} {options}: {message}");
+    message
+}
+
+#[test]
+fn a_long_table_is_read_by_the_names_of_its_columns() {
+    let home = home();
+    // Italian, in mm with decimal commas, lost material negative, no traces
+    let (shown, written) = rows(
+        &home,
+        "PROVA;RUOTA;CICLI;RAGGIO [mm];USURA [mm];SIGMA [mm];NOTE;banco\n\
+         A;pignone;100000;26,512;-0,0012;0,0001;;1\nA;pignone;100000;27,5;-0,0025;0,0001;prova;1\n\
+         B;corona;100000;52,5;-0,0031;0,0001;;1\nB;corona;250000;52,5;;;;\n",
+        "--turn-sign",
+    );
+    assert_eq!(
+        written,
+        "A,pinion,100000,wear_depth,26.512,1.2,0.1,A-pinion-100000\n\
+         A,pinion,100000,wear_depth,27.5,2.5,0.1,A-pinion-100000\n\
+         B,gear,100000,wear_depth,52.5,3.1,0.1,\n"
+    );
+    for part in [
+        "column   `CICLI`: cycles, pinion revolutions\n",
+        "column   `RAGGIO [mm]`: radius, mm\n",
+        "column   `USURA [mm]`: wear_depth in mm\n",
+        "passed over the column `NOTE`: for people\n",
+        "passed over the column `banco`: not known\n",
+        "in tests A, B, their sign turned\n",
+        "traces   one for each test, member and checkpoint",
+        "empty    1 row without a value",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    // units behind underscores, a column of traces, roll angles: r = r_b sqrt(1 + phi^2)
+    let (_, written) = rows(
+        &home,
+        "Run,Wheel,Revs,roll angle_deg,depth_um,sd_um,profile_id\nA,small,1e5,12,1.5,0.1,p1\nA,small,1e5,24,2.5,0.1,p1\n",
+        "",
+    );
+    assert!(
+        written.starts_with("A,pinion,100000,wear_depth,25.9221924,1.5,0.1,p1\nA,pinion,100000,wear_depth,27.5076469,2.5,0.1,p1\n"),
+        "{written}"
+    );
+    // traces that are numbered within test and member
+    let (shown, written) = rows(
+        &home,
+        "run,wheel,revs,r_mm,depth_um,sd_um,trace\nA,small,1e5,26.5,1.5,0.1,1\nA,big,1e5,52.5,2.5,0.1,1\n",
+        "",
+    );
+    assert!(
+        written.contains(",A-pinion-1\n") && written.contains(",A-gear-1\n"),
+        "{written}"
+    );
+    assert!(shown.contains("it numbers them within these"), "{shown}");
+    // masses have no position; what the table does not say is stated
+    let (_, written) = rows(
+        &home,
+        "cycles;peso [g];u (k=1) [mg]\n100000;0,0042;0,4\n",
+        "--test B --member gear",
+    );
+    assert_eq!(written, "B,gear,100000,mass_loss,,4.2,0.4,\n");
+    let (_, written) = rows(
+        &home,
+        "test;member;revolutions of the pinion;loss_mg\nA;Ritzel;100000;4,2\nA;Rad;100000;8,4\n",
+        "--sigma 0.4",
+    );
+    assert_eq!(
+        written,
+        "A,pinion,100000,mass_loss,,4.2,0.4,\nA,gear,100000,mass_loss,,8.4,0.4,\n"
+    );
+}
+
+#[test]
+fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
+    let home = home();
+    let header = "test,member,cycles,radius [mm],depth [um],sigma";
+    for (text, options, says) in [
+        (
+            "test,member,radius [mm],depth [um],oil\nA,pinion,26,1,x\n".to_owned(),
+            "",
+            "the header in row 1 is `test; member; radius [mm]; depth [um]; oil`; understood: `test` as test, `member` as member, `radius \
+             [mm]` as position, `depth [um]` as value (wear_depth); not understood: `oil`; missing: cycles. A long table needs",
+        ),
+        ("cycles,radius [mm],depth [um]\n1e5,26,1\n".to_owned(), "", "missing: test, member."),
+        ("test,member,cycles,depth [um]\nA,pinion,1e5,1\n".to_owned(), "", "missing: position."),
+        (
+            "test,member,cycles,radius,reading\nA,pinion,1e5,26,1\n".to_owned(),
+            "",
+            "E1: `reading` does not say what was measured: name it with --quantity",
+        ),
+        (
+            "test,member,cycles,radius,depth [um],mass [mg]\nA,pinion,1e5,26,1,2\n".to_owned(),
+            "",
+            "E1: `depth [um]` and F1: `mass [mg]` both look like the column `value`",
+        ),
+        (format!("{header}\nA,pinion,1e5,26,x,0.1\n"), "", "E2: `x` is not a number"),
+        (format!("{header}\nC,pinion,1e5,26,1,0.1\n"), "", "A2: `C` below `test`: the study's tests are A, B"),
+        (format!("{header}\nA,left,1e5,26,1,0.1\n"), "", "B2: `left` below `member`: write pinion, gear"),
+        (format!("{header}\nA,gear,1e5,26,1,0.1\n"), "", "D2: `26` below `radius [mm]`: the radius 26 mm is off the gear's flank"),
+        (format!("{header}\nA,pinion,1e5,52,1,0.1\n"), "", "it lies on the other member's flank"),
+        (format!("{header}\nB,pinion,1e5,26,1,0.1\n"), "--test A", "--test says A; leave it out"),
+        (format!("{header}\nA,pinion,1e5,26,1,0.1\n"), "--sigma 0.1", "the table has a column of sigma"),
+        (format!("{header}\nA,pinion,1e5,26,1,0.1\n"), "--columns positions", "--columns is for tables with a column for each"),
+        (format!("{header}\nA,pinion,1e5,26,1,0.1\n"), "--quantity mass_loss", "holds wear_depth, --quantity says mass_loss"),
+        (
+            format!("{header}\nA,pinion,1e5,26,1,0.1\nA,pinion,1e5,27,1,0.1\nA,pinion,1e5,26,2,0.1\n"),
+            "",
+            "E2 and E4 both hold wear_depth of the pinion in test A after 100000 pinion revolutions at 26",
+        ),
+        (
+            "test;member;cycles;radius;depth [um];sigma\nA;pinion;100000;26,5;1.5;0,1\n".to_owned(),
+            "",
+            "has a decimal point, D2: `26,5` a comma",
+        ),
+        (
+            "test,member,cycles [h],radius,depth [um]\nA,pinion,10,26.5,1.5\n".to_owned(),
+            "",
+            "C1: `cycles [h]`: cycles in h are not read",
+        ),
+        (
+            "test,member,cycles,radius,depth [mm],sigma\nA,pinion,1e5,26.5,0.0015,0.1\n".to_owned(),
+            "",
+            "F1: `sigma`: write its unit in the header too: the values are in mm",
+        ),
+        (
+            "test,member,cycles,mass [mg],U (k=2) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
+            "",
+            "divide the expanded uncertainty by its k",
+        ),
+        (
+            "test,member,cycles,radius,depth [um],sigma [%]\nA,pinion,1e5,26.5,1.5,3\n".to_owned(),
+            "",
+            "F1: `sigma [%]`: a share of each value is no sigma",
+        ),
+        (
+            "test,member,cycles,quantity,position,value [g],sigma [g]\nA,pinion,1e5,wear_depth,26.5,1.5,3\n".to_owned(),
+            "",
+            "F1: `value [g]`, with row 2 of wear_depth: unit g: units of wear_depth are um, mm",
+        ),
+    ] {
+        let message = refused(&home, &text, options);
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+#[test]
+fn the_sign_of_a_measurement_file_can_be_turned() {
+    let home = home();
+    let text = "test,member,cycles,quantity,position,value,sigma\nA,pinion,100000,wear_depth,26,-1.5,0.1\nA,pair,100000,transmission_error,0.5,-2,0.1\n";
+    let (shown, written) = rows(&home, text, "--turn-sign");
+    assert_eq!(
+        written,
+        "A,pinion,100000,wear_depth,26,1.5,0.1,\nA,pair,100000,transmission_error,0.5,-2,0.1,\n"
+    );
+    assert!(shown.contains("their sign turned"), "{shown}");
+}
+
+#[test]
+fn rows_are_appended_to_a_file_with_other_columns() {
+    let home = home();
+    fs::write(
+        home.path().join("m.csv"),
+        "# weighed\ntest,member,cycles,quantity,position,value,sigma,comment\nA,pinion,100000,mass_loss,,4.2,0.4,ok\n",
+    )
+    .unwrap();
+    let depths = "test,member,cycles,radius,depth [um],sigma\nA,pinion,1e5,26,1,0.1\nA,pinion,1e5,27,2,0.1\n";
+    let (code, _, message) = import(&home, depths, "-o m.csv --append");
+    assert_eq!(code, Some(0), "{message}");
+    assert_eq!(
+        read(&home, "m.csv"),
+        "# weighed\ntest,member,cycles,quantity,position,value,sigma,comment,trace\n\
+         A,pinion,100000,mass_loss,,4.2,0.4,ok,\n\
+         A,pinion,100000,wear_depth,26,1,0.1,,A-pinion-100000\n\
+         A,pinion,100000,wear_depth,27,2,0.1,,A-pinion-100000\n"
+    );
+    let again = refused(&home, depths, "-o m.csv --append");
+    assert!(again.contains("--repeat 2"), "{again}");
+    // masses behind depths with traces
+    let (code, _, message) = import(
+        &home,
+        "test,member,cycles,mass [mg],sigma\nB,pinion,1e5,4,0.4\n",
+        "-o m.csv --append",
+    );
+    assert_eq!(code, Some(0), "{message}");
+    assert!(read(&home, "m.csv").ends_with("B,pinion,100000,mass_loss,,4,0.4,,\n"));
+}
+
+#[test]
+fn every_listed_quantity_is_taken_and_masses_may_stand_in_a_wide_table() {
+    let home = home();
+    let help = succeed(&home, "import --help");
+    let (code, _, message) = line(&home, "import table.csv --study study.toml --quantity dept");
+    assert_eq!(code, Some(2));
+    for quantity in [
+        "wear_depth",
+        "mass_loss",
+        "mean_lag",
+        "span_loss",
+        "chordal_loss",
+        "mesh_stiffness",
+    ] {
+        assert!(
+            help.contains(quantity) && message.contains(quantity),
+            "{quantity}"
+        );
+    }
+    let masses = "--test A --quantity mass_loss --sigma 0.4";
+    let expected = "A,pinion,100000,mass_loss,,4.2,0.4,\nA,gear,100000,mass_loss,,8.4,0.4,\nA,pinion,250000,mass_loss,,9,0.4,\n";
+    let (shown, written) = rows(
+        &home,
+        "Umdrehungen;Ritzel [g];Rad [g]\n100000;0,0042;0,0084\n250000;0,009;\n",
+        masses,
+    );
+    assert_eq!(written, expected);
+    assert!(shown.contains("across   members, pinion gear\n"), "{shown}");
+    let (_, written) = rows(
+        &home,
+        "mass in mg;100000;250000\npinion;4,2;9\ngear;8,4;\n",
+        masses,
+    );
+    assert_eq!(written, expected);
+    let (_, written) = rows(
+        &home,
+        "mass;100000\nloss;4,2\n",
+        &format!("{masses} --member gear"),
+    );
+    assert_eq!(written, "A,gear,100000,mass_loss,,4.2,0.4,\n");
+    let message = refused(&home, "radius;100000;250000\n26;4,2;9\n27;4,2;9\n", masses);
+    assert!(message.contains("A2: `26` names no member"), "{message}");
+    let (_, written) = rows(
+        &home,
+        "cycles;mean lag\n100000;310\n",
+        "--test A --sigma 15",
+    );
+    assert_eq!(written, "A,pair,100000,mean_lag,,310,15,\n");
+}
+
+#[test]
+fn nothing_that_a_wide_table_says_is_passed_over_silently() {
+    let home = home();
+    let options = "--test A --member pinion --sigma 0.2";
+    // 53 000 revolutions of 53 teeth are 104 037.037 of 27
+    for text in [
+        "radius;53000 gear rev\n26;1\n",
+        "radius;53000 Umdrehungen Rad\n26;1\n",
+        "gear revolutions;26;27\n53000;1;2\n",
+    ] {
+        let (shown, written) = rows(&home, text, options);
+        assert!(
+            written.starts_with("A,pinion,104037.037,wear_depth,26,1,0.2,A-pinion-104037.037\n"),
+            "{written}"
+        );
+        assert!(shown.contains("from revolutions of the gear"), "{shown}");
+    }
+    let (_, written) = rows(
+        &home,
+        "test,member,gear revolutions,radius,depth [um],sigma\nA,pinion,53000,26,1,0.2\n",
+        "",
+    );
+    assert!(written.starts_with("A,pinion,104037.037,"), "{written}");
+    let (shown, written) = rows(
+        &home,
+        "Wear depth in mm, negative = material lost;\nMonday;\nradius;100000\n26;-0,0015\n",
+        options,
+    );
+    assert!(written.contains(",26,1.5,"), "{written}");
+    for part in [
+        "in mm (the title says so), their sign turned (the title says that lost material is negative)\n",
+        "title    row 2 passed over: Monday\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    for (text, more, says) in [
+        (
+            "radius;53000 gear rev;100000\n26;1;2\n",
+            "",
+            "`100000` does not say so",
+        ),
+        (
+            "Wear depth in mm\nradius;100000 [um]\n26;1\n",
+            "",
+            "the header says um, the title says mm",
+        ),
+        (
+            "positive = material lost;\nradius;100000\n26;1\n",
+            "--turn-sign",
+            "leave out one of them",
+        ),
+        (
+            "radius;100000;200000;100000\n26;1;2;3\n",
+            "",
+            "B1 and D1 both say 100000: take one out",
+        ),
+        (
+            "radius;100000\n26;1\n27;2\n26;1\n",
+            "",
+            "A2 and A4 both say 26: take one out",
+        ),
+        (
+            "radius;100000\n26.5;1.5\n27.5;0,5\n",
+            "",
+            "A2: `26.5` has a decimal point, B3: `0,5` a comma",
+        ),
+        (
+            "radius,100000\n26.5,\"0,5\"\n",
+            "",
+            "A2: `26.5` has a decimal point, B2: `0,5` a comma",
+        ),
+        (
+            "radius;100000\n26,5;1.5\n",
+            "--decimal comma",
+            "B2: `1.5` is no number with --decimal comma",
+        ),
+        (
+            "roll length [in];100000\n26;1\n",
+            "",
+            "read as roll length in in: look at --member, at --position and at the unit in the header",
+        ),
+        (
+            "radius;100000\n26.646;1\n",
+            "--columns positions",
+            "--columns positions: only the numbers of the first column can be positions",
+        ),
+        (
+            "radius;100000\n26;1\n",
+            "--sigma 3%",
+            "a share of each value goes by --relative-sigma 0.03",
+        ),
+        (
+            "radius;1060000 gear rev\n26;1\n",
+            "",
+            "the headers count revolutions of the gear",
+        ),
+    ] {
+        let options = if more.starts_with("--sigma") {
+            "--test A"
+        } else {
+            options
+        };
+        let message = refused(&home, text, &format!("{options} {more}"));
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+#[test]
+fn the_name_of_a_sheet_says_test_and_member() {
+    let home = home();
+    // the sheets of the workbook are called pinion, gear and rows
+    let options = "--study study.toml --test A --sigma 0.2";
+    let (code, _, message) = line(
+        &home,
+        &format!("import tables.xlsx --sheet gear {options} --member pinion"),
+    );
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains(
+            "the sheet's name, `gear`, says gear, --member says pinion: say --member gear"
+        ),
+        "{message}"
+    );
+    let shown = succeed(&home, &format!("import tables.xlsx --sheet gear {options}"));
+    assert!(
+        shown.contains("wear_depth of the gear in test A"),
+        "{shown}"
     );
 }

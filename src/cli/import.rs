@@ -1,22 +1,25 @@
 //! `gearwear import`: a table from a spreadsheet as rows of a measurement file, the mapping shown before anything is written.
 
-use std::collections::BTreeSet;
+mod said;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use super::{CliError, Context, Outcome};
-use crate::measure::import::{self, Decimal, Mapping, Sheet, Wanted};
-use crate::measure::{Dataset, Place, Quantity, Subject};
+use crate::measure::import::{self, Decimal, Entry, Long, Sheet, UnitFrom, Wanted, Wide};
+use crate::measure::{Dataset, Quantity, Subject};
+use crate::report::write_file;
 use crate::study::Study;
 
 /// Arguments of `import`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "A table has a column for each checkpoint and positions in its first column, or the other way round. A sheet with the\ncolumns of a measurement file (test,member,...) is taken as it stands. Nothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2"
+    after_help = "A wide table has a column for each checkpoint and positions in its first column, or the other way round. A long table has a\nrow for each value and columns of tests, members, cycles, positions and values, under the usual names in English, German,\nItalian, French or Spanish. Nothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2\n  gearwear import profiles.csv --study study.toml -o measurements.csv\n  gearwear import weighing.xlsx --study study.toml --quantity mass_loss -o measurements.csv --append"
 )]
 pub struct ImportArgs {
     /// Table: .xlsx, or text with commas, semicolons or tabulators
@@ -28,22 +31,22 @@ pub struct ImportArgs {
     /// Sheet of the spreadsheet [default: its only one]
     #[arg(long, value_name = "NAME")]
     sheet: Option<String>,
-    /// Id of the test [default: the study's only one]
+    /// Id of the test [default: what the table or the sheet's name says, or the study's only one]
     #[arg(long, value_name = "ID")]
     test: Option<String>,
-    /// What was measured on
-    #[arg(long, value_enum, value_name = "MEMBER", default_value_t = On::Pinion)]
-    member: On,
-    /// What was measured: wear_depth, transmission_error, load_share, contact_pressure or mesh_stiffness
-    #[arg(long, value_name = "QUANTITY", default_value = "wear_depth")]
-    quantity: String,
+    /// What was measured on [default: what the table or the sheet's name says, the pinion otherwise]
+    #[arg(long, value_enum, value_name = "MEMBER")]
+    member: Option<On>,
+    /// What was measured [default: what a column of values is called, wear_depth otherwise]
+    #[arg(long, value_name = "QUANTITY", value_parser = quantities())]
+    quantity: Option<Quantity>,
     /// How places on the flank are told [default: what the header says, a radius otherwise]
     #[arg(long, value_enum, value_name = "KIND")]
     position: Option<PositionKind>,
-    /// What the columns are [default: what the numbers say]
+    /// What the columns of a wide table are [default: what the numbers say]
     #[arg(long, value_enum, value_name = "WHAT")]
     columns: Option<Across>,
-    /// Unit of the values [default: the quantity's own]
+    /// Unit of the values [default: what a header or a title says, the quantity's own otherwise]
     #[arg(long, value_name = "UNIT")]
     unit: Option<String>,
     /// Mark of the decimals of a text [default: what the numbers say]
@@ -54,7 +57,7 @@ pub struct ImportArgs {
     turn_sign: bool,
     /// One standard deviation of every value, in the quantity's own unit (um of depth) [default: left empty, and estimated from the scatter of
     /// neighbouring points wherever the file is read]
-    #[arg(long, value_name = "SIGMA", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, value_parser = sigma)]
     sigma: Option<f64>,
     /// A further standard deviation as a share of each value (0.03: three percent), for scatter that grows with the wear
     #[arg(
@@ -62,7 +65,8 @@ pub struct ImportArgs {
         value_name = "SHARE",
         default_value_t = 0.0,
         requires = "sigma",
-        allow_negative_numbers = true
+        allow_negative_numbers = true,
+        value_parser = share
     )]
     relative_sigma: f64,
     /// The instrument's zero is the same for all checkpoints: no trace of its own for each
@@ -126,11 +130,51 @@ impl From<Mark> for Decimal {
     }
 }
 
-/// Columns of the file that is written.
-const HEADER: &str = "test,member,cycles,quantity,position,value,sigma,trace";
+/// The names of all quantities.
+fn quantities() -> impl clap::builder::TypedValueParser<Value = Quantity> {
+    let named = |name: String| Quantity::ALL.into_iter().find(|known| known.name() == name);
+    PossibleValuesParser::new(Quantity::ALL.map(Quantity::name))
+        .try_map(move |name| named(name).ok_or("no quantity has this name"))
+}
 
-/// Rows that are shown of the mapping.
-const SHOWN: usize = 3;
+/// A standard deviation; a share is no such number.
+fn sigma(text: &str) -> Result<f64, String> {
+    if text.contains('%') {
+        return Err("a share of each value goes by --relative-sigma 0.03, beside --sigma in the unit of the values".to_owned());
+    }
+    plain(text)
+}
+
+/// A share; percent are no such number.
+fn share(text: &str) -> Result<f64, String> {
+    match text.trim_end().strip_suffix('%').map(str::trim_end) {
+        Some(percent) => Err(match percent.parse::<f64>() {
+            Ok(percent) => format!("write the share as a number: {}", percent / 100.0),
+            Err(_) => "write the share as a number: 0.03 for three percent".to_owned(),
+        }),
+        None => plain(text),
+    }
+}
+
+fn plain(text: &str) -> Result<f64, String> {
+    text.parse()
+        .map_err(|_| "write a number with a decimal point, without a unit: 0.2".to_owned())
+}
+
+/// Either kind of table, as it was understood.
+enum Understood {
+    Long(Long),
+    Wide(Wide),
+}
+
+impl Understood {
+    fn entries(&self) -> &[Entry] {
+        match self {
+            Understood::Long(long) => &long.entries,
+            Understood::Wide(wide) => &wide.entries,
+        }
+    }
+}
 
 /// Reads the table, shows how, writes if asked.
 pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliError> {
@@ -144,56 +188,35 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
     }
     let sheets = import::sheets(&args.table).map_err(|error| unusable(error.to_string()))?;
     let sheet = chosen(&sheets, args)?;
-    let table = import::as_measurements(sheet, args.decimal.map(Decimal::from));
-    let (rows, mut text, document) = match table.map_err(|error| unusable(error.to_string()))? {
-        Some(table) => {
-            let idle = [
-                (args.turn_sign, "--turn-sign"),
-                (args.unit.is_some(), "--unit"),
-                (args.sigma.is_some(), "--sigma"),
-                (args.position.is_some(), "--position"),
-                (args.columns.is_some(), "--columns"),
-                (args.repeat.is_some(), "--repeat"),
-            ];
-            if let Some((_, option)) = idle.iter().find(|(given, _)| *given) {
-                return Err(unusable(format!(
-                    "{option} is for tables with a column for each checkpoint or place; {} has the columns of a measurement file, which say it themselves",
-                    named(args, sheet)
-                )));
-            }
-            let mut lines = table.lines();
-            let header = lines.next().unwrap_or_default().to_owned();
-            let rows: Vec<String> = lines.map(str::to_owned).collect();
-            let text = format!(
-                "{}: {} rows in the columns of a measurement file\n",
-                named(args, sheet),
-                rows.len()
-            );
-            let document = json!({ "rows": rows.len() });
-            ((header, rows), text, document)
-        }
-        None => {
-            let (mapping, text, document) = wide(args, &study, sheet)?;
-            ((HEADER.to_owned(), mapping.rows), text, document)
-        }
+    let wanted = wanted(args, &study)?;
+    let understood = match import::long(sheet, &wanted) {
+        Ok(Some(long)) => Ok(Understood::Long(long)),
+        Ok(None) => import::wide(sheet, &wanted).map(Understood::Wide),
+        Err(error) => Err(error),
     };
-    let (header, rows) = rows;
+    let name = named(args, sheet);
+    let understood = understood.map_err(|error| unusable(format!("{name}: {error}")))?;
+    let (header, rows) = import::lines(understood.entries());
     let whole = whole(args, &header, &rows)?;
-    let name = args.output.as_ref().unwrap_or(&args.table);
     // what cannot be read back is not written
-    let data = Dataset::parse(&whole, &name.display().to_string(), &study.known())?;
-    let mut document = document;
+    let data = Dataset::parse(&whole, &source(args, &name), &study.known()).map_err(|error| {
+        reading(&understood)
+            .into_iter()
+            .fold(error, |error, said| error.with_hint(&said))
+    })?;
+    let mut text = match &understood {
+        Understood::Long(long) => said::long(args, &name, long),
+        Understood::Wide(wide) => said::wide(args, &name, wide),
+    };
+    text += &said::rows(&header, &rows);
+    let mut document = document(&understood);
     match &args.output {
         None => {
             text += "nothing is written yet: -o measurements.csv writes it\n";
             document["written"] = json!([]);
         }
         Some(path) => {
-            fs::write(path, &whole).map_err(|source| CliError::Io {
-                doing: "write",
-                path: path.clone(),
-                source,
-            })?;
+            write_file(path, whole.as_bytes())?;
             let _ = writeln!(
                 text,
                 "wrote {}: {} rows\nnext: gearwear check {}",
@@ -209,6 +232,70 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
         text,
         success: true,
     })
+}
+
+/// What messages about the rows call them: they stand in no file yet.
+fn source(args: &ImportArgs, table: &str) -> String {
+    match &args.output {
+        Some(path) if args.append && path.exists() => {
+            format!("{} with the rows of {table}", path.display())
+        }
+        _ => format!("the rows of {table}"),
+    }
+}
+
+/// How the numbers were read, for messages about the rows.
+fn reading(understood: &Understood) -> Vec<String> {
+    let Understood::Wide(wide) = understood else {
+        return Vec::new();
+    };
+    let mut said = Vec::new();
+    if wide.of_gear {
+        said.push("the headers count revolutions of the gear; these are the pinion's, by the numbers of teeth".to_owned());
+    }
+    let (unit, from) = &wide.unit;
+    if *unit != wide.quantity.unit() {
+        let by = match from {
+            UnitFrom::Header => "the header says so",
+            UnitFrom::Title => "the title says so",
+            _ => "--unit",
+        };
+        said.push(format!("the values were read in {unit} ({by})"));
+    }
+    said
+}
+
+/// The document of `--json`, without what was written.
+fn document(understood: &Understood) -> serde_json::Value {
+    let titles = |titles: &import::Titles| {
+        let rows = titles.passed_over.iter().map(|(_, text)| text.clone());
+        rows.collect::<Vec<String>>()
+    };
+    match understood {
+        Understood::Long(long) => json!({
+            "columns": long.columns,
+            "passed_over": long.passed_over,
+            "titles_passed_over": titles(&long.titles),
+            "sign_turned": long.turned,
+            "empty": long.empty,
+            "rows": long.entries.len(),
+        }),
+        Understood::Wide(wide) => json!({
+            "columns": match (wide.across, wide.position) {
+                (import::Across::Checkpoints, _) => "checkpoints",
+                (import::Across::Positions, Some(_)) => "positions",
+                (import::Across::Positions, None) => "members",
+            },
+            "position": wide.position.map(|(kind, _)| kind.name()),
+            "checkpoints": wide.checkpoints,
+            "from_to": wide.position.map(|(_, from_to)| from_to),
+            "passed_over": wide.passed_over,
+            "titles_passed_over": titles(&wide.titles),
+            "sign_turned": wide.turned,
+            "empty": wide.empty,
+            "rows": wide.entries.len(),
+        }),
+    }
 }
 
 /// The sheet that is meant.
@@ -245,57 +332,17 @@ fn named(args: &ImportArgs, sheet: &Sheet) -> String {
     }
 }
 
-/// A wide table: its mapping, the words about it and its document.
-fn wide(
-    args: &ImportArgs,
-    study: &Study,
-    sheet: &Sheet,
-) -> Result<(Mapping, String, serde_json::Value), CliError> {
+/// What the user states of the table.
+fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliError> {
     let unusable = |why: String| CliError::Unusable(why);
-    let test = match (&args.test, study.tests.as_slice()) {
-        (Some(id), tests) if tests.iter().any(|test| test.id == *id) => id.as_str(),
-        (None, [one]) => one.id.as_str(),
-        (stated, tests) => {
-            let ids: Vec<&str> = tests.iter().map(|test| test.id.as_str()).collect();
-            let what = match stated {
-                Some(id) => format!("the study has no test {id}"),
-                None => "name the test with --test".to_owned(),
-            };
-            return Err(unusable(format!("{what}; its tests: {}", ids.join(", "))));
-        }
-    };
-    let quantity = Quantity::ALL
-        .into_iter()
-        .find(|quantity| quantity.name() == args.quantity
-                && matches!(quantity.place(), Place::Flank | Place::Rotation))
-        .ok_or_else(|| {
-            let names = Quantity::ALL.map(Quantity::name);
-            unusable(format!(
-                "--quantity {}: {}; what has no place on a flank or rotation is written into the measurement file by hand",
-                args.quantity,
-                names.join(", ")
-            ))
-        })?;
-    let member = match args.member {
-        _ if quantity.subjects() == [Subject::Pair] => Subject::Pair,
-        On::Pinion => Subject::Pinion,
-        On::Gear => Subject::Gear,
-        On::Pair => Subject::Pair,
-    };
-    if !quantity.subjects().contains(&member) {
-        return Err(unusable(format!(
-            "{} is measured on one member: --member pinion or --member gear",
-            quantity.name()
-        )));
-    }
     if let Some(sigma) = args
         .sigma
         .filter(|sigma| !(*sigma > 0.0 && sigma.is_finite()))
     {
+        let unit = args.quantity.unwrap_or(Quantity::WearDepth).unit();
         return Err(unusable(format!(
-            "--sigma {sigma}: one standard deviation of the values in {}, above 0. How well does a repeated measurement agree? Without --sigma \
-             it is estimated from the scatter of neighbouring points",
-            quantity.unit()
+            "--sigma {sigma}: one standard deviation of the values in {unit}, above 0. How well does a repeated measurement agree? Without \
+             --sigma it is estimated from the scatter of neighbouring points"
         )));
     }
     if !(0.0..1.0).contains(&args.relative_sigma) {
@@ -304,14 +351,16 @@ fn wide(
             args.relative_sigma
         )));
     }
-    if let Some(unit) = &args.unit {
-        import::factor(unit, quantity).map_err(|error| unusable(format!("--unit: {error}")))?;
-    }
-    let wanted = Wanted {
-        test,
-        member,
-        gear: Wanted::gear_of(member, [&study.gears.pinion, &study.gears.gear]),
-        quantity,
+    Ok(Wanted {
+        tests: study.tests.iter().map(|test| test.id.as_str()).collect(),
+        gears: [&study.gears.pinion, &study.gears.gear],
+        test: args.test.as_deref(),
+        member: args.member.map(|member| match member {
+            On::Pinion => Subject::Pinion,
+            On::Gear => Subject::Gear,
+            On::Pair => Subject::Pair,
+        }),
+        quantity: args.quantity,
         position: args.position.map(|kind| match kind {
             PositionKind::Radius => import::PositionKind::Radius,
             PositionKind::Diameter => import::PositionKind::Diameter,
@@ -328,168 +377,27 @@ fn wide(
         sigma: args.sigma,
         relative_sigma: args.relative_sigma,
         traces: !args.no_traces,
-    };
-    let mut mapping = import::map(sheet, &wanted)
-        .map_err(|error| unusable(format!("{}: {error}", named(args, sheet))))?;
-    if let (Some(repeat), true) = (args.repeat, wanted.traces) {
-        // the trace is the last field
-        for row in &mut mapping.rows {
-            let quoted = row.ends_with('"').then(|| row.pop());
-            *row += &format!("-r{repeat}");
-            row.extend(quoted.flatten());
-        }
-    }
-    let text = told(args, sheet, &wanted, &mapping);
-    let document = json!({
-        "columns": match mapping.across {
-            import::Across::Checkpoints => "checkpoints",
-            import::Across::Positions => "positions",
-        },
-        "position": mapping.position.name(),
-        "checkpoints": mapping.checkpoints,
-        "from_to": mapping.from_to,
-        "empty": mapping.empty,
-        "rows": mapping.rows.len(),
-    });
-    Ok((mapping, text, document))
-}
-
-/// The mapping in words.
-fn told(args: &ImportArgs, sheet: &Sheet, wanted: &Wanted<'_>, mapping: &Mapping) -> String {
-    let [from, to] = mapping.from_to;
-    let (corner, words) = &mapping.corner;
-    let places = format!("{}, {from} to {to}", mapping.position.name());
-    let times: Vec<String> = mapping.checkpoints.iter().map(f64::to_string).collect();
-    let times = format!("pinion revolutions, {}", times.join(" "));
-    let (down, across) = match mapping.across {
-        import::Across::Checkpoints => (places, times),
-        import::Across::Positions => (times, places),
-    };
-    let unit = match &mapping.unit {
-        (unit, true) => format!("{unit} (the header says so)"),
-        (unit, false) => unit.clone(),
-    };
-    let sign = if args.turn_sign {
-        ", their sign turned"
-    } else {
-        ""
-    };
-    let mut text = format!(
-        "table    {}\n\
-         header   row of {corner}{}\n\
-         down     {down}\n\
-         across   {across}\n\
-         values   {} of the {} in test {}, in {unit}{sign}\n\
-         sigma    {}\n\
-         traces   {}\n",
-        named(args, sheet),
-        if words.is_empty() {
-            String::new()
-        } else {
-            format!(" `{words}`")
-        },
-        wanted.quantity.name(),
-        wanted.member.name(),
-        wanted.test,
-        sigma_in_words(wanted),
-        if wanted.traces {
-            "one for each checkpoint: the instrument's zero is not known (--no-traces: it is the same for all)"
-        } else {
-            "none: the instrument's zero is the same for all checkpoints"
-        }
-    );
-    if mapping.empty > 0 {
-        let _ = writeln!(
-            text,
-            "empty    {} cells without a value passed over",
-            mapping.empty
-        );
-    }
-    let _ = writeln!(
-        text,
-        "rows     {}, the first:\n  {HEADER}",
-        mapping.rows.len()
-    );
-    for row in mapping.rows.iter().take(SHOWN) {
-        let _ = writeln!(text, "  {row}");
-    }
-    text
-}
-
-fn sigma_in_words(wanted: &Wanted<'_>) -> String {
-    let Some(sigma) = wanted.sigma else {
-        return "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned();
-    };
-    let share = match wanted.relative_sigma {
-        0.0 => String::new(),
-        share => format!(", and {} % of the value", 100.0 * share),
-    };
-    format!("{sigma} {} for each{share}", wanted.quantity.unit())
-}
-
-/// Rows by all that they say but sigma, which may be stated otherwise when a table is taken a second time.
-fn readings(header: &str, rows: &str) -> Vec<Vec<String>> {
-    let sigma = header.split(',').position(|name| name == "sigma");
-    let mut reader = csv::ReaderBuilder::new();
-    let reader = reader.has_headers(false).flexible(true).comment(Some(b'#'));
-    let mut reader = reader.from_reader(rows.as_bytes());
-    let records = reader.records().filter_map(std::result::Result::ok);
-    let without = |record: csv::StringRecord| {
-        let fields = record.iter().enumerate();
-        fields
-            .filter(|(at, _)| Some(*at) != sigma)
-            .map(|(_, field)| field.to_owned())
-            .collect()
-    };
-    records.map(without).collect()
+        repeat: args.repeat,
+    })
 }
 
 /// The text of the file with these rows.
 fn whole(args: &ImportArgs, header: &str, rows: &[String]) -> Result<String, CliError> {
-    let mut text = format!("{header}\n");
-    if let Some(path) = &args.output
-        && path.exists()
-    {
-        if !args.append && !args.force {
-            return Err(CliError::Unusable(format!(
-                "{} is there already; --append writes behind its rows, --force overwrites it",
-                path.display()
-            )));
-        }
-        if args.append {
+    let there = args.output.as_ref().filter(|path| path.exists());
+    match there {
+        Some(path) if args.append => {
             let before = fs::read_to_string(path).map_err(|source| CliError::Io {
                 doing: "read",
                 path: path.clone(),
                 source,
             })?;
-            let own = before
-                .lines()
-                .find(|line| !line.is_empty() && !line.starts_with('#'));
-            if own != Some(header) {
-                return Err(CliError::Unusable(format!(
-                    "{} has other columns than {header}; write into a file of its own",
-                    path.display()
-                )));
-            }
-            let known: BTreeSet<Vec<String>> = readings(header, &before).into_iter().collect();
-            let new = readings(header, &rows.join("\n"));
-            if let Some(at) = new.iter().position(|row| known.contains(row)) {
-                return Err(CliError::Unusable(format!(
-                    "{} has the reading {} already: was this table appended before? --repeat 2 is for a second measurement at the same \
-                     checkpoints",
-                    path.display(),
-                    rows[at]
-                )));
-            }
-            text = before;
-            if !text.ends_with('\n') {
-                text.push('\n');
-            }
+            import::appended(&before, header, rows)
+                .map_err(|error| CliError::Unusable(format!("{}: {error}", path.display())))
         }
+        Some(path) if !args.force => Err(CliError::Unusable(format!(
+            "{} is there already; --append writes behind its rows, --force overwrites it",
+            path.display()
+        ))),
+        _ => Ok(format!("{header}\n{}\n", rows.join("\n"))),
     }
-    for row in rows {
-        text += row;
-        text.push('\n');
-    }
-    Ok(text)
 }

@@ -122,7 +122,12 @@ impl<'c> Cell<'c, '_> {
             return Ok(*found);
         }
         let names: Vec<&str> = choices.iter().map(|c| name(*c)).collect();
-        let message = format!("{} is not the name of a {what}", self.key);
+        let message = format!("there is no {what} {}", shown(self.text()));
+        let message = if self.is_empty() {
+            format!("{} is missing", self.key)
+        } else {
+            message
+        };
         let fault = self.fault(Fault::BadValue, message, &list(names.iter().copied()));
         Err(fault.with_hint(self.nearest_of(names)).into())
     }

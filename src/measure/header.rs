@@ -1,6 +1,7 @@
 //! The header line: which column stands where, and in which unit it says its numbers are.
 
 use super::cell::{Row, shown};
+use super::names;
 use super::table::Table;
 use crate::source_text::{Diagnostic, Fault, list, nearest};
 
@@ -17,10 +18,6 @@ pub const COLUMNS: [(&str, bool); 10] = [
     ("face", false),
     ("tooth", false),
 ];
-
-/// Names of columns that are for people: they are passed over.
-pub(in crate::measure) const FOR_PEOPLE: [&str; 6] =
-    ["comment", "comments", "note", "notes", "remark", "remarks"];
 
 /// Where the columns stand.
 #[derive(Debug, Clone)]
@@ -75,7 +72,7 @@ impl Columns {
                 Diagnostic::new(Fault::MissingKey, "", what)
                     .with_values(
                         if empty { "nothing" } else { "comments only" },
-                        format!("a first line with the columns {}", names()),
+                        format!("a first line with the columns {}", columns()),
                     )
                     .with_span(0..0),
             ));
@@ -89,7 +86,7 @@ impl Columns {
         for column in 0..named {
             let written = row.record.get(column).unwrap_or_default();
             let (name, unit) = name_and_unit(written);
-            if FOR_PEOPLE.contains(&name.as_str()) {
+            if names::is_for_people(&name) {
                 passed_over.push(written.to_owned());
                 continue;
             }
@@ -116,7 +113,7 @@ impl Columns {
         if let Some(((name, _), _)) = missing {
             let mut diagnostic = row
                 .fault(Fault::MissingKey, format!("there is no column `{name}`"))
-                .with_values("this header", names())
+                .with_values("this header", columns())
                 .with_hint(if *name == "position" {
                     "it stays empty in rows of mass_loss"
                 } else {
@@ -148,34 +145,16 @@ impl Columns {
 }
 
 /// The columns as a list for messages, those in brackets may be left out.
-fn names() -> String {
+fn columns() -> String {
     let must = COLUMNS.iter().filter(|c| c.1).map(|c| c.0);
     let may = COLUMNS.iter().filter(|c| !c.1).map(|c| c.0);
     format!("{}; optional {}", list(must), list(may))
 }
 
-/// Other names that people give to columns.
-const SYNONYMS: [(&str, &[&str]); 5] = [
-    (
-        "sigma",
-        &["sd", "std", "stdev", "s", "u", "uncertainty", "error"],
-    ),
-    ("cycles", &["n", "revolutions", "load_cycles", "time"]),
-    ("position", &["radius", "r", "x", "place"]),
-    (
-        "value",
-        &["depth", "wear", "y", "measured", "wear_depth", "mass"],
-    ),
-    ("member", &["part", "body", "gear"]),
-];
-
 fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
     let (plain, _) = name_and_unit(name);
-    let meant = (SYNONYMS.iter()).find(|(_, others)| others.contains(&plain.as_str()));
-    let near = meant.map_or_else(
-        || nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default(),
-        |(column, _)| column,
-    );
+    let near = names::near_column(&plain)
+        .unwrap_or_else(|| nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default());
     let hint = if row.len() == 1 && name.contains([';', '\t', '|']) {
         "columns are separated by commas, semicolons or tabulators".to_owned()
     } else if name.parse::<f64>().is_ok() || row.record.iter().all(|f| !is_column(f)) {
@@ -195,7 +174,7 @@ fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
                 format!("there is no column {}", shown(name))
             },
         )
-        .with_values(shown(name), names())
+        .with_values(shown(name), columns())
         .with_hint(hint)
         .with_span(row.span_of(column)),
     )

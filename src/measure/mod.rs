@@ -13,6 +13,7 @@ mod face_places;
 mod header;
 pub mod import;
 mod known;
+mod names;
 pub mod neighbours;
 mod observation;
 pub mod outliers;

@@ -177,7 +177,7 @@ impl<'k> Reader<'k> {
             Some(unit) if differs(unit, allowed) => {
                 let name = quantity.name();
                 let message =
-                    format!("the header says {column} in {unit}, {name} has another unit");
+                    format!("the header says {column} in {unit}; rows of {name} have another unit");
                 let cell = row.cell(column, self.columns.of(column));
                 Err(cell
                     .fault(
@@ -186,7 +186,7 @@ impl<'k> Reader<'k> {
                         &format!("{column} of {name} in {}", allowed[0]),
                     )
                     .with_hint(
-                        "convert the numbers, or take the unit out of the header where rows differ",
+                        "convert the numbers (`gearwear import` does it), or take the unit out of the header if rows of several quantities stand below it",
                     )
                     .into())
             }

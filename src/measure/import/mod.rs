@@ -1,21 +1,36 @@
-//! Tables that are no measurement file yet: a column for each checkpoint or for each radius, from a spreadsheet or a text, as rows of one.
+//! Tables that are no measurement file yet, from a spreadsheet or a text, as rows of one: a row for each value, or a column for each
+//! checkpoint or place.
 //!
 //! ```text
-//! .xlsx or text -> sheets of cells (cells) -> which cell is what (wide; rows where it is a measurement file) -> measurements.csv
+//! .xlsx or text -> sheets of cells (cells) -> a row for each value (long, columns), or a column for each checkpoint or place (wide, whole)
+//!               -> entries (entry) -> measurements.csv
 //! ```
 
+mod append;
 mod cells;
+mod columns;
+mod entry;
+mod long;
 mod numbers;
-mod rows;
+mod place;
+mod sigma_unit;
+mod titles;
 mod units;
+mod wanted;
+mod whole;
 mod wide;
 mod xlsx;
 
+pub use append::appended;
 pub use cells::{Sheet, sheets};
+pub use entry::{Entry, lines};
+pub use long::{Long, long};
 pub use numbers::Decimal;
-pub use rows::as_measurements;
+pub use place::PositionKind;
+pub use titles::Titles;
 pub use units::factor;
-pub use wide::{Across, Mapping, PositionKind, Wanted, map};
+pub use wanted::{UnitFrom, Wanted};
+pub use wide::{Across, Wide, wide};
 
 /// Why a table cannot be read as measurements: what is wrong, where, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -2,7 +2,6 @@
 
 use super::{ImportError, Sheet, cell_name};
 use crate::measure::dialect::in_thousands;
-use crate::measure::header::FOR_PEOPLE;
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -15,15 +14,23 @@ pub enum Decimal {
     Comma,
 }
 
-/// The sheet with decimal points in its numbers.
+/// The sheet with decimal points in its numbers; `counts` says which cells tell how decimals are written.
 ///
 /// Where nothing but marks between groups of three digits stands in the numbers (`1.234`, `26.500`), they may be marks between
-/// thousands: then it has to be said.
-pub(super) fn with_points(sheet: &Sheet, decimal: Option<Decimal>) -> Result<Sheet> {
-    if sheet.plain_decimals && decimal.is_none() {
+/// thousands: then it has to be said. Numbers of a spreadsheet have no marks of their own.
+pub(super) fn with_points(
+    sheet: &Sheet,
+    decimal: Option<Decimal>,
+    counts: impl Fn(usize, usize) -> bool,
+) -> Result<Sheet> {
+    let is_text = sheet.name.is_empty();
+    if !is_text && decimal.is_none() {
         return Ok(sheet.clone());
     }
     let mut sheet = sheet.clone();
+    let plain = sheet.plain_decimals;
+    // the first number with a point and the first with a comma
+    let mut first: [Option<(String, String)>; 2] = [None, None];
     let mut unclear = None;
     let mut clear = false;
     for (row, cells) in sheet.rows.iter_mut().enumerate() {
@@ -34,17 +41,29 @@ pub(super) fn with_points(sheet: &Sheet, decimal: Option<Decimal>) -> Result<She
             if !number || several && decimal.is_none() {
                 continue;
             }
-            match decimal {
-                Some(Decimal::Point) => *text = text.replace(',', ""),
-                Some(Decimal::Comma) => *text = text.replace('.', "").replace(',', "."),
-                None if in_thousands(text.trim_start_matches(['+', '-'])) => {
-                    unclear.get_or_insert_with(|| (cell_name(row, column), text.clone()));
-                }
-                None => clear = true,
+            if let Some(decimal) = decimal {
+                *text = without_groups(text, decimal, &cell_name(row, column))?;
+                continue;
+            }
+            if !counts(row, column) {
+                continue;
+            }
+            let mark = usize::from(text.contains(','));
+            first[mark].get_or_insert_with(|| (cell_name(row, column), text.clone()));
+            if in_thousands(text.trim_start_matches(['+', '-'])) {
+                unclear.get_or_insert_with(|| (cell_name(row, column), text.clone()));
+            } else {
+                clear = true;
             }
         }
     }
-    match unclear.filter(|_| !clear) {
+    if let [Some((point, with_point)), Some((comma, with_comma))] = first {
+        return Err(ImportError(format!(
+            "{point}: `{with_point}` has a decimal point, {comma}: `{with_comma}` a comma; write all numbers with one of the two, and no \
+             marks between thousands"
+        )));
+    }
+    match unclear.filter(|_| !clear && !plain) {
         None => Ok(sheet),
         Some((cell, text)) => Err(ImportError(format!(
             "{cell}: is `{text}` {} or {}? No number of the table shows which: say --decimal point or --decimal comma",
@@ -52,6 +71,23 @@ pub(super) fn with_points(sheet: &Sheet, decimal: Option<Decimal>) -> Result<She
             text.replace(['.', ','], "")
         ))),
     }
+}
+
+/// A number with a decimal point and without marks between its thousands.
+fn without_groups(text: &str, decimal: Decimal, cell: &str) -> Result<String> {
+    let (mark, group, said) = match decimal {
+        Decimal::Point => ('.', ',', "point"),
+        Decimal::Comma => (',', '.', "comma"),
+    };
+    let whole = text.split(mark).next().unwrap_or_default();
+    let groups = text.matches(group).count();
+    let in_groups = in_thousands(whole.trim_start_matches(['+', '-']));
+    if groups > 0 && !(in_groups && whole.matches(group).count() == groups) {
+        return Err(ImportError(format!(
+            "{cell}: `{text}` is no number with --decimal {said}: a `{group}` can only stand between thousands then"
+        )));
+    }
+    Ok(text.replace(group, "").replace(mark, "."))
 }
 
 /// The one number of a header such as `250000 cycles` or `r = 26,5 mm`.
@@ -123,13 +159,6 @@ pub(super) fn without_thousands(header: &mut [String]) {
     }
 }
 
-/// Whether a column is named as one for people.
-pub(super) fn is_for_people(header: &str) -> bool {
-    const GERMAN: [&str; 5] = ["kommentar", "bemerkung", "bemerkungen", "notiz", "hinweis"];
-    let name = header.trim().to_lowercase();
-    GERMAN.contains(&name.as_str()) || FOR_PEOPLE.contains(&name.as_str())
-}
-
 /// The words of a text that hold digits.
 pub(super) fn number_words(text: &str) -> Vec<&str> {
     let part = |c: char| c.is_ascii_digit() || "+-.,eE".contains(c);
@@ -143,7 +172,7 @@ pub(super) fn number(text: &str, row: usize, column: usize) -> Result<f64> {
     let found = pointed(text).parse::<f64>().ok().filter(|v| v.is_finite());
     found.ok_or_else(|| {
         ImportError(format!(
-            "{}: `{text}` is not a number",
+            "{}: `{text}` is not a number; leave cells without a value empty",
             cell_name(row, column)
         ))
     })

@@ -50,13 +50,13 @@ pub fn factor(unit: &str, quantity: Quantity) -> Result<f64, ImportError> {
     })
 }
 
-/// The factor of a position's unit that `header` states in brackets to mm, or to degrees of an `angle`; 1 if it states none.
+/// The factor of a position's unit that `header` states to mm, or to degrees of an `angle`; 1 if it states none.
 pub(super) fn of_position(header: &str, angle: bool) -> Result<f64, ImportError> {
     let known: &[(&str, f64)] = if angle { &ANGLES } else { &LENGTHS };
-    let Some(unit) = bracketed(header) else {
+    let Some(unit) = name_and_unit(header).1 else {
         return Ok(1.0);
     };
-    find(known, unit).ok_or_else(|| {
+    find(known, &unit).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
         ImportError(format!(
             "`{header}`: positions in {unit} are not read; their unit is one of {}",
@@ -75,14 +75,57 @@ pub(super) fn of_values(header: &str, quantity: Quantity) -> Option<&'static str
     stated.find_map(|word| {
         known
             .clone()
-            .find(|(name, _)| *name == word)
+            .find(|(name, _)| name.eq_ignore_ascii_case(&word))
             .map(|(name, _)| *name)
     })
 }
 
+/// Units that may stand behind a name without brackets: `r_mm`, `depth um`. Left out are those that are words too (`in`, `rad`, `m`).
+const BARE: [&str; 15] = [
+    "mm", "um", "nm", "cm", "mg", "g", "ug", "kg", "deg", "mrad", "urad", "arcsec", "mpa", "gpa",
+    "n/mm/um",
+];
+
+/// The name of a column, and the unit that its header states in brackets or behind an underscore or a blank.
+pub(super) fn name_and_unit(header: &str) -> (String, Option<String>) {
+    let mut name = String::new();
+    let mut depth = 0;
+    for c in header.chars() {
+        match c {
+            '[' | '(' => depth += 1,
+            ']' | ')' => depth -= 1,
+            c if depth == 0 => name.push(c),
+            _ => {}
+        }
+        if depth == 0 && [']', ')'].contains(&c) {
+            name.push(' ');
+        }
+    }
+    let name = name.trim().to_owned();
+    if let Some(unit) = bracketed(header) {
+        return (name, Some(plain(unit)));
+    }
+    let Some((before, last)) =
+        name.rsplit_once(|c: char| c.is_whitespace() || c == '_' || c == ',')
+    else {
+        return (name, None);
+    };
+    let unit = plain(last);
+    if !BARE.contains(&unit.to_lowercase().as_str()) {
+        return (name, None);
+    }
+    // `depth in mm`
+    let before = before.trim_end_matches([' ', ',', '_']);
+    let words = before.rsplit_once(' ');
+    let before = words
+        .filter(|(_, word)| ["in", "en"].contains(word))
+        .map_or(before, |w| w.0);
+    (before.to_owned(), Some(unit))
+}
+
 fn find(known: &[(&str, f64)], unit: &str) -> Option<f64> {
     let unit = plain(unit);
-    let found = known.iter().find(|(name, _)| *name == unit);
+    let found = (known.iter()).find(|(name, _)| name.eq_ignore_ascii_case(&unit));
     found.map(|(_, factor)| *factor)
 }
 
@@ -118,6 +161,15 @@ mod tests {
         assert_eq!(of_position("radius [in]", false), Ok(25.4));
         assert_eq!(of_position("radius", false), Ok(1.0));
         assert!(of_position("radius [furlong]", false).is_err());
+        assert_eq!(of_position("RADIUS [MM]", false), Ok(1.0));
+        let parts = |header| {
+            let (name, unit) = name_and_unit(header);
+            format!("{name}|{}", unit.unwrap_or_default())
+        };
+        assert_eq!(parts("sd_um"), "sd|um");
+        assert_eq!(parts("u (k=1) [mg]"), "u|mg");
+        assert_eq!(parts("wear depth in \u{b5}m"), "wear depth|um");
+        assert_eq!(parts("Umdrehungen Rad"), "Umdrehungen Rad|");
         let degrees = of_position("roll angle (rad)", true).unwrap();
         assert!((degrees - 57.295_779_513).abs() < 1e-8);
     }

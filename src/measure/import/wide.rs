@@ -1,12 +1,17 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
+use super::columns;
+use super::entry::{Entry, name_repeat, refuse_twice, stated_sigma};
 use super::numbers::{
-    Decimal, header_number, is_for_people, number, number_words, plain_cycles, pointed, rounded,
-    with_points, without_thousands,
+    header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
+    without_thousands,
 };
+use super::place::PositionKind;
+use super::titles::Titles;
+use super::wanted::{UnitFrom, Wanted};
 use super::{ImportError, Sheet, cell_name, units};
-use crate::gear::{Gear, Member};
-use crate::measure::{Place, Quantity, Subject};
+use crate::gear::Gear;
+use crate::measure::{Place, Quantity, Subject, names};
 
 /// What the columns of a wide table are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,113 +22,37 @@ pub enum Across {
     Positions,
 }
 
-/// How a place on a flank is told.
-///
-/// ```text
-/// ρ = √(r² − r_b²) = r_b φ      r radius, r_b base radius, ρ roll length, φ roll angle
-/// ```
-/// ISO 21771, involute of a circle: the roll length is the generatrix from the base circle's tangent point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PositionKind {
-    /// Radius, mm.
-    Radius,
-    /// Diameter, mm.
-    Diameter,
-    /// Roll angle from the base circle, degrees.
-    RollAngle,
-    /// Roll length from the base circle, mm.
-    RollLength,
-    /// Pinion rotation from the pitch point, base pitches: of what stands on no flank.
-    Rotation,
-}
-
-impl PositionKind {
-    /// Its name with its unit.
-    pub fn name(self) -> &'static str {
-        match self {
-            PositionKind::Radius => "radius, mm",
-            PositionKind::Diameter => "diameter, mm",
-            PositionKind::RollAngle => "roll angle, deg",
-            PositionKind::RollLength => "roll length, mm",
-            PositionKind::Rotation => "rotation, base pitches",
-        }
-    }
-
-    /// What a header's words say; a radius if they say nothing else.
-    fn of_header(text: &str) -> Self {
-        let text = text.to_lowercase();
-        let says = |words: &[&str]| words.iter().any(|word| text.contains(word));
-        if says(&["angle", "winkel", "[deg]", "(deg)", "[°]", "(°)"]) {
-            PositionKind::RollAngle
-        } else if says(&["roll", "wälz"]) {
-            PositionKind::RollLength
-        } else if says(&["diam", "durchmesser", "ø"]) {
-            PositionKind::Diameter
-        } else {
-            PositionKind::Radius
-        }
-    }
-
-    /// The radius, or the rotation as it is.
-    fn position(self, value: f64, gear: Option<&Gear>) -> f64 {
-        let base = gear.map_or(0.0, |gear| gear.base_radius);
-        match self {
-            PositionKind::Radius | PositionKind::Rotation => value,
-            PositionKind::Diameter => 0.5 * value,
-            PositionKind::RollAngle => base.hypot(base * value.to_radians()),
-            PositionKind::RollLength => base.hypot(value),
-        }
-    }
-}
-
-/// What the user states of a table.
-#[derive(Debug, Clone)]
-pub struct Wanted<'a> {
-    /// Id of the test.
-    pub test: &'a str,
+/// What was understood of a wide table, and its rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wide {
+    /// Id of the test, and whether the sheet's name states it.
+    pub test: (String, bool),
     /// What was measured on.
-    pub member: Subject,
-    /// The gear, if it is one.
-    pub gear: Option<&'a Gear>,
+    pub members: Vec<Subject>,
     /// What was measured.
     pub quantity: Quantity,
-    /// How places are told; the header says it otherwise.
-    pub position: Option<PositionKind>,
-    /// What the columns are; the numbers say it otherwise.
-    pub across: Option<Across>,
-    /// Unit of the values; what the headers say otherwise, or the quantity's own.
-    pub unit: Option<&'a str>,
-    /// Whether lost material is negative in the table.
-    pub turn_sign: bool,
-    /// How decimals are written; the numbers say it otherwise.
-    pub decimal: Option<Decimal>,
-    /// One standard deviation, in the quantity's unit; left empty where it is not known.
-    pub sigma: Option<f64>,
-    /// Another, independent one as a share of the value.
-    pub relative_sigma: f64,
-    /// Whether each checkpoint is a trace with a zero of its own.
-    pub traces: bool,
-}
-
-/// What was understood of a table, and its rows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Mapping {
     /// What the columns are.
     pub across: Across,
-    /// How places are told.
-    pub position: PositionKind,
+    /// How places are told, with the least and the largest as the table has them; none for quantities without places.
+    pub position: Option<(PositionKind, [f64; 2])>,
     /// Cell of the first header, with its words.
     pub corner: (String, String),
     /// The checkpoints, pinion revolutions.
     pub checkpoints: Vec<f64>,
-    /// Least and largest position as the table has them.
-    pub from_to: [f64; 2],
-    /// Unit of the values in the table, and whether a header states it.
-    pub unit: (String, bool),
+    /// Whether they were revolutions of the gear.
+    pub of_gear: bool,
+    /// Unit of the values in the table, and what states it.
+    pub unit: (String, UnitFrom),
+    /// What the rows above the header say.
+    pub titles: Titles,
+    /// Whether the signs are turned.
+    pub turned: bool,
+    /// Headers of the columns that are passed over.
+    pub passed_over: Vec<String>,
     /// Cells without a value.
     pub empty: usize,
-    /// Rows of a measurement file, without header.
-    pub rows: Vec<String>,
+    /// Rows of a measurement file.
+    pub entries: Vec<Entry>,
 }
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -132,19 +61,168 @@ type Result<T> = std::result::Result<T, ImportError>;
 ///
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
-pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
-    let mut sheet = with_points(sheet, wanted.decimal)?;
-    let head = header(&sheet)?;
+pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
+    let quantity = wanted.quantity.unwrap_or(Quantity::WearDepth);
+    if quantity.place() == Place::Whole {
+        return super::whole::whole(sheet, quantity, wanted);
+    }
+    let head = header(sheet)?;
+    let test = wanted.one_test(sheet)?;
+    let member = (wanted.stated_member(sheet, quantity)?).unwrap_or(Subject::Pinion);
+    let gear = wanted.gear_of(member);
+    let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
     without_thousands(&mut sheet.rows[head]);
-    leave_out_what_is_for_people(&mut sheet, head);
+    let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let sheet = &sheet;
-    let across: Vec<(usize, f64)> = sheet.rows[head]
+    let across = across_numbers(sheet, head)?;
+    let down = down_numbers(sheet, head)?;
+    let corner = sheet.rows[head][0].clone();
+    let position = PositionKind::of(quantity, wanted.position, &corner);
+    let scale = match position.has_unit() {
+        true => units::of_position(&corner, position == PositionKind::RollAngle)?,
+        false => 1.0,
+    };
+    let numbers = |places: &[(usize, f64)]| places.iter().map(|a| a.1).collect::<Vec<f64>>();
+    let (column_numbers, row_numbers) = (numbers(&across), numbers(&down));
+    let by_numbers = orientation(
+        &column_numbers,
+        &row_numbers,
+        (position, scale, &corner),
+        (gear, member),
+    );
+    let orientation = match (wanted.across, by_numbers) {
+        (None, by_numbers) => by_numbers?,
+        (Some(stated), Ok(other)) if stated != other => return Err(stated_otherwise(stated)),
+        (Some(stated), _) => stated,
+    };
+    refuse_twice_in_a_line(&across, |column| cell_name(head, column))?;
+    refuse_twice_in_a_line(&down, |row| cell_name(row, 0))?;
+    let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
+    match orientation {
+        Across::Checkpoints => (across.iter())
+            .try_for_each(|&(column, _)| plain_cycles(cell(head, column), head, column))?,
+        Across::Positions => {
+            (down.iter()).try_for_each(|&(row, _)| plain_cycles(cell(row, 0), row, 0))?
+        }
+    }
+    // beside positions the headers' unit is that of the positions
+    let headers: Vec<&str> = across
         .iter()
-        .enumerate()
-        .skip(1)
+        .map(|&(column, _)| cell(head, column))
+        .collect();
+    let said = match orientation {
+        Across::Checkpoints => unit_of(&headers, quantity)?,
+        Across::Positions => None,
+    };
+    let titles = Titles::of(sheet, head, quantity)?;
+    let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
+    let turned = titles.turns_sign(wanted.turn_sign)?;
+    let of_gear = match orientation {
+        Across::Checkpoints => counts_gear_revolutions(&corner, &headers)?,
+        Across::Positions => counts_gear_revolutions(&corner, &[])?,
+    };
+    let factor = units::factor(&unit.0, quantity)?;
+    let factor = if turned { -factor } else { factor };
+    let revolutions = |cycles: f64| match of_gear {
+        true => wanted.pinion_revolutions(cycles),
+        false => cycles,
+    };
+    let mut entries = Vec::new();
+    let mut empty = 0;
+    for &(column, head_number) in &across {
+        for &(row, first) in &down {
+            let text = cell(row, column);
+            if text.is_empty() {
+                empty += 1;
+                continue;
+            }
+            let value = factor * number(text, row, column)?;
+            let (cycles, place) = match orientation {
+                Across::Checkpoints => (head_number, first),
+                Across::Positions => (first, head_number),
+            };
+            entries.push(Entry {
+                test: test.0.clone(),
+                member,
+                cycles: revolutions(cycles),
+                quantity,
+                position: Some(rounded(position.position(scale * place, gear))),
+                value,
+                sigma: stated_sigma(wanted, value),
+                trace: String::new(),
+                face: String::new(),
+                tooth: String::new(),
+                cell: (row, column),
+            });
+        }
+    }
+    in_order(&mut entries, wanted)?;
+    let (places, checkpoints) = match orientation {
+        Across::Checkpoints => (row_numbers, column_numbers),
+        Across::Positions => (column_numbers, row_numbers),
+    };
+    let mut checkpoints: Vec<f64> = checkpoints.into_iter().map(revolutions).collect();
+    checkpoints.sort_by(f64::total_cmp);
+    Ok(Wide {
+        test,
+        members: vec![member],
+        quantity,
+        across: orientation,
+        position: Some((position, from_to(&places))),
+        corner: (cell_name(head, 0), corner),
+        checkpoints,
+        of_gear,
+        unit,
+        titles,
+        turned,
+        passed_over,
+        empty,
+        entries,
+    })
+}
+
+/// The numbers of a table say that its columns are not what is stated.
+fn stated_otherwise(stated: Across) -> ImportError {
+    let (stated, places) = match stated {
+        Across::Checkpoints => ("checkpoints", "header"),
+        Across::Positions => ("positions", "first column"),
+    };
+    ImportError(format!(
+        "--columns {stated}: only the numbers of the {places} can be positions; leave --columns out, or say the other"
+    ))
+}
+
+/// Sorts entries by time and place and names their traces.
+pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<()> {
+    let place = |entry: &Entry| entry.position.unwrap_or(0.0);
+    entries.sort_by(|a, b| {
+        let by_time = a.cycles.total_cmp(&b.cycles);
+        by_time
+            .then(place(a).total_cmp(&place(b)))
+            .then(a.member.cmp(&b.member))
+    });
+    refuse_twice(entries)?;
+    for entry in entries
+        .iter_mut()
+        .filter(|entry| wanted.traces && entry.position.is_some())
+    {
+        entry.trace = entry.own_trace();
+    }
+    name_repeat(entries, wanted);
+    Ok(())
+}
+
+/// The columns with the number in the header of each.
+pub(super) fn across_numbers(sheet: &Sheet, head: usize) -> Result<Vec<(usize, f64)>> {
+    let cells = sheet.rows[head].iter().enumerate().skip(1);
+    cells
         .filter(|(_, text)| !text.is_empty())
         .map(|(column, text)| Ok((column, header_number(text, head, column)?)))
-        .collect::<Result<_>>()?;
+        .collect()
+}
+
+/// The rows with the number in the first cell of each.
+pub(super) fn down_numbers(sheet: &Sheet, head: usize) -> Result<Vec<(usize, f64)>> {
     let mut down: Vec<(usize, f64)> = Vec::new();
     for (row, cells) in sheet.rows.iter().enumerate().skip(head + 1) {
         let first = cells.first().map_or("", String::as_str);
@@ -165,157 +243,89 @@ pub fn map(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Mapping> {
             head + 1
         )));
     }
-    let corner = sheet.rows[head][0].clone();
-    let position = match (wanted.position, wanted.quantity.place()) {
-        (_, Place::Rotation) => PositionKind::Rotation,
-        (Some(kind), _) => kind,
-        (None, _) => PositionKind::of_header(&corner),
-    };
-    let angle = position == PositionKind::RollAngle;
-    let scale = match position {
-        PositionKind::Rotation => 1.0,
-        _ => units::of_position(&corner, angle)?,
-    };
-    let (column_numbers, row_numbers): (Vec<f64>, Vec<f64>) = (
-        across.iter().map(|a| a.1).collect(),
-        down.iter().map(|d| d.1).collect(),
-    );
-    let orientation = match wanted.across {
-        Some(across) => across,
-        None => orientation(&column_numbers, &row_numbers, (position, scale), wanted)?,
-    };
-    let (places, checkpoints) = match orientation {
-        Across::Checkpoints => (&row_numbers, &column_numbers),
-        Across::Positions => (&column_numbers, &row_numbers),
-    };
-    let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
-    match orientation {
-        Across::Checkpoints => (across.iter())
-            .try_for_each(|&(column, _)| plain_cycles(cell(head, column), head, column))?,
-        Across::Positions => {
-            (down.iter()).try_for_each(|&(row, _)| plain_cycles(cell(row, 0), row, 0))?
-        }
-    }
-    // beside positions the headers' unit is that of the positions
-    let headers = across.iter().map(|&(column, _)| cell(head, column));
-    let unit = match orientation {
-        Across::Checkpoints => unit(headers, wanted)?,
-        Across::Positions => (
-            wanted.unit.unwrap_or(wanted.quantity.unit()).to_owned(),
-            false,
-        ),
-    };
-    let own = wanted.unit.is_none() && !unit.1;
-    let factor = if own {
-        1.0
-    } else {
-        units::factor(&unit.0, wanted.quantity)?
-    };
-    let factor = if wanted.turn_sign { -factor } else { factor };
-    let mut rows = Vec::new();
-    let mut empty = 0;
-    for &(column, head_number) in &across {
-        for &(row, first) in &down {
-            let text = sheet.rows[row].get(column).map_or("", String::as_str);
-            if text.is_empty() {
-                empty += 1;
-                continue;
-            }
-            let value = factor * number(text, row, column)?;
-            let (cycles, place) = match orientation {
-                Across::Checkpoints => (head_number, first),
-                Across::Positions => (first, head_number),
-            };
-            rows.push((cycles, place, value));
-        }
-    }
-    rows.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let rows = rows
-        .iter()
-        .map(|&(cycles, place, value)| {
-            let trace = if wanted.traces {
-                let what = match wanted.quantity {
-                    Quantity::WearDepth => String::new(),
-                    other => format!("{}-", other.name()),
-                };
-                format!("{}-{}-{what}{cycles}", wanted.test, wanted.member.name())
-            } else {
-                String::new()
-            };
-            let sigma = match (wanted.sigma, wanted.relative_sigma) {
-                (None, _) => String::new(),
-                (Some(sigma), 0.0) => sigma.to_string(),
-                (Some(sigma), share) => rounded(sigma.hypot(share * value)).to_string(),
-            };
-            format!(
-                "{},{},{cycles},{},{},{},{},{}",
-                quoted(wanted.test),
-                wanted.member.name(),
-                wanted.quantity.name(),
-                rounded(position.position(scale * place, wanted.gear)),
-                rounded(value),
-                sigma,
-                quoted(&trace)
-            )
-        })
-        .collect();
-    let least = places.iter().copied().fold(f64::INFINITY, f64::min);
-    let largest = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let mut checkpoints = checkpoints.clone();
-    checkpoints.sort_by(f64::total_cmp);
-    Ok(Mapping {
-        across: orientation,
-        position,
-        corner: (cell_name(head, 0), corner),
-        checkpoints,
-        from_to: [least, largest],
-        unit,
-        empty,
-        rows,
-    })
+    Ok(down)
 }
 
-/// The unit of the values: as stated, as headers say, or the quantity's own; and whether a header says it.
-fn unit<'h>(headers: impl Iterator<Item = &'h str>, wanted: &Wanted<'_>) -> Result<(String, bool)> {
-    let mut said: Vec<&str> = headers
-        .filter_map(|header| units::of_values(header, wanted.quantity))
+fn from_to(numbers: &[f64]) -> [f64; 2] {
+    [
+        numbers.iter().copied().fold(f64::INFINITY, f64::min),
+        numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    ]
+}
+
+/// Refuses the same checkpoint or position in two columns or rows.
+pub(super) fn refuse_twice_in_a_line(
+    numbers: &[(usize, f64)],
+    name: impl Fn(usize) -> String,
+) -> Result<()> {
+    for (n, (second, number)) in numbers.iter().enumerate() {
+        if let Some((first, _)) = numbers[..n].iter().find(|(_, other)| other == number) {
+            return Err(ImportError(format!(
+                "{} and {} both say {number}: take one out; a repeated measurement is a table of its own, imported with --repeat 2",
+                name(*first),
+                name(*second)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Whether the checkpoints are revolutions of the gear: the corner says so, or all headers do.
+pub(super) fn counts_gear_revolutions(corner: &str, headers: &[&str]) -> Result<bool> {
+    if names::counts_gear_revolutions(corner) {
+        return Ok(true);
+    }
+    let of_gear = |header: &&&str| names::counts_gear_revolutions(header);
+    let other = headers.iter().find(|header| !of_gear(header));
+    match (headers.iter().find(of_gear), other) {
+        (None, _) => Ok(false),
+        (Some(_), None) => Ok(true),
+        (Some(gear), Some(other)) => Err(ImportError(format!(
+            "the header `{gear}` counts revolutions of the gear, `{other}` does not say so: write which all of them count"
+        ))),
+    }
+}
+
+/// The unit of the values that headers state.
+pub(super) fn unit_of<'h>(headers: &[&'h str], quantity: Quantity) -> Result<Option<&'h str>>
+where
+    'static: 'h,
+{
+    let mut said: Vec<&'static str> = headers
+        .iter()
+        .filter_map(|header| units::of_values(header, quantity))
         .collect();
     said.dedup();
-    match (said[..].first(), wanted.unit) {
-        (_, _) if said.len() > 1 => Err(ImportError(format!(
+    match said[..] {
+        [] => Ok(None),
+        [one] => Ok(Some(one)),
+        _ => Err(ImportError(format!(
             "the headers state several units: {}",
             said.join(", ")
         ))),
-        (Some(said), Some(stated))
-            if units::factor(said, wanted.quantity) != units::factor(stated, wanted.quantity) =>
-        {
-            Err(ImportError(format!(
-                "the headers say {said}, --unit says {stated}"
-            )))
-        }
-        (Some(said), None) => Ok(((*said).to_owned(), true)),
-        (_, Some(stated)) => Ok((stated.to_owned(), false)),
-        (None, None) => Ok((wanted.quantity.unit().to_owned(), false)),
     }
 }
 
-/// Empties the columns whose header says that they are for people.
-fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) {
+/// Empties the columns whose header says that they are for people, and names them.
+pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Vec<String> {
+    let mut left_out = Vec::new();
     for column in 1..sheet.rows[head].len() {
-        if is_for_people(&sheet.rows[head][column]) {
+        if names::is_for_people(&sheet.rows[head][column]) {
+            left_out.push(sheet.rows[head][column].clone());
             let cells = sheet.rows[head..].iter_mut();
             for cell in cells.filter_map(|row| row.get_mut(column)) {
                 cell.clear();
             }
         }
     }
+    left_out
 }
 
 /// The first row with something in the first column and a number in the header of another: titles stand above it.
-fn header(sheet: &Sheet) -> Result<usize> {
+pub(super) fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
         let cells = row.iter().skip(1);
-        let cells = cells.filter(|text| !text.is_empty() && !is_for_people(text));
+        let cells = cells.filter(|text| !text.is_empty() && !names::is_for_people(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
             (all + 1, good + usize::from(!number_words(text).is_empty()))
         });
@@ -325,36 +335,66 @@ fn header(sheet: &Sheet) -> Result<usize> {
         let first = row.first().map_or("", String::as_str);
         pointed(first).parse::<f64>().is_err() && numbers(row)
     };
-    sheet.rows.iter().position(|row| is_header(row)).ok_or_else(|| {
-        ImportError(
-            "no header row: the first cell names what stands below it (such as `radius [mm]`), the others begin with a number each \
-             (cycles, or a radius)"
-                .to_owned(),
-        )
-    })
+    sheet
+        .rows
+        .iter()
+        .position(|row| is_header(row))
+        .ok_or_else(|| no_header(sheet))
+}
+
+/// What is said of a table whose header is not found.
+pub(super) fn no_header(sheet: &Sheet) -> ImportError {
+    let long = columns::understood(sheet).map_or_else(
+        || {
+            "a table with a row for each value has columns test, member, cycles, position (`radius [mm]`) and values (`depth [um]`, `mass loss \
+             [mg]`), named in its header"
+                .to_owned()
+        },
+        |said| format!("read as a table with a row for each value, {said}"),
+    );
+    ImportError(format!(
+        "no header row: in a table with a column for each checkpoint or place the first cell names what stands below it (such as `radius \
+         [mm]`), the others begin with a number each (cycles, or a radius); {long}"
+    ))
 }
 
 /// What the columns are, by where the numbers can stand on the flank.
 fn orientation(
     columns: &[f64],
     rows: &[f64],
-    (position, scale): (PositionKind, f64),
-    wanted: &Wanted<'_>,
+    (position, scale, corner): (PositionKind, f64, &str),
+    (gear, member): (Option<&Gear>, Subject),
 ) -> Result<Across> {
-    let on_flank = |numbers: &[f64]| match wanted.gear {
+    let on_flank = |numbers: &[f64]| match gear {
+        Some(gear) if position == PositionKind::Teeth => {
+            let teeth = gear.spanned_teeth();
+            numbers
+                .iter()
+                .all(|&n| teeth.iter().any(|&teeth| f64::from(teeth) == n))
+        }
         Some(gear) => numbers.iter().all(|&n| {
             let radius = position.position(scale * n, Some(gear));
             (gear.form_radius - 0.01..=gear.tip_radius + 0.01).contains(&radius)
         }),
         None => numbers.iter().all(|n| (0.0..=1.0).contains(n)),
     };
-    let what = match wanted.gear {
-        Some(gear) => format!(
-            "radii of the flank ({:.3} to {:.3} mm), given as {}",
-            gear.form_radius,
-            gear.tip_radius,
-            position.name()
-        ),
+    let what = match gear {
+        Some(_) if position == PositionKind::Teeth => {
+            "numbers of teeth that a span goes over".to_owned()
+        }
+        Some(gear) => {
+            let unit = units::name_and_unit(corner).1;
+            let kind = match &unit {
+                Some(unit) => format!("{} in {unit}", position.word()),
+                None => position.name().to_owned(),
+            };
+            format!(
+                "radii of the {}'s flank ({:.3} to {:.3} mm), read as {kind}",
+                member.name(),
+                gear.form_radius,
+                gear.tip_radius
+            )
+        }
         None => "rotations (0 to 1 base pitch)".to_owned(),
     };
     match (on_flank(rows), on_flank(columns)) {
@@ -363,31 +403,12 @@ fn orientation(
         (true, true) => Err(ImportError(format!(
             "both the first column and the header could be {what}: say --columns checkpoints or --columns positions"
         ))),
-        (false, false) => Err(ImportError(format!(
-            "neither the first column ({} to {}) nor the header ({} to {}) are {what}: look at --member and --position",
-            rows.iter().copied().fold(f64::INFINITY, f64::min),
-            rows.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            columns.iter().copied().fold(f64::INFINITY, f64::min),
-            columns.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        ))),
-    }
-}
-
-pub(super) fn quoted(text: &str) -> String {
-    if text.contains([',', '"']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
-impl Wanted<'_> {
-    /// The gear of a member in a pair, pinion first.
-    pub fn gear_of(member: Subject, gears: [&Gear; 2]) -> Option<&Gear> {
-        let [pinion, gear] = gears;
-        member.member().map(|member| match member {
-            Member::Pinion => pinion,
-            Member::Gear => gear,
-        })
+        (false, false) => {
+            let [[row_from, row_to], [from, to]] = [from_to(rows), from_to(columns)];
+            Err(ImportError(format!(
+                "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}: look at --member, at \
+                 --position and at the unit in the header"
+            )))
+        }
     }
 }

@@ -1,0 +1,205 @@
+//! The mapping of a table in words: which cell is taken for what.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+
+use super::ImportArgs;
+use crate::measure::import::{Across, Entry, Long, Titles, UnitFrom, Wide};
+use crate::measure::{Quantity, Subject};
+
+/// Rows that are shown of the mapping.
+const SHOWN: usize = 3;
+
+/// Checkpoints that are named one by one.
+const NAMED: usize = 8;
+
+/// A line of the mapping.
+fn line(text: &mut String, key: &str, words: &str) {
+    let _ = writeln!(text, "{key:<8} {words}");
+}
+
+/// A table with a column for each checkpoint or place.
+pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
+    let (corner, words) = &wide.corner;
+    let words = if words.is_empty() {
+        String::new()
+    } else {
+        format!(" `{words}`")
+    };
+    let places = match wide.position {
+        Some((kind, [from, to])) => format!("{}, {from} to {to}", kind.name()),
+        None => format!("members, {}", members(&wide.members)),
+    };
+    let times: Vec<String> = wide.checkpoints.iter().map(f64::to_string).collect();
+    let from_gear = if wide.of_gear {
+        " (from revolutions of the gear, by the numbers of teeth)"
+    } else {
+        ""
+    };
+    let times = format!("pinion revolutions, {}{from_gear}", times.join(" "));
+    let (down, across) = match wide.across {
+        Across::Checkpoints => (places, times),
+        Across::Positions => (times, places),
+    };
+    let unit = match &wide.unit {
+        (unit, UnitFrom::Header) => format!("{unit} (the header says so)"),
+        (unit, UnitFrom::Title) => format!("{unit} (the title says so)"),
+        (unit, _) => unit.clone(),
+    };
+    let test = match &wide.test {
+        (id, true) => format!("{id} (the sheet's name says so)"),
+        (id, false) => id.clone(),
+    };
+    let mut text = String::new();
+    line(&mut text, "table", table);
+    line(&mut text, "header", &format!("row of {corner}{words}"));
+    titles(&mut text, &wide.titles);
+    line(&mut text, "down", &down);
+    line(&mut text, "across", &across);
+    let sign = sign(wide.turned, args.turn_sign);
+    let of = members(&wide.members).replace(' ', " and ");
+    let values = format!(
+        "{} of the {of} in test {test}, in {unit}{sign}",
+        wide.quantity.name()
+    );
+    line(&mut text, "values", &values);
+    line(
+        &mut text,
+        "sigma",
+        &stated_sigma(args, wide.quantity.unit()),
+    );
+    let traces = match (args.no_traces, wide.position) {
+        (_, None) => "none: there are no curves",
+        (false, _) => {
+            "one for each checkpoint: the instrument's zero is not known (--no-traces: it is the same for all)"
+        }
+        (true, _) => "none: the instrument's zero is the same for all checkpoints",
+    };
+    line(&mut text, "traces", traces);
+    if !wide.passed_over.is_empty() {
+        let columns = format!("the columns for people `{}`", wide.passed_over.join("`, `"));
+        line(&mut text, "passed over", &columns);
+    }
+    match wide.empty {
+        0 => {}
+        1 => line(&mut text, "empty", "1 cell without a value passed over"),
+        n => line(
+            &mut text,
+            "empty",
+            &format!("{n} cells without a value passed over"),
+        ),
+    }
+    text
+}
+
+/// A table with a row for each value.
+pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
+    let mut text = String::new();
+    line(&mut text, "table", table);
+    line(
+        &mut text,
+        "header",
+        &format!("row {}, a row for each value below it", long.row),
+    );
+    titles(&mut text, &long.titles);
+    for (written, what) in &long.columns {
+        line(&mut text, "column", &format!("`{written}`: {what}"));
+    }
+    for (written, why) in &long.passed_over {
+        line(
+            &mut text,
+            "passed over",
+            &format!("the column `{written}`: {why}"),
+        );
+    }
+    let entries = &long.entries;
+    let of = |name: fn(&Entry) -> &str| {
+        let names: BTreeSet<&str> = entries.iter().map(name).collect();
+        names.into_iter().collect::<Vec<_>>().join(", ")
+    };
+    let tests = of(|entry| &entry.test);
+    let values = format!(
+        "{} of {} in {} {tests}{}",
+        of(|entry| entry.quantity.name()),
+        of(|entry| entry.member.name()),
+        if tests.contains(',') { "tests" } else { "test" },
+        sign(long.turned, args.turn_sign)
+    );
+    line(&mut text, "values", &values);
+    let mut times: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let times = match times[..] {
+        [first, .., last] if times.len() > NAMED => {
+            format!("{} checkpoints, {first} to {last}", times.len())
+        }
+        _ => times
+            .iter()
+            .map(f64::to_string)
+            .collect::<Vec<_>>()
+            .join(" "),
+    };
+    line(&mut text, "cycles", &format!("pinion revolutions, {times}"));
+    let unit = entries
+        .first()
+        .map_or(Quantity::WearDepth, |entry| entry.quantity)
+        .unit();
+    let sigma = match entries.iter().filter(|entry| entry.sigma.is_none()).count() {
+        _ if args.sigma.is_some() => stated_sigma(args, unit),
+        0 => "as the column says".to_owned(),
+        n if n == entries.len() => stated_sigma(args, unit),
+        n => format!("as the column says; empty in {n} rows, where it is estimated"),
+    };
+    line(&mut text, "sigma", &sigma);
+    line(&mut text, "traces", long.traces);
+    match long.empty {
+        0 => {}
+        1 => line(&mut text, "empty", "1 row without a value passed over"),
+        n => line(
+            &mut text,
+            "empty",
+            &format!("{n} rows without a value passed over"),
+        ),
+    }
+    text
+}
+
+/// The number of rows and the first ones.
+pub(super) fn rows(header: &str, rows: &[String]) -> String {
+    let mut text = format!("rows     {}, the first:\n  {header}\n", rows.len());
+    for row in rows.iter().take(SHOWN) {
+        let _ = writeln!(text, "  {row}");
+    }
+    text
+}
+
+fn titles(text: &mut String, titles: &Titles) {
+    for (row, words) in &titles.passed_over {
+        line(text, "title", &format!("row {row} passed over: {words}"));
+    }
+}
+
+fn sign(turned: bool, stated: bool) -> &'static str {
+    match (turned, stated) {
+        (false, _) => "",
+        (true, true) => ", their sign turned",
+        (true, false) => ", their sign turned (the title says that lost material is negative)",
+    }
+}
+
+fn members(members: &[Subject]) -> String {
+    let names: Vec<&str> = members.iter().map(|member| member.name()).collect();
+    names.join(" ")
+}
+
+/// What is said of the standard deviation where no column has it.
+fn stated_sigma(args: &ImportArgs, unit: &str) -> String {
+    let Some(sigma) = args.sigma else {
+        return "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned();
+    };
+    let share = match args.relative_sigma {
+        0.0 => String::new(),
+        share => format!(", and {} % of the value", 100.0 * share),
+    };
+    format!("{sigma} {unit} for each{share}")
+}

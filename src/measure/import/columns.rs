@@ -1,0 +1,218 @@
+//! The header of a long table: which column is what.
+
+use super::{Sheet, cell_name, units};
+use crate::measure::{Quantity, Subject, names};
+
+/// What a column is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum What {
+    /// One of a measurement file's, by its name there.
+    Own(&'static str),
+    /// Values of a quantity.
+    Values(Quantity),
+    /// For people.
+    ForPeople,
+    /// Not known.
+    Unknown,
+    /// Without a name.
+    Nameless,
+}
+
+impl What {
+    /// The column of a measurement file, if it is one.
+    pub(super) fn own(self) -> Option<&'static str> {
+        match self {
+            What::Own(name) => Some(name),
+            What::Values(_) => Some("value"),
+            _ => None,
+        }
+    }
+}
+
+/// A column.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Column {
+    /// Where it stands, counted from 0.
+    pub(super) at: usize,
+    /// Its header as it is written.
+    pub(super) written: String,
+    /// What it is.
+    pub(super) what: What,
+    /// The unit that its header states.
+    pub(super) unit: Option<String>,
+    /// Whether it counts revolutions of the gear.
+    pub(super) of_gear: bool,
+}
+
+impl Column {
+    fn of(at: usize, written: &str) -> Self {
+        let (name, unit) = units::name_and_unit(written);
+        let revolutions = names::revolutions(&name);
+        let what = if written.is_empty() {
+            What::Nameless
+        } else if names::is_for_people(&name) {
+            What::ForPeople
+        } else if revolutions.is_some() {
+            What::Own("cycles")
+        } else {
+            match (names::column(&name), names::quantity(&name)) {
+                // `gear [mg]` is no column of members
+                (Some("member"), _) if unit.is_some() => What::Unknown,
+                (Some(own), _) => What::Own(own),
+                (None, Some((quantity, either))) => {
+                    What::Values(by_unit(quantity, either, unit.as_deref()))
+                }
+                (None, None) => What::Unknown,
+            }
+        };
+        let whose = revolutions
+            .flatten()
+            .or_else(|| names::one_member(unit.as_deref()?));
+        Self {
+            at,
+            written: written.to_owned(),
+            what,
+            of_gear: what == What::Own("cycles") && whose == Some(Subject::Gear),
+            unit,
+        }
+    }
+
+    /// The name of its header's cell.
+    pub(super) fn cell(&self, head: usize) -> String {
+        format!("{}: `{}`", cell_name(head, self.at), self.written)
+    }
+}
+
+/// `loss [um]` is a depth, `wear [mg]` a mass.
+fn by_unit(quantity: Quantity, either: bool, unit: Option<&str>) -> Quantity {
+    let Some(unit) = unit.filter(|unit| either && units::factor(unit, quantity).is_err()) else {
+        return quantity;
+    };
+    let other = [Quantity::WearDepth, Quantity::MassLoss].into_iter();
+    let mut other = other.filter(|other| units::factor(unit, *other).is_ok());
+    other.next().unwrap_or(quantity)
+}
+
+/// The columns of a header, those without name at its end left out.
+pub(super) fn columns(row: &[String]) -> Vec<Column> {
+    let named = row
+        .iter()
+        .rposition(|cell| !cell.is_empty())
+        .map_or(0, |at| at + 1);
+    let cells = row[..named].iter().enumerate();
+    cells.map(|(at, cell)| Column::of(at, cell)).collect()
+}
+
+fn has(columns: &[Column], name: &str) -> bool {
+    columns.iter().any(|column| column.what.own() == Some(name))
+}
+
+/// The row of a long table's header: it has columns of cycles and of values.
+pub(super) fn head(sheet: &Sheet) -> Option<usize> {
+    sheet.rows.iter().position(|row| {
+        let columns = columns(row);
+        has(&columns, "cycles") && has(&columns, "value")
+    })
+}
+
+/// What was understood of the row that looks most like a long table's header, and what is missing there; none if no row does.
+pub(super) fn understood(sheet: &Sheet) -> Option<String> {
+    let known = |columns: &[Column]| {
+        columns
+            .iter()
+            .filter(|column| column.what.own().is_some())
+            .count()
+    };
+    let rows = sheet
+        .rows
+        .iter()
+        .enumerate()
+        .map(|(row, cells)| (row, columns(cells)));
+    // the first of those with the most
+    let (row, columns) = rows.rev().max_by_key(|(_, columns)| known(columns))?;
+    (known(&columns) > 0).then(|| {
+        let missing = ["test", "member", "cycles", "position", "value"];
+        let missing: Vec<&str> = missing
+            .into_iter()
+            .filter(|name| !has(&columns, name))
+            .collect();
+        said(row, &columns, &missing)
+    })
+}
+
+/// The header, what was understood of it, what is missing, and how to name it.
+pub(super) fn said(head: usize, columns: &[Column], missing: &[&str]) -> String {
+    let written: Vec<&str> = columns
+        .iter()
+        .map(|column| column.written.as_str())
+        .collect();
+    let parts = |of: &dyn Fn(&Column) -> Option<String>| {
+        let parts: Vec<String> = columns.iter().filter_map(of).collect();
+        if parts.is_empty() {
+            "nothing".to_owned()
+        } else {
+            parts.join(", ")
+        }
+    };
+    let understood = parts(&|column| {
+        let what = match column.what {
+            What::Values(quantity) => format!("value ({})", quantity.name()),
+            what => what.own()?.to_owned(),
+        };
+        Some(format!("`{}` as {what}", column.written))
+    });
+    let not =
+        parts(&|column| (column.what == What::Unknown).then(|| format!("`{}`", column.written)));
+    format!(
+        "the header in row {} is `{}`; understood: {understood}; not understood: {not}; missing: {}. A long table needs columns `test`, \
+         `member`, `cycles` (of the pinion), for depths a position (`radius [mm]`, `roll angle [deg]`) and values (`depth [um]`, `mass loss \
+         [mg]`), optional `sigma` and `trace`; --test and --member stand for such a column",
+        head + 1,
+        written.join("; "),
+        missing.join(", "),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_are_understood() {
+        let row: Vec<String> = [
+            "Run",
+            "Wheel",
+            "Revs",
+            "r_mm",
+            "loss_um",
+            "sd_um",
+            "note",
+            "lab",
+            "gear [mg]",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        let what: Vec<What> = columns(&row)
+            .into_iter()
+            .map(|column| column.what)
+            .collect();
+        assert_eq!(
+            what,
+            [
+                What::Own("test"),
+                What::Own("member"),
+                What::Own("cycles"),
+                What::Own("position"),
+                What::Values(Quantity::WearDepth),
+                What::Own("sigma"),
+                What::ForPeople,
+                What::Unknown,
+                What::Unknown
+            ]
+        );
+        let gear = Column::of(0, "cycles (gear)");
+        assert!(gear.of_gear && gear.what == What::Own("cycles"));
+        assert!(Column::of(0, "Umdrehungen Rad").of_gear);
+        assert!(!Column::of(0, "revolutions of the pinion").of_gear);
+    }
+}

@@ -1,0 +1,147 @@
+//! Rows of a measurement file that a table gives.
+
+use std::collections::HashMap;
+
+use super::numbers::rounded;
+use super::{ImportError, Wanted, cell_name};
+use crate::measure::{Quantity, Subject};
+
+/// One of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Id of the test.
+    pub test: String,
+    /// What was measured on.
+    pub member: Subject,
+    /// Pinion revolutions.
+    pub cycles: f64,
+    /// What was measured.
+    pub quantity: Quantity,
+    /// Where, if the quantity has places.
+    pub position: Option<f64>,
+    /// In the quantity's own unit.
+    pub value: f64,
+    /// One standard deviation, in the same unit.
+    pub sigma: Option<f64>,
+    /// Name of the trace; empty for none.
+    pub trace: String,
+    /// Place across the face as it is written; empty for none.
+    pub face: String,
+    /// Label of the tooth; empty for none.
+    pub tooth: String,
+    /// Row and column of the value in the table, counted from 0.
+    pub cell: (usize, usize),
+}
+
+impl Entry {
+    /// The name of the trace of all that was measured at the same time as this.
+    pub(super) fn own_trace(&self) -> String {
+        let what = match self.quantity {
+            Quantity::WearDepth => String::new(),
+            other => format!("{}-", other.name()),
+        };
+        format!("{}-{}-{what}{}", self.test, self.member.name(), self.cycles)
+    }
+
+    /// Its row, with or without the columns `face` and `tooth`.
+    fn line(&self, [face, tooth]: [bool; 2]) -> String {
+        let number = |number: Option<f64>| number.map_or_else(String::new, |n| n.to_string());
+        let mut line = format!(
+            "{},{},{},{},{},{},{},{}",
+            quoted(&self.test),
+            self.member.name(),
+            self.cycles,
+            self.quantity.name(),
+            number(self.position),
+            rounded(self.value),
+            number(self.sigma),
+            quoted(&self.trace)
+        );
+        for (field, is_there) in [(&self.face, face), (&self.tooth, tooth)] {
+            if is_there {
+                line.push(',');
+                line += &quoted(field);
+            }
+        }
+        line
+    }
+}
+
+/// The header and the rows of a measurement file with these entries.
+pub fn lines(entries: &[Entry]) -> (String, Vec<String>) {
+    let some = |field: fn(&Entry) -> &String| entries.iter().any(|entry| !field(entry).is_empty());
+    let optional = [some(|entry| &entry.face), some(|entry| &entry.tooth)];
+    let mut header = "test,member,cycles,quantity,position,value,sigma,trace".to_owned();
+    for (name, is_there) in ["face", "tooth"].into_iter().zip(optional) {
+        if is_there {
+            header.push(',');
+            header += name;
+        }
+    }
+    (
+        header,
+        entries.iter().map(|entry| entry.line(optional)).collect(),
+    )
+}
+
+/// Refuses two entries at the same place and time of one trace.
+pub(super) fn refuse_twice(entries: &[Entry]) -> Result<(), ImportError> {
+    let mut first = HashMap::new();
+    for entry in entries {
+        let key = (
+            (
+                &entry.test,
+                entry.member,
+                entry.cycles.to_bits(),
+                entry.quantity,
+            ),
+            (
+                entry.position.map(f64::to_bits),
+                &entry.trace,
+                &entry.face,
+                &entry.tooth,
+            ),
+        );
+        if let Some((row, column)) = first.insert(key, entry.cell) {
+            let place = entry
+                .position
+                .map_or_else(String::new, |at| format!(" at {at}"));
+            return Err(ImportError(format!(
+                "{} and {} both hold {} of the {} in test {} after {} pinion revolutions{place}: take one out, or tell two measurements \
+                 apart by a column `trace` (or `tooth`)",
+                cell_name(row, column),
+                cell_name(entry.cell.0, entry.cell.1),
+                entry.quantity.name(),
+                entry.member.name(),
+                entry.test,
+                entry.cycles
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The standard deviation that the user states for a value.
+pub(super) fn stated_sigma(wanted: &Wanted<'_>, value: f64) -> Option<f64> {
+    let sigma = wanted.sigma?;
+    Some(match wanted.relative_sigma {
+        0.0 => sigma,
+        share => rounded(sigma.hypot(share * value)),
+    })
+}
+
+/// The names of the traces of a repeated measurement.
+pub(super) fn name_repeat(entries: &mut [Entry], wanted: &Wanted<'_>) {
+    let Some(repeat) = wanted.repeat else { return };
+    for entry in entries.iter_mut().filter(|entry| !entry.trace.is_empty()) {
+        entry.trace += &format!("-r{repeat}");
+    }
+}
+
+pub(super) fn quoted(text: &str) -> String {
+    if text.contains([',', '"']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}

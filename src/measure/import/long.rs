@@ -1,0 +1,302 @@
+//! Long tables: a row for each value, with columns that say of which test, member, time and place it is.
+
+mod line;
+mod traces;
+
+use super::columns::{Column, What, columns, head, said};
+use super::entry::Entry;
+use super::numbers::with_points;
+use super::place::PositionKind;
+use super::titles::Titles;
+use super::wanted::{UnitFrom, Wanted};
+use super::{ImportError, Sheet, cell_name, units};
+use crate::measure::{Place, Quantity};
+use line::Line;
+
+/// What was understood of a long table, and its rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Long {
+    /// Row of the header, counted from 1.
+    pub row: usize,
+    /// The columns that are read, as written, each with what it is.
+    pub columns: Vec<(String, String)>,
+    /// The columns that are passed over, each with the reason.
+    pub passed_over: Vec<(String, &'static str)>,
+    /// What the rows above the header say.
+    pub titles: Titles,
+    /// Whether the signs of losses are turned.
+    pub turned: bool,
+    /// Where the names of traces come from.
+    pub traces: &'static str,
+    /// Rows without a value.
+    pub empty: usize,
+    /// Rows of a measurement file.
+    pub entries: Vec<Entry>,
+}
+
+type Result<T> = std::result::Result<T, ImportError>;
+
+/// The columns of a long table that are read.
+struct Read<'t> {
+    head: usize,
+    test: Option<&'t Column>,
+    member: Option<&'t Column>,
+    cycles: &'t Column,
+    quantity: Option<&'t Column>,
+    position: Option<&'t Column>,
+    value: &'t Column,
+    sigma: Option<&'t Column>,
+    trace: Option<&'t Column>,
+    face: Option<&'t Column>,
+    tooth: Option<&'t Column>,
+}
+
+/// The mapping of a long table; none for other tables.
+///
+/// # Errors
+/// [`ImportError`] where a column is missing or stands twice, or a cell says nothing that can be read.
+pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
+    let Some(head) = head(sheet) else {
+        return Ok(None);
+    };
+    if wanted.across.is_some() {
+        return Err(ImportError(format!(
+            "--columns is for tables with a column for each checkpoint or place; row {} is the header of a table with a row for each value",
+            head + 1
+        )));
+    }
+    let columns = columns(&sheet.rows[head]);
+    let read = Read::of(&columns, head, wanted)?;
+    let numbers = [read.position, Some(read.value), read.sigma, read.face];
+    let sheet = &with_points(sheet, wanted.decimal, |row, column| {
+        row > head && numbers.iter().flatten().any(|read| read.at == column)
+    })?;
+    let single = match (read.quantity, read.value.what) {
+        (Some(_), _) => None,
+        (None, what) => Some(single_quantity(&read, what, wanted)?),
+    };
+    let titles = Titles::of(sheet, head, single.unwrap_or(Quantity::WearDepth))?;
+    let turned = titles.turns_sign(wanted.turn_sign)?;
+    read.nothing_missing(&columns, sheet, single, wanted)?;
+    let mut empty = 0;
+    let mut entries = Vec::new();
+    for (row, cells) in sheet.rows.iter().enumerate().skip(head + 1) {
+        if cells.iter().all(String::is_empty) {
+            continue;
+        }
+        if cells.get(read.value.at).is_none_or(String::is_empty) {
+            empty += 1;
+            continue;
+        }
+        let line = Line {
+            read: &read,
+            sheet,
+            row,
+            wanted,
+        };
+        entries.push(line.entry(single, &titles, turned)?);
+    }
+    if entries.is_empty() {
+        return Err(ImportError(format!(
+            "no row with a value below the header in row {}",
+            head + 1
+        )));
+    }
+    let traces = traces::name(&mut entries, &read, wanted)?;
+    Ok(Some(Long {
+        row: head + 1,
+        columns: read.in_words(&columns, single, &titles, wanted)?,
+        passed_over: passed_over(sheet, head, &columns, read.value),
+        titles,
+        turned,
+        traces,
+        empty,
+        entries,
+    }))
+}
+
+impl<'t> Read<'t> {
+    fn of(columns: &'t [Column], head: usize, wanted: &Wanted<'_>) -> Result<Self> {
+        let one = |name: &str| {
+            let mut found = columns
+                .iter()
+                .filter(|column| column.what.own() == Some(name));
+            match (found.next(), found.next()) {
+                (Some(first), Some(second)) => Err(ImportError(format!(
+                    "{} and {} both look like the column `{name}`: rename one (`comment` is passed over)",
+                    first.cell(head),
+                    second.cell(head)
+                ))),
+                (first, _) => Ok(first),
+            }
+        };
+        // of several columns of values the one that is asked for
+        let asked = |column: &&Column| {
+            wanted
+                .quantity
+                .is_some_and(|q| column.what == What::Values(q))
+        };
+        let value = match columns.iter().find(asked) {
+            Some(column) => column,
+            None => one("value")
+                .map_err(|error| {
+                    ImportError(format!(
+                        "{error}; or say with --quantity which one is meant"
+                    ))
+                })?
+                .expect("a long table has values"),
+        };
+        Ok(Self {
+            head,
+            test: one("test")?,
+            member: one("member")?,
+            cycles: one("cycles")?.expect("a long table has cycles"),
+            quantity: one("quantity")?,
+            position: one("position")?,
+            value,
+            sigma: one("sigma")?,
+            trace: one("trace")?,
+            face: one("face")?,
+            tooth: one("tooth")?,
+        })
+    }
+
+    /// Refuses a table of which it is not known of what test, member or place its values are.
+    fn nothing_missing(
+        &self,
+        columns: &[Column],
+        sheet: &Sheet,
+        single: Option<Quantity>,
+        wanted: &Wanted<'_>,
+    ) -> Result<()> {
+        let mut missing = Vec::new();
+        if self.test.is_none() && wanted.test.is_none() && wanted.one_test(sheet).is_err() {
+            missing.push("test");
+        }
+        let quantity = single.unwrap_or(Quantity::WearDepth);
+        if self.member.is_none() && wanted.stated_member(sheet, quantity)?.is_none() {
+            missing.push("member");
+        }
+        if self.position.is_none()
+            && single.is_some_and(|quantity| quantity.place() != Place::Whole)
+        {
+            missing.push("position");
+        }
+        if missing.is_empty() {
+            return Ok(());
+        }
+        Err(ImportError(said(self.head, columns, &missing)))
+    }
+
+    /// The columns as written, each with what it is.
+    fn in_words(
+        &self,
+        columns: &[Column],
+        single: Option<Quantity>,
+        titles: &Titles,
+        wanted: &Wanted<'_>,
+    ) -> Result<Vec<(String, String)>> {
+        let mut words = Vec::new();
+        for column in columns {
+            let what = match column.what.own() {
+                Some("value") if column.at != self.value.at => continue,
+                Some("value") => match single {
+                    Some(quantity) => {
+                        let title = titles.unit.as_deref();
+                        let (unit, from) =
+                            wanted.unit_of_values(quantity, column.unit.as_deref(), title)?;
+                        let from = match from {
+                            UnitFrom::Title => " (the title says so)",
+                            UnitFrom::Quantity => " (no unit is stated)",
+                            _ => "",
+                        };
+                        format!("{} in {unit}{from}", quantity.name())
+                    }
+                    None => "value".to_owned(),
+                },
+                Some("position") => {
+                    let quantity = single.unwrap_or(Quantity::WearDepth);
+                    let kind = PositionKind::of(quantity, wanted.position, &column.written);
+                    match (kind.has_unit(), &column.unit) {
+                        (true, Some(unit)) => format!("{}, {unit}", kind.word()),
+                        _ => kind.name().to_owned(),
+                    }
+                }
+                Some("cycles") if column.of_gear => {
+                    "revolutions of the gear, turned into those of the pinion".to_owned()
+                }
+                Some("cycles") => "cycles, pinion revolutions".to_owned(),
+                Some("sigma")
+                    if column
+                        .unit
+                        .as_deref()
+                        .is_some_and(|unit| !unit.contains('=')) =>
+                {
+                    format!("sigma in {}", column.unit.as_deref().unwrap_or_default())
+                }
+                Some(own) => own.to_owned(),
+                None => continue,
+            };
+            words.push((column.written.clone(), what));
+        }
+        Ok(words)
+    }
+}
+
+/// The quantity of a table without a column of quantities.
+fn single_quantity(read: &Read<'_>, what: What, wanted: &Wanted<'_>) -> Result<Quantity> {
+    let column = read.value.cell(read.head);
+    match (what, wanted.quantity) {
+        (What::Values(named), Some(stated)) if named != stated => Err(ImportError(format!(
+            "{column} holds {}, --quantity says {}: leave --quantity out, or rename the column",
+            named.name(),
+            stated.name()
+        ))),
+        (What::Values(quantity), _) | (_, Some(quantity)) => Ok(quantity),
+        (_, None) => {
+            let unit = read.value.unit.as_deref().or(wanted.unit);
+            let mut fit = [Quantity::WearDepth, Quantity::MassLoss]
+                .into_iter()
+                .filter(|quantity| unit.is_some_and(|unit| units::factor(unit, *quantity).is_ok()));
+            fit.next().ok_or_else(|| {
+                ImportError(format!(
+                    "{column} does not say what was measured: name it with --quantity (wear_depth, mass_loss, ...), or call the column \
+                     `depth [um]` or `mass loss [mg]`"
+                ))
+            })
+        }
+    }
+}
+
+/// The columns that are not read, those without a name if something stands below.
+fn passed_over(
+    sheet: &Sheet,
+    head: usize,
+    columns: &[Column],
+    value: &Column,
+) -> Vec<(String, &'static str)> {
+    let mut passed_over: Vec<(String, &'static str)> = (columns.iter())
+        .filter_map(|column| {
+            let why = match column.what {
+                What::ForPeople => "for people",
+                What::Unknown => "not known",
+                What::Values(_) if column.at != value.at => "another quantity",
+                _ => return None,
+            };
+            Some((column.written.clone(), why))
+        })
+        .collect();
+    let widest = sheet.rows[head..].iter().map(Vec::len).max().unwrap_or(0);
+    for at in 0..widest {
+        let named = columns
+            .get(at)
+            .is_some_and(|column| column.what != What::Nameless);
+        let filled = sheet.rows[head..]
+            .iter()
+            .any(|row| row.get(at).is_some_and(|cell| !cell.is_empty()));
+        if !named && filled {
+            passed_over.push((cell_name(head, at), "no name stands in its header"));
+        }
+    }
+    passed_over
+}

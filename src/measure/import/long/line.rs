@@ -1,0 +1,256 @@
+//! One row of a long table as an entry.
+
+use super::Read;
+use crate::measure::import::columns::Column;
+use crate::measure::import::entry::{Entry, stated_sigma};
+use crate::measure::import::numbers::{number, plain_cycles, rounded};
+use crate::measure::import::place::{PositionKind, on_flank};
+use crate::measure::import::titles::Titles;
+use crate::measure::import::wanted::Wanted;
+use crate::measure::import::{ImportError, Sheet, cell_name, sigma_unit, units};
+use crate::measure::{Place, Quantity, Subject, names};
+
+type Result<T> = std::result::Result<T, ImportError>;
+
+/// One row of a long table.
+pub(super) struct Line<'t> {
+    pub(super) read: &'t Read<'t>,
+    pub(super) sheet: &'t Sheet,
+    pub(super) row: usize,
+    pub(super) wanted: &'t Wanted<'t>,
+}
+
+impl Line<'_> {
+    fn text(&self, column: Option<&Column>) -> &str {
+        let cell = column.and_then(|column| self.sheet.rows[self.row].get(column.at));
+        cell.map_or("", String::as_str)
+    }
+
+    fn refused<T>(&self, column: &Column, why: &str) -> Result<T> {
+        let cell = cell_name(self.row, column.at);
+        let found = match self.text(Some(column)) {
+            "" => "nothing stands here".to_owned(),
+            text => format!("`{text}`"),
+        };
+        Err(ImportError(format!(
+            "{cell}: {found} below `{}`: {why}",
+            column.written
+        )))
+    }
+
+    /// Its entry.
+    pub(super) fn entry(
+        &self,
+        single: Option<Quantity>,
+        titles: &Titles,
+        turned: bool,
+    ) -> Result<Entry> {
+        let Read {
+            cycles,
+            value,
+            sigma,
+            ..
+        } = *self.read;
+        let quantity = match (single, self.read.quantity) {
+            (None, Some(column)) => match names::quantity(self.text(Some(column))) {
+                Some((quantity, _)) => quantity,
+                None => {
+                    let known = Quantity::ALL.map(Quantity::name);
+                    return self
+                        .refused(column, &format!("the quantities are {}", known.join(", ")));
+                }
+            },
+            (quantity, _) => quantity.unwrap_or(Quantity::WearDepth),
+        };
+        let member = self.member(quantity)?;
+        let (unit, _) = (self.wanted)
+            .unit_of_values(quantity, value.unit.as_deref(), titles.unit.as_deref())
+            .map_err(|error| {
+                ImportError(format!(
+                    "{}, with row {} of {}: {error}",
+                    value.cell(self.read.head),
+                    self.row + 1,
+                    quantity.name()
+                ))
+            })?;
+        let factor = units::factor(&unit, quantity).unwrap_or(1.0);
+        let sign = if turned && (single.is_some() || quantity.is_wear()) {
+            -1.0
+        } else {
+            1.0
+        };
+        let written = number(self.text(Some(value)), self.row, value.at)?;
+        let written_sigma = match (sigma, self.text(sigma)) {
+            (None, _) | (_, "") => None,
+            (Some(column), text) => {
+                let factor =
+                    sigma_unit::factor(column, value, (self.read.head, quantity), self.wanted)?;
+                Some(rounded(factor * number(text, self.row, column.at)?))
+            }
+        };
+        if let (Some(column), Some(_)) = (sigma, self.wanted.sigma) {
+            return Err(ImportError(format!(
+                "--sigma: the table has a column of sigma, {}; leave one of them out",
+                column.cell(self.read.head)
+            )));
+        }
+        let value_here = rounded(sign * factor * written);
+        Ok(Entry {
+            test: self.test()?,
+            member,
+            cycles: self.cycles(cycles)?,
+            quantity,
+            position: self.position(quantity, member)?,
+            value: value_here,
+            sigma: written_sigma.or_else(|| stated_sigma(self.wanted, value_here)),
+            trace: self.text(self.read.trace).to_owned(),
+            face: self.text(self.read.face).replace(',', "."),
+            tooth: self.text(self.read.tooth).to_owned(),
+            cell: (self.row, value.at),
+        })
+    }
+
+    fn test(&self) -> Result<String> {
+        let Some(column) = self.read.test else {
+            return Ok(self.wanted.one_test(self.sheet)?.0);
+        };
+        let id = self.text(Some(column));
+        if !self.wanted.tests.contains(&id) {
+            return self.refused(
+                column,
+                &format!("the study's tests are {}", self.wanted.tests.join(", ")),
+            );
+        }
+        match self.wanted.test {
+            Some(stated) if stated != id => self.refused(
+                column,
+                &format!("--test says {stated}; leave it out, the table has a column of tests"),
+            ),
+            _ => Ok(id.to_owned()),
+        }
+    }
+
+    fn member(&self, quantity: Quantity) -> Result<Subject> {
+        let subjects = quantity.subjects();
+        let Some(column) = self.read.member else {
+            return Ok(self
+                .wanted
+                .stated_member(self.sheet, quantity)?
+                .unwrap_or(Subject::Pinion));
+        };
+        let Some(member) = names::member(self.text(Some(column))) else {
+            return self.refused(column, "write pinion, gear or pair (or small, big, Ritzel, Rad, pignone, corona, pignon, roue, ...)");
+        };
+        if !subjects.contains(&member) {
+            let allowed: Vec<&str> = subjects.iter().map(|subject| subject.name()).collect();
+            return self.refused(
+                column,
+                &format!(
+                    "{} is measured on {}",
+                    quantity.name(),
+                    allowed.join(" or ")
+                ),
+            );
+        }
+        match self.wanted.member {
+            Some(stated) if stated != member => self.refused(
+                column,
+                &format!(
+                    "--member says {}; leave it out, the table has a column of members",
+                    stated.name()
+                ),
+            ),
+            _ => Ok(member),
+        }
+    }
+
+    fn cycles(&self, column: &Column) -> Result<f64> {
+        let text = self.text(Some(column));
+        if let Some(unit) = &column.unit
+            && !["1", "-"].contains(&unit.as_str())
+            && names::member(unit).is_none()
+            && names::revolutions(unit).is_none()
+        {
+            return Err(ImportError(format!(
+                "{}: cycles in {unit} are not read; write plain pinion revolutions",
+                column.cell(self.read.head)
+            )));
+        }
+        if text.is_empty() {
+            return self.refused(
+                column,
+                "every row says after how many revolutions of the pinion it was measured",
+            );
+        }
+        if self.wanted.decimal.is_none() && !self.sheet.plain_decimals {
+            plain_cycles(text, self.row, column.at)?;
+        }
+        let cycles = number(text, self.row, column.at)?;
+        Ok(if column.of_gear {
+            self.wanted.pinion_revolutions(cycles)
+        } else {
+            cycles
+        })
+    }
+
+    fn position(&self, quantity: Quantity, member: Subject) -> Result<Option<f64>> {
+        let text = self.text(self.read.position);
+        let column = match (self.read.position, quantity.place()) {
+            (Some(column), Place::Whole) if !text.is_empty() => {
+                return self.refused(
+                    column,
+                    &format!("{} has no position; leave it empty", quantity.name()),
+                );
+            }
+            (_, Place::Whole) => return Ok(None),
+            (None, _) => {
+                return Err(ImportError(format!(
+                    "row {}: {} needs a column of positions (`radius [mm]`)",
+                    self.row + 1,
+                    quantity.name()
+                )));
+            }
+            (Some(column), _) => column,
+        };
+        if text.is_empty() {
+            return self.refused(
+                column,
+                "every row of a quantity with positions says where it was measured",
+            );
+        }
+        let kind = PositionKind::of(quantity, self.wanted.position, &column.written);
+        let scale = if kind.has_unit() {
+            units::of_position(&column.written, kind == PositionKind::RollAngle)?
+        } else {
+            1.0
+        };
+        let gear = self.wanted.gear_of(member);
+        let position = rounded(kind.position(scale * number(text, self.row, column.at)?, gear));
+        match gear.filter(|_| quantity.place() == Place::Flank) {
+            Some(gear) if !on_flank(gear, position) => {
+                let other = self
+                    .wanted
+                    .gears
+                    .into_iter()
+                    .find(|other| on_flank(other, position));
+                let hint = match other {
+                    Some(_) => "it lies on the other member's flank: look at the column of members",
+                    None if on_flank(gear, 0.5 * position) => {
+                        "is it a diameter? --position diameter"
+                    }
+                    None => "look at the unit in the header and at --position",
+                };
+                self.refused(
+                    column,
+                    &format!(
+                        "the radius {position} mm is off the {}'s flank ({:.3} to {:.3} mm); {hint}",
+                        member.name(),
+                        gear.form_radius,
+                        gear.tip_radius
+                    ),
+                )
+            }
+            _ => Ok(Some(position)),
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! Rows above a table's header: what they say of its values.
+
+use super::{ImportError, Sheet, units};
+use crate::measure::{Quantity, names};
+
+/// What the rows above a header say.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Titles {
+    /// Unit of the values.
+    pub unit: Option<String>,
+    /// Whether lost material is negative in the table.
+    pub lost_is_negative: Option<bool>,
+    /// Rows that say nothing that is used, with their numbers counted from 1.
+    pub passed_over: Vec<(usize, String)>,
+}
+
+const NEGATIVE: [&str; 9] = [
+    "negative", "negativ", "negativo", "negativa", "negativi", "negatif", "negatifs", "minus",
+    "meno",
+];
+const POSITIVE: [&str; 7] = [
+    "positive", "positiv", "positivo", "positiva", "positivi", "positif", "plus",
+];
+const LOST: [&str; 18] = [
+    "lost",
+    "loss",
+    "removed",
+    "worn",
+    "wear",
+    "abtrag",
+    "verlust",
+    "materialverlust",
+    "abgetragen",
+    "verschleiss",
+    "asportato",
+    "perso",
+    "usura",
+    "perdita",
+    "perdu",
+    "enleve",
+    "usure",
+    "perdido",
+];
+const NOT: [&str; 6] = ["not", "no", "nicht", "kein", "non", "pas"];
+
+impl Titles {
+    /// Of the rows above `head`.
+    pub(super) fn of(sheet: &Sheet, head: usize, quantity: Quantity) -> Result<Self, ImportError> {
+        let mut titles = Self::default();
+        for (row, cells) in sheet.rows.iter().enumerate().take(head) {
+            let cells: Vec<&str> = cells
+                .iter()
+                .map(String::as_str)
+                .filter(|c| !c.is_empty())
+                .collect();
+            let text = cells.join(" ");
+            if text.is_empty() {
+                continue;
+            }
+            let (unit, sign) = (unit(&text, quantity), lost_is_negative(&text));
+            if unit.is_none() && sign.is_none() {
+                titles.passed_over.push((row + 1, text.clone()));
+            }
+            if unit.is_some() && titles.unit.is_some() && titles.unit != unit
+                || sign.is_some()
+                    && titles.lost_is_negative.is_some()
+                    && titles.lost_is_negative != sign
+            {
+                return Err(ImportError(format!(
+                    "row {}: `{text}` says otherwise than a row above it; take the wrong one out",
+                    row + 1
+                )));
+            }
+            titles.unit = unit.or(titles.unit);
+            titles.lost_is_negative = sign.or(titles.lost_is_negative);
+        }
+        Ok(titles)
+    }
+
+    /// Whether the sign is to be turned.
+    ///
+    /// # Errors
+    /// Where the user states that lost material is negative, and a title that it is positive.
+    pub(super) fn turns_sign(&self, stated: bool) -> Result<bool, ImportError> {
+        match (stated, self.lost_is_negative) {
+            (true, Some(false)) => Err(ImportError(
+                "a title row says that lost material is positive, --turn-sign that it is negative: leave out one of them".to_owned(),
+            )),
+            (stated, said) => Ok(stated || said == Some(true)),
+        }
+    }
+}
+
+/// The unit of the values that a title states beside their name; none if it speaks of positions too, or of several units.
+fn unit(text: &str, quantity: Quantity) -> Option<String> {
+    let words = names::words(text);
+    let of_values =
+        |word: &String| names::quantity(word).is_some_and(|(named, _)| named == quantity);
+    let of_places = |word: &String| {
+        names::column(word) == Some("position")
+            || ["roll", "angle", "length"].contains(&word.as_str())
+    };
+    if !words.iter().any(of_values) || words.iter().any(of_places) {
+        return None;
+    }
+    let stated = text.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
+    let mut stated: Vec<&str> = stated
+        .filter_map(|word| units::of_values(word, quantity))
+        .collect();
+    stated.dedup();
+    match stated[..] {
+        [one] => Some(one.to_owned()),
+        _ => None,
+    }
+}
+
+/// What a title says of the sign of lost material.
+fn lost_is_negative(text: &str) -> Option<bool> {
+    let said = text.split([',', ';', '.', '(', ')']).filter_map(|part| {
+        let words = names::words(part);
+        let says = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
+        let negative = says(&NEGATIVE);
+        (says(&LOST) && !says(&NOT) && negative != says(&POSITIVE)).then_some(negative)
+    });
+    let said: Vec<bool> = said.collect();
+    let first = *said.first()?;
+    said.iter().all(|&other| other == first).then_some(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_say_unit_and_sign() {
+        let unit = |text| unit(text, Quantity::WearDepth);
+        assert_eq!(unit("Wear depth in mm").as_deref(), Some("mm"));
+        assert_eq!(
+            unit("Verschleiß [\u{b5}m], Versuch A").as_deref(),
+            Some("um")
+        );
+        assert_eq!(unit("Wear in um, roll length in mm"), None);
+        assert_eq!(unit("scale 50 mm"), None);
+        for (text, says) in [
+            ("Wear depth, negative = material lost", Some(true)),
+            ("positive = material lost", Some(false)),
+            ("il materiale asportato è negativo", Some(true)),
+            ("negative: pile-up, positive: wear", Some(false)),
+            ("lost material is not negative", None),
+            ("negative = wear, positive = wear", None),
+            ("Wear of Monday", None),
+        ] {
+            assert_eq!(lost_is_negative(text), says, "{text}");
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! Wide tables of what a whole member has, a mass say: cycles in one direction, members in the other.
+
+use super::entry::{Entry, stated_sigma};
+use super::numbers::{number, plain_cycles, with_points, without_thousands};
+use super::titles::Titles;
+use super::wanted::Wanted;
+use super::wide::{
+    Across, Wide, across_numbers, counts_gear_revolutions, down_numbers, header, in_order,
+    leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
+};
+use super::{ImportError, Sheet, cell_name, units};
+use crate::measure::{Quantity, Subject, names};
+
+type Result<T> = std::result::Result<T, ImportError>;
+
+/// Members and checkpoints, each with its row or column.
+struct Lines {
+    head: usize,
+    across: Across,
+    members: Vec<(usize, Subject)>,
+    cycles: Vec<(usize, f64)>,
+}
+
+/// The mapping of a wide table of a quantity without places.
+pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> Result<Wide> {
+    let by_member = |row: &Vec<String>| {
+        let mut names = row
+            .iter()
+            .skip(1)
+            .filter(|cell| !cell.is_empty() && !names::is_for_people(cell));
+        let is_member = |cell: &String| {
+            names::one_member(cell).is_some() && !cell.contains(|c: char| c.is_ascii_digit())
+        };
+        row.first()
+            .is_some_and(|first| names::revolutions(&units::name_and_unit(first).0).is_some())
+            && names.clone().next().is_some()
+            && names.all(is_member)
+    };
+    let test = wanted.one_test(sheet)?;
+    let members_across = sheet.rows.iter().position(by_member);
+    let head = match members_across {
+        Some(head) => head,
+        None => header(sheet).map_err(|_| no_header(sheet))?,
+    };
+    let mut sheet = with_points(sheet, wanted.decimal, |row, column| {
+        row > head && column > 0
+    })?;
+    without_thousands(&mut sheet.rows[head]);
+    let passed_over = leave_out_what_is_for_people(&mut sheet, head);
+    let sheet = &sheet;
+    let lines = match members_across {
+        Some(head) => members_in_header(sheet, head)?,
+        None => members_in_rows(sheet, head, quantity, wanted)?,
+    };
+    let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
+    let corner = cell(head, 0);
+    let headers: Vec<&str> = sheet.rows[head]
+        .iter()
+        .skip(1)
+        .map(String::as_str)
+        .filter(|h| !h.is_empty())
+        .collect();
+    let titles = Titles::of(sheet, head, quantity)?;
+    let all: Vec<&str> = headers.iter().copied().chain([corner]).collect();
+    let unit = wanted.unit_of_values(quantity, unit_of(&all, quantity)?, titles.unit.as_deref())?;
+    let factor = units::factor(&unit.0, quantity)?;
+    let turned = titles.turns_sign(wanted.turn_sign)?;
+    let of_gear = match lines.across {
+        Across::Checkpoints => counts_gear_revolutions(corner, &headers)?,
+        Across::Positions => counts_gear_revolutions(corner, &[])?,
+    };
+    let mut empty = 0;
+    let mut entries = Vec::new();
+    for &(member_line, member) in &lines.members {
+        for &(cycles_line, cycles) in &lines.cycles {
+            let (row, column) = match lines.across {
+                Across::Checkpoints => (member_line, cycles_line),
+                Across::Positions => (cycles_line, member_line),
+            };
+            if cell(row, column).is_empty() {
+                empty += 1;
+                continue;
+            }
+            let value =
+                number(cell(row, column), row, column)? * if turned { -factor } else { factor };
+            entries.push(Entry {
+                test: test.0.clone(),
+                member,
+                cycles: if of_gear {
+                    wanted.pinion_revolutions(cycles)
+                } else {
+                    cycles
+                },
+                quantity,
+                position: None,
+                value,
+                sigma: stated_sigma(wanted, value),
+                trace: String::new(),
+                face: String::new(),
+                tooth: String::new(),
+                cell: (row, column),
+            });
+        }
+    }
+    in_order(&mut entries, wanted)?;
+    let mut checkpoints: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
+    checkpoints.dedup();
+    Ok(Wide {
+        test,
+        members: lines.members.iter().map(|member| member.1).collect(),
+        quantity,
+        across: lines.across,
+        position: None,
+        corner: (cell_name(lines.head, 0), corner.to_owned()),
+        checkpoints,
+        of_gear,
+        unit,
+        titles,
+        turned,
+        passed_over,
+        empty,
+        entries,
+    })
+}
+
+/// A column for each member, cycles in the first one.
+fn members_in_header(sheet: &Sheet, head: usize) -> Result<Lines> {
+    let headers = sheet.rows[head].iter().enumerate().skip(1);
+    let members: Vec<(usize, Subject)> = headers
+        .filter_map(|(column, text)| Some((column, names::one_member(text)?)))
+        .collect();
+    let cycles = down_numbers(sheet, head)?;
+    refuse_twice_in_a_line(&cycles, |row| cell_name(row, 0))?;
+    for &(row, _) in &cycles {
+        plain_cycles(&sheet.rows[row][0], row, 0)?;
+    }
+    Ok(Lines {
+        head,
+        across: Across::Positions,
+        members,
+        cycles,
+    })
+}
+
+/// A column for each checkpoint; the first column names members, or the only row is of the stated one.
+fn members_in_rows(
+    sheet: &Sheet,
+    head: usize,
+    quantity: Quantity,
+    wanted: &Wanted<'_>,
+) -> Result<Lines> {
+    let cycles = across_numbers(sheet, head)?;
+    refuse_twice_in_a_line(&cycles, |column| cell_name(head, column))?;
+    for &(column, _) in &cycles {
+        plain_cycles(&sheet.rows[head][column], head, column)?;
+    }
+    let filled =
+        (head + 1..sheet.rows.len()).filter(|&row| !sheet.rows[row].iter().all(String::is_empty));
+    let filled: Vec<usize> = filled.collect();
+    let stated = wanted.stated_member(sheet, quantity)?;
+    let members = filled.iter().map(|&row| {
+        let text = &sheet.rows[row][0];
+        let member = match names::one_member(text) {
+            Some(named) => Some(named),
+            None if filled.len() == 1 => stated,
+            None => None,
+        };
+        member.map(|member| (row, member)).ok_or_else(|| {
+            ImportError(format!(
+                "{}: `{text}` names no member: {} has no positions; write pinion or gear into the first column, or state --member for \
+                 a table with one row",
+                cell_name(row, 0),
+                quantity.name()
+            ))
+        })
+    });
+    let members = members.collect::<Result<Vec<_>>>()?;
+    if members.is_empty() {
+        return Err(ImportError(format!(
+            "no row of numbers below the header in row {}",
+            head + 1
+        )));
+    }
+    Ok(Lines {
+        head,
+        across: Across::Checkpoints,
+        members,
+        cycles,
+    })
+}

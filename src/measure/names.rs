@@ -1,0 +1,460 @@
+//! Names that people give to columns of tables and to what stands in them, in English, German, Italian, French and Spanish, and what
+//! they are in a measurement file. [`folded`] says what does not count in a name.
+
+use super::quantity::{Quantity, Subject};
+
+/// Columns by their names in a measurement file.
+const COLUMNS: [(&str, &[&str]); 10] = [
+    (
+        "test",
+        &[
+            "run", "versuch", "prufung", "lauf", "prova", "essai", "ensayo", "prueba",
+        ],
+    ),
+    (
+        "member",
+        &[
+            "wheel",
+            "gear",
+            "gearwheel",
+            "part",
+            "rad",
+            "zahnrad",
+            "bauteil",
+            "ruota",
+            "componente",
+            "roue",
+            "rueda",
+            "pieza",
+        ],
+    ),
+    ("cycles", CYCLES),
+    (
+        "quantity",
+        &[
+            "grosse",
+            "messgrosse",
+            "groesse",
+            "grandezza",
+            "grandeur",
+            "magnitud",
+        ],
+    ),
+    (
+        "position",
+        &[
+            "r",
+            "radius",
+            "diameter",
+            "rollangle",
+            "rolllength",
+            "ort",
+            "stelle",
+            "durchmesser",
+            "walzwinkel",
+            "walzlange",
+            "raggio",
+            "posizione",
+            "diametro",
+            "rayon",
+            "diametre",
+            "radio",
+            "posicion",
+        ],
+    ),
+    (
+        "value",
+        &["reading", "wert", "messwert", "valore", "valeur", "valor"],
+    ),
+    (
+        "sigma",
+        &[
+            "u",
+            "sd",
+            "std",
+            "stdev",
+            "stddev",
+            "standarddeviation",
+            "uncertainty",
+            "standarduncertainty",
+            "streuung",
+            "standardabweichung",
+            "unsicherheit",
+            "deviazionestandard",
+            "incertezza",
+            "ecarttype",
+            "incertitude",
+            "desviacionestandar",
+            "desviaciontipica",
+            "incertidumbre",
+        ],
+    ),
+    (
+        "trace",
+        &[
+            "profile",
+            "curve",
+            "spur",
+            "kurve",
+            "messkurve",
+            "profil",
+            "traccia",
+            "profilo",
+            "courbe",
+            "curva",
+            "traza",
+            "perfil",
+        ],
+    ),
+    ("face", &[]),
+    ("tooth", &["zahn", "dente", "dent", "diente"]),
+];
+
+/// Names of counts of revolutions.
+const CYCLES: &[&str] = &[
+    "cycle",
+    "loadcycles",
+    "rev",
+    "revs",
+    "revolution",
+    "revolutions",
+    "turns",
+    "lastspiele",
+    "lastwechsel",
+    "lw",
+    "umdrehung",
+    "umdrehungen",
+    "zyklen",
+    "cicli",
+    "giri",
+    "tours",
+    "ciclos",
+    "revoluciones",
+    "vueltas",
+];
+
+/// Names of columns for people.
+const FOR_PEOPLE: [&str; 19] = [
+    "comment",
+    "comments",
+    "note",
+    "notes",
+    "remark",
+    "remarks",
+    "kommentar",
+    "bemerkung",
+    "bemerkungen",
+    "notiz",
+    "hinweis",
+    "nota",
+    "osservazioni",
+    "commento",
+    "commentaire",
+    "remarque",
+    "remarques",
+    "comentario",
+    "observaciones",
+];
+
+/// Names that only hint at a column: too vague to be read as it.
+const HINTS: [(&str, &[&str]); 5] = [
+    ("sigma", &["error", "s"]),
+    ("cycles", &["n", "time"]),
+    ("position", &["x", "place"]),
+    ("value", &["y", "measured"]),
+    ("member", &["body"]),
+];
+
+const MEMBERS: [(Subject, &[&str]); 3] = [
+    (
+        Subject::Pinion,
+        &[
+            "pinion", "small", "smaller", "ritzel", "kleinrad", "klein", "pignone", "piccolo",
+            "piccola", "pignon", "petit", "petite", "pinon", "pequeno", "pequena",
+        ],
+    ),
+    (
+        Subject::Gear,
+        &[
+            "gear", "wheel", "big", "bigger", "large", "larger", "rad", "grossrad", "gross",
+            "corona", "ruota", "grande", "couronne", "roue", "rueda",
+        ],
+    ),
+    (
+        Subject::Pair,
+        &["pair", "paar", "radpaar", "coppia", "couple", "par"],
+    ),
+];
+
+/// Names of quantities beside their own.
+const QUANTITIES: [(Quantity, &[&str]); 6] = [
+    (
+        Quantity::WearDepth,
+        &[
+            "depth",
+            "wear",
+            "depthwear",
+            "flankwear",
+            "verschleiss",
+            "verschleisstiefe",
+            "tiefe",
+            "abtrag",
+            "usura",
+            "profondita",
+            "profonditausura",
+            "usure",
+            "profondeur",
+            "profondeurusure",
+            "desgaste",
+            "profundidad",
+            "profundidaddesgaste",
+        ],
+    ),
+    (
+        Quantity::MassLoss,
+        &[
+            "mass",
+            "loss",
+            "lossmass",
+            "weight",
+            "weightloss",
+            "lossweight",
+            "masse",
+            "massenverlust",
+            "masseverlust",
+            "verlust",
+            "gewicht",
+            "gewichtsverlust",
+            "massa",
+            "peso",
+            "perdita",
+            "perditamassa",
+            "perditapeso",
+            "perte",
+            "pertemasse",
+            "pertepoids",
+            "poids",
+            "masa",
+            "perdida",
+            "perdidamasa",
+            "perdidapeso",
+        ],
+    ),
+    (
+        Quantity::TransmissionError,
+        &[
+            "drehfehler",
+            "drehwegfehler",
+            "drehabweichung",
+            "erroretrasmissione",
+            "erreurtransmission",
+            "errortransmision",
+        ],
+    ),
+    (Quantity::LoadShare, &["lastanteil"]),
+    (
+        Quantity::ContactPressure,
+        &["pressung", "pressioncontact", "pressionecontatto"],
+    ),
+    (Quantity::MeshStiffness, &["eingriffssteifigkeit"]),
+];
+
+/// Names of losses that may be of depth or of mass: their unit says which.
+const LOSSES: [&str; 11] = [
+    "wear",
+    "loss",
+    "verschleiss",
+    "verlust",
+    "abtrag",
+    "usura",
+    "perdita",
+    "usure",
+    "perte",
+    "desgaste",
+    "perdida",
+];
+
+/// Words that say nothing in a name.
+const FILLERS: [&str; 31] = [
+    "of", "the", "a", "an", "after", "no", "nr", "number", "id", "name", "der", "die", "das",
+    "des", "nach", "anzahl", "nummer", "di", "d", "del", "della", "dei", "numero", "de", "du",
+    "la", "le", "l", "el", "nombre", "n",
+];
+
+/// A name without what does not count in it: case, accents, blanks, signs between its letters.
+pub(super) fn folded(text: &str) -> String {
+    let mut plain = String::new();
+    for c in text.chars().flat_map(char::to_lowercase) {
+        match c {
+            '\u{df}' => plain.push_str("ss"),
+            'à' | 'á' | 'â' | 'ä' => plain.push('a'),
+            'è' | 'é' | 'ê' | 'ë' => plain.push('e'),
+            'ì' | 'í' | 'î' => plain.push('i'),
+            'ò' | 'ó' | 'ô' | 'ö' => plain.push('o'),
+            'ù' | 'ú' | 'û' | 'ü' => plain.push('u'),
+            'ñ' => plain.push('n'),
+            c if c.is_alphanumeric() => plain.push(c),
+            _ => {}
+        }
+    }
+    plain
+}
+
+/// The words of a text, each [`folded`].
+pub(super) fn words(text: &str) -> Vec<String> {
+    let words = text.split(|c: char| !c.is_alphanumeric());
+    words.map(folded).filter(|word| !word.is_empty()).collect()
+}
+
+/// The words of a name that say something in one: `number of cycles` is `cycles`.
+fn telling(name: &str) -> Vec<String> {
+    let mut words = words(name);
+    if words.len() > 1 {
+        words.retain(|word| !FILLERS.contains(&word.as_str()));
+    }
+    words
+}
+
+/// The column of a measurement file that a name means.
+pub(super) fn column(name: &str) -> Option<&'static str> {
+    named(&COLUMNS, &telling(name).concat())
+}
+
+/// The column that a name means or hints at, for messages.
+pub(super) fn near_column(name: &str) -> Option<&'static str> {
+    let value = || quantity(name).map(|_| "value");
+    column(name)
+        .or_else(value)
+        .or_else(|| named(&HINTS, &folded(name)))
+}
+
+fn named(names: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> {
+    let found = (names.iter()).find(|(own, others)| *own == name || others.contains(&name));
+    found.map(|(own, _)| *own)
+}
+
+/// Whether a column is named as one for people.
+pub(super) fn is_for_people(name: &str) -> bool {
+    FOR_PEOPLE.contains(&folded(name).as_str())
+}
+
+/// The member that a word means.
+pub(super) fn member(word: &str) -> Option<Subject> {
+    let word = folded(word);
+    let found = (MEMBERS.iter()).find(|(_, words)| words.contains(&word.as_str()));
+    found.map(|(member, _)| *member)
+}
+
+/// The one member that words of a text name; none if they name none or several.
+pub(super) fn one_member(text: &str) -> Option<Subject> {
+    let mut named = words(text).into_iter().filter_map(|word| member(&word));
+    let first = named.next()?;
+    named.all(|other| other == first).then_some(first)
+}
+
+/// Whose revolutions a name counts, `None` inside if it does not say; none if it counts no revolutions.
+pub(super) fn revolutions(name: &str) -> Option<Option<Subject>> {
+    let (of, counts): (Vec<String>, Vec<String>) = telling(name)
+        .into_iter()
+        .partition(|word| member(word).is_some());
+    let count = counts.concat();
+    (count == "cycles" || CYCLES.contains(&count.as_str())).then(|| one_member(&of.join(" ")))
+}
+
+/// Whether a text speaks of revolutions of the gear.
+pub(super) fn counts_gear_revolutions(text: &str) -> bool {
+    let counts = |word: &String| word == "cycles" || CYCLES.contains(&word.as_str());
+    words(text).iter().any(counts) && one_member(text) == Some(Subject::Gear)
+}
+
+/// The quantity that a name means, and whether its unit may say otherwise.
+pub(super) fn quantity(name: &str) -> Option<(Quantity, bool)> {
+    let name = telling(name).concat();
+    let own = (Quantity::ALL.into_iter()).find(|quantity| folded(quantity.name()) == name);
+    let other = || {
+        let found = (QUANTITIES.iter()).find(|(_, names)| names.contains(&name.as_str()));
+        found.map(|(quantity, _)| *quantity)
+    };
+    let quantity = own.or_else(other)?;
+    Some((quantity, LOSSES.contains(&name.as_str())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_five_languages_are_known() {
+        for (names, means) in [
+            (
+                &[
+                    "Test ID",
+                    "Run",
+                    "Prova n.",
+                    "Versuch Nr.",
+                    "essai",
+                    "Ensayo",
+                ][..],
+                "test",
+            ),
+            (&["Gear wheel", "RUOTA", "Rad", "roue", "rueda"], "member"),
+            (
+                &[
+                    "Revs",
+                    "number of cycles",
+                    "cicli",
+                    "Umdrehungen",
+                    "nombre de tours",
+                ],
+                "cycles",
+            ),
+            (
+                &["r", "Roll length", "Raggio", "rayon", "roll_angle"],
+                "position",
+            ),
+            (
+                &["u", "std dev", "SIGMA", "écart-type", "Unsicherheit"],
+                "sigma",
+            ),
+            (&["profile_id", "curve", "traccia"], "trace"),
+        ] {
+            for name in names {
+                assert_eq!(column(name), Some(means), "{name}");
+            }
+        }
+        assert_eq!(column("time"), None);
+        assert_eq!(near_column("time"), Some("cycles"));
+        assert_eq!(near_column("depth"), Some("value"));
+        for (name, means) in [
+            ("Verschleißtiefe", Quantity::WearDepth),
+            ("wear depth", Quantity::WearDepth),
+            ("perdita di massa", Quantity::MassLoss),
+            ("mass_loss", Quantity::MassLoss),
+        ] {
+            assert_eq!(quantity(name).map(|q| q.0), Some(means), "{name}");
+        }
+        for (word, means) in [
+            ("Piñon", Subject::Pinion),
+            ("big", Subject::Gear),
+            ("corona", Subject::Gear),
+        ] {
+            assert_eq!(member(word), Some(means), "{word}");
+        }
+    }
+
+    #[test]
+    fn revolutions_say_whose_they_are() {
+        for (name, whose) in [
+            ("revolutions of the pinion", Some(Some(Subject::Pinion))),
+            ("gear revs", Some(Some(Subject::Gear))),
+            ("Umdrehungen Rad", Some(Some(Subject::Gear))),
+            ("load cycles", Some(None)),
+            ("wear of the gear", None),
+            ("Rad", None),
+        ] {
+            assert_eq!(revolutions(name), whose, "{name}");
+        }
+        assert!(counts_gear_revolutions("111000 gear rev"));
+        assert!(!counts_gear_revolutions("111000 rev"));
+    }
+}
