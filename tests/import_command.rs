@@ -859,7 +859,7 @@ fn nothing_that_a_wide_table_says_is_passed_over_silently() {
             "read as roll length in in: look at --member, at --position and at the unit in the header",
         ),
         (
-            "radius;100000\n26.646;1\n",
+            "radius;100000\n26.6465;1\n",
             "--columns positions",
             "--columns positions: only the numbers of the first column can be positions",
         ),
