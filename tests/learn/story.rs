@@ -88,7 +88,9 @@ fn the_right_model_is_at_the_noise_floor() {
     );
     assert!((comparison.rms_um.unwrap() / comparison.noise_rms_um.unwrap() - 0.97).abs() < 0.15);
     assert!(
-        comparison.worst.starts_with("Nowhere does the model miss"),
+        comparison
+            .worst
+            .starts_with("In no single region of a test does the model miss"),
         "{}",
         comparison.worst
     );

@@ -52,9 +52,11 @@ pub(in crate::learn) fn sentence(
         of_quantity.then(excess(first).total_cmp(&excess(second)))
     });
     let Some((key, cell)) = worst else {
-        let chi2 = chi2.map_or_else(String::new, |chi2| format!(": χ² per point is {chi2:.2}"));
+        let chi2 = chi2.map_or_else(String::new, |chi2| {
+            format!("; χ² per point of all tests together is {chi2:.2}")
+        });
         return format!(
-            "Nowhere does the model miss the measurements by more than their noise{chi2}."
+            "In no single region of a test does the model miss the measurements by more than their noise{chi2}."
         );
     };
     let share = {
