@@ -9,7 +9,9 @@ use super::format::{count, plain, probability, significant, uncertain};
 use super::html::{Cell, Page, Section, Table};
 use super::learned;
 use super::measured_curves;
-use crate::learn::diagnose::{Diagnosis, Fidelity, NextExperiment, NextTest, Ranked, Screened};
+use crate::learn::diagnose::{
+    Diagnosis, Fidelity, Hypothesis, NextExperiment, NextTest, Ranked, Screened,
+};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
@@ -100,16 +102,18 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     for warning in &diagnosis.warnings {
         why = why.note(format!("Warning: {warning}."));
     }
-    let head = [
-        "effect",
-        "probability",
-        "ln evidence over the base",
-        "χ² per point",
-        "held out",
-        "angle",
-        "parameters",
-        "decided by",
-    ];
+    let beside = !diagnosis.beside_unknown.is_empty();
+    let over_unknown = |cell: Cell| beside.then_some(cell);
+    let head = ["effect", "probability", "ln evidence over the base"]
+        .into_iter()
+        .chain(beside.then_some("over unknown"))
+        .chain([
+            "χ² per point",
+            "held out",
+            "angle",
+            "parameters",
+            "decided by",
+        ]);
     let mut table = Table::new("", head);
     for entry in &diagnosis.ranking {
         let held = entry
@@ -118,16 +122,24 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
         let angle = entry
             .angle_to_leader
             .map_or("-".to_owned(), |a| format!("{a:.0}°"));
-        table = table.row([
+        let gain = gain_over_unknown(diagnosis, entry).map_or("–".to_owned(), |gain| {
+            // no minus before a zero
+            format!("{:.1}", (10.0 * gain).round() / 10.0 + 0.0)
+        });
+        let first = [
             Cell::text(name(entry)),
             Cell::Bar(entry.probability, probability(entry.probability)),
             Cell::number(format!("{:.1}", entry.evidence_gain)),
+        ];
+        let last = [
             Cell::number(format!("{:.3}", entry.fit_chi2_per_point)),
             Cell::number(held),
             Cell::number(angle),
             Cell::text(parameters(entry)),
             Cell::text(means(entry.decided_by)),
-        ]);
+        ];
+        let gain = over_unknown(Cell::number(gain));
+        table = table.row(first.into_iter().chain(gain).chain(last));
     }
     if let Some(&unknown) = diagnosis.probabilities.get("unknown") {
         let dash = || Cell::number("–");
@@ -143,14 +155,20 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
             Cell::text(unknown_name(diagnosis)),
             Cell::Bar(unknown, probability(unknown)),
         ];
-        table = table.row(first.into_iter().chain(none));
+        table = table.row(first.into_iter().chain(over_unknown(dash())).chain(none));
     }
-    let ranking = Section::new("Ranking").table(table).note(
+    let of_unknown = if beside {
+        " over unknown: ln evidence of an effect with something unknown beside it over something unknown alone; the probability of \
+         these lines follows this figure, for something unknown may account for what an effect gains over the base."
+    } else {
+        ""
+    };
+    let ranking = Section::new("Ranking").table(table).note(format!(
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
-         its free parameters counted against it. angle: between what an effect and the leading one change in these measurements, \
+         its free parameters counted against it.{of_unknown} angle: between what a line and the leading one change in these measurements, \
          k refitted; at 90° they have nothing in common, below some 10° they do the same. χ² of lines that were decided by other means than the first holds the \
          error of those means too.",
-    );
+    ));
     let mut sections = vec![why];
     sections.extend(measured_curves::section(&diagnosis.residual_drivers));
     sections.extend(diagnosis.learned.as_ref().map(learned::section));
@@ -269,6 +287,16 @@ fn conditions(experiment: &NextExperiment) -> Table {
         .chain(beside)
         .chain(together),
     )
+}
+
+/// ln evidence of an effect beside something unknown over something unknown alone; None of what is by itself.
+fn gain_over_unknown(diagnosis: &Diagnosis, entry: &Ranked) -> Option<f64> {
+    let Hypothesis::EffectsAndUnknown(effects) = &entry.effect else {
+        return None;
+    };
+    let mut all = diagnosis.beside_unknown.iter();
+    all.find(|beside| beside.effects == *effects)
+        .map(|beside| beside.gain_over_unknown)
 }
 
 /// What holds the probability that no effect of the catalogue does.

@@ -106,15 +106,18 @@ pub fn sections(diagnosis: &Diagnosis) -> Vec<Section> {
     let left = &diagnosis.residual_drivers;
     let mut sections = Vec::new();
     if !(diagnosis.drivers.is_empty() && left.drivers.is_empty()) {
+        let after = left.after.as_ref().map_or(String::new(), |effects| {
+            format!("; after: fitted anew with {}", effects.in_words())
+        });
         let section = Section::new("What the discrepancy depends on")
             .paragraph(if diagnosis.drivers.is_empty() { NO_PATTERN } else { PATTERN })
             .paragraph(MEANS)
             .table(shares(&diagnosis.drivers, left))
-            .note(
-                "Before: the fitted base model; after: fitted anew with the leading effect. On noise alone a mean's share is 0 give or take \
+            .note(format!(
+                "Before: the fitted base model{after}. On noise alone a mean's share is 0 give or take \
                  what stands under by chance; beside it the same part in units of the noise's variance, because a share of little is little. \
                  Drivers that go together, such as position and sliding speed, share what they explain.",
-            );
+            ));
         let maps = discrepancy::plots(&diagnosis.discrepancy);
         sections.push(if diagnosis.drivers.is_empty() {
             section

@@ -1,6 +1,7 @@
 //! An effect of the catalogue beside something that the catalogue does not hold: each is said.
 
-use gearwear::learn::diagnose::{Named, Verdict};
+use gearwear::learn::diagnose::{Diagnosis, Hypothesis, Named, Verdict};
+use gearwear::report;
 
 use crate::diagnosed;
 
@@ -21,15 +22,48 @@ fn running_in_beside_waves_of_hardness_is_established_and_the_waves_remain() {
         found.probabilities
     );
     assert!(found.probabilities["running_in+unknown"] > 0.85);
-    let remainder = found.remainder.expect("something remains");
+    let remainder = found.remainder.as_ref().expect("something remains");
     assert!(remainder.chi2_per_point > 1.2, "{remainder:?}");
     assert!(
         remainder.share > 0.05 && remainder.share < 1.0,
         "{remainder:?}"
     );
-    let driver = remainder.driver.expect("and depends on something");
+    let driver = (remainder.driver.as_ref()).expect("and depends on something");
     assert_eq!(driver.name, "position", "{driver:?}");
     assert!(found.sentence.contains("running_in"), "{}", found.sentence);
+    the_page_goes_by_what_is_established(&found);
+}
+
+/// Curves, residuals and angles are those of the established effect, and the figure that the probability of the rows beside something unknown
+/// follows stands in the table.
+fn the_page_goes_by_what_is_established(found: &Diagnosis) {
+    let after = found
+        .residual_drivers
+        .after
+        .as_ref()
+        .map(Hypothesis::to_string);
+    assert_eq!(after.as_deref(), Some("running_in"));
+    let first = &found.ranking[0];
+    assert_eq!(first.effect.to_string(), "running_in+unknown");
+    assert!(first.angle_to_leader.unwrap() < 1e-3, "{first:?}");
+    let share = found.explained_share.unwrap();
+    let own = found
+        .screened
+        .iter()
+        .filter(|s| s.effects == ["running_in"]);
+    let drop = own.map(|s| s.chi2_drop / found.attainable_drop);
+    assert!((share - drop.fold(0.0, f64::max)).abs() < 0.05, "{share}");
+    let page = report::diagnosis::page("", found, "study.toml");
+    let ranking = (page.sections.iter())
+        .find(|section| section.heading == "Ranking")
+        .unwrap();
+    let html = ranking.tables[0].html();
+    let gain = found.beside_unknown[0].gain_over_unknown;
+    assert!(
+        html.contains("over unknown") && html.contains(&format!(">{gain:.1}<")),
+        "{html}"
+    );
+    assert!(ranking.notes[0].contains("follows this figure"));
 }
 
 #[test]

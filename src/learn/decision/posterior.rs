@@ -2,7 +2,7 @@
 
 use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
 use super::rule::DecisionRule;
-use super::verdict::{Decision, decide};
+use super::verdict::{Decision, Verdict, decide};
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
@@ -83,14 +83,25 @@ impl Posterior {
         }
     }
 
-    /// The most probable effect or set, in its best form.
+    /// The leading effects by themselves, in their best form.
     pub(in crate::learn) fn leader(&self) -> Option<&FittedCandidate> {
-        self.best_form(self.decision.leader()?)
+        self.best_form(self.decision.leading_effects()?)
     }
 
-    /// Share of the attainable fall of χ² that the most probable effect or set accounts for, in its best form; None without a discrepancy.
+    /// The fit of what leads, beside something unknown where that is what leads.
+    pub(in crate::learn) fn leading_fit<'p>(
+        &'p self,
+        base: &'p BaseFit,
+    ) -> Option<&'p FittedCandidate> {
+        match (self.decision.verdict, self.decision.group.first()) {
+            (Verdict::Partial, Some(first)) => self.fitted(base, first),
+            _ => self.leader(),
+        }
+    }
+
+    /// Share of the attainable fall of χ² that the leading effects account for, in their best form; None without a discrepancy.
     pub(in crate::learn) fn share_of_leader(&self) -> Option<f64> {
-        let leader = self.decision.leader()?;
+        let leader = self.decision.leading_effects()?;
         let mut all = self.evidence.candidates.iter();
         let best = all.find(|c| c.effects == *leader)?;
         self.evidence

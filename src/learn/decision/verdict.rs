@@ -97,9 +97,18 @@ impl Decision {
         held(&self.log_probabilities, effects)
     }
 
-    /// The most probable effect or set.
+    /// The most probable effect or set that alone is missing.
     pub fn leader(&self) -> Option<&EffectSet> {
         self.effects.first()
+    }
+
+    /// The effects that a person is shown as the leading ones: of the verdict `partial` those that something unknown stands beside, else
+    /// the most probable effect or set.
+    pub fn leading_effects(&self) -> Option<&EffectSet> {
+        match (self.verdict, self.group.first()) {
+            (Verdict::Partial, Some(Hypothesis::EffectsAndUnknown(effects))) => Some(effects),
+            _ => self.leader(),
+        }
     }
 }
 

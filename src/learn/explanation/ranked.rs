@@ -40,7 +40,7 @@ pub struct Ranked {
     pub fit_chi2_per_point: f64,
     /// Of the held-out tests; None without, and for candidates far behind.
     pub holdout_chi2_per_point: Option<f64>,
-    /// Angle between what it and the leading effect change, deg, in the metric of the noise, after k is refitted; below some 10 they
+    /// Angle between what it and what leads change, deg, in the metric of the noise, after k is refitted; below some 10 they
     /// do the same. None for `nothing_missing`.
     pub angle_to_leader: Option<f64>,
     /// `fem`, `coarse_fem` or `hertz`: by what it was judged in the end.
@@ -85,7 +85,7 @@ pub(in crate::learn) fn ranked(
             .then(b.2.log_evidence.total_cmp(&a.2.log_evidence))
     });
     let seen = |fitted: &FittedCandidate| base.visible(likelihood, &fitted.change);
-    let leading = posterior.leader().map(seen);
+    let leading = posterior.leading_fit(base).map(seen);
     let angle = |fitted: &FittedCandidate| {
         let (own, leading) = (seen(fitted), leading.as_ref()?);
         let lengths = own.norm() * leading.norm();

@@ -126,7 +126,7 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
         [effects] => format!(
             "gearwear add STUDY {effects}, then diagnose the new study: what remains is judged with the effect in; `gearwear climb STUDY` goes on so step by step"
         ),
-        _ => "make the proposed test, or add each in turn and see which lowers the held-out error; then diagnose the new study".to_owned(),
+        _ => "make the proposed test, or add each in turn and see which lowers the held-out error, as gearwear climb STUDY does; then diagnose the new study".to_owned(),
     };
     Explanation {
         sentence,

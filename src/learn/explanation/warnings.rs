@@ -5,6 +5,7 @@ use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
 use crate::learn::collinear::act_together;
+use crate::learn::decision::Verdict;
 use crate::learn::decision::posterior::Posterior;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::Hypothesis;
@@ -106,11 +107,12 @@ pub(in crate::learn) fn warnings(
             ));
         }
         warnings.extend(together(leader));
-        if posterior
-            .decision
-            .probability(&leader.candidate.hypothesis())
-            > 0.5
-        {
+        let decision = &posterior.decision;
+        let probability = match decision.verdict {
+            Verdict::Partial => decision.probability_in_all(&leader.candidate.effects),
+            _ => decision.probability(&leader.candidate.hypothesis()),
+        };
+        if probability > 0.5 {
             warnings.extend(unheard_of(leader));
         }
     }
