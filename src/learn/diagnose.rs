@@ -23,8 +23,8 @@ pub use super::discrepancy::{
     ResidualDriver, ResidualDrivers,
 };
 pub use super::experiment::{
-    AloneTest, Campaign, ChosenTest, Decided, Leader, NextExperiment, NextTest, NextTests, Plan,
-    RankedTest, Separated, Shown, plan_after, plan_first,
+    AloneTest, Campaign, ChosenTest, Decided, ENOUGH, Leader, NextExperiment, NextTest, NextTests,
+    Plan, RankedTest, Separated, Shown, plan_after, plan_first,
 };
 pub use super::explanation::{Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened};
 pub use super::fidelity::Fidelity;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::format::{plain, probability, significant};
 use super::html::{Cell, Page, Section, Table};
-use crate::learn::diagnose::{Campaign, NextTest, NextTests, Plan, RankedTest};
+use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
 
 /// Rows of the table shown on the terminal.
 const SHOWN: usize = 12;
@@ -22,14 +22,14 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
             let _ = writeln!(text, "to separate: {}\n", separated(next, study));
             heading(&mut text, "measure", ["χ² mean", "χ² least"]);
             for row in next.tests.iter().take(SHOWN) {
-                let figures = [mean(row, 4), significant(least(row), 4)];
+                let figures = [row.expected_chi2, least(row)].map(|chi2| capped(chi2, 4));
                 line(&mut text, &row.test, &row.quantity, figures);
             }
-            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, each counted up to 60, which is enough, and by how probable\nthe rival is; of tests that do nearly as well (within a fifth) those with fewer changes stand first\n";
+            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough. Of tests that do nearly as well (within a fifth) those with fewer changes stand first.\n";
             let _ = writeln!(
                 text,
-                "repetition of the best test made already: χ² {:.1}",
-                next.repetition_chi2
+                "repetition of the best test made already, with all that was measured: χ² mean {}",
+                capped(next.repetition_chi2, 3)
             );
         }
         Plan::Campaign(campaign) => {
@@ -163,14 +163,10 @@ fn sentence(plan: &Plan) -> &str {
     }
 }
 
-/// The mean over all pairs; where every pair counts as enough, the least that it can be.
-fn mean(row: &RankedTest, digits: usize) -> String {
-    let text = significant(row.expected_chi2, digits);
-    if row.expected_chi2 < least(row) {
-        format!("≥ {text}")
-    } else {
-        text
-    }
+/// A figure of the table; what is enough for certain is a bound, for the mean counts no pair higher.
+fn capped(chi2: f64, digits: usize) -> String {
+    let bound = if chi2 >= ENOUGH { "≥ " } else { "" };
+    format!("{bound}{}", significant(chi2.min(ENOUGH), digits))
 }
 
 fn least(row: &RankedTest) -> f64 {
@@ -241,8 +237,8 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
         let mut cells = conditions(&row.test);
         cells.extend([
             Cell::text(row.quantity.clone()),
-            Cell::number(mean(row, 3)),
-            Cell::number(format!("{:.1}", least(row))),
+            Cell::number(capped(row.expected_chi2, 3)),
+            Cell::number(capped(least(row), 3)),
             Cell::text(row.why.clone()),
         ]);
         table = table.row(cells);
@@ -250,7 +246,7 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
     vec![
         Section::new("What is to be separated").paragraph(separated(next, study)),
         Section::new("Feasible tests")
-            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Among near-equals the plainest test stands first.")
+            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to 60, which is more than enough; mean: by how probable the rivals are. Among near-equals the plainest test stands first.")
             .table(table),
     ]
 }
@@ -321,24 +317,41 @@ mod tests {
         }
     }
 
-    /// A mean whose every part is cut off at what is enough is a bound, so that it does not stand below the least.
+    /// Mean and least are cut off alike at what is enough, so that the least never stands above the mean.
     #[test]
-    fn a_mean_of_what_is_enough_is_a_bound() {
-        assert_eq!(mean(&row(60.0, 88.9, ""), 3), "≥ 60.0");
-        assert_eq!(mean(&row(43.6, 43.6, ""), 3), "43.6");
+    fn what_is_enough_is_a_bound() {
+        assert_eq!(capped(88.9, 3), "≥ 60.0");
+        assert_eq!(capped(60.0, 3), "≥ 60.0");
+        assert_eq!(capped(43.6, 3), "43.6");
+        let plan = Plan::NextTests(NextTests {
+            tests: vec![row(60.0, 99.89, "")],
+            ..next()
+        });
+        let text = summary("", &plan, "s.toml", Path::new("out"));
+        assert!(
+            text.contains("≥ 60.00") && !text.contains("99.89"),
+            "{text}"
+        );
     }
 
-    #[test]
-    fn the_table_has_a_row_per_test_and_quotes_reasons() {
-        let row = row(12.0, 9.0, "say \"so\", plainly");
-        let plan = Plan::NextTests(NextTests {
+    fn next() -> NextTests {
+        NextTests {
             sentence: "Next.".to_owned(),
             basis: "the leaders of STUDY".to_owned(),
             diagnosed: false,
             leaders: Vec::new(),
             noise: 0.02,
             repetition_chi2: 1.0,
+            tests: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_table_has_a_row_per_test_and_quotes_reasons() {
+        let row = row(12.0, 9.0, "say \"so\", plainly");
+        let plan = Plan::NextTests(NextTests {
             tests: vec![row],
+            ..next()
         });
         let table = csv(&plan);
         assert_eq!(table.lines().count(), 2);

@@ -54,13 +54,22 @@ fn a_plan_starts_from_the_diagnosis_of_the_same_inputs() {
     let mut document: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
     // what the analytic model alone would hardly put first
     let ranking = document["ranking"].as_array_mut().unwrap();
-    let last = ranking.len() - 1;
+    let single = |entry: &Value| {
+        let name = entry["effect"].as_str().unwrap();
+        !name.contains('+') && name != "nothing_missing"
+    };
+    let last = ranking.iter().rposition(single).unwrap();
     ranking.swap(0, last);
+    for entry in ranking.iter_mut() {
+        entry["probability"] = 0.0.into();
+    }
     ranking[0]["probability"] = 0.9.into();
     ranking[1]["probability"] = 0.05.into();
     let names: Vec<String> = [&ranking[0], &ranking[1]]
         .map(|entry| entry["effect"].as_str().unwrap().to_owned())
         .into();
+    // beside something unknown an effect leads as well
+    ranking[0]["effect"] = format!("{}+unknown", names[0]).into();
     std::fs::write(&file, document.to_string()).unwrap();
     let plan = planned(&study, &folder.path().join("plan"));
     assert_eq!(plan["diagnosed"], true);
@@ -80,6 +89,34 @@ fn a_plan_starts_from_the_diagnosis_of_the_same_inputs() {
             .unwrap()
             .contains("analytic model alone")
     );
+}
+
+/// A rival keeps the values that the diagnosis found: measurements that show nothing of it would take it away if the analytic model fitted it
+/// anew, and no test would seem to be of use.
+#[test]
+fn a_rival_stays_at_the_values_of_the_diagnosis() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = small(folder.path());
+    let diagnosed = gearwear().arg("diagnose").arg(&study).output().unwrap();
+    assert!(diagnosed.status.success());
+    let file = folder.path().join("study.out/diagnose/diagnosis.json");
+    let mut document: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+    let ranking = document["ranking"].as_array_mut().unwrap();
+    let nothing = ranking.iter().find(|e| e["effect"] == "nothing_missing");
+    let nothing = nothing.unwrap().clone();
+    let mut rival = nothing.clone();
+    rival["effect"] = "running_in".into();
+    let value = |name: &str, value: f64| serde_json::json!({"name": name, "value": value, "sigma": 0.1 * value, "unit": "-", "at_bound": false});
+    rival["parameters"] = vec![value("amplitude", 2.0), value("decay_cycles", 2e5)].into();
+    rival["probability"] = 0.02.into();
+    *ranking = vec![nothing, rival];
+    ranking[0]["probability"] = 0.9.into();
+    std::fs::write(&file, document.to_string()).unwrap();
+    let plan = planned(&study, &folder.path().join("plan"));
+    assert_eq!(plan["leaders"][1]["effect"], "running_in");
+    let best = plan["tests"][0]["separates"][0]["chi2"].as_f64().unwrap();
+    assert!(best > 20.0, "{best}");
+    assert!(plan["repetition_chi2"].as_f64().unwrap() > 20.0, "{plan}");
 }
 
 #[test]

@@ -26,8 +26,8 @@ const MISALIGNMENTS: [f64; 3] = [0.0, 0.3, 0.6];
 const LONGER: f64 = 3.0;
 /// A simpler test is preferred to one that gives up to this much more.
 pub(in crate::learn) const NEARLY: f64 = 0.8;
-/// Expected χ² from which more is of no use: the two are then told apart for certain.
-pub(in crate::learn) const ENOUGH: f64 = 60.0;
+/// Expected χ² from which more is of no use: the two are then told apart for certain. A mean counts no pair higher.
+pub const ENOUGH: f64 = 60.0;
 /// Expected χ² from which two are told apart.
 pub(in crate::learn) const APART: f64 = 20.0;
 /// Expected χ² from which one of two is clearly favoured.
@@ -137,7 +137,7 @@ pub(in crate::learn) fn purpose(test: &NextTest, plain: &Operation) -> String {
         says.push("later in life, when what runs in or sets in shows");
     }
     if says.is_empty() {
-        says.push("the plainest test, at the study's operation");
+        says.push("the plainest test");
     }
     says.join("; ")
 }

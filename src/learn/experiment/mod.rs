@@ -8,9 +8,10 @@ mod measurement_design;
 pub(in crate::learn) mod next;
 mod plan;
 mod table;
+mod wording;
 
 pub use campaign::plan_first;
-pub use candidate_tests::NextTest;
+pub use candidate_tests::{ENOUGH, NextTest};
 pub use decided::Decided;
 pub use next::NextExperiment;
 pub use plan::{

@@ -114,7 +114,12 @@ fn experiment(
     let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
     Some(NextExperiment {
         why: sentence(context, &test, &names, told, repetition)
-            + &more(context, &further, together),
+            + &more(
+                &test,
+                &further,
+                &context.likelihood.measured.study().operation,
+                together,
+            ),
         separates: names.to_vec(),
         test,
         expected_chi2: told.chi2(),
@@ -151,19 +156,30 @@ fn beside(
 }
 
 /// What to make beside the first test, in words; nothing if it is enough.
-fn more(context: &Context<'_>, further: &[NextTest], together: f64) -> String {
+fn more(first: &NextTest, further: &[NextTest], plain: &Operation, together: f64) -> String {
     if further.is_empty() {
         return String::new();
     }
-    let plain = &context.likelihood.measured.study().operation;
-    let each: Vec<String> = further.iter().map(|test| changes(test, plain)).collect();
-    let (word, verdict) = (
-        if each.len() > 1 { "tests" } else { "one" },
-        strength(together),
-    );
+    let mut counted: Vec<(&NextTest, usize)> = Vec::new();
+    for test in further {
+        match counted.iter_mut().find(|(known, _)| *known == test) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((test, 1)),
+        }
+    }
+    let each: Vec<String> = (counted.into_iter())
+        .map(|(test, count)| {
+            let number = ["one", "two", "three"].get(count - 1);
+            let number = number.map_or_else(|| count.to_string(), |word| (*word).to_owned());
+            let more = if test == first { "more " } else { "" };
+            let tests = if count > 1 { "tests" } else { "test" };
+            format!("{number} {more}{tests} with {}", changes(test, plain))
+        })
+        .collect();
     format!(
-        " With {word} at {} as well: χ² {together:.0}, {verdict}.",
-        each.join("; at ")
+        " Together with {}: χ² {together:.0}, {}.",
+        each.join(" and "),
+        strength(together)
     )
 }
 
@@ -320,6 +336,29 @@ mod tests {
         assert_eq!(beside, [0, 1]);
         assert!((together - 22.0).abs() < 1e-9);
         assert_eq!(joined(5.0, &found, &[1, 0, 0]), (Vec::new(), 25.0));
+    }
+
+    #[test]
+    fn like_tests_are_counted_and_not_listed_one_by_one() {
+        let test = |torque| NextTest {
+            torque,
+            ..shown(&plain())
+        };
+        let first = test(50.0);
+        let same = [first.clone(), first.clone(), first.clone()];
+        assert_eq!(
+            more(&first, &same, &plain(), 3.2),
+            " Together with three more tests with 50 N·m: χ² 3, still little: other measurements are needed."
+        );
+        let others = [first.clone(), test(200.0)];
+        let said = more(&first, &others, &plain(), 30.0);
+        assert!(
+            said.starts_with(
+                " Together with one more test with 50 N·m and one test with 200 N·m: χ² 30"
+            ),
+            "{said}"
+        );
+        assert!(more(&first, &[], &plain(), 30.0).is_empty());
     }
 
     #[test]

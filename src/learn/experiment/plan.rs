@@ -35,7 +35,7 @@ pub struct NextTests {
     pub leaders: Vec<Leader>,
     /// Relative noise assumed of quantities that were not measured yet.
     pub noise: f64,
-    /// Mean expected χ² of a repetition of the most discrimination test that is there already, all its measurements together.
+    /// Mean expected χ² of a repetition of the most telling test that is there already, all its measurements together.
     pub repetition_chi2: f64,
     /// The table, best first.
     pub tests: Vec<RankedTest>,

@@ -3,12 +3,13 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::candidate_tests::{ENOUGH, changes, grid, purpose, ranked, shown, strength};
+use super::candidate_tests::{ENOUGH, grid, ranked, shown};
 use super::decided::Decided;
 use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
 use super::measurement_design::MeasurementDesign;
-use super::next::{Place, existing, plain};
+use super::next::{Place, plain};
 use super::plan::{LEADERS, LEADING, Leader, NextTests, Plan, RankedTest, Separated};
+use super::wording::{self, Repetition};
 use crate::learn::bench::Workshop;
 use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fidelity::Fidelity;
@@ -78,17 +79,13 @@ pub fn plan_after(
     watch(0.6, "trying feasible tests".to_owned());
     let plainest = plain(&context);
     let tests = grid(&plainest);
-    let made = existing(&context);
-    let all: Vec<Operation> = (tests.iter().map(|(_, operation)| *operation))
-        .chain(made)
-        .collect();
-    let found: Vec<Vec<QuantityDiscrimination>> = all
+    let found: Vec<Vec<QuantityDiscrimination>> = tests
         .par_iter()
-        .map(|operation| told(&context, &shop, operation, &leaders, noise).unwrap_or_default())
+        .map(|(_, operation)| {
+            told(&context, &shop, operation, &leaders, Some(noise)).unwrap_or_default()
+        })
         .collect();
-    let repetition = (found[tests.len()..].iter().flatten())
-        .map(QuantityDiscrimination::score)
-        .fold(0.0, f64::max);
+    let repetition = repetition(&context, &shop, &leaders);
     let mut rows: Vec<RankedTest> = Vec::new();
     for ((changes, operation), told) in tests.iter().zip(&found) {
         rows.extend(
@@ -105,46 +102,52 @@ pub fn plan_after(
         sentence: tests.first().map_or_else(
             || "No feasible test could be computed.".to_owned(),
             |best| {
-                format!(
-                    "Next: {} with {}; {}.{}",
-                    best.quantity.replace('_', " "),
-                    changes(&best.test, &plainest),
-                    best.why,
-                    proposed(decided, best, &plainest)
-                )
+                wording::sentence(best, &plainest, repetition.as_ref())
+                    + &wording::proposed(decided, best, &plainest)
             },
         ),
         basis: basis(decided, from_diagnosis),
         diagnosed: from_diagnosis,
         leaders: leaders.into_iter().map(|(_, leader)| leader).collect(),
         noise,
-        repetition_chi2: repetition,
+        repetition_chi2: repetition.map_or(0.0, |best| best.chi2),
         tests,
     }))
 }
 
-/// What the diagnosis proposed, where that is another test.
-fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Operation) -> String {
-    let next = decided.and_then(|decided| decided.next_experiment.as_ref());
-    next.filter(|next| next.test != best.test)
-        .map_or(String::new(), |next| {
-            format!(
-                " The diagnosis proposed {}, where {} differ most with everything measured at once; here one quantity is measured, and all leaders \
-                 count by their probability.",
-                changes(&next.test, plain),
-                next.separates.join(" and ")
-            )
+/// The repetition of a test made already that says most of the leaders, with all that was measured in the test with most rows.
+fn repetition(
+    context: &Context<'_>,
+    shop: &Workshop,
+    leaders: &[(FittedCandidate, Leader)],
+) -> Option<Repetition> {
+    let measured = &context.likelihood.measured;
+    let score = |&test: &usize| {
+        let operation = &measured.study().tests[test].conditions;
+        let told = told(context, shop, operation, leaders, None)?;
+        Some(Repetition {
+            test: measured.data.tests[test].clone(),
+            chi2: told.first()?.score(),
         })
+    };
+    let all: Vec<Option<Repetition>> = context.likelihood.tests.par_iter().map(score).collect();
+    // of equals the first
+    let better = |a: Repetition, b: Repetition| if b.chi2 > a.chi2 { b } else { a };
+    all.into_iter().flatten().reduce(better)
 }
 
 /// Where the leaders come from, in words.
 fn basis(decided: Option<&Decided>, from_diagnosis: bool) -> String {
     match decided {
         Some(decided) if from_diagnosis => {
-            let unknown = if decided.verdict == Verdict::Unknown {
-                "; it holds a cause outside the catalogue for likeliest, of which these tests cannot tell"
-            } else {
-                ""
+            let unknown = match decided.verdict {
+                Verdict::Unknown => {
+                    "; it holds a cause outside the catalogue for likeliest, of which these tests cannot tell"
+                }
+                Verdict::Partial => {
+                    "; these tests do not tell what is unknown beside them"
+                }
+                _ => "",
             };
             format!("the leaders of the finished diagnosis{unknown}")
         }
@@ -210,16 +213,20 @@ impl QuantityDiscrimination {
     }
 }
 
+/// What a test says by each of the quantities, with the relative `noise` of those that were not measured yet; without it, by all that was
+/// measured together.
 fn told(
     context: &Context<'_>,
     shop: &Workshop,
     operation: &Operation,
     leaders: &[(FittedCandidate, Leader)],
-    noise: f64,
+    noise: Option<f64>,
 ) -> Option<Vec<QuantityDiscrimination>> {
     let study = context.likelihood.measured.study();
-    let design = MeasurementDesign::measured(context, operation.cycles)?
-        .completed(MeasurementDesign::standard(study, operation, noise)?);
+    let mut design = MeasurementDesign::measured(context, operation.cycles)?;
+    if let Some(noise) = noise {
+        design = design.completed(MeasurementDesign::standard(study, operation, noise)?);
+    }
     let bench = shop.bench(vec![design.test(study, operation)]).ok()?;
     let said: Vec<PlannedResponse> = leaders
         .iter()
@@ -235,9 +242,9 @@ fn told(
         })
         .collect();
     let data = design.with(&said[0].values);
-    let noise = noise_ahead(study);
-    let of_quantity = |quantity: Quantity| {
-        let scale = Whitening::new(&data, design.rows(quantity), &noise);
+    let ahead = noise_ahead(study);
+    let of_rows = |(quantity, rows): (Option<Quantity>, Vec<usize>)| {
+        let scale = Whitening::new(&data, rows, &ahead);
         let whitened = |columns: &[Vec<f64>]| -> Vec<DVector<f64>> {
             columns.iter().map(|c| scale.white(c)).collect()
         };
@@ -250,20 +257,20 @@ fn told(
             })
             .collect();
         QuantityDiscrimination {
-            quantity: Some(quantity),
+            quantity,
             chi2,
             weights: leaders[1..].iter().map(|(_, l)| l.weight()).collect(),
             place: Place::of(&data, &said[0].values, &said[1].values),
         }
     };
-    let there = |quantity: &Quantity| !design.rows(*quantity).is_empty();
-    Some(
-        QUANTITIES
-            .into_iter()
-            .filter(there)
-            .map(of_quantity)
+    let rows: Vec<(Option<Quantity>, Vec<usize>)> = match noise {
+        None => vec![(None, (0..design.observations.len()).collect())],
+        Some(_) => (QUANTITIES.into_iter())
+            .map(|quantity| (Some(quantity), design.rows(quantity)))
             .collect(),
-    )
+    };
+    let there = rows.into_iter().filter(|(_, rows)| !rows.is_empty());
+    Some(there.map(of_rows).collect())
 }
 
 fn row(
@@ -284,31 +291,22 @@ fn row(
             chi2: *chi2,
         })
         .collect();
-    let said = |s: &Separated| {
-        let [one, other] = &s.pair;
-        format!("{one} and {other}, χ² {:.0}, {}", s.chi2, strength(s.chi2))
-    };
-    let likeliest = separates.first();
-    let hardest = separates.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2));
-    let pairs = likeliest.map_or(String::new(), |s| {
-        let hardest = hardest.filter(|h| h.pair != s.pair);
-        let hardest = hardest.map_or(String::new(), |h| {
-            format!("; hardest to tell apart: {}", said(h))
-        });
-        format!("; {}{hardest}", said(s))
-    });
     let depth = told
         .place
         .as_ref()
         .filter(|_| told.quantity == Some(Quantity::WearDepth))
         .map_or(String::new(), |p| {
             format!(
-                "; {} and {} differ by up to {:.2} µm, on the {} after {:.2e} cycles, before refitting",
+                " Before refitting, {} and {} differ by up to {:.2} µm, on the {} after {:.2e} cycles.",
                 names[0], names[1], p.largest, p.member, p.cycles
             )
         });
     RankedTest {
-        why: format!("{}{pairs}{depth}", purpose(&test, &plain(context))),
+        why: format!(
+            "{}{}{depth}",
+            wording::purpose_of(&test, &plain(context)),
+            wording::pairs(&separates)
+        ),
         quantity: told.quantity.map_or("", Quantity::name).to_owned(),
         changes,
         expected_chi2: told.score(),

@@ -246,15 +246,6 @@ impl Candidate {
         free.skip(self.inherited).map(|f| f.neutral)
     }
 
-    /// The same, to be fitted from these values of the added parameters alone.
-    pub(in crate::learn) fn starting_at(&self, values: Vec<f64>) -> Self {
-        Self {
-            starts: vec![values],
-            quarters: Vec::new(),
-            ..self.clone()
-        }
-    }
-
     /// What it says to be missing.
     pub(in crate::learn) fn hypothesis(&self) -> Hypothesis {
         if self.effects.is_empty() {

@@ -1,0 +1,177 @@
+//! The table of feasible tests in sentences.
+
+use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose};
+use super::decided::Decided;
+use super::plan::{RankedTest, Separated};
+use crate::study::Operation;
+
+/// A test made already, made once more.
+pub(super) struct Repetition {
+    /// Its id.
+    pub(super) test: String,
+    /// Mean expected χ², counted as that of the feasible tests.
+    pub(super) chi2: f64,
+}
+
+/// The first line of the table, and whether making a test once more is better.
+pub(super) fn sentence(
+    best: &RankedTest,
+    plain: &Operation,
+    repetition: Option<&Repetition>,
+) -> String {
+    let purpose = match best.changes {
+        0 => String::new(),
+        _ => format!(": {}", purpose(&best.test, plain)),
+    };
+    format!(
+        "Next: measure the {} in a test with {}{purpose}. {}{}",
+        best.quantity.replace('_', " "),
+        changes(&best.test, plain),
+        pairs(&best.separates),
+        repeated(best, repetition)
+    )
+}
+
+/// What a test is for, as a sentence with the space behind it.
+pub(super) fn purpose_of(test: &NextTest, plain: &Operation) -> String {
+    let purpose = purpose(test, plain);
+    let mut letters = purpose.chars();
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
+    format!("{}{}. ", first.unwrap_or_default(), letters.as_str())
+}
+
+/// What a test says of the two likeliest, and of the pair that is hardest to tell apart.
+pub(super) fn pairs(separates: &[Separated]) -> String {
+    let hardest = separates.iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    let (Some(likeliest), Some(hardest)) = (separates.first(), hardest) else {
+        return String::new();
+    };
+    let first = format!("It {}", outcome(likeliest));
+    if hardest.pair == likeliest.pair {
+        return format!("{first}.");
+    }
+    let joined = if grade(hardest.chi2) == grade(likeliest.chi2) {
+        "and"
+    } else {
+        "but"
+    };
+    format!("{first}, {joined} {}, the hardest pair.", outcome(hardest))
+}
+
+/// What a test does to two candidates that differ in it by some χ².
+fn outcome(separated: &Separated) -> String {
+    let ([one, other], chi2) = (&separated.pair, separated.chi2);
+    match grade(chi2) {
+        Grade::Apart => format!("tells {one} from {other} (χ² {chi2:.0})"),
+        Grade::Clear => format!("favours {one} or {other} clearly (χ² {chi2:.0})"),
+        Grade::Little => format!("hardly tells {one} from {other} (χ² {chi2:.1})"),
+    }
+}
+
+#[derive(PartialEq)]
+enum Grade {
+    Apart,
+    Clear,
+    Little,
+}
+
+fn grade(chi2: f64) -> Grade {
+    if chi2 >= APART {
+        Grade::Apart
+    } else if chi2 >= CLEAR {
+        Grade::Clear
+    } else {
+        Grade::Little
+    }
+}
+
+/// Says so where making a test once more is better than the best of the table.
+fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
+    let better = repetition.filter(|again| again.chi2 > best.expected_chi2);
+    better.map_or(String::new(), |again| {
+        format!(
+            " Repeating test {} with all its measurements does better: mean χ² {:.1} against {:.1}.",
+            again.test, again.chi2, best.expected_chi2
+        )
+    })
+}
+
+/// What the diagnosis proposed, where that is another test.
+pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Operation) -> String {
+    let next = decided.and_then(|decided| decided.next_experiment.as_ref());
+    next.filter(|next| next.test != best.test)
+        .map_or(String::new(), |next| {
+            format!(
+                " The diagnosis proposed a test with {}, where {} differ most with everything measured at once; here one quantity is \
+                 measured, and all leaders count by their probability.",
+                changes(&next.test, plain),
+                next.separates.join(" and ")
+            )
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::candidate_tests::shown;
+    use super::super::candidate_tests::tests::plain;
+    use super::*;
+
+    fn separated(other: &str, chi2: f64) -> Separated {
+        Separated {
+            pair: ["a".to_owned(), other.to_owned()],
+            chi2,
+        }
+    }
+
+    fn best(changes: usize, torque: f64, separates: Vec<Separated>) -> RankedTest {
+        RankedTest {
+            test: NextTest {
+                torque,
+                ..shown(&plain())
+            },
+            quantity: "transmission_error".to_owned(),
+            changes,
+            expected_chi2: 50.0,
+            separates,
+            why: String::new(),
+        }
+    }
+
+    #[test]
+    fn the_first_line_is_a_few_short_sentences() {
+        let plainest = best(0, 100.0, vec![separated("b", 87.0), separated("c", 45.0)]);
+        assert_eq!(
+            sentence(&plainest, &plain(), None),
+            "Next: measure the transmission error in a test with 1.00e6 cycles at the study's operation. It tells a from b (χ² 87), and \
+             tells a from c (χ² 45), the hardest pair."
+        );
+        let other = best(1, 50.0, vec![separated("b", 87.0), separated("c", 2.0)]);
+        let said = sentence(&other, &plain(), None);
+        assert!(
+            said.contains("50 N·m: another pressure at the same sliding. It tells"),
+            "{said}"
+        );
+        assert!(
+            said.ends_with("but hardly tells a from c (χ² 2.0), the hardest pair."),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn a_repetition_is_said_to_be_better_only_where_it_is() {
+        let best = best(0, 100.0, vec![separated("b", 50.0)]);
+        let again = |chi2| {
+            let again = Repetition {
+                test: "B".to_owned(),
+                chi2,
+            };
+            sentence(&best, &plain(), Some(&again))
+        };
+        assert!(again(57.7).ends_with(
+            "Repeating test B with all its measurements does better: mean χ² 57.7 against 50.0."
+        ));
+        assert!(!again(49.0).contains("Repeating"));
+    }
+}
