@@ -4,6 +4,7 @@
 //! study -> fit -> diagnosis -> effect -> fit -> pays? -> … -> climbed study, ladder, last diagnosis
 //! ```
 
+mod alike;
 mod kept;
 mod version;
 
@@ -11,7 +12,7 @@ use self::kept::{Kept, State};
 use self::version::{Fitter, Rung};
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, folder, inputs, interrupt};
-use crate::learn::climb::{DoesNotPay, proposals};
+use crate::learn::climb::{DoesNotPay, Proposal, proposal};
 use crate::learn::diagnose::{Diagnosis, Fidelity, Verdict, diagnose};
 use crate::learn::{Measured, contact_of};
 use crate::report;
@@ -21,7 +22,7 @@ use clap::Args;
 /// Arguments of `climb`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Diagnoses, adds the effect that the diagnosis names, fits everything again, takes out what is no longer needed, and diagnoses\nagain. A step is kept if it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is\nheld out, each fit test left out in turn.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
+    after_help = "Diagnoses, adds the effect that the diagnosis names (of several that it cannot tell apart, the one that does best on tests that\nit was not fitted to), fits everything again, takes out what is no longer needed, and diagnoses again. A step is kept\nif it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is held out, each fit test left\nout in turn.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
 )]
 pub struct ClimbArgs {
     #[command(flatten)]
@@ -149,10 +150,19 @@ fn step(
         let stopped = format!("--most {most} allows no more; something is still missing");
         return Ok(Some(stopped));
     }
-    for effect in proposals(diagnosis) {
-        if state.has(&effect) {
-            continue;
+    let (mut effects, alike) = match proposal(diagnosis) {
+        Proposal::InTurn(effects) => (effects, false),
+        Proposal::BestOf(effects) => (effects, true),
+    };
+    effects.retain(|effect| !state.has(effect));
+    // without a test that it is not fitted to, the most probable goes first
+    if alike && effects.len() > 1 && state.standing.error().is_some() {
+        if alike::best_of(&effects, state, fitter, diagnosis, watch)? {
+            return Ok(None);
         }
+        effects.clear();
+    }
+    for effect in effects {
         let added = fitter.with_effect(&state.rungs, &state.values, &effect, diagnosis, watch)?;
         let paid = added.standing.pays_over(&state.standing);
         let mut step = added

@@ -3,6 +3,9 @@
 //! ```text
 //! diagnosis -> proposals -> fit -> pays?  -> still needed, each of those before? -> diagnosis …
 //! ```
+//! Of effects that the diagnosis cannot tell apart all are fitted, and of those that pay the one with the least error on tests that it was not
+//! fitted to is kept.
+//!
 //! An effect pays if the evidence outweighs the prior odds of nothing more against one effect of the catalogue, and the error on tests that
 //! it was not fitted to does not rise beyond its own standard error:
 //!
@@ -11,15 +14,15 @@
 //! χ²_after/N ≤ χ²_before/N (1 + √(2/N))                       N: their points; χ² of N residuals has a relative spread of √(2/N)
 //! ```
 
+mod proposal;
+
+pub use proposal::{Choice, Proposal, choose, proposal};
+
 use serde::{Deserialize, Serialize};
 
 use super::comparison::{Comparison, LeftOut};
-use super::decision::{DecisionRule, Verdict};
-use super::explanation::{Diagnosis, Named};
+use super::decision::DecisionRule;
 use crate::effects::CATALOGUE;
-
-/// Effects that are tried in turn where the first does not pay.
-const PROPOSED: usize = 3;
 
 /// One version of the model on the way up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,6 +45,9 @@ pub struct ClimbStep {
     pub kept: bool,
     /// Why not.
     pub why: Option<String>,
+    /// Why this effect and no other of those that the diagnosis cannot tell apart; None where there was no choice.
+    #[serde(default)]
+    pub choice: Option<String>,
 }
 
 /// How a version of the model stands.
@@ -118,6 +124,11 @@ impl Standing {
         Ok(())
     }
 
+    /// χ² per point of tests that it was not fitted to: the held-out ones, else those left out in turn.
+    pub fn error(&self) -> Option<f64> {
+        self.holdout.or(self.left_out)
+    }
+
     /// As a step to this version from the one `before`.
     pub fn step(&self, before: Option<&Self>, effects: Vec<String>) -> ClimbStep {
         ClimbStep {
@@ -130,6 +141,7 @@ impl Standing {
             log_evidence_gain: before.map(|before| self.log_evidence - before.log_evidence),
             kept: true,
             why: None,
+            choice: None,
         }
     }
 }
@@ -137,41 +149,6 @@ impl Standing {
 /// ln of the prior odds of nothing more against one effect of the catalogue.
 fn least_gain(rule: &DecisionRule) -> f64 {
     (rule.prior_nothing * CATALOGUE.len() as f64 / rule.prior_singles).ln()
-}
-
-/// Effects that a diagnosis proposes to add, one of which is to be tried after the other: what it names; of what it cannot tell apart, each.
-/// None where nothing is missing, or nothing of the catalogue is established.
-pub fn proposals(diagnosis: &Diagnosis) -> Vec<String> {
-    match diagnosis.verdict {
-        Verdict::NothingMissing | Verdict::Unknown => return Vec::new(),
-        Verdict::Effect | Verdict::Effects | Verdict::Partial | Verdict::Ambiguous => {}
-    }
-    let named: Vec<String> = match &diagnosis.effect {
-        Some(Named::One(effect)) => vec![effect.clone()],
-        Some(Named::Several(effects)) => effects.clone(),
-        None => {
-            let members = diagnosis.indistinguishable.iter().flatten();
-            members
-                .flat_map(|member| member.split('+'))
-                .map(str::to_owned)
-                .collect()
-        }
-    };
-    let alone = |effect: &str| {
-        let own = diagnosis.screened.iter().filter(|s| s.effects == [effect]);
-        own.map(|s| s.chi2_drop).fold(f64::NEG_INFINITY, f64::max)
-    };
-    let mut effects: Vec<String> = Vec::new();
-    for effect in named {
-        let known = CATALOGUE.iter().any(|card| card.name == effect);
-        if known && !effects.contains(&effect) {
-            effects.push(effect);
-        }
-    }
-    // of several the strongest first: the others are looked for again with it in
-    effects.sort_by(|a, b| alone(b).total_cmp(&alone(a)));
-    effects.truncate(PROPOSED);
-    effects
 }
 
 #[cfg(test)]

@@ -67,9 +67,11 @@ pub fn summary(result: &Result<'_>, study: &str, folder: &Path) -> String {
             number(step.fit_chi2_per_point),
             number(step.holdout_chi2_per_point.or(step.left_out_chi2_per_point)),
             gain(step),
-            step.why
-                .as_ref()
-                .map_or(String::new(), |why| format!("  not kept: {why}"))
+            match (&step.why, &step.choice) {
+                (Some(why), _) => format!("  not kept: {why}"),
+                (None, Some(choice)) => format!("  kept: {choice}"),
+                (None, None) => String::new(),
+            }
         );
     }
     let _ = writeln!(text, "\nstopped: {}", result.stopped);
@@ -128,10 +130,11 @@ pub fn page(result: &Result<'_>, study: &str) -> Page {
         ["step", "χ² fit", "χ² not fitted to", "ln evidence", "kept"],
     );
     for step in result.steps {
-        let kept = step
-            .why
-            .as_ref()
-            .map_or("yes".to_owned(), |why| format!("no: {why}"));
+        let kept = match (&step.why, &step.choice) {
+            (Some(why), _) => format!("no: {why}"),
+            (None, Some(choice)) => format!("yes: {choice}"),
+            (None, None) => "yes".to_owned(),
+        };
         table = table.row([
             Cell::text(name(step)),
             Cell::number(number(step.fit_chi2_per_point)),
@@ -145,7 +148,8 @@ pub fn page(result: &Result<'_>, study: &str) -> Page {
     let tried = Section::new("Steps").table(table).note(
         "χ² not fitted to: per point of the held-out tests or, where none is held out, of each fit test left out of the fit in turn. \
          An effect is kept if the evidence outweighs the prior odds against one more effect and this error does not rise beyond its \
-         standard error; after each step, effects that are no longer needed are taken out.",
+         standard error. Effects that the diagnosis cannot tell apart are all fitted, and of those that pay the one with the least such \
+         error is kept. After each step, effects that are no longer needed are taken out.",
     );
     let mut rest = Section::new("What remains")
         .paragraph(format!("The climb ended: {}.", result.stopped))
@@ -179,11 +183,14 @@ fn conclusion(result: &Result<'_>) -> String {
     };
     let ends = [result.versions.first(), result.versions.last()];
     let [first, last] = ends.map(|end| end.and_then(|(_, comparison)| error(comparison)));
-    let found = match &result.effects[..] {
+    let mut found = match &result.effects[..] {
         [] => "No effect was added.".to_owned(),
         [one] => format!("Added: {one}."),
         several => format!("Added: {}.", several.join(", ")),
     };
+    for choice in result.steps.iter().filter_map(|s| s.choice.as_deref()) {
+        found += &format!(" {}.", capitalised(choice));
+    }
     match (first, last) {
         (Some((before, of)), Some((after, _))) if !result.effects.is_empty() => format!(
             "{found} χ² per point of {of} falls from {} to {}; 1 is the noise floor.",
@@ -192,6 +199,14 @@ fn conclusion(result: &Result<'_>) -> String {
         ),
         _ => found,
     }
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
 }
 
 fn name(step: &ClimbStep) -> String {

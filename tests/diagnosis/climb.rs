@@ -82,6 +82,42 @@ fn it_finds_one_effect_after_the_other_and_ends_with_a_study_of_them() {
     assert!(!folder.path().join("study.out/.climb.checkpoint").exists());
 }
 
+/// One section of a face that leans by 10 µm: lead slopes and crowning are alike there. All that the diagnosis cannot tell apart are fitted, and
+/// the one with the least error on the held-out test is kept, with a word on it.
+#[test]
+fn of_what_looks_alike_the_best_on_held_out_tests_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let hidden = "[[effect]]\nkind = \"lead_misalignment\"\nslope = 10.0\n";
+    let path = study(folder.path(), hidden);
+    let output = gearwear()
+        .args(["climb", "--json", "--quiet", "--most", "1"])
+        .arg(&path)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let steps = document["steps"].as_array().unwrap();
+    let tried: Vec<&Value> = steps.iter().filter(|s| s["added"].is_string()).collect();
+    assert!(tried.len() > 1, "{document:#}");
+    let kept: Vec<&&Value> = tried.iter().filter(|s| s["kept"] == true).collect();
+    assert_eq!(kept.len(), 1, "{document:#}");
+    let choice = kept[0]["choice"].as_str().unwrap();
+    let name = kept[0]["added"].as_str().unwrap();
+    assert!(
+        choice.ends_with(&format!("{name} does best on the held-out tests")),
+        "{choice}"
+    );
+    let error = |step: &Value| step["holdout_chi2_per_point"].as_f64().unwrap();
+    for step in tried.iter().filter(|s| s["kept"] == false) {
+        let why = step["why"].as_str().unwrap();
+        let by_error = why == format!("{name} does better on the held-out tests");
+        assert!(!by_error || error(step) >= error(kept[0]), "{document:#}");
+    }
+    let page = folder.path().join("study.out/climb/report.html");
+    assert!(std::fs::read_to_string(page).unwrap().contains(choice));
+}
+
 #[test]
 fn it_does_not_go_on_from_another_study_s_climb() {
     let folder = tempfile::tempdir().unwrap();

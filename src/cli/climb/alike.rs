@@ -1,0 +1,49 @@
+//! A step up by one of several effects that the data cannot tell apart.
+
+use super::kept::State;
+use super::version::{Fitted, Fitter};
+use super::{CliError, drop_needless, names, refused};
+use crate::learn::climb::{Standing, choose};
+use crate::learn::diagnose::Diagnosis;
+
+/// Fits each of the effects and goes on from the one that does best on tests that it was not fitted to; false if none pays.
+pub(super) fn best_of(
+    effects: &[String],
+    state: &mut State,
+    fitter: &Fitter<'_>,
+    diagnosis: &Diagnosis,
+    watch: &(dyn Fn(String) + Sync),
+) -> Result<bool, CliError> {
+    let before = state.standing;
+    let fit =
+        |effect: &String| fitter.with_effect(&state.rungs, &state.values, effect, diagnosis, watch);
+    let fitted: Vec<Fitted> = effects.iter().map(fit).collect::<Result<_, _>>()?;
+    let paid: Vec<_> = (fitted.iter())
+        .map(|fitted| fitted.standing.pays_over(&before))
+        .collect();
+    let standing: Vec<(&str, Standing, bool)> = (effects.iter().zip(&fitted).zip(&paid))
+        .map(|((effect, fitted), paid)| (effect.as_str(), fitted.standing, paid.is_ok()))
+        .collect();
+    let choice = choose(&standing);
+    let chosen = choice.as_ref().map(|choice| choice.place);
+    for (place, ((effect, fitted), paid)) in effects.iter().zip(&fitted).zip(paid).enumerate() {
+        let mut step = fitted.standing.step(Some(&before), names(&fitted.rungs));
+        step.added = Some(effect.clone());
+        refused(&mut step, paid);
+        if let Some(choice) = &choice {
+            if choice.place == place {
+                step.choice = Some(choice.why.clone());
+            } else if step.kept {
+                step.kept = false;
+                step.why = Some(choice.why_not.clone());
+            }
+        }
+        state.steps.push(step);
+    }
+    let Some(best) = chosen.and_then(|place| fitted.into_iter().nth(place)) else {
+        return Ok(false);
+    };
+    state.go_on(best);
+    drop_needless(state, fitter, watch)?;
+    Ok(true)
+}

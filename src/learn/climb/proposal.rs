@@ -1,0 +1,173 @@
+//! What a diagnosis proposes to add, and which of several that look alike.
+
+use super::Standing;
+use crate::effects::CATALOGUE;
+use crate::learn::decision::Verdict;
+use crate::learn::explanation::{Diagnosis, Named};
+
+/// Effects that are tried in turn where the first does not pay.
+const IN_TURN: usize = 3;
+/// Effects that are compared where the data cannot tell them apart.
+const COMPARED: usize = 4;
+
+/// Effects that a diagnosis proposes to add.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Proposal {
+    /// One is to be tried after the other until one pays, the strongest first.
+    InTurn(Vec<String>),
+    /// The data cannot tell them apart: the best of all is to be taken. The most probable first.
+    BestOf(Vec<String>),
+}
+
+/// Which of several effects is taken, and in words why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Choice {
+    /// Its place among them.
+    pub place: usize,
+    /// Why this one.
+    pub why: String,
+    /// Why not the others that pay.
+    pub why_not: String,
+}
+
+/// What a diagnosis proposes: the effects that it names; of what it cannot tell apart, all. None where nothing is missing, or nothing of the
+/// catalogue is established.
+pub fn proposal(diagnosis: &Diagnosis) -> Proposal {
+    let named: Vec<String> = match (diagnosis.verdict, &diagnosis.effect) {
+        (Verdict::NothingMissing | Verdict::Unknown, _) => Vec::new(),
+        (_, Some(Named::One(effect))) => vec![effect.clone()],
+        (_, Some(Named::Several(effects))) => effects.clone(),
+        (_, None) => {
+            let mut alike = known(members(&diagnosis.indistinguishable));
+            alike.truncate(COMPARED);
+            return match alike.len() {
+                0 | 1 => Proposal::InTurn(alike),
+                _ => Proposal::BestOf(alike),
+            };
+        }
+    };
+    let alone = |effect: &str| {
+        let own = diagnosis.screened.iter().filter(|s| s.effects == [effect]);
+        own.map(|s| s.chi2_drop).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let mut effects = known(named.into_iter());
+    // of several the strongest first: the others are looked for again with it in
+    effects.sort_by(|a, b| alone(b).total_cmp(&alone(a)));
+    effects.truncate(IN_TURN);
+    Proposal::InTurn(effects)
+}
+
+/// The effects of groups, sets taken apart.
+fn members(groups: &[Vec<String>]) -> impl Iterator<Item = String> {
+    let all = groups.iter().flatten();
+    all.flat_map(|member| member.split('+')).map(str::to_owned)
+}
+
+/// Those that the catalogue holds, each once.
+fn known(names: impl Iterator<Item = String>) -> Vec<String> {
+    let mut known: Vec<String> = Vec::new();
+    for name in names {
+        if !known.contains(&name) && CATALOGUE.iter().any(|card| card.name == name) {
+            known.push(name);
+        }
+    }
+    known
+}
+
+/// The best of `effects`, each with how it stands and whether it pays: of those that pay the one with the least error on tests that it was
+/// not fitted to, the first of equals. None if none pays.
+pub fn choose(effects: &[(&str, Standing, bool)]) -> Option<Choice> {
+    let error = |i: usize| effects[i].1.error().unwrap_or(f64::INFINITY);
+    let paying: Vec<usize> = (0..effects.len()).filter(|&i| effects[i].2).collect();
+    let place = *paying
+        .iter()
+        .min_by(|&&a, &&b| error(a).total_cmp(&error(b)))?;
+    let (name, standing, _) = effects[place];
+    let tests = match standing.holdout {
+        Some(_) => "the held-out tests",
+        None => "tests left out of the fit",
+    };
+    let why = if paying.len() > 1 {
+        let names: Vec<&str> = paying.iter().map(|&i| effects[i].0).collect();
+        format!("of {}, {name} does best on {tests}", listed(&names))
+    } else {
+        let names: Vec<&str> = effects.iter().map(|effect| effect.0).collect();
+        format!("of {}, only {name} pays", listed(&names))
+    };
+    Some(Choice {
+        place,
+        why,
+        why_not: format!("{name} does better on {tests}"),
+    })
+}
+
+/// `a, b and c`.
+fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn standing(holdout: Option<f64>, left_out: Option<f64>) -> Standing {
+        Standing {
+            fit: Some(1.05),
+            log_evidence: 50.0,
+            holdout,
+            left_out,
+            points: 200,
+        }
+    }
+
+    #[test]
+    fn the_best_on_held_out_tests_is_chosen_of_those_that_pay() {
+        let of = |holdouts: [f64; 3], pays: [bool; 3]| {
+            let names = ["profile_slope", "tip_relief", "profile_form"];
+            let all: Vec<(&str, Standing, bool)> = (names.into_iter().zip(holdouts).zip(pays))
+                .map(|((name, chi2), pays)| (name, standing(Some(chi2), None), pays))
+                .collect();
+            choose(&all)
+        };
+        let best = of([1.135, 1.114, 1.18], [true; 3]).unwrap();
+        assert_eq!(best.place, 1);
+        assert_eq!(
+            best.why,
+            "of profile_slope, tip_relief and profile_form, tip_relief does best on the held-out tests"
+        );
+        assert_eq!(best.why_not, "tip_relief does better on the held-out tests");
+        let best = of([1.135, 1.114, 1.18], [true, false, true]).unwrap();
+        assert_eq!((best.place, best.why.contains("tip_relief")), (0, false));
+        let best = of([1.135, 1.114, 1.18], [false, false, true]).unwrap();
+        assert!(best.why.ends_with("only profile_form pays"), "{}", best.why);
+        assert_eq!(of([1.0; 3], [false; 3]), None);
+        // of equals the more probable, which comes first
+        assert_eq!(of([1.1; 3], [true; 3]).unwrap().place, 0);
+    }
+
+    #[test]
+    fn where_nothing_is_held_out_tests_left_out_decide() {
+        let all = [
+            ("a", standing(None, Some(1.3)), true),
+            ("b", standing(None, Some(1.2)), true),
+        ];
+        let best = choose(&all).unwrap();
+        assert_eq!(best.place, 1);
+        assert_eq!(
+            best.why,
+            "of a and b, b does best on tests left out of the fit"
+        );
+    }
+
+    #[test]
+    fn groups_are_taken_apart_and_only_the_catalogue_is_proposed() {
+        let groups = [["running_in+coating", "running_in", "unknown"]
+            .map(str::to_owned)
+            .to_vec()];
+        assert_eq!(known(members(&groups)), ["running_in", "coating"]);
+    }
+}
