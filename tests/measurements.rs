@@ -122,7 +122,7 @@ refusals! {
     another_unit_in_the_header: with("position,value", "position [m],value")
         => Inconsistent "position" at 3:28, "`26.31`", "position of wear_depth in mm", "the header says position in m";
     one_unit_for_two: with("value,sigma", "value (µm),sigma")
-        => Inconsistent "value" at 6:39, "`-14.2`", "value of transmission_error in urad", "where rows differ";
+        => Inconsistent "value" at 6:39, "`-14.2`", "value of transmission_error in urad", "if rows of several quantities stand below it";
     short_row: with("182.0,4.0,", "182.0,4.0")
         => Syntax "" at 7:1, "7 fields", "8 fields", "empty fields at the end need their commas";
     decimal_comma: with("3.42", "3,42")
@@ -140,7 +140,7 @@ refusals! {
     test_in_small_letters: with("B,pinion", "b,pinion")
         => BadValue "test" at 8:1, "`b`", "A, B, C, D", "the nearest is `B`";
     unknown_member: with("A,gear", "A,wheel")
-        => BadValue "member" at 4:3, "`wheel`", "pinion, gear, pair", "not the name of a member";
+        => BadValue "member" at 4:3, "`wheel`", "pinion, gear, pair", "there is no member `wheel`";
     unknown_quantity: with("mass_loss", "massloss")
         => BadValue "quantity" at 7:18, "`massloss`", "mass_loss, load_share", "the nearest is `mass_loss`";
     wear_of_the_pair: with("A,gear", "A,pair")
