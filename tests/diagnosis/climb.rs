@@ -87,8 +87,22 @@ fn it_finds_one_effect_after_the_other_and_ends_with_a_study_of_them() {
 #[test]
 fn of_what_looks_alike_the_best_on_held_out_tests_is_kept() {
     let folder = tempfile::tempdir().unwrap();
-    let hidden = "[[effect]]\nkind = \"lead_misalignment\"\nslope = 10.0\n";
-    let path = study(folder.path(), hidden);
+    let hidden = "\n[[effect]]\nkind = \"lead_misalignment\"\nslope = 10.0\n";
+    let truth = folder.path().join("truth.toml");
+    std::fs::write(&truth, crate::study("").text().to_owned() + hidden).unwrap();
+    let made = folder.path().join("made");
+    let output = gearwear()
+        .args(["synthesize", "--quiet", "--noise", "0.04", "-o"])
+        .args([&made, &truth])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let path = made.join("study.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let mut text = text.split("[[effect]]").next().unwrap().to_owned();
+    let last = text.rfind("role = \"fit\"").unwrap();
+    text.replace_range(last..last + 12, "role = \"holdout\"");
+    std::fs::write(&path, text).unwrap();
     let output = gearwear()
         .args(["climb", "--json", "--quiet", "--most", "1"])
         .arg(&path)
@@ -114,7 +128,7 @@ fn of_what_looks_alike_the_best_on_held_out_tests_is_kept() {
         let by_error = why == format!("{name} does better on the held-out tests");
         assert!(!by_error || error(step) >= error(kept[0]), "{document:#}");
     }
-    let page = folder.path().join("study.out/climb/report.html");
+    let page = made.join("study.out/climb/report.html");
     assert!(std::fs::read_to_string(page).unwrap().contains(choice));
 }
 
