@@ -645,9 +645,9 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
         (format!("{header}\nA,pinion,1e5,26,1,0.1\n"), "--columns positions", "--columns is for tables with a column for each"),
         (format!("{header}\nA,pinion,1e5,26,1,0.1\n"), "--quantity mass_loss", "holds wear_depth, --quantity says mass_loss"),
         (
-            format!("{header}\nA,pinion,1e5,26,1,0.1\nA,pinion,1e5,27,1,0.1\nA,pinion,1e5,26,2,0.1\n"),
+            format!("{header}\nA,pinion,1e5,26,1,0.1\nA,pinion,1e5,27,1,0.1\nA,pinion,1e5,26,1,0.1\n"),
             "",
-            "E2 and E4 both hold wear_depth of the pinion in test A after 100000 pinion revolutions at 26",
+            "E2 and E4 both hold the same wear_depth of the pinion in test A after 100000 pinion revolutions at 26",
         ),
         (
             "test;member;cycles;radius;depth [um];sigma\nA;pinion;100000;26,5;1.5;0,1\n".to_owned(),

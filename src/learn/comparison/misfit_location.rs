@@ -65,8 +65,9 @@ pub(in crate::learn) fn sentence(
     };
     let parts = [
         format!(
-            "{}{} is {}{} in test {}",
+            "{}{}{} is {}{} in test {}",
             subject(key.2),
+            whose(key),
             when(key, cell, map),
             size(cell),
             place(key),
@@ -138,13 +139,20 @@ fn size(cell: &Cell) -> String {
     format!("{}{unit} too {sign}", short(cell.bias.abs()))
 }
 
+/// Whose a quantity without a place is.
+fn whose(key: &CellKey) -> String {
+    match (key.1.member(), key.3) {
+        (Some(member), None) => format!(" of the {}", member.name()),
+        _ => String::new(),
+    }
+}
+
 fn place(key: &CellKey) -> String {
     match (key.1.member(), key.3) {
         (Some(member), Some(region)) => {
             format!(" on the {}'s {}", member.name(), words(member, region))
         }
-        (Some(member), None) => format!(" of the {}", member.name()),
-        (None, _) => String::new(),
+        _ => String::new(),
     }
 }
 

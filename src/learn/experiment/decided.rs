@@ -151,9 +151,14 @@ impl DecidedCandidate {
 }
 
 impl Decided {
-    /// The fitted values of a single effect in one of its forms (empty for the card's own), by parameter; none where it was not listed.
+    /// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by
+    /// parameter; none where it was not listed.
     pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
-        let known = (self.ranking.iter()).find(|c| c.effect == effect && c.form == form);
+        let in_form = |name: &str| {
+            let mut listed = self.ranking.iter();
+            listed.find(|c| c.effect == name && c.form == form)
+        };
+        let known = in_form(effect).or_else(|| in_form(&format!("{effect}{BESIDE_UNKNOWN}")));
         let values = known.into_iter().flat_map(|c| &c.parameters);
         values.map(|p| (p.name.as_str(), p.value)).collect()
     }
@@ -256,10 +261,12 @@ mod tests {
             candidate("running_in+profile_form", 7e-5),
             candidate("tip_relief", 0.1),
         ];
-        ranking[1].parameters.push(DecidedValue {
-            name: "amount".to_owned(),
-            value: 1.1,
-        });
+        for (at, value) in [(0, -2.4), (1, 1.1), (4, 1.3)] {
+            ranking[at].parameters.push(DecidedValue {
+                name: "amount".to_owned(),
+                value,
+            });
+        }
         let decided = Decided {
             verdict: Verdict::Partial,
             ranking,
@@ -271,6 +278,10 @@ mod tests {
         assert!((leaders[0].probability - 0.41).abs() < 1e-12);
         // at the values of the more probable of the two
         assert_eq!(leaders[0].values("tip_relief", false), [1.1]);
+        // a fit begins at those of the effect by itself where there are any
+        assert_eq!(decided.values_of("tip_relief", ""), [("amount", 1.3)]);
+        assert_eq!(decided.values_of("profile_slope", ""), [("amount", -2.4)]);
+        assert!(decided.values_of("running_in", "").is_empty());
     }
 
     #[test]

@@ -17,6 +17,8 @@ use crate::learn::model_search::context::Context;
 /// Probability of nothing missing below which that is undecided. Of the blind sets of the second and third series with 0.8 or more,
 /// 65 of 72 hide nothing and the others an effect of d < 6; of those with 0.5 to 0.8, 31 of 48, and one an effect of d ≥ 6.
 const SURE: f64 = 0.8;
+/// Scatter of k between tests from which it is worth a sentence.
+const LARGE_SCATTER: f64 = 0.2;
 /// Probability of nothing missing from which the next effect is not worth a sentence.
 const CERTAIN: f64 = 0.95;
 /// Share of the attainable fall of χ² below which no effect is worth naming.
@@ -96,6 +98,14 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
             chi2(findings, leader)
         )
     });
+    let scatter = findings.base.fitted.found.scatter;
+    let scatters = (scatter > LARGE_SCATTER && likelihood.tests.len() > 1).then(|| {
+        format!(
+            "k scatters by {:.0} % from test to test, which is taken as chance: a cause that acts alike on all of a test (its oil, its batch, its \
+             temperature) would look the same; a test made twice tells them apart.",
+            100.0 * scatter
+        )
+    });
     let next_step = if too_few {
         "measure more before concluding anything: gearwear plan STUDY proposes tests"
     } else if measured_once(likelihood).len() == likelihood.tests.len() {
@@ -107,7 +117,7 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
     };
     Explanation {
         sentence,
-        reasons: next.into_iter().collect(),
+        reasons: next.into_iter().chain(scatters).collect(),
         next_step: next_step.to_owned(),
     }
 }

@@ -84,7 +84,7 @@ pub fn lines(entries: &[Entry]) -> (String, Vec<String>) {
     )
 }
 
-/// Refuses two entries at the same place and time of one trace.
+/// Refuses two equal entries at the same place and time of one trace; other values there are repeats.
 pub(super) fn refuse_twice(entries: &[Entry]) -> Result<(), ImportError> {
     let mut first = HashMap::new();
     for entry in entries {
@@ -94,6 +94,7 @@ pub(super) fn refuse_twice(entries: &[Entry]) -> Result<(), ImportError> {
                 entry.member,
                 entry.cycles.to_bits(),
                 entry.quantity,
+                entry.value.to_bits(),
             ),
             (
                 entry.position.map(f64::to_bits),
@@ -107,7 +108,7 @@ pub(super) fn refuse_twice(entries: &[Entry]) -> Result<(), ImportError> {
                 .position
                 .map_or_else(String::new, |at| format!(" at {at}"));
             return Err(ImportError(format!(
-                "{} and {} both hold {} of the {} in test {} after {} pinion revolutions{place}: take one out, or tell two measurements \
+                "{} and {} both hold the same {} of the {} in test {} after {} pinion revolutions{place}: take one out, or tell two measurements \
                  apart by a column `trace` (or `tooth`)",
                 cell_name(row, column),
                 cell_name(entry.cell.0, entry.cell.1),
