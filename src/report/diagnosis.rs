@@ -42,7 +42,7 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     for entry in shown() {
         let held = entry
             .holdout_chi2_per_point
-            .map_or("-".to_owned(), |c| format!("{c:.2}"));
+            .map_or("–".to_owned(), |c| format!("{c:.2}"));
         let _ = writeln!(
             text,
             "  {:<width$}{:>12}{:>12.2}{:>10}{}",
@@ -118,10 +118,10 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     for entry in &diagnosis.ranking {
         let held = entry
             .holdout_chi2_per_point
-            .map_or("-".to_owned(), |c| format!("{c:.2}"));
+            .map_or("–".to_owned(), |c| format!("{c:.2}"));
         let angle = entry
             .angle_to_leader
-            .map_or("-".to_owned(), |a| format!("{a:.0}°"));
+            .map_or("–".to_owned(), |a| format!("{a:.0}°"));
         let gain = gain_over_unknown(diagnosis, entry).map_or("–".to_owned(), |gain| {
             // no minus before a zero
             format!("{:.1}", (10.0 * gain).round() / 10.0 + 0.0)
