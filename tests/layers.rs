@@ -48,6 +48,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "posterior",
             "predictor",
             "quadratic",
+            "quantity_misfit",
             "region",
             "scatter",
             "search",

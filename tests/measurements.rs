@@ -576,6 +576,31 @@ fn a_sigma_that_is_not_stated_is_estimated_from_the_neighbours() {
     );
 }
 
+/// A curve that is computed, or filtered, is not known a hundred times as well as the others; one that scatters less in proportion is.
+#[test]
+fn a_far_smoother_curve_gets_the_sigma_of_the_others() {
+    let mut text = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
+    let mut random = 6;
+    for trace in 1..=6 {
+        // the last one without noise, the last but one with a third
+        let noise = [0.15, 0.15, 0.15, 0.15, 0.05, 0.0][trace - 1];
+        for point in 0..60 {
+            let radius = 25.7 + 0.05 * f64::from(point);
+            let wear = 5.0 + 2.0 * (1.7 * radius).sin() + noise * normal(&mut random);
+            text += &format!("A,pinion,{trace}00000,wear_depth,{radius},{wear},,A-p-{trace}\n");
+        }
+    }
+    let data = parse(&text).unwrap();
+    let of = |trace: usize| data.observations[60 * (trace - 1)].sigma;
+    assert!((of(5) / 0.05 - 1.0).abs() < 0.35, "{}", of(5));
+    assert!((of(6) / 0.15 - 1.0).abs() < 0.35, "{}", of(6));
+    assert!(
+        data.reading.contains("60 from the scatter of other curves"),
+        "{}",
+        data.reading
+    );
+}
+
 #[test]
 fn a_sigma_that_is_not_stated_is_that_of_repeats_or_of_other_rows() {
     let rows = |values: &[(f64, &str)]| {

@@ -7,7 +7,10 @@ use serde_json::json;
 
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, fitting, folder};
-use crate::learn::{ModelVersion, Prospects, contact_of, data_warnings, prospects, stated_sigma};
+use crate::learn::{
+    ModelVersion, Prospects, contact_of, data_warnings, misfit_of_one_quantity, prospects,
+    stated_sigma,
+};
 use crate::measure::{Dataset, Observation, Place, Quantity};
 use crate::report::format::{count, plain, significant};
 use crate::report::{self, comparison};
@@ -46,7 +49,8 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let written = report::write_comparison(&result, &target)?;
     let prospects = prospects(&study, &data);
     let mut warnings = data_warnings(&data);
-    warnings.extend(stated_sigma(&data, &compared.fit));
+    warnings.extend(stated_sigma(&study, &data, &compared.fit));
+    warnings.extend(misfit_of_one_quantity(&study, &data, &compared.fit));
     let sanity = &compared.comparison.sanity;
     Ok(Outcome {
         json: json!({

@@ -59,16 +59,12 @@ pub struct ImportArgs {
     /// neighbouring points wherever the file is read]
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, value_parser = sigma)]
     sigma: Option<f64>,
-    /// A further standard deviation as a share of each value (0.03: three percent), for scatter that grows with the wear
-    #[arg(
-        long,
-        value_name = "SHARE",
-        default_value_t = 0.0,
-        requires = "sigma",
-        allow_negative_numbers = true,
-        value_parser = share
-    )]
+    /// A standard deviation as a share (0.03: three percent), beside --sigma or alone, for scatter that grows with the wear
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, allow_negative_numbers = true, value_parser = share)]
     relative_sigma: f64,
+    /// Of what --relative-sigma is a share
+    #[arg(long, value_enum, value_name = "OF", default_value_t = ShareOf::Value)]
+    relative_to: ShareOf,
     /// The instrument's zero is the same for all checkpoints: no trace of its own for each
     #[arg(long)]
     no_traces: bool,
@@ -114,6 +110,14 @@ enum Across {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum ShareOf {
+    /// Of each value
+    Value,
+    /// Of the largest value of its curve
+    Largest,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Mark {
     /// 1.5
     Point,
@@ -140,7 +144,7 @@ fn quantities() -> impl clap::builder::TypedValueParser<Value = Quantity> {
 /// A standard deviation; a share is no such number.
 fn sigma(text: &str) -> Result<f64, String> {
     if text.contains('%') {
-        return Err("a share of each value goes by --relative-sigma 0.03, beside --sigma in the unit of the values".to_owned());
+        return Err("a share of each value goes by --relative-sigma 0.03, alone or beside --sigma in the unit of the values".to_owned());
     }
     plain(text)
 }
@@ -339,10 +343,10 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         .sigma
         .filter(|sigma| !(*sigma > 0.0 && sigma.is_finite()))
     {
-        let unit = args.quantity.unwrap_or(Quantity::WearDepth).unit();
         return Err(unusable(format!(
-            "--sigma {sigma}: one standard deviation of the values in {unit}, above 0. How well does a repeated measurement agree? Without \
-             --sigma it is estimated from the scatter of neighbouring points"
+            "--sigma {sigma}: one standard deviation of the values in the quantity's own unit (um of depth, mg of mass), above 0. How well does a \
+             repeated measurement agree? A share alone is --relative-sigma without --sigma; without both it is estimated from the scatter of \
+             neighbouring points"
         )));
     }
     if !(0.0..1.0).contains(&args.relative_sigma) {
@@ -353,6 +357,9 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
     }
     Ok(Wanted {
         tests: study.tests.iter().map(|test| test.id.as_str()).collect(),
+        runs: (study.tests.iter())
+            .map(|test| [test.conditions.speed_rpm, test.conditions.cycles])
+            .collect(),
         gears: [&study.gears.pinion, &study.gears.gear],
         test: args.test.as_deref(),
         member: args.member.map(|member| match member {
@@ -376,6 +383,10 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         decimal: args.decimal.map(Decimal::from),
         sigma: args.sigma,
         relative_sigma: args.relative_sigma,
+        relative_to: match args.relative_to {
+            ShareOf::Value => import::ShareOf::Value,
+            ShareOf::Largest => import::ShareOf::Largest,
+        },
         traces: !args.no_traces,
         repeat: args.repeat,
     })

@@ -198,7 +198,7 @@ fn search(
         None
     };
     watch(1.0, "done".to_owned());
-    diagnosis.with_learned(learned, likelihood.chi2_per_point(&base.fitted.found.model))
+    diagnosis.with_learned(learned)
 }
 
 /// The effects of which no form could be fitted.

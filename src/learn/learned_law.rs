@@ -176,6 +176,53 @@ impl Measured<'_> {
         walk.at([FIRST_LENGTH, FIRST_SIZE], &zero)
     }
 
+    /// A law that another bench found, fitted on this one from its values with the size and length that it has; its evidence is the mean over
+    /// the same sizes and lengths as there.
+    ///
+    /// # Errors
+    /// [`LearnError`]
+    pub(super) fn relearn(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        without: &Fit,
+        found: &LearnedFit,
+        noise: NoiseModel,
+    ) -> Result<LearnedFit, LearnError> {
+        let version = starting_at(version, without);
+        let mut again = self.from_values(bench, &version, found.law.clone(), noise, &|_| {})?;
+        let tried = found.tried.iter().map(|tried| tried.log_evidence);
+        again.log_evidence += found.log_evidence - tried.fold(f64::NEG_INFINITY, f64::max);
+        Ok(again)
+    }
+
+    /// The fit of a law with its size and length, from its values.
+    fn from_values(
+        &self,
+        bench: &Bench<'_>,
+        version: &ModelVersion,
+        law: LearnedLaw,
+        noise: NoiseModel,
+        watch: &(dyn Fn(usize) + Sync),
+    ) -> Result<LearnedFit, LearnError> {
+        let version = version.with(law.clone().spec());
+        let start: Vec<f64> = (version.free.iter())
+            .filter(|free| free.name != WEAR_COEFFICIENT)
+            .map(|free| free.value)
+            .collect();
+        let fit = self.fit(bench, &version, noise, &[start], &LOOK, watch)?;
+        Ok(LearnedFit {
+            law: fitted_law(&law, &fit),
+            log_evidence: fit.log_evidence,
+            tried: vec![TriedProcess {
+                size: law.size,
+                length: law.length,
+                log_evidence: fit.log_evidence,
+            }],
+            fit,
+        })
+    }
+
     fn walk<'w>(
         &'w self,
         bench: &'w Bench<'w>,
@@ -273,29 +320,9 @@ impl Walk<'_> {
         let size = SIZES[place[1]] * LearnedLaw::usual_size(self.law.hook());
         let length = rounded(LENGTHS[place[0]] * self.span);
         let law = LearnedLaw::within(self.law.clone(), from, size, length);
-        let version = self.version.with(law.clone().spec());
-        let start: Vec<f64> = (version.free.iter())
-            .filter(|free| free.name != WEAR_COEFFICIENT)
-            .map(|free| free.value)
-            .collect();
-        let fit = self.measured.fit(
-            self.bench,
-            &version,
-            self.noise,
-            &[start],
-            &LOOK,
-            self.watch,
-        )?;
-        let found = LearnedFit {
-            law: fitted_law(&law, &fit),
-            log_evidence: fit.log_evidence,
-            tried: vec![TriedProcess {
-                size,
-                length,
-                log_evidence: fit.log_evidence,
-            }],
-            fit,
-        };
+        let found =
+            self.measured
+                .from_values(self.bench, &self.version, law, self.noise, self.watch)?;
         self.tried.push((place, found.clone()));
         Ok(found)
     }

@@ -131,6 +131,9 @@ pub(super) struct Found {
 /// By how much a first k is made smaller where the model has no answer, and how often at most.
 const SMALLER: f64 = 3.0;
 const SMALLER_STARTS: usize = 8;
+/// By how much k is scaled to the measured wear at once, and how often at most.
+const MOST_SCALED: f64 = 100.0;
+const SCALINGS: usize = 5;
 /// Promised gain of ln posterior up to which a step is short: two posterior standard deviations.
 const SHORT: f64 = 2.0;
 /// Step of the differences in ln k of a test.
@@ -379,23 +382,30 @@ impl Search<'_> {
         evaluator: &mut Evaluator<'_>,
         state: State,
     ) -> Result<(State, Values), PredictError> {
-        let (mut state, values) = self.first(evaluator, state)?;
+        let (mut state, mut values) = self.first(evaluator, state)?;
         let Some(prior) = &self.layout.coefficient else {
             return Ok((state, values));
         };
-        let ratio = self.selection.wear_ratio(&self.selection.joined(&values));
-        let factor = ratio.clamp(0.01, 100.0);
-        if !factor.is_finite() || ratio <= 0.0 || factor.ln().abs() < 0.1 {
-            return Ok((state, values));
+        // from a k of another unit it takes several
+        for _ in 0..SCALINGS {
+            let ratio = self.selection.wear_ratio(&self.selection.joined(&values));
+            let factor = ratio.clamp(1.0 / MOST_SCALED, MOST_SCALED);
+            if !factor.is_finite() || ratio <= 0.0 || factor.ln().abs() < 0.1 {
+                break;
+            }
+            let before = state.log_k;
+            state.log_k = (before + factor.ln()).clamp(prior.lower, prior.upper);
+            match self.predict(evaluator, &state) {
+                Ok(scaled) if self.square(&scaled) < self.square(&values) => values = scaled,
+                _ => {
+                    state.log_k = before;
+                    break;
+                }
+            }
+            if factor == ratio {
+                break;
+            }
         }
-        let before = state.log_k;
-        state.log_k = (before + factor.ln()).clamp(prior.lower, prior.upper);
-        if let Ok(scaled) = self.predict(evaluator, &state)
-            && self.square(&scaled) < self.square(&values)
-        {
-            return Ok((state, scaled));
-        }
-        state.log_k = before;
         Ok((state, values))
     }
 

@@ -21,9 +21,12 @@ const COLUMNS: [(&str, &[&str]); 10] = [
             "rad",
             "zahnrad",
             "bauteil",
+            "teil",
             "ruota",
             "componente",
+            "pezzo",
             "roue",
+            "piece",
             "rueda",
             "pieza",
         ],
@@ -131,6 +134,44 @@ const CYCLES: &[&str] = &[
     "ciclos",
     "revoluciones",
     "vueltas",
+];
+
+/// Names of running times.
+const TIMES: [&str; 14] = [
+    "time",
+    "runningtime",
+    "runtime",
+    "testtime",
+    "hours",
+    "zeit",
+    "laufzeit",
+    "betriebszeit",
+    "versuchszeit",
+    "tempo",
+    "temps",
+    "duree",
+    "tiempo",
+    "duracion",
+];
+
+/// Hours of each unit of time.
+const HOURS: [(&str, f64); 16] = [
+    ("h", 1.0),
+    ("hr", 1.0),
+    ("hrs", 1.0),
+    ("hour", 1.0),
+    ("hours", 1.0),
+    ("std", 1.0),
+    ("stunden", 1.0),
+    ("ore", 1.0),
+    ("heures", 1.0),
+    ("horas", 1.0),
+    ("min", 1.0 / 60.0),
+    ("minutes", 1.0 / 60.0),
+    ("s", 1.0 / 3600.0),
+    ("sec", 1.0 / 3600.0),
+    ("d", 24.0),
+    ("days", 24.0),
 ];
 
 /// Names of columns for people.
@@ -365,6 +406,18 @@ pub(super) fn revolutions(name: &str) -> Option<Option<Subject>> {
 pub(super) fn counts_gear_revolutions(text: &str) -> bool {
     let counts = |word: &String| word == "cycles" || CYCLES.contains(&word.as_str());
     words(text).iter().any(counts) && one_member(text) == Some(Subject::Gear)
+}
+
+/// Hours of a unit of the running time that a name and its unit mean; none if they mean no time.
+pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
+    let name = telling(name).concat();
+    let of = |unit: &str| HOURS.iter().find(|(known, _)| *known == unit);
+    let found = match unit {
+        Some(unit) if TIMES.contains(&name.as_str()) => of(&folded(unit)),
+        None => of(&name).filter(|_| name.len() > 3),
+        Some(_) => None,
+    };
+    found.map(|(_, hours)| *hours)
 }
 
 /// The quantity that a name means, and whether its unit may say otherwise.

@@ -18,11 +18,14 @@ const ENOUGH: usize = 15;
 const REPEATS: usize = 3;
 /// Least σ over a curve's largest value: smoother ones have been filtered.
 const LEAST: f64 = 1e-3;
+/// Scatter of a curve, as a part of that of the middle one of its quantity, both as it is and over the largest value, below which it has been filtered.
+const FILTERED: f64 = 0.2;
 
 /// How many rows got their σ from what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Estimated {
     neighbours: usize,
+    others: usize,
     repeats: usize,
     stated: usize,
 }
@@ -37,13 +40,17 @@ impl Estimated {
         };
         let parts: Vec<String> = [
             of(self.neighbours, "the scatter about their neighbours"),
+            of(
+                self.others,
+                "the scatter of other curves (these are far smoother than they: filtered, or computed?)",
+            ),
             of(self.repeats, "repeated measurements"),
             of(self.stated, "the sigma of other rows"),
         ]
         .into_iter()
         .flatten()
         .collect();
-        let rows = self.neighbours + self.repeats + self.stated;
+        let rows = self.neighbours + self.others + self.repeats + self.stated;
         let rows = if rows == 1 {
             "1 row".to_owned()
         } else {
@@ -70,8 +77,11 @@ pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, us
     let stated = of_stated(observations);
     for row in unknown {
         let o = &observations[row];
-        let (count, sigma) = if let Some(sigma) = neighbours[row] {
-            (&mut estimated.neighbours, sigma)
+        let (count, sigma) = if let Some((sigma, own)) = neighbours[row] {
+            match own {
+                true => (&mut estimated.neighbours, sigma),
+                false => (&mut estimated.others, sigma),
+            }
         } else if let Some(sigma) = repeats.get(&o.quantity) {
             (&mut estimated.repeats, *sigma)
         } else if let Some(sigma) = stated.get(&o.quantity) {
@@ -85,8 +95,8 @@ pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, us
     Ok(estimated)
 }
 
-/// Of each row by the scatter of its curve, or of the quantity's middle curve.
-fn of_neighbours(observations: &[Observation]) -> Vec<Option<f64>> {
+/// Of each row by the scatter of its curve, or of the quantity's middle curve; false where that is of other curves though its own has one.
+fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
     let rows: Vec<&Observation> = observations.iter().collect();
     let along = (curves(&rows).into_iter()).map(|curve| (points(&rows, &curve), curve));
     let in_time = (series(&rows).into_iter()).map(|own| {
@@ -94,24 +104,42 @@ fn of_neighbours(observations: &[Observation]) -> Vec<Option<f64>> {
         (own.iter().map(point).collect(), own)
     });
     let mut found = vec![None; rows.len()];
-    let mut middle: BTreeMap<Quantity, Vec<f64>> = BTreeMap::new();
+    let mut quantities: BTreeMap<Quantity, Vec<Curve>> = BTreeMap::new();
     let all: Vec<(Vec<[f64; 3]>, Vec<usize>)> = along.chain(in_time).collect();
-    for (points, own) in &all {
-        let Some(scatter) = scatter(points) else {
-            continue;
-        };
-        let quantity = rows[own[0]].quantity;
-        middle.entry(quantity).or_default().push(scatter);
-        if own.len() >= ENOUGH {
-            own.iter().for_each(|&row| found[row] = Some(scatter));
+    for (points, own) in all {
+        if let Some([scatter, largest]) = scatter(&points) {
+            let quantity = quantities.entry(rows[own[0]].quantity).or_default();
+            quantity.push(Curve {
+                rows: own,
+                scatter,
+                largest,
+            });
         }
     }
-    for (row, found) in found.iter_mut().enumerate() {
-        if let Some(all) = middle.get_mut(&rows[row].quantity) {
-            *found = found.or_else(|| Some(median(all)));
+    for (quantity, curves) in &quantities {
+        let of =
+            |f: &dyn Fn(&Curve) -> f64| median(&mut curves.iter().map(f).collect::<Vec<f64>>());
+        let (middle, share) = (of(&|c| c.scatter), of(&|c| c.scatter / c.largest));
+        for curve in curves.iter().filter(|curve| curve.rows.len() >= ENOUGH) {
+            let others = middle.min(share * curve.largest);
+            let own = curve.scatter >= FILTERED * others;
+            let sigma = if own { curve.scatter } else { others };
+            (curve.rows.iter()).for_each(|&row| found[row] = Some((sigma, own)));
+        }
+        for (row, found) in found.iter_mut().enumerate() {
+            if rows[row].quantity == *quantity {
+                *found = found.or(Some((middle, true)));
+            }
         }
     }
     found
+}
+
+/// Rows of one curve, and how they scatter.
+struct Curve {
+    rows: Vec<usize>,
+    scatter: f64,
+    largest: f64,
 }
 
 /// Rows without a position by test, member and quantity, in the order of their cycles.
@@ -130,8 +158,8 @@ fn series(rows: &[&Observation]) -> Vec<Vec<usize>> {
     series
 }
 
-/// Scatter of a curve's points about what their neighbours lead one to expect: no less than a thousandth of its largest value.
-fn scatter(points: &[[f64; 3]]) -> Option<f64> {
+/// Scatter of a curve's points about what their neighbours lead one to expect, no less than a thousandth of its largest value, and that value.
+fn scatter(points: &[[f64; 3]]) -> Option<[f64; 2]> {
     let even: Vec<[f64; 3]> = points.iter().map(|[x, y, _]| [*x, *y, 1.0]).collect();
     let none = vec![false; even.len()];
     let mut apart: Vec<f64> = (0..even.len())
@@ -142,7 +170,7 @@ fn scatter(points: &[[f64; 3]]) -> Option<f64> {
         .collect();
     let largest = even.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
     let found = (!apart.is_empty()).then(|| median(&mut apart) / MEDIAN)?;
-    (largest > 0.0).then(|| found.max(LEAST * largest))
+    (largest > 0.0).then(|| [found.max(LEAST * largest), largest])
 }
 
 /// Of each quantity by values of the same place and time.

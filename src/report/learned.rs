@@ -34,14 +34,16 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
     .curve("two standard deviations above", Style::Line(4), curve(BAND))
     .curve("and below", Style::Line(4), curve(-BAND))
     .logarithmic();
-    let mut table = Table::new("", ["law", "ln evidence over the model without it"]).row([
+    let mut table = Table::new("", ["law", "ln evidence over the model without it", "by"]).row([
         Cell::text(learned.name.clone()),
         Cell::number(format!("{:.1}", learned.evidence_gain)),
+        Cell::text(learned.decided_by.name()),
     ]);
     for other in learned.others.iter().take(OTHERS) {
         table = table.row([
             Cell::text(other.name.clone()),
             Cell::number(format!("{:.1}", other.evidence_gain)),
+            Cell::text(other.decided_by.name()),
         ]);
     }
     Section::new("A law learned from the measurements")

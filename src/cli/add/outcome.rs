@@ -49,11 +49,14 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             100.0 * share.max(0.0)
         );
     } else if !comparison.converged {
-        let _ = writeln!(
-            text,
-            "  the fit came to no end: these are the values where it stopped, not what the measurements ask for; another effect, or a \
-             parameter that is set (--set), may be the answer"
-        );
+        let why = if within_noise(&comparison.fit) {
+            "it describes the fit tests within their noise, but they hardly tell its parameters apart, so that it wanders along a flat valley; set one \
+             that you know (--set), or measure where they differ"
+        } else {
+            "these are the values where it stopped, not what the measurements ask for; another effect, or a parameter that is set (--set), may be \
+             the answer"
+        };
+        let _ = writeln!(text, "  the fit came to no end: {why}");
     }
     let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
     let without = addition.without_chi2_per_point;
@@ -167,4 +170,10 @@ impl Report {
             success: true,
         }
     }
+}
+
+/// Whether χ² is no more than noise makes.
+fn within_noise(fit: &Share) -> bool {
+    let most = 1.0 + 3.0 * (2.0 / fit.points.max(1) as f64).sqrt();
+    fit.chi2_per_point.is_some_and(|chi2| chi2 < most)
 }

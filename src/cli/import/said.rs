@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use super::ImportArgs;
+use super::{ImportArgs, ShareOf};
 use crate::measure::import::{Across, Entry, Long, Titles, UnitFrom, Wide};
 use crate::measure::{Quantity, Subject};
 
@@ -47,8 +47,8 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         (unit, _) => unit.clone(),
     };
     let test = match &wide.test {
-        (id, true) => format!("{id} (the sheet's name says so)"),
-        (id, false) => id.clone(),
+        (id, Some(says)) => format!("{id} ({says})"),
+        (id, None) => id.clone(),
     };
     let mut text = String::new();
     line(&mut text, "table", table);
@@ -59,8 +59,13 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
     let sign = sign(wide.turned, args.turn_sign);
     let of = members(&wide.members).replace(' ', " and ");
     let values = format!(
-        "{} of the {of} in test {test}, in {unit}{sign}",
-        wide.quantity.name()
+        "{} of the {of} in {} {test}, in {unit}{sign}",
+        wide.quantity.name(),
+        if wide.test.0.contains(',') {
+            "tests"
+        } else {
+            "test"
+        }
     );
     line(&mut text, "values", &values);
     line(
@@ -145,7 +150,7 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
         .map_or(Quantity::WearDepth, |entry| entry.quantity)
         .unit();
     let sigma = match entries.iter().filter(|entry| entry.sigma.is_none()).count() {
-        _ if args.sigma.is_some() => stated_sigma(args, unit),
+        _ if args.sigma.is_some() || args.relative_sigma > 0.0 => stated_sigma(args, unit),
         0 => "as the column says".to_owned(),
         n if n == entries.len() => stated_sigma(args, unit),
         n => format!("as the column says; empty in {n} rows, where it is estimated"),
@@ -194,12 +199,20 @@ fn members(members: &[Subject]) -> String {
 
 /// What is said of the standard deviation where no column has it.
 fn stated_sigma(args: &ImportArgs, unit: &str) -> String {
-    let Some(sigma) = args.sigma else {
-        return "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned();
+    let of = match args.relative_to {
+        ShareOf::Value => "the value",
+        ShareOf::Largest => "the largest value of its curve",
     };
-    let share = match args.relative_sigma {
-        0.0 => String::new(),
-        share => format!(", and {} % of the value", 100.0 * share),
-    };
-    format!("{sigma} {unit} for each{share}")
+    let share = format!("{} % of {of}", rounded_percent(args.relative_sigma));
+    match (args.sigma, args.relative_sigma > 0.0) {
+        (None, false) => "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned(),
+        (None, true) => share,
+        (Some(sigma), false) => format!("{sigma} {unit} for each"),
+        (Some(sigma), true) => format!("{sigma} {unit} for each, and {share}"),
+    }
+}
+
+/// A share in percent without a trail of rounding.
+fn rounded_percent(share: f64) -> f64 {
+    (1e8 * share).round() / 1e6
 }

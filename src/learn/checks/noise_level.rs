@@ -17,6 +17,7 @@ use crate::learn::likelihood::Likelihood;
 use crate::learn::noise::SigmaModel;
 use crate::measure::neighbours::curves;
 use crate::measure::{Dataset, Observation, Quantity};
+use crate::study::{Role, Study};
 
 /// Differences needed for an estimate.
 const LEAST: usize = 100;
@@ -52,11 +53,27 @@ fn of_residual(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
 }
 
 /// How neighbouring points scatter about a fit where that is not as their stated σ say, in words.
-pub fn stated_sigma(data: &Dataset, fit: &Fit) -> Option<String> {
+pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
     let rows: Vec<&Observation> = data.observations.iter().collect();
     let residual = (rows.iter().zip(&fit.rows)).map(|(o, row)| row.standardised * o.sigma);
     let residual: Vec<f64> = residual.collect();
-    scatter_in_words(of_residual(&rows, &residual))
+    let fitted = |row: &usize| study.tests[rows[*row].test].role == Role::Fit;
+    let fitted: Vec<usize> = (0..rows.len()).filter(fitted).collect();
+    let own: Vec<&Observation> = fitted.iter().map(|&row| rows[row]).collect();
+    let of_own: Vec<f64> = fitted.iter().map(|&row| residual[row]).collect();
+    let scatter = scale(&differences(&own, &of_own), &SigmaModel::AS_STATED.of(&own));
+    match scatter.filter(|found| *found < SMOOTH) {
+        Some(smooth) => Some(smooth_in_words(smooth)),
+        None => scatter_in_words(of_residual(&rows, &residual)),
+    }
+}
+
+/// A scatter far below the stated σ in words.
+pub(in crate::learn) fn smooth_in_words(scatter: f64) -> String {
+    format!(
+        "neighbouring points of a trace scatter only {scatter:.2} times their stated sigma: if sigma is overstated weak effects stay hidden (leave the \
+         column sigma empty, and it is estimated); if the traces were filtered their points are not independent and every probability is too bold"
+    )
 }
 
 /// The same of the σ that the scatter calls for.

@@ -10,6 +10,7 @@ use super::sanity::sanity;
 use super::uncertainty::{Validation, validate};
 use crate::learn::fitted::Fit;
 use crate::learn::parameters::Estimate;
+use crate::learn::quantity_misfit::misfit_of_one_quantity;
 use crate::learn::region::Map;
 use crate::measure::{Dataset, Quantity};
 use crate::study::{Role, Study};
@@ -179,7 +180,9 @@ impl Comparison {
             worst,
             correlation: correlation(fit),
             sanity: sanity(study, data, fit),
-            warnings: fit_warnings(data, fit),
+            warnings: (misfit_of_one_quantity(study, data, fit).into_iter())
+                .chain(fit_warnings(data, fit))
+                .collect(),
             tests: test_records(study, fit, &rows),
             coefficient_prior: coefficient_prior(study),
             coefficient_scatter: fit.scatter,

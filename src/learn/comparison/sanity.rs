@@ -23,6 +23,8 @@ const EXPLAINS_OVER_A_ROTATION: f64 = 0.8;
 const FACTOR: f64 = 2.5;
 /// How far from a known factor it is told by name.
 const NEAR: f64 = 0.25;
+/// How far from its number of teeth the factor of either member may be.
+const NEAR_TEETH: f64 = 1.7;
 /// Specific wear coefficients that a gear may have, mm²/N (a thousandth of the figure in mm³/(N m)): steel under a full film lies at the
 /// lower end, unlubricated adhesive wear of metals at 1e-7 to 1e-6.
 const COEFFICIENTS: [f64; 2] = [1e-13, 1e-5];
@@ -151,6 +153,17 @@ fn scale(rows: &[Fitted<'_>], quantity: Quantity, member: Option<Subject>) -> Op
     })
 }
 
+/// Sum of a quantity of a member over that of the model.
+fn total(rows: &[Fitted<'_>], quantity: Quantity, member: Subject) -> Option<f64> {
+    let own = rows
+        .iter()
+        .filter(|(o, _)| o.quantity == quantity && o.member == member);
+    let (value, model) = own.fold((0.0, 0.0), |(value, model), (o, row)| {
+        (value + o.value, model + row.model)
+    });
+    (model > 0.0).then(|| value / model)
+}
+
 /// Quantities that run against the computed ones.
 fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
     let turned = |quantity, member, explains: f64| {
@@ -192,21 +205,34 @@ fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<String> {
         let depth = scale(rows, Quantity::WearDepth, Some(member))?;
         let mass = scale(rows, Quantity::MassLoss, Some(member))?;
         let sure = depth.explains.min(mass.explains) > EXPLAINS && mass.factor > 0.0;
-        sure.then(|| depth.factor / mass.factor)
+        // a unit is that of all masses, not of the one that its sigma makes weigh most
+        let of_all = total(rows, Quantity::MassLoss, member).filter(|total| *total > 0.0)?;
+        let [one, all] = [mass.factor, of_all].map(|mass| depth.factor / mass);
+        let nearer = if one.ln().abs() < all.ln().abs() {
+            one
+        } else {
+            all
+        };
+        (sure && (one > 1.0) == (all > 1.0)).then_some(nearer)
     };
     let gears = &study.gears;
     let members = [
         (Subject::Pinion, gears.pinion.spec.teeth),
         (Subject::Gear, gears.gear.spec.teeth),
     ];
-    let (member, teeth, ratio) = members
+    let ratios: Vec<(Subject, f64, f64)> = members
         .into_iter()
-        .filter_map(|(member, teeth)| Some((member, teeth, of(member)?)))
-        .max_by(|a, b| a.2.ln().abs().total_cmp(&b.2.ln().abs()))?;
+        .filter_map(|(member, teeth)| Some((member, f64::from(teeth), of(member)?)))
+        .collect();
+    let (member, teeth, ratio) =
+        (ratios.iter().copied()).max_by(|a, b| a.2.ln().abs().total_cmp(&b.2.ln().abs()))?;
     if ratio.ln().abs() < FACTOR.ln() {
         return None;
     }
-    let teeth = f64::from(teeth);
+    // what else is missing may pull at one member, hardly at both alike
+    let one_tooth =
+        |(_, teeth, ratio): &(Subject, f64, f64)| (ratio / teeth).ln().abs() < NEAR_TEETH.ln();
+    let of_one_tooth = ratios.len() > 1 && ratios.iter().all(one_tooth);
     let known = [
         (
             1e3,
@@ -223,7 +249,9 @@ fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<String> {
         ),
     ];
     let hint = (known.iter())
-        .find(|(factor, _)| (ratio / factor - 1.0).abs() < NEAR)
+        .find(|(factor, _)| {
+            (ratio / factor - 1.0).abs() < NEAR || *factor == teeth && of_one_tooth
+        })
         .map_or(
             "look at their units (µm and mg), at density and face_width, and whether the mass is the whole member's",
             |(_, hint)| hint,

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::candidate_tests::{
-    APART, ENOUGH, NEARLY, NextTest, changes, grid, ranked, shown, strength,
+    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, grid, ranked, shown, strength,
 };
 use super::discrimination::{Discrimination, PlannedResponse, Whitening};
 use super::measurement_design::MeasurementDesign;
@@ -113,7 +113,7 @@ fn experiment(
     let (beside, together) = beside(&told.discrimination, &found[..count], &tests);
     let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
     Some(NextExperiment {
-        why: sentence(context, &test, &names, told, repetition)
+        why: sentence(context, &test, &names, told, [repetition, together])
             + &more(
                 &test,
                 &further,
@@ -276,8 +276,19 @@ fn sentence(
     test: &NextTest,
     names: &[String; 2],
     told: &TestDiscrimination,
-    repetition: f64,
+    [repetition, together]: [f64; 2],
 ) -> String {
+    let alone = told.chi2();
+    let verb = if alone < CLEAR {
+        "hardly separates"
+    } else {
+        "separates"
+    };
+    let strength = if alone < CLEAR && together >= CLEAR {
+        "too little by itself"
+    } else {
+        strength(alone)
+    };
     let place = match told.place.largest {
         0.0 => "with the quantities measured so far".to_owned(),
         largest => format!(
@@ -286,12 +297,10 @@ fn sentence(
         ),
     };
     format!(
-        "A test with {} separates {} from {}: after refitting they differ there by χ² {:.0}, {} (a repetition of a test made already: {:.0}); {place}.",
+        "A test with {} {verb} {} from {}: after refitting they differ there by χ² {alone:.0}, {strength} (a repetition of a test made already: {:.0}); {place}.",
         changes(test, &context.likelihood.measured.study().operation),
         names[0],
         names[1],
-        told.chi2(),
-        strength(told.chi2()),
         repetition
     )
 }

@@ -1,32 +1,39 @@
 //! A learned law in words.
 
 use super::diagnosis::Diagnosis;
+use crate::learn::fidelity::Fidelity;
 use crate::learn::model_search::learned_drivers::LearnedAnswer;
 
 impl Diagnosis {
-    /// With a law learned from the measurements, said beside what else there is to say; `base` is χ² per point of the fit tests without it by the
-    /// model that decides.
-    pub(in crate::learn) fn with_learned(
-        mut self,
-        learned: Option<LearnedAnswer>,
-        base: f64,
-    ) -> Self {
+    /// With a law learned from the measurements, said beside what else there is to say.
+    pub(in crate::learn) fn with_learned(mut self, learned: Option<LearnedAnswer>) -> Self {
         if let Some(learned) = &learned {
-            self.reasons.push(said(learned, base));
-            self.next_step = format!(
-                "gearwear add STUDY {}, and see whether the held-out error falls; or: {}",
-                learned.name, self.next_step
-            );
+            self.reasons.push(said(learned));
+            let add = match carries_over(learned) {
+                Some(true) => Some("and see the held-out error fall"),
+                None => Some("and hold a test out to see whether the law carries over"),
+                // it describes the fitted tests and no others
+                Some(false) => None,
+            };
+            if let Some(why) = add {
+                self.next_step = format!(
+                    "gearwear add STUDY {}, {why}; or: {}",
+                    learned.name, self.next_step
+                );
+            }
         }
         self.learned = learned;
         self
     }
 }
 
-/// χ² per point of the deciding model, as a share of the analytic one's, below which the latter's own error is a part of what a law takes away.
-const OWN_ERROR: f64 = 0.9;
+/// Whether the law carries over to the held-out tests; None where none is held out.
+fn carries_over(learned: &LearnedAnswer) -> Option<bool> {
+    let [before, after] = learned.holdout_chi2_per_point?;
+    Some(after < before)
+}
 
-fn said(learned: &LearnedAnswer, base: f64) -> String {
+fn said(learned: &LearnedAnswer) -> String {
     let least = learned.values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = learned
         .values
@@ -42,14 +49,19 @@ fn said(learned: &LearnedAnswer, base: f64) -> String {
         Some([before, after]) => format!(", of the held-out tests from {before:.2} to {after:.2}"),
         None => String::new(),
     };
-    let by = if base < OWN_ERROR * before {
-        format!(
-            "by the analytic model, whose own error is part of these figures: by finite elements χ² is {base:.2} without the law"
-        )
-    } else {
-        "by the analytic model".to_owned()
+    let by = match learned.decided_by {
+        Fidelity::Screening => "by the analytic model",
+        Fidelity::Middle | Fidelity::Full => "by finite elements",
     };
-    let next = learned.others.first().map_or(String::new(), |other| {
+    let not = if carries_over(learned) == Some(false) {
+        " It does not carry over to the held-out tests: do not add it. What acts there differs from test to test, or depends on something else."
+    } else {
+        ""
+    };
+    let mut others = learned.others.iter();
+    // gains of another model are no measure of this one's
+    let other = others.find(|other| other.decided_by == learned.decided_by);
+    let next = other.map_or(String::new(), |other| {
         format!(
             "; the next driver, {}, has {:.0} less of ln evidence",
             other.name.trim_start_matches("learned:"),
@@ -57,7 +69,7 @@ fn said(learned: &LearnedAnswer, base: f64) -> String {
         )
     });
     format!(
-        "A learned law: k times {:.2} to {:.2}{on}, following {}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.",
+        "A learned law: k times {:.2} to {:.2}{on}, following {}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{not}",
         least.exp(),
         most.exp(),
         learned.driver

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
-use super::wording::{Explanation, before, chi2, percent, values};
+use super::wording::{Explanation, added, before, chi2, percent, values};
 use crate::learn::decision::Verdict;
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -75,15 +75,21 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
             .decision
             .probability(&Hypothesis::EffectsAndUnknown(effects.clone()))
     };
+    // the hypothesis that is established has the rest beside it: alone the effect would take a part of that too
+    let beside_fit = |effects: &EffectSet| {
+        let hypothesis = Hypothesis::EffectsAndUnknown(effects.clone());
+        let fitted = posterior.fitted(findings.base, &hypothesis);
+        fitted.or_else(|| posterior.best_form(effects))
+    };
     let sentence = match &group[..] {
         [effects] => {
-            let fitted = posterior.best_form(effects);
-            let with = fitted.map_or(String::new(), |fitted| {
+            let alone = posterior.best_form(effects);
+            let with = alone.zip(beside_fit(effects)).map_or(String::new(), |(alone, beside)| {
                 format!(
-                    " With it χ² per point falls from {:.2} to {:.2}; {}.",
+                    " With it alone χ² per point falls from {:.2} to {:.2}; beside what is left, {}.",
                     before(findings),
-                    chi2(findings, fitted),
-                    values(fitted)
+                    chi2(findings, alone),
+                    values(beside)
                 )
             });
             format!(
@@ -124,7 +130,8 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     }
     let next_step = match &group[..] {
         [effects] => format!(
-            "gearwear add STUDY {effects}, then diagnose the new study: what remains is judged with the effect in; `gearwear climb STUDY` goes on so step by step"
+            "{}, then diagnose the new study: what remains is judged with the effect in; `gearwear climb STUDY` goes on so step by step",
+            beside_fit(effects).map_or_else(|| format!("gearwear add STUDY {effects}"), |fit| added(&fit.candidate))
         ),
         _ => "make the proposed test, or add each in turn and see which lowers the held-out error, as gearwear climb STUDY does; then diagnose the new study".to_owned(),
     };

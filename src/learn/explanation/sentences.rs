@@ -2,7 +2,7 @@
 
 use super::findings::Findings;
 use super::remainder::partial;
-use super::wording::{Explanation, before, chi2, percent, values};
+use super::wording::{Explanation, added, before, chi2, percent, values};
 use crate::effects::Card;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::checks::sufficiency::{few, measured_once};
@@ -213,11 +213,6 @@ fn common_to_pairs(by_probability: &[EffectSet]) -> Option<&'static Card> {
 fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     let candidate = &leader.candidate;
     let several = candidate.effects.len() > 1;
-    let added = candidate.added_forms().map(|(card, form)| match form {
-        None if several => format!("gearwear add STUDY {} --form own", card.name),
-        None => format!("gearwear add STUDY {}", card.name),
-        Some(form) => format!("gearwear add STUDY {} --form \"{}\"", card.name, form.name),
-    });
     let shows = |card: &&'static Card| format!("How {} shows: {}.", card.name, card.signature);
     Explanation {
         sentence: format!(
@@ -234,14 +229,38 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
             values(leader)
         ),
         reasons: candidate.effects.cards().iter().map(shows).collect(),
-        next_step: (added.collect::<Vec<_>>()).join(", then the same with the new study: "),
+        next_step: added(candidate),
     }
+}
+
+/// The effects that stand in all rivals, if these are sets of several, and the probability that they are missing.
+fn common_to(rivals: &[(&Hypothesis, f64)], decision: &Decision) -> Option<(EffectSet, f64)> {
+    let sets: Option<Vec<&EffectSet>> = (rivals.iter())
+        .map(|(hypothesis, _)| match hypothesis {
+            Hypothesis::Effects(effects) if effects.len() > 1 => Some(effects),
+            _ => None,
+        })
+        .collect();
+    let [first, others @ ..] = &sets?[..] else {
+        return None;
+    };
+    let everywhere = |card: &&&'static Card| {
+        let alone = EffectSet::new([**card]);
+        others.iter().all(|set| set.contains(&alone))
+    };
+    let common = EffectSet::new(first.cards().iter().filter(everywhere).copied());
+    (!common.is_empty()).then(|| {
+        let probability = decision.probability_in_all(&common);
+        (common, probability)
+    })
 }
 
 fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanation {
     let posterior = findings.posterior;
     let decision = &posterior.decision;
-    let list: Vec<String> = (rivals(decision).iter())
+    let rivals = rivals(decision);
+    let common = common_to(&rivals, decision);
+    let list: Vec<String> = (rivals.iter())
         .map(|(hypothesis, p)| format!("{} ({})", hypothesis.in_words(), percent(*p)))
         .collect();
     let doubted = decision.group.contains(&Hypothesis::Unknown);
@@ -259,7 +278,20 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
         )),
         _ => None,
     };
+    let in_all = common.as_ref().map(|(effects, probability)| {
+        format!(
+            "{} stands in all of them: that it is missing has probability {}.",
+            effects.in_words(),
+            percent(*probability)
+        )
+    });
     let next_step = match (next, unidentified) {
+        (Some(_), _) if common.is_some() => {
+            let common = common.map_or(String::new(), |(effects, _)| effects.to_string());
+            format!(
+                "gearwear add STUDY {common}, which stands in all of them; make the proposed test before adding what they differ in"
+            )
+        }
         (Some(_), _) => "make the proposed test before adding one of them".to_owned(),
         (None, Some((card, _))) => {
             format!("what shows whether it is {}: {}", card.name, card.separated_by)
@@ -272,7 +304,7 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
             list.join(", "),
             before(findings)
         ),
-        reasons: reason.into_iter().collect(),
+        reasons: in_all.into_iter().chain(reason).collect(),
         next_step,
     }
 }

@@ -12,6 +12,7 @@ use crate::learn::hypothesis::Hypothesis;
 use crate::learn::model_search::context::Context;
 use crate::learn::noise::SigmaModel;
 use crate::learn::parameters::Estimate;
+use crate::learn::quantity_misfit::carried_by;
 
 /// Share of a parameter's prior outside of which a value is told.
 const UNHEARD_OF: f64 = 1e-3;
@@ -38,10 +39,12 @@ pub(in crate::learn) fn warnings(
     if sigma == SigmaModel::AS_STATED
         && let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model)
     {
-        warnings.push(format!(
-            "neighbouring points of a trace scatter only {smooth:.2} times their stated sigma: if the traces were filtered their points are not independent and every probability here is too bold; if sigma is overstated, weak effects stay hidden"
-        ));
+        warnings.push(noise_level::smooth_in_words(smooth));
     }
+    let leading = posterior.leading_fit(base).unwrap_or(&base.fitted);
+    let standardised = likelihood.standardised(&leading.found.model);
+    let rows = (0..likelihood.len()).map(|row| likelihood.observation(row));
+    warnings.extend(carried_by(rows.zip(standardised)));
     let data = &likelihood.measured.data;
     // rows stand apart by so many stated sigmas
     if matches!(sigma, SigmaModel::Stated { .. }) {

@@ -3,6 +3,7 @@
 use super::findings::Findings;
 use super::ranked::parameters;
 use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::hypothesis::candidate::Candidate;
 
 /// The verdict in words.
 pub(super) struct Explanation {
@@ -48,6 +49,17 @@ pub(super) fn values(j: &FittedCandidate) -> String {
         })
         .collect();
     all.join(", ")
+}
+
+/// The commands that add a candidate's effects in its forms, one after the other.
+pub(super) fn added(candidate: &Candidate) -> String {
+    let several = candidate.effects.len() > 1;
+    let added = candidate.added_forms().map(|(card, form)| match form {
+        None if several => format!("gearwear add STUDY {} --form own", card.name),
+        None => format!("gearwear add STUDY {}", card.name),
+        Some(form) => format!("gearwear add STUDY {} --form \"{}\"", card.name, form.name),
+    });
+    (added.collect::<Vec<_>>()).join(", then the same with the new study: ")
 }
 
 /// A value and its standard deviation with as many digits as the latter has two of.

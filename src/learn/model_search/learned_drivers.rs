@@ -1,13 +1,15 @@
 //! What nothing of the catalogue explains, as a law of one driver: every driver a candidate, the one with the greatest evidence the answer.
 //!
 //! Each is first fitted with one size and length of its process, the best few with all; by the analytic model, which tells drivers apart at
-//! a hundredth of the price of finite elements and only has to rank them here: `add` fits the law by the study's own model.
+//! a hundredth of the price of finite elements. Those few are then fitted by the model that decides: what a law promises must not be what
+//! mends the analytic model's own error.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::context::Context;
 use crate::effects::Hook;
+use crate::learn::bench::Bench;
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted::Fit;
 use crate::learn::fitted_candidate::FittedCandidate;
@@ -71,7 +73,7 @@ pub struct LearnedAnswer {
     pub holdout_chi2_per_point: Option<[f64; 2]>,
     /// By which model.
     pub decided_by: Fidelity,
-    /// The other drivers, the best first.
+    /// The other drivers: those that the same model looked at, then those that only the analytic one did; the best of each first.
     pub others: Vec<OtherDriver>,
 }
 
@@ -82,17 +84,66 @@ pub struct OtherDriver {
     pub name: String,
     /// Log evidence over the same model without it.
     pub evidence_gain: f64,
+    /// By which model.
+    #[serde(default = "analytic")]
+    pub decided_by: Fidelity,
 }
 
-/// The law beside what is `known` that the measurements ask for most, by the analytic model; None where none is worth its freedom.
+/// Of results of before the deciding model looked at laws.
+fn analytic() -> Fidelity {
+    Fidelity::Screening
+}
+
+/// The laws that one model fitted, the greatest evidence first.
+struct Ranked {
+    without: Fit,
+    laws: Vec<(WantedLaw, LearnedFit)>,
+    by: Fidelity,
+}
+
+impl Ranked {
+    fn new(without: Fit, mut laws: Vec<(WantedLaw, LearnedFit)>, by: Fidelity) -> Self {
+        laws.sort_by(|a, b| b.1.log_evidence.total_cmp(&a.1.log_evidence));
+        Self { without, laws, by }
+    }
+
+    fn gain(&self, law: &LearnedFit) -> f64 {
+        law.log_evidence - self.without.log_evidence
+    }
+
+    /// All laws but the first `skipped` as what was looked at beside.
+    fn others(&self, skipped: usize) -> impl Iterator<Item = OtherDriver> {
+        self.laws
+            .iter()
+            .skip(skipped)
+            .map(|(law, fit)| OtherDriver {
+                name: law.name(),
+                evidence_gain: self.gain(fit),
+                decided_by: self.by,
+            })
+    }
+}
+
+/// The law beside what is `known` that the measurements ask for most; None where none is worth its freedom.
 pub(in crate::learn) fn learned_driver(
     context: &Context<'_>,
     known: &FittedCandidate,
 ) -> Option<LearnedAnswer> {
+    let screened = screened(context, known)?;
+    // a study whose own model is the analytic one is decided by it
+    if context.fidelity == Fidelity::Screening {
+        return answer(context, &screened, screened.others(1).collect());
+    }
+    let decided = decided(context, known, &screened)?;
+    let others = decided.others(1).chain(screened.others(CLOSELY)).collect();
+    answer(context, &decided, others)
+}
+
+/// Every driver by the analytic model, the best few with every size and length of the process.
+fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<Ranked> {
     let likelihood = &context.likelihood;
     let (measured, version) = (likelihood.measured, &known.candidate.version);
-    // a study whose own model is the analytic one
-    let own = context.fidelity == Fidelity::Screening && !context.approximate;
+    let own = context.fidelity == Fidelity::Screening;
     let bench = if own { context.middle } else { context.hertz };
     let noise = NoiseModel {
         // what finite elements make else is not to be learned as a law
@@ -103,14 +154,7 @@ pub(in crate::learn) fn learned_driver(
         },
         ..likelihood.noise
     };
-    let (_, start) = likelihood.arguments(&known.candidate.parameters, &known.found.state);
-    let effort = Effort {
-        settle: 0,
-        ..Effort::for_simulations()
-    };
-    let without = measured
-        .fit(bench, version, noise, &[start], &effort, &|_| {})
-        .ok()?;
+    let without = without(context, known, bench, noise)?;
     let study = measured.study();
     let wanted: Vec<WantedLaw> = (DRIVERS.iter())
         .filter_map(|name| WantedLaw::of_name(&format!("learned:{name}"), Hook::WearFactor).ok())
@@ -121,29 +165,66 @@ pub(in crate::learn) fn learned_driver(
         let found = measured.glance(bench, version, &without, law, noise).ok()?;
         Some((*law, found))
     };
-    let mut found: Vec<(WantedLaw, LearnedFit)> = wanted.par_iter().filter_map(look).collect();
-    let best_first = |found: &mut Vec<(WantedLaw, LearnedFit)>| {
-        found.sort_by(|a, b| b.1.log_evidence.total_cmp(&a.1.log_evidence));
-    };
-    best_first(&mut found);
-    let count = found.len().min(CLOSELY);
+    let glances = wanted.par_iter().filter_map(look).collect();
+    let mut laws = Ranked::new(without.clone(), glances, Fidelity::Screening).laws;
+    let count = laws.len().min(CLOSELY);
     let close = |(law, glance): &(WantedLaw, LearnedFit)| {
         let learned = measured.learn(bench, version, &without, law, noise, &|_| {});
         (*law, learned.unwrap_or_else(|_| glance.clone()))
     };
-    let closer: Vec<(WantedLaw, LearnedFit)> = found[..count].par_iter().map(close).collect();
-    found.splice(..count, closer);
-    best_first(&mut found);
-    let gain = |fit: &LearnedFit| fit.log_evidence - without.log_evidence;
-    let ((law, best), others) = found.split_first()?;
+    let closer: Vec<(WantedLaw, LearnedFit)> = laws[..count].par_iter().map(close).collect();
+    laws.splice(..count, closer);
+    Some(Ranked::new(without, laws, Fidelity::Screening))
+}
+
+/// The best few by the model that decides; None where none of them can be fitted by it.
+fn decided(context: &Context<'_>, known: &FittedCandidate, screened: &Ranked) -> Option<Ranked> {
+    let (bench, noise) = (context.exact, context.likelihood.noise);
+    let (measured, version) = (context.likelihood.measured, &known.candidate.version);
+    let without = without(context, known, bench, noise)?;
+    let again = |(law, found): &(WantedLaw, LearnedFit)| {
+        let found = measured.relearn(bench, version, &without, found, noise);
+        Some((*law, found.ok()?))
+    };
+    let best = screened.laws.par_iter().take(CLOSELY);
+    let laws = best.filter_map(again).collect();
+    Some(Ranked::new(without, laws, context.fidelity))
+}
+
+/// The model without a law, fitted from where it is known to stand.
+fn without(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+    bench: &Bench<'_>,
+    noise: NoiseModel,
+) -> Option<Fit> {
+    let likelihood = &context.likelihood;
+    let (_, start) = likelihood.arguments(&known.candidate.parameters, &known.found.state);
+    let effort = Effort {
+        settle: 0,
+        ..Effort::for_simulations()
+    };
+    let version = &known.candidate.version;
+    let fit = (likelihood.measured).fit(bench, version, noise, &[start], &effort, &|_| {});
+    fit.ok()
+}
+
+/// The best law, if it is worth its freedom.
+fn answer(
+    context: &Context<'_>,
+    ranked: &Ranked,
+    others: Vec<OtherDriver>,
+) -> Option<LearnedAnswer> {
+    let (law, best) = ranked.laws.first()?;
+    let measured = context.likelihood.measured;
     let both = |role| {
         Some([
-            chi2(measured, &without, role)?,
+            chi2(measured, &ranked.without, role)?,
             chi2(measured, &best.fit, role)?,
         ])
     };
     let fitted = both(Role::Fit)?;
-    if !is_worth(gain(best), fitted) {
+    if !is_worth(ranked.gain(best), fitted) {
         return None;
     }
     Some(LearnedAnswer {
@@ -155,7 +236,7 @@ pub(in crate::learn) fn learned_driver(
             .member
             .map_or("both", crate::gear::Member::name)
             .to_owned(),
-        evidence_gain: gain(best),
+        evidence_gain: ranked.gain(best),
         knots: best.law.law.knots().to_vec(),
         values: best.law.values.clone(),
         sigma: deviations(&best.law, &best.fit),
@@ -163,13 +244,8 @@ pub(in crate::learn) fn learned_driver(
         length: best.law.length,
         fit_chi2_per_point: fitted,
         holdout_chi2_per_point: both(Role::Holdout),
-        decided_by: Fidelity::Screening,
-        others: (others.iter())
-            .map(|(law, fit)| OtherDriver {
-                name: law.name(),
-                evidence_gain: gain(fit),
-            })
-            .collect(),
+        decided_by: ranked.by,
+        others,
     })
 }
 

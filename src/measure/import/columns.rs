@@ -1,5 +1,6 @@
 //! The header of a long table: which column is what.
 
+use super::wanted::Wanted;
 use super::{Sheet, cell_name, units};
 use crate::measure::{Quantity, Subject, names};
 
@@ -30,7 +31,7 @@ impl What {
 }
 
 /// A column.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Column {
     /// Where it stands, counted from 0.
     pub(super) at: usize,
@@ -42,17 +43,22 @@ pub(super) struct Column {
     pub(super) unit: Option<String>,
     /// Whether it counts revolutions of the gear.
     pub(super) of_gear: bool,
+    /// Hours of a unit of it, if it is a running time in place of cycles.
+    pub(super) hours: Option<f64>,
+    /// Whether what stands in it tells what it is, not its name.
+    pub(super) by_content: bool,
 }
 
 impl Column {
     fn of(at: usize, written: &str) -> Self {
         let (name, unit) = units::name_and_unit(written);
         let revolutions = names::revolutions(&name);
+        let hours = names::hours(&name, unit.as_deref());
         let what = if written.is_empty() {
             What::Nameless
         } else if names::is_for_people(&name) {
             What::ForPeople
-        } else if revolutions.is_some() {
+        } else if revolutions.is_some() || hours.is_some() {
             What::Own("cycles")
         } else {
             match (names::column(&name), names::quantity(&name)) {
@@ -74,7 +80,13 @@ impl Column {
             what,
             of_gear: what == What::Own("cycles") && whose == Some(Subject::Gear),
             unit,
+            hours,
+            by_content: false,
         }
+    }
+
+    fn is(&self, name: &str) -> bool {
+        self.what.own() == Some(name)
     }
 
     /// The name of its header's cell.
@@ -100,11 +112,50 @@ pub(super) fn columns(row: &[String]) -> Vec<Column> {
         .rposition(|cell| !cell.is_empty())
         .map_or(0, |at| at + 1);
     let cells = row[..named].iter().enumerate();
-    cells.map(|(at, cell)| Column::of(at, cell)).collect()
+    let mut columns: Vec<Column> = cells.map(|(at, cell)| Column::of(at, cell)).collect();
+    // a running time beside cycles says nothing more
+    if (columns.iter()).any(|column| column.is("cycles") && column.hours.is_none()) {
+        for column in columns.iter_mut().filter(|column| column.hours.is_some()) {
+            column.what = What::ForPeople;
+        }
+    }
+    columns
+}
+
+/// Takes a column that its name does not tell for the tests or the members if nothing else stands in it and no other column has them: passed over,
+/// all its values would go to one of them.
+pub(super) fn known_by_content(
+    columns: &mut [Column],
+    sheet: &Sheet,
+    head: usize,
+    wanted: &Wanted<'_>,
+) {
+    // numbers may count anything
+    let is_test = |text: &str| wanted.test_of(text).is_some() && text.parse::<f64>().is_err();
+    let is_member = |text: &str| names::member(text).is_some();
+    let contents: [(&'static str, &dyn Fn(&str) -> bool); 2] =
+        [("test", &is_test), ("member", &is_member)];
+    for (name, is_it) in contents {
+        if has(columns, name) {
+            continue;
+        }
+        let holds = |column: &&mut Column| {
+            let below = sheet.rows[head + 1..].iter();
+            let mut cells = below
+                .filter_map(|row| row.get(column.at))
+                .filter(|cell| !cell.is_empty())
+                .peekable();
+            column.what == What::Unknown && cells.peek().is_some() && cells.all(|cell| is_it(cell))
+        };
+        if let Some(column) = columns.iter_mut().find(holds) {
+            column.what = What::Own(name);
+            column.by_content = true;
+        }
+    }
 }
 
 fn has(columns: &[Column], name: &str) -> bool {
-    columns.iter().any(|column| column.what.own() == Some(name))
+    columns.iter().any(|column| column.is(name))
 }
 
 /// The row of a long table's header: it has columns of cycles and of values.

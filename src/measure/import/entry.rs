@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::numbers::rounded;
+use super::wanted::ShareOf;
 use super::{ImportError, Wanted, cell_name};
 use crate::measure::{Quantity, Subject};
 
@@ -41,6 +42,19 @@ impl Entry {
             other => format!("{}-", other.name()),
         };
         format!("{}-{}-{what}{}", self.test, self.member.name(), self.cycles)
+    }
+
+    /// What it has in common with all that was measured on its curve.
+    fn curve(&self) -> (String, Subject, u64, Quantity, [String; 3]) {
+        let labels = [&self.trace, &self.face, &self.tooth].map(String::clone);
+        let cycles = self.cycles.to_bits();
+        (
+            self.test.clone(),
+            self.member,
+            cycles,
+            self.quantity,
+            labels,
+        )
     }
 
     /// Its row, with or without the columns `face` and `tooth`.
@@ -122,13 +136,46 @@ pub(super) fn refuse_twice(entries: &[Entry]) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// The standard deviation that the user states for a value.
-pub(super) fn stated_sigma(wanted: &Wanted<'_>, value: f64) -> Option<f64> {
-    let sigma = wanted.sigma?;
-    Some(match wanted.relative_sigma {
-        0.0 => sigma,
-        share => rounded(sigma.hypot(share * value)),
-    })
+/// Least part of the largest sigma of a curve that another may have where it is a share of the value alone.
+const LEAST_PART: f64 = 0.01;
+
+/// Gives the entries without a standard deviation the one that the user states.
+pub(super) fn state_sigma(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<(), ImportError> {
+    if !wanted.states_sigma() {
+        return Ok(());
+    }
+    let mut largest: HashMap<_, f64> = HashMap::new();
+    for entry in entries.iter() {
+        let most = largest.entry(entry.curve()).or_default();
+        *most = most.max(entry.value.abs());
+    }
+    let share = wanted.relative_sigma;
+    for entry in entries.iter_mut().filter(|entry| entry.sigma.is_none()) {
+        let largest = largest[&entry.curve()];
+        let relative = share
+            * match wanted.relative_to {
+                ShareOf::Value => entry.value.abs(),
+                ShareOf::Largest => largest,
+            };
+        let sigma = match wanted.sigma {
+            Some(sigma) => sigma.hypot(relative),
+            None if relative <= LEAST_PART * share * largest => {
+                return Err(ImportError(format!(
+                    "{}: {share} of the value {} would be known far better than the others of its curve: add --sigma, the scatter where little is                      worn, or --relative-to largest",
+                    cell_name(entry.cell.0, entry.cell.1),
+                    rounded(entry.value)
+                )));
+            }
+            None => relative,
+        };
+        entry.sigma = Some(four_digits(sigma));
+    }
+    Ok(())
+}
+
+/// As many as a standard deviation is ever known to.
+fn four_digits(sigma: f64) -> f64 {
+    format!("{sigma:.3e}").parse().unwrap_or(sigma)
 }
 
 /// The names of the traces of a repeated measurement.

@@ -3,8 +3,8 @@
 mod line;
 mod traces;
 
-use super::columns::{Column, What, columns, head, said};
-use super::entry::Entry;
+use super::columns::{Column, What, columns, head, known_by_content, said};
+use super::entry::{Entry, state_sigma};
 use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
@@ -65,7 +65,9 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             head + 1
         )));
     }
-    let columns = columns(&sheet.rows[head]);
+    let mut columns = columns(&sheet.rows[head]);
+    known_by_content(&mut columns, sheet, head, wanted);
+    let columns = columns;
     let read = Read::of(&columns, head, wanted)?;
     let numbers = [read.position, Some(read.value), read.sigma, read.face];
     let sheet = &with_points(sheet, wanted.decimal, |row, column| {
@@ -103,6 +105,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         )));
     }
     let traces = traces::name(&mut entries, &read, wanted)?;
+    state_sigma(&mut entries, wanted)?;
     Ok(Some(Long {
         row: head + 1,
         columns: read.in_words(&columns, single, &titles, wanted)?,
@@ -222,6 +225,10 @@ impl<'t> Read<'t> {
                         _ => kind.name().to_owned(),
                     }
                 }
+                Some("cycles") if column.hours.is_some() => {
+                    "running time, turned into pinion revolutions by the speed of each test"
+                        .to_owned()
+                }
                 Some("cycles") if column.of_gear => {
                     "revolutions of the gear, turned into those of the pinion".to_owned()
                 }
@@ -234,6 +241,7 @@ impl<'t> Read<'t> {
                 {
                     format!("sigma in {}", column.unit.as_deref().unwrap_or_default())
                 }
+                Some(own) if column.by_content => format!("{own}, by what stands in it"),
                 Some(own) => own.to_owned(),
                 None => continue,
             };

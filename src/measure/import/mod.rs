@@ -2,7 +2,7 @@
 //! checkpoint or place.
 //!
 //! ```text
-//! .xlsx or text -> sheets of cells (cells) -> a row for each value (long, columns), or a column for each checkpoint or place (wide, whole)
+//! .xlsx or text -> sheets of cells (cells) -> a row for each value (long, columns), or a column for each checkpoint or place (wide, whole, tests_in_headers)
 //!               -> entries (entry) -> measurements.csv
 //! ```
 
@@ -14,6 +14,7 @@ mod long;
 mod numbers;
 mod place;
 mod sigma_unit;
+mod tests_in_headers;
 mod titles;
 mod units;
 mod wanted;
@@ -27,10 +28,11 @@ pub use entry::{Entry, lines};
 pub use long::{Long, long};
 pub use numbers::Decimal;
 pub use place::PositionKind;
+pub use tests_in_headers::wide;
 pub use titles::Titles;
 pub use units::factor;
-pub use wanted::{UnitFrom, Wanted};
-pub use wide::{Across, Wide, wide};
+pub use wanted::{ShareOf, UnitFrom, Wanted};
+pub use wide::{Across, Wide};
 
 /// Why a table cannot be read as measurements: what is wrong, where, and what to do.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

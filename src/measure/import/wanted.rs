@@ -11,6 +11,8 @@ use crate::measure::{Quantity, Subject, names};
 pub struct Wanted<'a> {
     /// Ids of the study's tests.
     pub tests: Vec<&'a str>,
+    /// Speed of the pinion, rpm, and cycles of each test.
+    pub runs: Vec<[f64; 2]>,
     /// The gears, pinion first.
     pub gears: [&'a Gear; 2],
     /// Id of the test; the table or the sheet's name says it otherwise.
@@ -29,14 +31,25 @@ pub struct Wanted<'a> {
     pub turn_sign: bool,
     /// How decimals are written; the numbers say it otherwise.
     pub decimal: Option<Decimal>,
-    /// One standard deviation, in the quantity's unit; left empty where it is not known.
+    /// One standard deviation, in the quantity's unit; left empty where neither it nor the share is known.
     pub sigma: Option<f64>,
-    /// Another, independent one as a share of the value.
+    /// Another, independent one as a share.
     pub relative_sigma: f64,
+    /// Of what it is a share.
+    pub relative_to: ShareOf,
     /// Whether each checkpoint is a trace with a zero of its own.
     pub traces: bool,
     /// Number of a repeated measurement.
     pub repeat: Option<u32>,
+}
+
+/// Of what a relative standard deviation is a share.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShareOf {
+    /// Of each value.
+    Value,
+    /// Of the largest value of its curve.
+    Largest,
 }
 
 /// What states the unit of values.
@@ -70,8 +83,27 @@ impl Wanted<'_> {
         rounded(of_gear * gear / pinion)
     }
 
-    /// The one test that a table without a column of tests belongs to, and whether the sheet's name says so.
-    pub(super) fn one_test(&self, sheet: &Sheet) -> Result<(String, bool)> {
+    /// Revolutions of the pinion in so many hours of a test, known to within `rounding` hours: the end of the test if that is within.
+    pub(super) fn revolutions_in(&self, test: &str, hours: f64, rounding: f64) -> f64 {
+        let Some(n) = self.tests.iter().position(|id| *id == test) else {
+            return hours;
+        };
+        let [rpm, end] = self.runs[n];
+        let revolutions = 60.0 * rpm * hours;
+        if (revolutions - end).abs() <= 60.0 * rpm * rounding {
+            end
+        } else {
+            revolutions.round()
+        }
+    }
+
+    /// Whether the user states a standard deviation.
+    pub(super) fn states_sigma(&self) -> bool {
+        self.sigma.is_some() || self.relative_sigma > 0.0
+    }
+
+    /// The one test that a table without a column of tests belongs to, and what says so beside the user.
+    pub(super) fn one_test(&self, sheet: &Sheet) -> Result<(String, Option<&'static str>)> {
         let named = self.test_named(&sheet.name);
         match (self.test, named, self.tests.as_slice()) {
             (Some(id), _, tests) if !tests.contains(&id) => Err(self.no_test(id)),
@@ -79,9 +111,9 @@ impl Wanted<'_> {
                 "the sheet's name, `{}`, says test {other}, --test says {id}: say --test {other}, or rename the sheet",
                 sheet.name
             ))),
-            (Some(id), _, _) => Ok((id.to_owned(), false)),
-            (None, Some(id), _) => Ok((id.to_owned(), true)),
-            (None, None, [one]) => Ok(((*one).to_owned(), false)),
+            (Some(id), _, _) => Ok((id.to_owned(), None)),
+            (None, Some(id), _) => Ok((id.to_owned(), Some("the sheet's name says so"))),
+            (None, None, [one]) => Ok(((*one).to_owned(), None)),
             (None, None, tests) => Err(ImportError(format!(
                 "name the test with --test; its tests: {}",
                 tests.join(", ")
@@ -97,15 +129,33 @@ impl Wanted<'_> {
         ))
     }
 
-    /// The one test whose id stands in a sheet's name.
+    /// The test that a cell names: its id, or that behind a word for tests (`run A`).
+    pub(super) fn test_of(&self, cell: &str) -> Option<&str> {
+        let own = |text: &str| self.tests.iter().copied().find(|id| *id == text);
+        own(cell).or_else(|| {
+            let (word, id) = cell.split_once(|c: char| c.is_whitespace() || "_.:-".contains(c))?;
+            (names::column(word) == Some("test")).then(|| own(id.trim()))?
+        })
+    }
+
+    /// The test whose id stands in a column's header, and the header without it. An id that is a number has to follow a word for tests: `run 1, 5000`.
+    pub(super) fn test_in_header(&self, header: &str) -> Option<(&str, String)> {
+        let id = self.test_named(header)?;
+        let is_number = id.parse::<f64>().is_ok();
+        let place = places(id, header).find(|&at| {
+            let before = names::words(&header[..at]);
+            !is_number
+                || before
+                    .last()
+                    .is_some_and(|word| names::column(word) == Some("test"))
+        })?;
+        let rest = [&header[..place], &header[place + id.len()..]].concat();
+        Some((id, rest.trim().to_owned()))
+    }
+
+    /// The one test whose id stands in a sheet's name or a header.
     fn test_named(&self, sheet: &str) -> Option<&str> {
-        let stands_in = |id: &str, text: &str| {
-            text.match_indices(id).any(|(at, _)| {
-                let outside = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
-                outside(text[..at].chars().next_back())
-                    && outside(text[at + id.len()..].chars().next())
-            })
-        };
+        let stands_in = |id: &str, text: &str| places(id, text).next().is_some();
         let named = self.tests.iter().copied().filter(|id| stands_in(id, sheet));
         let named: Vec<&str> = named.collect();
         // `A` in the name of `A-2`
@@ -175,4 +225,19 @@ impl Wanted<'_> {
         }
         Ok((unit.to_owned(), from))
     }
+}
+
+/// Where an id stands in a text as a word of its own.
+fn places<'t>(id: &str, text: &'t str) -> impl Iterator<Item = usize> {
+    let outside = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    let found = text
+        .match_indices(id)
+        .map(|(at, found)| (at, at + found.len()));
+    let found = found.filter(move |&(from, to)| {
+        outside(text[..from].chars().next_back()) && outside(text[to..].chars().next())
+    });
+    found
+        .map(|(from, _)| from)
+        .collect::<Vec<usize>>()
+        .into_iter()
 }

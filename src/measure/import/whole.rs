@@ -1,6 +1,6 @@
 //! Wide tables of what a whole member has, a mass say: cycles in one direction, members in the other.
 
-use super::entry::{Entry, stated_sigma};
+use super::entry::Entry;
 use super::numbers::{number, plain_cycles, with_points, without_thousands};
 use super::titles::Titles;
 use super::wanted::Wanted;
@@ -94,7 +94,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
                 quantity,
                 position: None,
                 value,
-                sigma: stated_sigma(wanted, value),
+                sigma: None,
                 trace: String::new(),
                 face: String::new(),
                 tooth: String::new(),

@@ -1,7 +1,7 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
 use super::columns;
-use super::entry::{Entry, name_repeat, refuse_twice, stated_sigma};
+use super::entry::{Entry, name_repeat, refuse_twice, state_sigma};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
     without_thousands,
@@ -25,8 +25,8 @@ pub enum Across {
 /// What was understood of a wide table, and its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wide {
-    /// Id of the test, and whether the sheet's name states it.
-    pub test: (String, bool),
+    /// Ids of the tests, and what states them beside the user.
+    pub test: (String, Option<&'static str>),
     /// What was measured on.
     pub members: Vec<Subject>,
     /// What was measured.
@@ -57,11 +57,8 @@ pub struct Wide {
 
 type Result<T> = std::result::Result<T, ImportError>;
 
-/// The mapping of a wide table.
-///
-/// # Errors
-/// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
-pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
+/// The mapping of a wide table of one test.
+pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let quantity = wanted.quantity.unwrap_or(Quantity::WearDepth);
     if quantity.place() == Place::Whole {
         return super::whole::whole(sheet, quantity, wanted);
@@ -148,7 +145,7 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
                 quantity,
                 position: Some(rounded(position.position(scale * place, gear))),
                 value,
-                sigma: stated_sigma(wanted, value),
+                sigma: None,
                 trace: String::new(),
                 face: String::new(),
                 tooth: String::new(),
@@ -209,7 +206,7 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<()>
         entry.trace = entry.own_trace();
     }
     name_repeat(entries, wanted);
-    Ok(())
+    state_sigma(entries, wanted)
 }
 
 /// The columns with the number in the header of each.

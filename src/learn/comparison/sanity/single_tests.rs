@@ -140,7 +140,7 @@ pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[Fitted<'_>]) ->
 }
 
 /// Tests whose last rows stand at the pinion's teeth over the gear's of the cycles that the study states: those are the gear's revolutions. A
-/// usual part of a test, half or three quarters, says nothing.
+/// usual part of a test, half or a third, tells only where all other tests were measured to their end.
 pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<String> {
     let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
     let ratio = f64::from(pinion) / f64::from(gear);
@@ -148,23 +148,29 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
         let part = ratio * f64::from(*parts);
         (part - part.round()).abs() < 2.0 * SAME_CYCLES * part
     };
-    if USUAL_PARTS.iter().any(is_usual) {
+    let tests: BTreeSet<usize> = data.observations.iter().map(|o| o.test).collect();
+    let ends_at = |part: f64| {
+        move |test: &&usize| {
+            let own = data.observations.iter().filter(|o| o.test == **test);
+            let last = own.map(|o| o.cycles).fold(0.0, f64::max);
+            let stated = study.tests[**test].conditions.cycles;
+            (last / (part * stated) - 1.0).abs() < SAME_CYCLES
+        }
+    };
+    let short: Vec<&usize> = tests.iter().filter(ends_at(ratio)).collect();
+    let whole = tests.iter().filter(ends_at(1.0)).count();
+    if USUAL_PARTS.iter().any(is_usual) && (whole == 0 || short.len() + whole < tests.len()) {
         return None;
     }
-    let tests: BTreeSet<usize> = data.observations.iter().map(|o| o.test).collect();
-    let short = |test: &usize| {
-        let own = data.observations.iter().filter(|o| o.test == *test);
-        let last = own.map(|o| o.cycles).fold(0.0, f64::max);
-        let stated = study.tests[*test].conditions.cycles;
-        (last / (ratio * stated) - 1.0).abs() < SAME_CYCLES
-    };
-    let tests: Vec<&str> = (tests.iter().filter(|test| short(test)))
+    let tests: Vec<&str> = short
+        .into_iter()
         .map(|test| study.tests[*test].id.as_str())
         .collect();
     (!tests.is_empty()).then(|| {
         format!(
-            "the last rows of test {} stand at {pinion}/{gear} of the cycles that the study states: cycles are revolutions of the pinion for both members; if \
+            "the last rows of test{} {} stand at {pinion}/{gear} of the cycles that the study states: cycles are revolutions of the pinion for both members; if \
              these are the gear's own, multiply them by {gear}/{pinion}",
+            if tests.len() > 1 { "s" } else { "" },
             tests.join(", ")
         )
     })

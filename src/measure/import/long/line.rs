@@ -2,7 +2,7 @@
 
 use super::Read;
 use crate::measure::import::columns::Column;
-use crate::measure::import::entry::{Entry, stated_sigma};
+use crate::measure::import::entry::Entry;
 use crate::measure::import::numbers::{number, plain_cycles, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
@@ -88,21 +88,22 @@ impl Line<'_> {
                 Some(rounded(factor * number(text, self.row, column.at)?))
             }
         };
-        if let (Some(column), Some(_)) = (sigma, self.wanted.sigma) {
+        if let (Some(column), true) = (sigma, self.wanted.states_sigma()) {
             return Err(ImportError(format!(
-                "--sigma: the table has a column of sigma, {}; leave one of them out",
+                "--sigma or --relative-sigma: the table has a column of sigma, {}; leave one of them out",
                 column.cell(self.read.head)
             )));
         }
         let value_here = rounded(sign * factor * written);
+        let test = self.test()?;
         Ok(Entry {
-            test: self.test()?,
+            cycles: self.cycles(cycles, &test)?,
+            test,
             member,
-            cycles: self.cycles(cycles)?,
             quantity,
             position: self.position(quantity, member)?,
             value: value_here,
-            sigma: written_sigma.or_else(|| stated_sigma(self.wanted, value_here)),
+            sigma: written_sigma,
             trace: self.text(self.read.trace).to_owned(),
             face: self.text(self.read.face).replace(',', "."),
             tooth: self.text(self.read.tooth).to_owned(),
@@ -114,13 +115,12 @@ impl Line<'_> {
         let Some(column) = self.read.test else {
             return Ok(self.wanted.one_test(self.sheet)?.0);
         };
-        let id = self.text(Some(column));
-        if !self.wanted.tests.contains(&id) {
+        let Some(id) = self.wanted.test_of(self.text(Some(column))) else {
             return self.refused(
                 column,
                 &format!("the study's tests are {}", self.wanted.tests.join(", ")),
             );
-        }
+        };
         match self.wanted.test {
             Some(stated) if stated != id => self.refused(
                 column,
@@ -164,9 +164,10 @@ impl Line<'_> {
         }
     }
 
-    fn cycles(&self, column: &Column) -> Result<f64> {
+    fn cycles(&self, column: &Column, test: &str) -> Result<f64> {
         let text = self.text(Some(column));
         if let Some(unit) = &column.unit
+            && column.hours.is_none()
             && !["1", "-"].contains(&unit.as_str())
             && names::member(unit).is_none()
             && names::revolutions(unit).is_none()
@@ -182,14 +183,19 @@ impl Line<'_> {
                 "every row says after how many revolutions of the pinion it was measured",
             );
         }
-        if self.wanted.decimal.is_none() && !self.sheet.plain_decimals {
+        if self.wanted.decimal.is_none() && !self.sheet.plain_decimals && column.hours.is_none() {
             plain_cycles(text, self.row, column.at)?;
         }
         let cycles = number(text, self.row, column.at)?;
-        Ok(if column.of_gear {
-            self.wanted.pinion_revolutions(cycles)
-        } else {
-            cycles
+        Ok(match column.hours {
+            Some(hours) => {
+                let decimals = text.rsplit_once('.').map_or(0, |(_, digits)| digits.len());
+                let rounding = 0.5 * 10f64.powi(-(decimals as i32));
+                self.wanted
+                    .revolutions_in(test, hours * cycles, hours * rounding)
+            }
+            None if column.of_gear => self.wanted.pinion_revolutions(cycles),
+            None => cycles,
         })
     }
 
