@@ -922,10 +922,10 @@ fn columns_tell_tests_and_members_by_what_stands_in_them() {
         refused(&home, masses, "--test B --member gear").contains("B2: `pignon` below `thing`")
     );
     let which = "which,member,cycles,mass [mg]\nrun A,pinion,1e5,1\nB,pinion,1e5,2\n";
-    let (shown, written) = rows(&home, which, "");
+    let (shown, written) = rows(&home, which, "--sigma 0.1");
     assert_eq!(
         written,
-        "A,pinion,100000,mass_loss,,1,,\nB,pinion,100000,mass_loss,,2,,\n"
+        "A,pinion,100000,mass_loss,,1,0.1,\nB,pinion,100000,mass_loss,,2,0.1,\n"
     );
     assert!(
         shown.contains("`which`: test, by what stands in it"),
