@@ -434,6 +434,51 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
         said.contains("the stated sigma of the depths does not fit"),
         "{said}"
     );
+    let ten_times = changed(&good, |cells| {
+        if cells[3] == "wear_depth" {
+            cells[6] = (10.0 * number(&cells[6])).to_string();
+        }
+    });
+    let said = told(&ten_times);
+    assert!(
+        said.contains("scatter only 0.1") && said.contains("if sigma is overstated"),
+        "{said}"
+    );
+    // a hundredth of each mass, where the balance is good to a twentieth of the largest
+    let masses = changed(&good, |cells| {
+        if cells[3] == "mass_loss" {
+            cells[5] = (number(&cells[5]) + 8.0 * number(&cells[6])).to_string();
+            cells[6] = (0.01 * number(&cells[5])).to_string();
+        }
+    });
+    let said = told(&masses);
+    assert!(
+        said.contains("% of the misfit is that of") && said.contains("rows of mass_loss"),
+        "{said}"
+    );
+}
+
+/// A k in m2/N is a millionth of the right one: the fit finds it all the same, and what is doubted is the study's.
+#[test]
+fn a_check_of_a_study_with_k_in_another_unit_doubts_the_study() {
+    let home = home();
+    succeed(&home, "synthesize study.toml -o data --seed 2 --noise 0.05");
+    fs::copy(
+        home.path().join("data/measurements.csv"),
+        home.path().join("m.csv"),
+    )
+    .unwrap();
+    let off = STUDY.replace("coefficient = 2e-10", "coefficient = 2e-16");
+    fs::write(home.path().join("off.toml"), off).unwrap();
+    let said = succeed(&home, "check off.toml");
+    assert!(
+        said.contains("times above the wear.coefficient that the study states, 2.0e-16"),
+        "{said}"
+    );
+    assert!(
+        !said.contains("is below what gears are known to have"),
+        "{said}"
+    );
 }
 
 /// The analytic model knows too little of what stands over a rotation to find its sign: finite elements are asked.
