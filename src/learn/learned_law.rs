@@ -190,14 +190,14 @@ impl Measured<'_> {
         noise: NoiseModel,
     ) -> Result<LearnedFit, LearnError> {
         let version = starting_at(version, without);
-        let mut again = self.from_values(bench, &version, found.law.clone(), noise, &|_| {})?;
+        let mut again = self.fit_from_values(bench, &version, found.law.clone(), noise, &|_| {})?;
         let tried = found.tried.iter().map(|tried| tried.log_evidence);
         again.log_evidence += found.log_evidence - tried.fold(f64::NEG_INFINITY, f64::max);
         Ok(again)
     }
 
     /// The fit of a law with its size and length, from its values.
-    fn from_values(
+    fn fit_from_values(
         &self,
         bench: &Bench<'_>,
         version: &ModelVersion,
@@ -320,9 +320,13 @@ impl Walk<'_> {
         let size = SIZES[place[1]] * LearnedLaw::usual_size(self.law.hook());
         let length = rounded(LENGTHS[place[0]] * self.span);
         let law = LearnedLaw::within(self.law.clone(), from, size, length);
-        let found =
-            self.measured
-                .from_values(self.bench, &self.version, law, self.noise, self.watch)?;
+        let found = self.measured.fit_from_values(
+            self.bench,
+            &self.version,
+            law,
+            self.noise,
+            self.watch,
+        )?;
         self.tried.push((place, found.clone()));
         Ok(found)
     }

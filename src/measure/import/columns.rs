@@ -133,9 +133,11 @@ pub(super) fn known_by_content(
     // numbers may count anything
     let is_test = |text: &str| wanted.test_of(text).is_some() && text.parse::<f64>().is_err();
     let is_member = |text: &str| names::member(text).is_some();
-    let contents: [(&'static str, &dyn Fn(&str) -> bool); 2] =
-        [("test", &is_test), ("member", &is_member)];
-    for (name, is_it) in contents {
+    let is_it = |name: &str, text: &str| match name {
+        "test" => is_test(text),
+        _ => is_member(text),
+    };
+    for name in ["test", "member"] {
         if has(columns, name) {
             continue;
         }
@@ -145,7 +147,9 @@ pub(super) fn known_by_content(
                 .filter_map(|row| row.get(column.at))
                 .filter(|cell| !cell.is_empty())
                 .peekable();
-            column.what == What::Unknown && cells.peek().is_some() && cells.all(|cell| is_it(cell))
+            column.what == What::Unknown
+                && cells.peek().is_some()
+                && cells.all(|cell| is_it(name, cell))
         };
         if let Some(column) = columns.iter_mut().find(holds) {
             column.what = What::Own(name);

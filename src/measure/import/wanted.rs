@@ -228,7 +228,7 @@ impl Wanted<'_> {
 }
 
 /// Where an id stands in a text as a word of its own.
-fn places<'t>(id: &str, text: &'t str) -> impl Iterator<Item = usize> {
+fn places(id: &str, text: &str) -> impl Iterator<Item = usize> {
     let outside = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
     let found = text
         .match_indices(id)
