@@ -458,6 +458,39 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
     );
 }
 
+/// At z1/z2 = 1/2 a test that ends halfway may have been stopped there, unless all others were measured to their end; members that turn alike have no
+/// revolutions of their own.
+#[test]
+fn a_check_finds_one_test_in_revolutions_of_the_gear_at_simple_ratios() {
+    for (teeth, distance, found) in [("54", "81.0", true), ("27", "54.0", false)] {
+        let home = home();
+        let study = STUDY
+            .replace(
+                "teeth = 53\nbore_diameter = 40.0",
+                &format!("teeth = {teeth}\nbore_diameter = 25.0"),
+            )
+            .replace(
+                "centre_distance = 80.0",
+                &format!("centre_distance = {distance}"),
+            );
+        fs::write(home.path().join("study.toml"), study).unwrap();
+        succeed(&home, "synthesize study.toml -o data --seed 2 --noise 0.05");
+        let good = read(&home, "data/measurements.csv");
+        let ratio = 27.0 / number(teeth);
+        let of_gear = changed(&good, |cells| {
+            if cells[0] == "B" {
+                cells[2] = (number(&cells[2]) * ratio).to_string();
+            }
+        });
+        fs::write(home.path().join("m.csv"), of_gear).unwrap();
+        let said = succeed(&home, "check study.toml");
+        let says = said.contains(&format!(
+            "the last rows of test B stand at 27/{teeth} of the cycles"
+        ));
+        assert_eq!(says, found, "{said}");
+    }
+}
+
 /// A k in m2/N is a millionth of the right one: the fit finds it all the same, and what is doubted is the study's.
 #[test]
 fn a_check_of_a_study_with_k_in_another_unit_doubts_the_study() {
@@ -1039,6 +1072,20 @@ fn running_times_are_turned_into_revolutions() {
             .1
             .starts_with("A,pinion,180000,")
     );
+    // decimal commas; a time of whole hours is no rounded end of the test
+    let commas =
+        "Run;Part;Time (h);Radius (mm);Wear (um)\nA;pinion;8,000;26,5;1\nA;pinion;8,333;26,5;2\n";
+    let written = rows(&home, commas, "--sigma 0.1").1;
+    assert!(
+        written.starts_with("A,pinion,960000,") && written.contains("\nA,pinion,1000000,"),
+        "{written}"
+    );
+    let whole = "Run,Part,Time (h),Radius (mm),Wear (um)\nA,pinion,8,26.5,1\n";
+    assert!(
+        rows(&home, whole, "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,960000,")
+    );
     // beside cycles a time says nothing more
     let both = "Run,Part,Time (h),cycles,Radius (mm),Wear (um)\nA,pinion,7,1e5,26.5,1\n";
     let (shown, written) = rows(&home, both, "--sigma 0.1");
@@ -1073,7 +1120,8 @@ fn a_share_may_stand_alone_and_be_of_the_largest_of_a_curve() {
     assert!(rows(&home, table, options).1.contains(",26,2,0.2062,"));
     let alone = refused(&home, table, "--test A --relative-sigma 0.1");
     assert!(
-        alone.contains("B3: 0.1 of the value 0.001 would be known far better"),
+        alone.contains("B3: 0.1 of the value 0.001 would be known far better")
+            && alone.contains("where little is worn, or --relative-to largest"),
         "{alone}"
     );
 }

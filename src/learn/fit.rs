@@ -62,8 +62,14 @@ pub enum FitError {
     NoObservations,
 }
 
-/// χ² above the number of points, in standard deviations of noise's own, up to which a start is within the noise.
+/// χ² above the number of points, in standard deviations of noise's own, up to which a model is within the noise.
 const WITHIN_NOISE: f64 = 3.0;
+
+/// Whether χ² of so many points is no more than noise makes.
+pub(super) fn is_within_noise(square: f64, points: usize) -> bool {
+    let points = points as f64;
+    square < points + WITHIN_NOISE * (2.0 * points).sqrt()
+}
 
 impl Problem<'_> {
     /// The fit from the parameters' starts, the held-out tests judged.
@@ -184,8 +190,7 @@ impl Problem<'_> {
         // a fit from here will ask for the derivatives, which bring the predictions along
         search.own(&mut evaluator, &state);
         let misfit = search.misfit(&mut evaluator, state);
-        let points = selection.len() as f64;
-        misfit.is_ok_and(|square| square < points + WITHIN_NOISE * (2.0 * points).sqrt())
+        misfit.is_ok_and(|square| is_within_noise(square, selection.len()))
     }
 
     /// The fit from where another to the same measurements ended, with the derivatives that it ended with. The held-out tests are left for

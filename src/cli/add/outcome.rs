@@ -49,7 +49,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             100.0 * share.max(0.0)
         );
     } else if !comparison.converged {
-        let why = if within_noise(&comparison.fit) {
+        let why = if comparison.fit.is_within_noise() {
             "it describes the fit tests within their noise, but they hardly tell its parameters apart, so that it wanders along a flat valley; set one \
              that you know (--set), or measure where they differ"
         } else {
@@ -170,10 +170,4 @@ impl Report {
             success: true,
         }
     }
-}
-
-/// Whether χ² is no more than noise makes.
-fn within_noise(fit: &Share) -> bool {
-    let most = 1.0 + 3.0 * (2.0 / fit.points.max(1) as f64).sqrt();
-    fit.chi2_per_point.is_some_and(|chi2| chi2 < most)
 }

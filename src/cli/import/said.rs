@@ -46,9 +46,10 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         (unit, UnitFrom::Title) => format!("{unit} (the title says so)"),
         (unit, _) => unit.clone(),
     };
-    let test = match &wide.test {
-        (id, Some(says)) => format!("{id} ({says})"),
-        (id, None) => id.clone(),
+    let tests = of_tests(&wide.entries);
+    let tests = match wide.test.1 {
+        Some(says) => format!("{tests} ({says})"),
+        None => tests,
     };
     let mut text = String::new();
     line(&mut text, "table", table);
@@ -59,13 +60,8 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
     let sign = sign(wide.turned, args.turn_sign);
     let of = members(&wide.members).replace(' ', " and ");
     let values = format!(
-        "{} of the {of} in {} {test}, in {unit}{sign}",
-        wide.quantity.name(),
-        if wide.test.0.contains(',') {
-            "tests"
-        } else {
-            "test"
-        }
+        "{} of the {of} in {tests}, in {unit}{sign}",
+        wide.quantity.name()
     );
     line(&mut text, "values", &values);
     line(
@@ -122,12 +118,11 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
         let names: BTreeSet<&str> = entries.iter().map(name).collect();
         names.into_iter().collect::<Vec<_>>().join(", ")
     };
-    let tests = of(|entry| &entry.test);
     let values = format!(
-        "{} of {} in {} {tests}{}",
+        "{} of {} in {}{}",
         of(|entry| entry.quantity.name()),
         of(|entry| entry.member.name()),
-        if tests.contains(',') { "tests" } else { "test" },
+        of_tests(entries),
         sign(long.turned, args.turn_sign)
     );
     line(&mut text, "values", &values);
@@ -176,6 +171,14 @@ pub(super) fn rows(header: &str, rows: &[String]) -> String {
         let _ = writeln!(text, "  {row}");
     }
     text
+}
+
+/// `test A`, `tests A, B`.
+fn of_tests(entries: &[Entry]) -> String {
+    let ids: BTreeSet<&str> = entries.iter().map(|entry| entry.test.as_str()).collect();
+    let word = if ids.len() > 1 { "tests" } else { "test" };
+    let ids: Vec<&str> = ids.into_iter().collect();
+    format!("{word} {}", ids.join(", "))
 }
 
 fn titles(text: &mut String, titles: &Titles) {

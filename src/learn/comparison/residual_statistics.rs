@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Region;
+use crate::learn::fit::is_within_noise;
 use crate::learn::fitted::{Fit, RowFit};
 use crate::learn::region::Map;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
@@ -19,6 +20,14 @@ pub struct Share {
     pub chi2_per_point: Option<f64>,
     /// Root mean square of model − measured over wear depths, µm; None without any.
     pub rms_um: Option<f64>,
+}
+
+impl Share {
+    /// Whether χ² is no more than noise makes.
+    pub fn is_within_noise(&self) -> bool {
+        let within = |chi2: f64| is_within_noise(chi2 * self.points as f64, self.points);
+        self.chi2_per_point.is_some_and(within)
+    }
 }
 
 /// Residuals of one test, member, region and cycle interval.

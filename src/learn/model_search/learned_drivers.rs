@@ -188,7 +188,7 @@ fn decided(context: &Context<'_>, known: &FittedCandidate, screened: &Ranked) ->
     };
     let best = screened.laws.par_iter().take(CLOSELY);
     let laws = best.filter_map(again).collect();
-    Some(Ranked::new(without, laws, context.fidelity))
+    Some(Ranked::new(without, laws, Fidelity::Full))
 }
 
 /// The model without a law, fitted from where it is known to stand.

@@ -161,7 +161,8 @@ pub(super) fn state_sigma(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<
             Some(sigma) => sigma.hypot(relative),
             None if relative <= LEAST_PART * share * largest => {
                 return Err(ImportError(format!(
-                    "{}: {share} of the value {} would be known far better than the others of its curve: add --sigma, the scatter where little is                      worn, or --relative-to largest",
+                    "{}: {share} of the value {} would be known far better than the others of its curve: add --sigma, the scatter where little is \
+                     worn, or --relative-to largest",
                     cell_name(entry.cell.0, entry.cell.1),
                     rounded(entry.value)
                 )));

@@ -144,6 +144,10 @@ pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[Fitted<'_>]) ->
 pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<String> {
     let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
     let ratio = f64::from(pinion) / f64::from(gear);
+    // both members turn alike
+    if (ratio - 1.0).abs() < 2.0 * SAME_CYCLES {
+        return None;
+    }
     let is_usual = |parts: &u32| {
         let part = ratio * f64::from(*parts);
         (part - part.round()).abs() < 2.0 * SAME_CYCLES * part

@@ -3,7 +3,7 @@
 use super::Read;
 use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
-use crate::measure::import::numbers::{number, plain_cycles, rounded};
+use crate::measure::import::numbers::{number, plain_cycles, pointed, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
 use crate::measure::import::wanted::Wanted;
@@ -11,6 +11,9 @@ use crate::measure::import::{ImportError, Sheet, cell_name, sigma_unit, units};
 use crate::measure::{Place, Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
+
+/// Part of a running time by which it may miss the end of its test and still be that.
+const SAME_TIME: f64 = 0.005;
 
 /// One row of a long table.
 pub(super) struct Line<'t> {
@@ -189,8 +192,11 @@ impl Line<'_> {
         let cycles = number(text, self.row, column.at)?;
         Ok(match column.hours {
             Some(hours) => {
-                let decimals = text.rsplit_once('.').map_or(0, |(_, digits)| digits.len());
-                let rounding = 0.5 * 10f64.powi(-(decimals as i32));
+                let decimals = pointed(text)
+                    .rsplit_once('.')
+                    .map_or(0, |(_, digits)| digits.len());
+                // a whole number of hours may be meant to the minute
+                let rounding = (0.5 * 10f64.powi(-(decimals as i32))).min(SAME_TIME * cycles);
                 self.wanted
                     .revolutions_in(test, hours * cycles, hours * rounding)
             }

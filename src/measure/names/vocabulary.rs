@@ -1,0 +1,323 @@
+//! The words of five languages for columns of tables and for what stands in them, each as [`super::folded`] leaves it.
+
+use crate::measure::quantity::{Quantity, Subject};
+
+/// Columns by their names in a measurement file.
+pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
+    (
+        "test",
+        &[
+            "run", "versuch", "prufung", "lauf", "prova", "essai", "ensayo", "prueba",
+        ],
+    ),
+    (
+        "member",
+        &[
+            "wheel",
+            "gear",
+            "gearwheel",
+            "part",
+            "rad",
+            "zahnrad",
+            "bauteil",
+            "teil",
+            "ruota",
+            "componente",
+            "pezzo",
+            "roue",
+            "piece",
+            "rueda",
+            "pieza",
+        ],
+    ),
+    ("cycles", CYCLES),
+    (
+        "quantity",
+        &[
+            "grosse",
+            "messgrosse",
+            "groesse",
+            "grandezza",
+            "grandeur",
+            "magnitud",
+        ],
+    ),
+    (
+        "position",
+        &[
+            "r",
+            "radius",
+            "diameter",
+            "rollangle",
+            "rolllength",
+            "ort",
+            "stelle",
+            "durchmesser",
+            "walzwinkel",
+            "walzlange",
+            "raggio",
+            "posizione",
+            "diametro",
+            "rayon",
+            "diametre",
+            "radio",
+            "posicion",
+        ],
+    ),
+    (
+        "value",
+        &["reading", "wert", "messwert", "valore", "valeur", "valor"],
+    ),
+    (
+        "sigma",
+        &[
+            "u",
+            "sd",
+            "std",
+            "stdev",
+            "stddev",
+            "standarddeviation",
+            "uncertainty",
+            "standarduncertainty",
+            "streuung",
+            "standardabweichung",
+            "unsicherheit",
+            "deviazionestandard",
+            "incertezza",
+            "ecarttype",
+            "incertitude",
+            "desviacionestandar",
+            "desviaciontipica",
+            "incertidumbre",
+        ],
+    ),
+    (
+        "trace",
+        &[
+            "profile",
+            "curve",
+            "spur",
+            "kurve",
+            "messkurve",
+            "profil",
+            "traccia",
+            "profilo",
+            "courbe",
+            "curva",
+            "traza",
+            "perfil",
+        ],
+    ),
+    ("face", &[]),
+    ("tooth", &["zahn", "dente", "dent", "diente"]),
+];
+
+/// Names of counts of revolutions.
+pub(super) const CYCLES: &[&str] = &[
+    "cycle",
+    "loadcycles",
+    "rev",
+    "revs",
+    "revolution",
+    "revolutions",
+    "turns",
+    "lastspiele",
+    "lastwechsel",
+    "lw",
+    "umdrehung",
+    "umdrehungen",
+    "zyklen",
+    "cicli",
+    "giri",
+    "tours",
+    "ciclos",
+    "revoluciones",
+    "vueltas",
+];
+
+/// Names of running times.
+pub(super) const TIMES: [&str; 14] = [
+    "time",
+    "runningtime",
+    "runtime",
+    "testtime",
+    "hours",
+    "zeit",
+    "laufzeit",
+    "betriebszeit",
+    "versuchszeit",
+    "tempo",
+    "temps",
+    "duree",
+    "tiempo",
+    "duracion",
+];
+
+/// Hours of each unit of time.
+pub(super) const HOURS: [(&str, f64); 16] = [
+    ("h", 1.0),
+    ("hr", 1.0),
+    ("hrs", 1.0),
+    ("hour", 1.0),
+    ("hours", 1.0),
+    ("std", 1.0),
+    ("stunden", 1.0),
+    ("ore", 1.0),
+    ("heures", 1.0),
+    ("horas", 1.0),
+    ("min", 1.0 / 60.0),
+    ("minutes", 1.0 / 60.0),
+    ("s", 1.0 / 3600.0),
+    ("sec", 1.0 / 3600.0),
+    ("d", 24.0),
+    ("days", 24.0),
+];
+
+/// Names of columns for people.
+pub(super) const FOR_PEOPLE: [&str; 19] = [
+    "comment",
+    "comments",
+    "note",
+    "notes",
+    "remark",
+    "remarks",
+    "kommentar",
+    "bemerkung",
+    "bemerkungen",
+    "notiz",
+    "hinweis",
+    "nota",
+    "osservazioni",
+    "commento",
+    "commentaire",
+    "remarque",
+    "remarques",
+    "comentario",
+    "observaciones",
+];
+
+/// Names that only hint at a column: too vague to be read as it.
+pub(super) const HINTS: [(&str, &[&str]); 5] = [
+    ("sigma", &["error", "s"]),
+    ("cycles", &["n", "time"]),
+    ("position", &["x", "place"]),
+    ("value", &["y", "measured"]),
+    ("member", &["body"]),
+];
+
+/// Members by what they are called.
+pub(super) const MEMBERS: [(Subject, &[&str]); 3] = [
+    (
+        Subject::Pinion,
+        &[
+            "pinion", "small", "smaller", "ritzel", "kleinrad", "klein", "pignone", "piccolo",
+            "piccola", "pignon", "petit", "petite", "pinon", "pequeno", "pequena",
+        ],
+    ),
+    (
+        Subject::Gear,
+        &[
+            "gear", "wheel", "big", "bigger", "large", "larger", "rad", "grossrad", "gross",
+            "corona", "ruota", "grande", "couronne", "roue", "rueda",
+        ],
+    ),
+    (
+        Subject::Pair,
+        &["pair", "paar", "radpaar", "coppia", "couple", "par"],
+    ),
+];
+
+/// Names of quantities beside their own.
+pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
+    (
+        Quantity::WearDepth,
+        &[
+            "depth",
+            "wear",
+            "depthwear",
+            "flankwear",
+            "verschleiss",
+            "verschleisstiefe",
+            "tiefe",
+            "abtrag",
+            "usura",
+            "profondita",
+            "profonditausura",
+            "usure",
+            "profondeur",
+            "profondeurusure",
+            "desgaste",
+            "profundidad",
+            "profundidaddesgaste",
+        ],
+    ),
+    (
+        Quantity::MassLoss,
+        &[
+            "mass",
+            "loss",
+            "lossmass",
+            "weight",
+            "weightloss",
+            "lossweight",
+            "masse",
+            "massenverlust",
+            "masseverlust",
+            "verlust",
+            "gewicht",
+            "gewichtsverlust",
+            "massa",
+            "peso",
+            "perdita",
+            "perditamassa",
+            "perditapeso",
+            "perte",
+            "pertemasse",
+            "pertepoids",
+            "poids",
+            "masa",
+            "perdida",
+            "perdidamasa",
+            "perdidapeso",
+        ],
+    ),
+    (
+        Quantity::TransmissionError,
+        &[
+            "drehfehler",
+            "drehwegfehler",
+            "drehabweichung",
+            "erroretrasmissione",
+            "erreurtransmission",
+            "errortransmision",
+        ],
+    ),
+    (Quantity::LoadShare, &["lastanteil"]),
+    (
+        Quantity::ContactPressure,
+        &["pressung", "pressioncontact", "pressionecontatto"],
+    ),
+    (Quantity::MeshStiffness, &["eingriffssteifigkeit"]),
+];
+
+/// Names of losses that may be of depth or of mass: their unit says which.
+pub(super) const LOSSES: [&str; 11] = [
+    "wear",
+    "loss",
+    "verschleiss",
+    "verlust",
+    "abtrag",
+    "usura",
+    "perdita",
+    "usure",
+    "perte",
+    "desgaste",
+    "perdida",
+];
+
+/// Words that say nothing in a name.
+pub(super) const FILLERS: [&str; 31] = [
+    "of", "the", "a", "an", "after", "no", "nr", "number", "id", "name", "der", "die", "das",
+    "des", "nach", "anzahl", "nummer", "di", "d", "del", "della", "dei", "numero", "de", "du",
+    "la", "le", "l", "el", "nombre", "n",
+];
