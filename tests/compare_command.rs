@@ -681,6 +681,40 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
     assert!(!text.contains("gearwear diagnose"), "{text}");
 }
 
+/// A test whose torque, or whose cycles, are those of the gear stands off by the ratio of the teeth: asked, with what to do.
+#[test]
+fn a_test_stated_for_the_gear_is_asked_about() {
+    let home = tempfile::tempdir().unwrap();
+    let base = BASE
+        .replace("id = \"H, held out\"", "id = \"H\"")
+        .replace("coefficient_scatter = 0.0", "datum = 0.5");
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let file = FILE.replace("measurements.csv", "m.csv");
+    write("truth.toml", base.clone());
+    succeed(&home, "synthesize truth.toml -o data --seed 5");
+    // a transmission error bends with the torque, which its k cannot make up for
+    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+    let rows = (data.lines()).filter(|row| !row.contains("transmission_error"));
+    write("m.csv", rows.map(|row| format!("{row}\n")).collect());
+    let sanity = |base: &str| {
+        write("base.toml", format!("{base}{file}"));
+        let told = succeed(&home, "compare base.toml --json");
+        serde_json::from_str::<Value>(&told).unwrap()["sanity"].clone()
+    };
+    assert_eq!(sanity(&base), serde_json::json!([]));
+    let of_the_gear = format!("torque = {:.1}", 170.0 * 53.0 / 27.0);
+    let said = sanity(&base.replace("torque = 170.0", &of_the_gear));
+    let line = said[0].as_str().unwrap_or_default();
+    for word in [
+        "test B",
+        "near 27/53",
+        "333.7 N m",
+        "divide its torque by 53/27",
+    ] {
+        assert!(line.contains(word), "{word}: {said}");
+    }
+}
+
 /// A fit adjusts k and keeps the proportion that the members' own stand in.
 #[test]
 fn members_own_coefficients_are_scaled_by_a_fit() {

@@ -1125,3 +1125,154 @@ fn a_share_may_stand_alone_and_be_of_the_largest_of_a_curve() {
         "{alone}"
     );
 }
+
+/// A file for each curve, as gear-measuring machines write it: what the lines above the header say holds for all rows.
+#[test]
+fn files_of_one_curve_each_are_read_together() {
+    let home = home();
+    let curve = |member: &str, cycles: &str, first: &str| {
+        format!(
+            "Profile export\nRun:\tA\nPart:\t{member}\nRevolutions of pinion:\t{cycles}\nNumber of teeth:\t27\n\n\
+             Radius [mm]\tDeviation [um]\n{first}\t-2.5\n27.5\t-1.25\n"
+        )
+    };
+    for (name, text) in [
+        ("a.txt", curve("pinion", "100000", "26.5")),
+        ("b.txt", curve("pinion", "250000", "26.6")),
+    ] {
+        fs::write(home.path().join(name), text).unwrap();
+    }
+    let all = "import a.txt b.txt --study study.toml --turn-sign --sigma 0.1 -o m.csv";
+    let shown = succeed(&home, all);
+    for part in [
+        "made of  row 2, `Run`: test A\n",
+        "made of  row 3, `Part`: member pinion\n",
+        "made of  row 4, `Revolutions of pinion`: cycles 100000\n",
+        "title    row 5 passed over: Number of teeth: 27\n",
+        "table    b.txt, read alike: 2 rows, wear_depth of pinion in test A after 250000\n",
+        "wrote m.csv: 4 rows\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    assert_eq!(
+        read(&home, "m.csv"),
+        "test,member,cycles,quantity,position,value,sigma,trace\n\
+         A,pinion,100000,wear_depth,26.5,2.5,0.1,A-pinion-100000\n\
+         A,pinion,100000,wear_depth,27.5,1.25,0.1,A-pinion-100000\n\
+         A,pinion,250000,wear_depth,26.6,2.5,0.1,A-pinion-250000\n\
+         A,pinion,250000,wear_depth,27.5,1.25,0.1,A-pinion-250000\n"
+    );
+    // the same curve twice is no second measurement
+    let (code, _, message) = line(&home, "import a.txt a.txt --study study.toml --sigma 0.1");
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("has the reading A,pinion,100000"),
+        "{message}"
+    );
+    // a curve that says nothing of itself
+    let bare = "Radius [mm];Deviation [um]\n26.5;2.5\n27.5;1.5\n";
+    let options = "--test B --member pinion --cycles 5000 --sigma 0.1";
+    assert_eq!(
+        rows(&home, bare, options).1,
+        "B,pinion,5000,wear_depth,26.5,2.5,0.1,B-pinion-5000\nB,pinion,5000,wear_depth,27.5,1.5,0.1,B-pinion-5000\n"
+    );
+    // a member that the lines state is not overruled
+    let pinion = curve("pinion", "100000", "26.5");
+    assert!(refused(&home, &pinion, "--member gear").contains("--member says gear"));
+}
+
+#[test]
+fn both_members_may_stand_side_by_side() {
+    let home = home();
+    let table = "Test;A\nPinion revolutions;40000\n\nRadius pinion [mm];Wear pinion [um];Radius gear [mm];Wear gear [um]\n\
+                 26.5;2.5;52.5;1.5\n27;1.25;;\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    assert!(
+        shown.contains("made of  the columns of the pinion and of the gear side by side\n"),
+        "{shown}"
+    );
+    assert_eq!(
+        written,
+        "A,pinion,40000,wear_depth,26.5,2.5,0.1,A-pinion-40000\nA,pinion,40000,wear_depth,27,1.25,0.1,A-pinion-40000\n\
+         A,gear,40000,wear_depth,52.5,1.5,0.1,\n"
+    );
+    let masses = "run,revolutions,pinion loss mg,gear loss mg\nA,5000,12,30\nB,6000,14,36\n";
+    assert_eq!(
+        rows(&home, masses, "--sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\nB,pinion,6000,mass_loss,,14,1,\n\
+         A,gear,5000,mass_loss,,30,1,\nB,gear,6000,mass_loss,,36,1,\n"
+    );
+    // a cell is named where it stands
+    let wrong = table.replace("52.5;1.5", "52.5;much");
+    assert!(refused(&home, &wrong, "--sigma 0.1").contains("D5: `much` is not a number"));
+}
+
+/// What was lost is the difference of two weighings, never the mass that is left.
+#[test]
+fn two_weighings_are_a_loss() {
+    let home = home();
+    let table = "Test,Revolutions,Member,Mass before [g],Mass after [g]\nA,5000,pinion,812.4312,812.4055\nA,6000,gear,2955.1207,2955.1\n";
+    let (shown, written) = rows(&home, table, "--sigma 1");
+    assert!(
+        shown.contains("made of  mass loss: `Mass before [g]` less `Mass after [g]`\n"),
+        "{shown}"
+    );
+    assert_eq!(
+        written,
+        "A,pinion,5000,mass_loss,,25.7,1,\nA,gear,6000,mass_loss,,20.7,1,\n"
+    );
+    let german = "Versuch;Umdrehungen;Bauteil;Masse vorher [g];Masse nachher [g]\nA;5000;Ritzel;812,4312;812,4055\n";
+    assert_eq!(
+        rows(&home, german, "--sigma 1").1,
+        "A,pinion,5000,mass_loss,,25.7,1,\n"
+    );
+    let one = "Test,Revolutions,Member,Mass after [g]\nA,5000,pinion,812.4055\n";
+    assert!(
+        refused(&home, one, "--sigma 1").contains("D1: `Mass after [g]` is a mass and no loss"),
+    );
+    let units = table.replace("Mass after [g]", "Mass after [mg]");
+    assert!(refused(&home, &units, "--sigma 1").contains("in two units"));
+    // a share of the largest of a test's masses, not of each
+    let shares =
+        "test,cycles,member,mass loss [mg]\nA,5000,pinion,2\nA,9000,pinion,20\nA,9000,gear,40\n";
+    let of_largest = rows(&home, shares, "--relative-sigma 0.1 --relative-to largest").1;
+    assert_eq!(
+        of_largest,
+        "A,pinion,5000,mass_loss,,2,2,\nA,pinion,9000,mass_loss,,20,2,\nA,gear,9000,mass_loss,,40,4,\n"
+    );
+}
+
+/// The example's values are nobody's measurements.
+#[test]
+fn rows_are_not_put_behind_the_example_of_init() {
+    let home = tempfile::tempdir().unwrap();
+    succeed(&home, "init new");
+    let table = "test,cycles,member,mass loss [mg]\nA,5000,pinion,2\n";
+    fs::write(home.path().join("table.csv"), table).unwrap();
+    let import = "import table.csv --study new/study.toml --sigma 1 -o new/measurements.csv";
+    for how in ["", " --append"] {
+        let (code, _, message) = line(&home, &format!("{import}{how}"));
+        assert_eq!(code, Some(2));
+        assert!(
+            message.contains("made-up measurements") && message.contains("--force"),
+            "{message}"
+        );
+    }
+    succeed(&home, &format!("{import} --force"));
+    assert_eq!(read(&home, "new/measurements.csv").lines().count(), 2);
+}
+
+#[test]
+fn all_sheets_are_read_one_after_the_other() {
+    let home = home();
+    let (code, _, message) = line(&home, "import tables.xlsx --study study.toml --sigma 0.1");
+    assert_eq!(code, Some(2));
+    assert!(message.contains("--all-sheets"), "{message}");
+    let (code, _, message) = line(
+        &home,
+        "import tables.xlsx --all-sheets --study study.toml --test A --sigma 0.1",
+    );
+    // which of them cannot be read is said
+    assert_eq!(code, Some(2), "{message}");
+    assert!(message.contains("tables.xlsx, sheet "), "{message}");
+}

@@ -48,6 +48,7 @@ const STAGES: &[(&str, &[&str])] = &[
             "posterior",
             "predictor",
             "quadratic",
+            "coefficient_trend",
             "quantity_misfit",
             "region",
             "scatter",

@@ -184,7 +184,7 @@ refusals! {
     gears_too_close: with("face_width = 33.0", "face_width = 33.0\ncentre_distance = 79.5")
         => Inconsistent "gears.centre_distance" at 5:19, "79.5", "80 to 81.499 mm", "jam";
     gears_too_far: with("face_width = 33.0", "face_width = 33.0\ncentre_distance = 84.0")
-        => Inconsistent "gears.centre_distance" at 5:19, "84.0", "80 to 81.499 mm", "contact ratio is";
+        => Inconsistent "gears.centre_distance" at 5:19, "84.0", "80 to 81.499 mm", "the teeth do not reach each other";
     misalignment_pulls_apart: with("speed = 2000.0", "speed = 2000.0\nmisalignment = 2.4")
         => Inconsistent "operation.misalignment" at 18:16, "2.4", "to 1.499 mm", "contact ratio is";
     misalignment_jams: with("speed = 2000.0", "speed = 2000.0\nmisalignment = -0.1")
@@ -384,6 +384,20 @@ fn defaults_are_those_of_the_format() {
         (n.step_tolerance, n.friction, n.stored_states),
         (2e-3, false, 5)
     );
+}
+
+/// The studies that `gearwear init` writes say that their numerics are the defaults.
+#[test]
+fn the_examples_have_the_default_numerics() {
+    let default = Study::parse(SHORT, "study.toml").unwrap().numerics;
+    for text in [
+        include_str!("../src/cli/examples/paper.toml"),
+        include_str!("../src/cli/examples/fzg-c.toml"),
+        include_str!("../src/cli/examples/plastic-steel.toml"),
+    ] {
+        assert!(text.contains("[numerics]                # optional, and every key of it; these are the defaults"));
+        assert_eq!(Study::parse(text, "study.toml").unwrap().numerics, default);
+    }
 }
 
 /// FZG type C: 91.5001 mm is free of backlash for x = 0.1817/0.1715, m 4.5, 16/24 teeth (published: 91.5 nominal).

@@ -12,17 +12,18 @@ use self::kept::{Kept, State};
 use self::version::{Fitter, Rung};
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, folder, inputs, interrupt};
-use crate::learn::climb::{DoesNotPay, Proposal, proposal};
+use crate::learn::climb::{Answer, DoesNotPay, Proposal, proposal};
 use crate::learn::diagnose::{Diagnosis, Fidelity, Verdict, diagnose};
 use crate::learn::{Measured, contact_of};
 use crate::report;
 use crate::study::{self, Study};
 use clap::Args;
+use serde_json::json;
 
 /// Arguments of `climb`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Diagnoses, adds the effect that the diagnosis names (of several that it cannot tell apart, the one that does best on tests that\nit was not fitted to), fits everything again, takes out what is no longer needed, and diagnoses again. A step is kept\nif it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is held out, each fit test left\nout in turn.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
+    after_help = "Diagnoses, adds the effect that the diagnosis names (of several that it cannot tell apart, the one that does best on tests that\nit was not fitted to), fits everything again, takes out what is no longer needed, and diagnoses again. A step is kept\nif it pays by evidence and on tests that it was not fitted to: the held-out ones or, where none is held out, each fit test left\nout in turn. The first step goes by the diagnosis in STUDYSTEM.out/diagnose if that is of the same study and measurements.\n\nExamples:\n  gearwear climb study.toml\n  gearwear climb study.toml --most 2 -o results/climb\n  gearwear climb study.toml --resume\n  gearwear climb study.toml --json --quiet | jq '.effects'"
 )]
 pub struct ClimbArgs {
     #[command(flatten)]
@@ -66,10 +67,36 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
         path,
         data: &data,
     };
-    let mut state = match kept.read(args.resume)? {
+    let left = kept.read(args.resume)?;
+    if args.resume && left.is_none() {
+        context.tell(
+            "note: no interrupted climb of this study is there to go on from; it begins anew",
+        );
+    }
+    let mut state = match left {
         Some(state) => state,
         None => State::first(&fitter, &|doing| show(0, 0.0, doing))?,
     };
+    let finished = match state.steps.len() {
+        1 => inputs::finished::<Answer>(path, &study, fidelity(&study) != Fidelity::Screening)?,
+        _ => None,
+    };
+    if let Some(answer) = finished {
+        context.tell("note: the first step goes by the finished diagnosis of this study");
+        let watch = |doing| show(0, 0.6, doing);
+        if step(&mut state, &fitter, &answer, false, most, &watch)?.is_none() {
+            kept.keep(&state)?;
+        } else {
+            state.steps.truncate(1);
+        }
+    }
+    let tell = |state: &State| {
+        if !progress.is_seen() {
+            let step = state.standing.step(None, names(&state.rungs));
+            context.tell(&report::climb::step_in_words(&step));
+        }
+    };
+    tell(&state);
     let (diagnosis, stopped) = loop {
         let rungs = state.rungs.len();
         let version = fitter.version(&state.rungs, &state.values)?;
@@ -77,8 +104,13 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
             show(rungs, 0.6 * done, what);
         })?;
         let watch = |doing| show(rungs, 0.6, doing);
-        match step(&mut state, &fitter, &diagnosis, most, &watch)? {
-            None => kept.keep(&state)?,
+        let answer = Answer::from(&diagnosis);
+        let sure = diagnosis.is_sure_of_nothing();
+        match step(&mut state, &fitter, &answer, sure, most, &watch)? {
+            None => {
+                kept.keep(&state)?;
+                tell(&state);
+            }
             Some(stopped) => break (diagnosis, stopped),
         }
     };
@@ -103,7 +135,7 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
         ("climbed.toml", climbed.text().as_bytes().to_vec()),
         (
             "diagnosis.json",
-            report::json::text("diagnosis.json", &diagnosis)?,
+            last_diagnosis(&diagnosis, inputs::identity_of(climbed.text(), &study)?)?,
         ),
     ];
     let written = report::write_page_with(&page, "climb.json", &document, &further, &target)?;
@@ -115,30 +147,46 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
     })
 }
 
+/// The document of the last diagnosis, by which `plan` goes on from the climbed study.
+fn last_diagnosis(diagnosis: &Diagnosis, climbed: String) -> Result<Vec<u8>, CliError> {
+    let mut document = json!(diagnosis);
+    document[inputs::KEY] = json!(climbed);
+    Ok(report::json::text("diagnosis.json", &document)?)
+}
+
 /// What is missing of a version, by coarse elements for what effects change.
 fn diagnosis(
     version: &Study,
     fitter: &Fitter<'_>,
     watch: &(dyn Fn(f64, String) + Sync),
 ) -> Result<Diagnosis, CliError> {
-    let fidelity = match version.contact {
-        study::ContactKind::Hertz => Fidelity::Screening,
-        study::ContactKind::Fem | study::ContactKind::Paper => Fidelity::Middle,
-    };
     let measured = Measured::new(version, fitter.data.clone());
-    Ok(diagnose(&measured, fidelity, watch)?)
+    Ok(diagnose(&measured, fidelity(version), watch)?)
 }
 
-/// One step up if one pays; else why there is none.
+fn fidelity(study: &Study) -> Fidelity {
+    match study.contact {
+        study::ContactKind::Hertz => Fidelity::Screening,
+        study::ContactKind::Fem | study::ContactKind::Paper => Fidelity::Middle,
+    }
+}
+
+/// One step up if one pays; else why there is none: `is_sure` tells whether nothing is missing is more than likely.
 fn step(
     state: &mut State,
     fitter: &Fitter<'_>,
-    diagnosis: &Diagnosis,
+    answer: &Answer,
+    is_sure: bool,
     most: usize,
     watch: &(dyn Fn(String) + Sync),
 ) -> Result<Option<String>, CliError> {
-    match diagnosis.verdict {
-        Verdict::NothingMissing => return Ok(Some("nothing more is missing".to_owned())),
+    match answer.verdict {
+        Verdict::NothingMissing if is_sure => {
+            return Ok(Some("nothing more is missing".to_owned()));
+        }
+        Verdict::NothingMissing => {
+            return Ok(Some("no further effect is established".to_owned()));
+        }
         Verdict::Unknown => {
             return Ok(Some(
                 "what remains is nothing that the catalogue holds".to_owned(),
@@ -150,20 +198,20 @@ fn step(
         let stopped = format!("--most {most} allows no more; something is still missing");
         return Ok(Some(stopped));
     }
-    let (mut effects, alike) = match proposal(diagnosis) {
+    let (mut effects, alike) = match proposal(answer) {
         Proposal::InTurn(effects) => (effects, false),
         Proposal::BestOf(effects) => (effects, true),
     };
     effects.retain(|effect| !state.has(effect));
     // without a test that it is not fitted to, the most probable goes first
     if alike && effects.len() > 1 && state.standing.error().is_some() {
-        if alike::best_of(&effects, state, fitter, diagnosis, watch)? {
+        if alike::best_of(&effects, state, fitter, answer, watch)? {
             return Ok(None);
         }
         effects.clear();
     }
     for effect in effects {
-        let added = fitter.with_effect(&state.rungs, &state.values, &effect, diagnosis, watch)?;
+        let added = fitter.with_effect(&state.rungs, &state.values, &effect, answer, watch)?;
         let paid = added.standing.pays_over(&state.standing);
         let mut step = added
             .standing

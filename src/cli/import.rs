@@ -4,12 +4,13 @@ mod said;
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
+use super::init::Example;
 use super::{CliError, Context, Outcome};
 use crate::measure::import::{self, Decimal, Entry, Long, Sheet, UnitFrom, Wanted, Wide};
 use crate::measure::{Dataset, Quantity, Subject};
@@ -19,18 +20,21 @@ use crate::study::Study;
 /// Arguments of `import`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "A wide table has a column for each checkpoint and positions in its first column, or the other way round. A long table has a\nrow for each value and columns of tests, members, cycles, positions and values, under the usual names in English, German,\nItalian, French or Spanish. Nothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2\n  gearwear import profiles.csv --study study.toml -o measurements.csv\n  gearwear import weighing.xlsx --study study.toml --quantity mass_loss -o measurements.csv --append"
+    after_help = "A wide table has a column for each checkpoint and positions in its first column, or the other way round. A long table has a\nrow for each value and columns of tests, members, cycles, positions and values, under the usual names in English, German,\nItalian, French or Spanish. A file or a sheet may be of one curve, with test, member and cycles in lines above its header.\nNothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2\n  gearwear import profiles.csv --study study.toml -o measurements.csv\n  gearwear import profiles/*.txt --study study.toml --turn-sign -o measurements.csv\n  gearwear import weighing.xlsx --study study.toml --quantity mass_loss -o measurements.csv --append"
 )]
 pub struct ImportArgs {
-    /// Table: .xlsx, or text with commas, semicolons or tabulators
-    #[arg(value_name = "TABLE")]
-    table: PathBuf,
+    /// Tables: .xlsx, or text with commas, semicolons or tabulators
+    #[arg(value_name = "TABLE", required = true, num_args = 1..)]
+    tables: Vec<PathBuf>,
     /// Study that the measurements belong to: its tests and gears
     #[arg(long, value_name = "STUDY")]
     study: PathBuf,
     /// Sheet of the spreadsheet [default: its only one]
     #[arg(long, value_name = "NAME")]
     sheet: Option<String>,
+    /// Every sheet of the spreadsheets, one after the other
+    #[arg(long, conflicts_with = "sheet")]
+    all_sheets: bool,
     /// Id of the test [default: what the table or the sheet's name says, or the study's only one]
     #[arg(long, value_name = "ID")]
     test: Option<String>,
@@ -40,6 +44,9 @@ pub struct ImportArgs {
     /// What was measured [default: what a column of values is called, wear_depth otherwise]
     #[arg(long, value_name = "QUANTITY", value_parser = quantities())]
     quantity: Option<Quantity>,
+    /// Pinion revolutions after which a table of one curve was measured [default: what the table says]
+    #[arg(long, value_name = "N")]
+    cycles: Option<f64>,
     /// How places on the flank are told [default: what the header says, a radius otherwise]
     #[arg(long, value_enum, value_name = "KIND")]
     position: Option<PositionKind>,
@@ -178,9 +185,17 @@ impl Understood {
             Understood::Wide(wide) => &wide.entries,
         }
     }
+
+    /// What was read as what, by which a table is like another.
+    fn columns(&self) -> Vec<(String, String)> {
+        match self {
+            Understood::Long(long) => long.columns.clone(),
+            Understood::Wide(wide) => vec![wide.corner.clone()],
+        }
+    }
 }
 
-/// Reads the table, shows how, writes if asked.
+/// Reads the tables, shows how, writes if asked.
 pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.study)?;
     let unusable = |why: String| CliError::Unusable(why);
@@ -190,30 +205,48 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             args.study.display()
         )));
     }
-    let sheets = import::sheets(&args.table).map_err(|error| unusable(error.to_string()))?;
-    let sheet = chosen(&sheets, args)?;
     let wanted = wanted(args, &study)?;
-    let understood = match import::long(sheet, &wanted) {
-        Ok(Some(long)) => Ok(Understood::Long(long)),
-        Ok(None) => import::wide(sheet, &wanted).map(Understood::Wide),
-        Err(error) => Err(error),
+    let mut file = there(args)?;
+    let mut text = String::new();
+    let mut documents = Vec::new();
+    let mut shown: Option<Vec<(String, String)>> = None;
+    let mut count = 0;
+    for table in &args.tables {
+        let sheets = import::sheets(table).map_err(|error| unusable(error.to_string()))?;
+        for sheet in chosen(&sheets, table, args)? {
+            let name = named(table, sheet);
+            let understood =
+                understood(sheet, &wanted).map_err(|error| unusable(format!("{name}: {error}")))?;
+            let (header, rows) = import::lines(understood.entries());
+            let source = source(args, file.is_some(), &name);
+            let whole = with_rows(args, file.as_deref(), &header, &rows)?;
+            // what cannot be read back is not written
+            Dataset::parse(&whole, &source, &study.known()).map_err(|error| {
+                reading(&understood)
+                    .into_iter()
+                    .fold(error, |error, said| error.with_hint(&said))
+            })?;
+            let columns = understood.columns();
+            if shown.as_ref() == Some(&columns) {
+                text += &said::like_the_first(&name, understood.entries());
+            } else {
+                text += &match &understood {
+                    Understood::Long(long) => said::long(args, &name, long),
+                    Understood::Wide(wide) => said::wide(args, &name, wide),
+                };
+                text += &said::rows(&header, &rows);
+                shown = Some(columns);
+            }
+            count += rows.len();
+            documents.push(document(&understood));
+            file = Some(whole);
+        }
+    }
+    let whole = file.unwrap_or_default();
+    let mut document = match <[serde_json::Value; 1]>::try_from(documents) {
+        Ok([one]) => one,
+        Err(several) => json!({ "tables": several, "rows": count }),
     };
-    let name = named(args, sheet);
-    let understood = understood.map_err(|error| unusable(format!("{name}: {error}")))?;
-    let (header, rows) = import::lines(understood.entries());
-    let whole = whole(args, &header, &rows)?;
-    // what cannot be read back is not written
-    let data = Dataset::parse(&whole, &source(args, &name), &study.known()).map_err(|error| {
-        reading(&understood)
-            .into_iter()
-            .fold(error, |error, said| error.with_hint(&said))
-    })?;
-    let mut text = match &understood {
-        Understood::Long(long) => said::long(args, &name, long),
-        Understood::Wide(wide) => said::wide(args, &name, wide),
-    };
-    text += &said::rows(&header, &rows);
-    let mut document = document(&understood);
     match &args.output {
         None => {
             text += "nothing is written yet: -o measurements.csv writes it\n";
@@ -221,11 +254,12 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
         }
         Some(path) => {
             write_file(path, whole.as_bytes())?;
+            let all = Dataset::parse(&whole, &path.display().to_string(), &study.known())?;
             let _ = writeln!(
                 text,
                 "wrote {}: {} rows\nnext: gearwear check {}",
                 path.display(),
-                data.observations.len(),
+                all.observations.len(),
                 args.study.display()
             );
             document["written"] = json!([path.display().to_string()]);
@@ -238,10 +272,18 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
     })
 }
 
+/// A sheet as either kind of table.
+fn understood(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Understood, import::ImportError> {
+    match import::long(sheet, wanted)? {
+        Some(long) => Ok(Understood::Long(long)),
+        None => import::wide(sheet, wanted).map(Understood::Wide),
+    }
+}
+
 /// What messages about the rows call them: they stand in no file yet.
-fn source(args: &ImportArgs, table: &str) -> String {
+fn source(args: &ImportArgs, has_others: bool, table: &str) -> String {
     match &args.output {
-        Some(path) if args.append && path.exists() => {
+        Some(path) if args.append && has_others => {
             format!("{} with the rows of {table}", path.display())
         }
         _ => format!("the rows of {table}"),
@@ -302,37 +344,43 @@ fn document(understood: &Understood) -> serde_json::Value {
     }
 }
 
-/// The sheet that is meant.
-fn chosen<'s>(sheets: &'s [Sheet], args: &ImportArgs) -> Result<&'s Sheet, CliError> {
+/// The sheets that are meant, those without a cell left out.
+fn chosen<'s>(
+    sheets: &'s [Sheet],
+    table: &Path,
+    args: &ImportArgs,
+) -> Result<Vec<&'s Sheet>, CliError> {
     let names = || {
         let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
         names.join(", ")
     };
     match (&args.sheet, sheets) {
-        (None, [one]) => Ok(one),
-        (Some(name), _) => sheets
-            .iter()
-            .find(|sheet| sheet.name == *name)
-            .ok_or_else(|| {
-                CliError::Unusable(format!(
-                    "{} has no sheet {name}; its sheets: {}",
-                    args.table.display(),
-                    names()
-                ))
-            }),
+        (None, [one]) => Ok(vec![one]),
+        (None, all) if args.all_sheets => {
+            let is_filled = |sheet: &&Sheet| sheet.rows.iter().flatten().any(|c| !c.is_empty());
+            Ok(all.iter().filter(is_filled).collect())
+        }
+        (Some(name), _) => match sheets.iter().find(|sheet| sheet.name == *name) {
+            Some(sheet) => Ok(vec![sheet]),
+            None => Err(CliError::Unusable(format!(
+                "{} has no sheet {name}; its sheets: {}",
+                table.display(),
+                names()
+            ))),
+        },
         (None, _) => Err(CliError::Unusable(format!(
-            "{} has several sheets, name one with --sheet: {}",
-            args.table.display(),
+            "{} has several sheets, name one with --sheet: {}; or take all, one after the other, by --all-sheets",
+            table.display(),
             names()
         ))),
     }
 }
 
 /// The table and its sheet.
-fn named(args: &ImportArgs, sheet: &Sheet) -> String {
+fn named(table: &Path, sheet: &Sheet) -> String {
     match sheet.name.as_str() {
-        "" => args.table.display().to_string(),
-        name => format!("{}, sheet {name}", args.table.display()),
+        "" => table.display().to_string(),
+        name => format!("{}, sheet {name}", table.display()),
     }
 }
 
@@ -368,6 +416,7 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
             On::Pair => Subject::Pair,
         }),
         quantity: args.quantity,
+        cycles: args.cycles,
         position: args.position.map(|kind| match kind {
             PositionKind::Radius => import::PositionKind::Radius,
             PositionKind::Diameter => import::PositionKind::Diameter,
@@ -392,23 +441,48 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
     })
 }
 
-/// The text of the file with these rows.
-fn whole(args: &ImportArgs, header: &str, rows: &[String]) -> Result<String, CliError> {
-    let there = args.output.as_ref().filter(|path| path.exists());
-    match there {
-        Some(path) if args.append => {
-            let before = fs::read_to_string(path).map_err(|source| CliError::Io {
-                doing: "read",
-                path: path.clone(),
-                source,
-            })?;
-            import::appended(&before, header, rows)
-                .map_err(|error| CliError::Unusable(format!("{}: {error}", path.display())))
-        }
-        Some(path) if !args.force => Err(CliError::Unusable(format!(
-            "{} is there already; --append writes behind its rows, --force overwrites it",
-            path.display()
-        ))),
-        _ => Ok(format!("{header}\n{}\n", rows.join("\n"))),
+/// The text of the file that is to be continued; none where a new one is written.
+fn there(args: &ImportArgs) -> Result<Option<String>, CliError> {
+    let Some(path) = args.output.as_ref().filter(|path| path.exists()) else {
+        return Ok(None);
+    };
+    if args.force {
+        return Ok(None);
     }
+    let before = fs::read_to_string(path).map_err(|source| CliError::Io {
+        doing: "read",
+        path: path.clone(),
+        source,
+    })?;
+    if Example::holds(&before) {
+        return Err(CliError::Unusable(format!(
+            "{} holds the made-up measurements that `gearwear init` wrote, beside which your own do not belong; --force overwrites it",
+            path.display()
+        )));
+    }
+    if args.append {
+        return Ok(Some(before));
+    }
+    Err(CliError::Unusable(format!(
+        "{} is there already; --append writes behind its rows, --force overwrites it",
+        path.display()
+    )))
+}
+
+/// The text of the file with these rows.
+fn with_rows(
+    args: &ImportArgs,
+    before: Option<&str>,
+    header: &str,
+    rows: &[String],
+) -> Result<String, CliError> {
+    let Some(before) = before else {
+        return Ok(format!("{header}\n{}\n", rows.join("\n")));
+    };
+    import::appended(before, header, rows).map_err(|error| {
+        CliError::Unusable(match &args.output {
+            Some(path) if args.append => format!("{}: {error}", path.display()),
+            _ => error.to_string(),
+        })
+    })
 }

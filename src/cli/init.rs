@@ -27,7 +27,7 @@ pub struct InitArgs {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Example {
+pub(super) enum Example {
     /// Steel, 27/53 teeth, module 2: the pair of a published wear study
     Paper,
     /// Steel, FZG type C, 16/24 teeth, module 4.5
@@ -72,6 +72,13 @@ impl Example {
                     .into()
             }
         }
+    }
+
+    /// Whether a measurement file holds what one of the examples does.
+    pub(super) fn holds(text: &str) -> bool {
+        Self::value_variants()
+            .iter()
+            .any(|example| text.trim_end() == example.measurements().trim_end())
     }
 
     /// The command to go on with.
@@ -119,7 +126,7 @@ pub(super) fn execute(args: &InitArgs) -> Result<Outcome, CliError> {
         .map(|(path, _)| path.display().to_string())
         .collect();
     let text = format!(
-        "wrote {}, {} and {}, an empty measurement file that says what stands where\nnext: gearwear {} {}\n",
+        "wrote {}, {} (made-up values to try with: put your own in their place) and {}, an empty measurement file that says what stands where\nnext: gearwear {} {}\n",
         written[0],
         written[1],
         written[2],

@@ -31,6 +31,11 @@ impl Progress {
         )
     }
 
+    /// Whether somebody may look at it: standard error is a terminal.
+    pub(crate) fn is_seen(&self) -> bool {
+        !self.0.is_hidden()
+    }
+
     /// Shows which stage begins.
     pub(crate) fn stage(&self, name: &'static str) {
         self.0.set_message(name);

@@ -189,10 +189,7 @@ pub enum PairError {
         min: f64,
     },
     /// Fewer than one pair of teeth in contact.
-    #[error(
-        "contact ratio is {contact_ratio:.4}, at least 1 is needed: centre distance {centre_distance:.4} mm found, at most \
-         {max_centre_distance:.4} mm allowed, a misalignment of at most {max_misalignment:.4} mm"
-    )]
+    #[error("{}", too_far_apart(*.contact_ratio, *.centre_distance, *.max_centre_distance, *.max_misalignment))]
     ContactRatio {
         /// Transverse contact ratio found.
         contact_ratio: f64,
@@ -220,4 +217,19 @@ pub enum PairError {
         /// Smallest working centre distance at which the tip stays clear of the fillet, mm.
         min: f64,
     },
+}
+
+/// What a contact ratio below 1 means: a negative one, that no tooth reaches its mate.
+fn too_far_apart(ratio: f64, found: f64, allowed: f64, misalignment: f64) -> String {
+    let what = if ratio > 0.0 {
+        format!("contact ratio is {ratio:.4}, at least 1 is needed")
+    } else {
+        "the teeth do not reach each other".to_owned()
+    };
+    let shift = if misalignment > 0.0 {
+        format!(", a misalignment of at most {misalignment:.4} mm")
+    } else {
+        String::new()
+    };
+    format!("{what}: centre distance {found:.4} mm found, at most {allowed:.4} mm allowed{shift}")
 }

@@ -16,7 +16,7 @@
 
 mod proposal;
 
-pub use proposal::{Choice, Proposal, choose, proposal};
+pub use proposal::{Answer, Choice, Proposal, choose, proposal};
 
 use serde::{Deserialize, Serialize};
 

@@ -163,8 +163,13 @@ impl<'a> Measured<'a> {
 
     /// What a fit leaves of the fit tests.
     pub(super) fn misfit(&self, fit: &Fit) -> Misfit {
+        self.misfit_of(Role::Fit, fit)
+    }
+
+    /// χ² of the tests of a role, and their points.
+    pub(super) fn misfit_of(&self, role: Role, fit: &Fit) -> Misfit {
         let rows = self.data.observations.iter().zip(&fit.rows);
-        let fitted = rows.filter(|(o, _)| self.roles[o.test] == Role::Fit);
+        let fitted = rows.filter(|(o, _)| self.roles[o.test] == role);
         let none = Misfit {
             square: 0.0,
             points: 0.0,

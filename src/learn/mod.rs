@@ -19,6 +19,7 @@ mod candidate_model;
 mod cheaper;
 mod checks;
 pub mod climb;
+mod coefficient_trend;
 mod collinear;
 mod comparison;
 mod decision;

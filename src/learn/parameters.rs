@@ -113,6 +113,11 @@ impl Parameter {
         matches!(self.prior, Prior::LogNormal { .. })
     }
 
+    /// Whether it is an angle that may take any value of a turn: both its bounds are then the same place, and none is an end.
+    fn is_angle(&self) -> bool {
+        self.unit == "rad" && (self.upper - self.lower - 2.0 * PI).abs() < 1e-9
+    }
+
     /// On the natural scale.
     pub(super) fn natural(&self, value: f64) -> f64 {
         if self.is_logarithmic() {
@@ -207,9 +212,19 @@ impl Parameter {
                 sd
             },
             interval: [at(0.025), at(0.975)],
-            at_bound: mode - prior.lower <= near || prior.upper - mode <= near,
+            at_bound: !self.is_angle()
+                && (mode - prior.lower <= near || prior.upper - mode <= near),
             logarithmic: self.is_logarithmic(),
         }
+    }
+}
+
+/// A parameter's value as people write it, to four decimals or four digits.
+pub(super) fn short(value: f64) -> String {
+    if (1e-2..1e6).contains(&value.abs()) {
+        format!("{}", (1e4 * value).round() / 1e4)
+    } else {
+        format!("{value:.3e}")
     }
 }
 

@@ -39,6 +39,15 @@ impl Map {
         }
     }
 
+    /// Tests of no geometry, by the ends of their intervals.
+    #[cfg(test)]
+    pub(super) fn of_ends(ends: Vec<Vec<f64>>) -> Self {
+        Self {
+            pairs: ends.iter().map(|_| None).collect(),
+            ends,
+        }
+    }
+
     /// Signed distance along the path of contact from the pitch point, mm, of what stands at a radius.
     pub(super) fn path(&self, o: &Observation) -> Option<f64> {
         let member = o.member.member()?;

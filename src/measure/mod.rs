@@ -203,7 +203,7 @@ fn without_sigma(
             let allowed = format!("one standard deviation, at least {LEAST_SIGMA:e}, {unit}");
             let fault = cell.fault(Fault::MissingKey, "sigma is missing", &allowed);
             return Ok(fault.with_hint(
-                "it is estimated where points along a trace, repeated measurements or other rows of the quantity show it; here none does",
+                "it is estimated where points along a trace, repeated measurements or other rows of the quantity show it; here none does: state it (`gearwear import` by --sigma or --relative-sigma)",
             ));
         }
     }

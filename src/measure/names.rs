@@ -6,8 +6,18 @@ mod vocabulary;
 use super::quantity::{Quantity, Subject};
 
 use vocabulary::{
-    COLUMNS, CYCLES, FILLERS, FOR_PEOPLE, HINTS, HOURS, LOSSES, MEMBERS, QUANTITIES, TIMES,
+    AFTER, BEFORE, COLUMNS, CYCLES, FILLERS, FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES, MEMBERS,
+    QUANTITIES, TIMES,
 };
+
+/// Which of two weighings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Weighed {
+    /// Of the new part.
+    Before,
+    /// Of the worn part.
+    After,
+}
 
 /// A name without what does not count in it: case, accents, blanks, signs between its letters.
 pub(super) fn folded(text: &str) -> String {
@@ -105,6 +115,29 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
         Some(_) => None,
     };
     found.map(|(_, hours)| *hours)
+}
+
+/// Which weighing of a part a name means, and the name of the mass without it.
+pub(super) fn weighed(name: &str) -> Option<(Weighed, String)> {
+    let words = words(name);
+    let any = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
+    let when = match (any(&BEFORE), any(&AFTER)) {
+        (true, false) => Weighed::Before,
+        (false, true) => Weighed::After,
+        _ => return None,
+    };
+    let is_time = |word: &str| BEFORE.contains(&word) || AFTER.contains(&word);
+    let rest: Vec<&str> = words
+        .iter()
+        .map(String::as_str)
+        .filter(|word| !is_time(word))
+        .collect();
+    let rest = telling(&rest.join(" "));
+    // a loss is no weighing
+    let [mass] = &rest[..] else { return None };
+    MASSES
+        .contains(&mass.as_str())
+        .then(|| (when, mass.clone()))
 }
 
 /// The quantity that a name means, and whether its unit may say otherwise.

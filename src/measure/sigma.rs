@@ -18,6 +18,9 @@ const ENOUGH: usize = 15;
 const REPEATS: usize = 3;
 /// Least σ over a curve's largest value: smoother ones have been filtered.
 const LEAST: f64 = 1e-3;
+/// Of so many points of a curve one may be left out, where the scatter without it is less than this part of that with it.
+const MOST_APART: usize = 8;
+const STANDS_APART: f64 = 0.7;
 /// Scatter of a curve, as a part of that of the middle one of its quantity, both as it is and over the largest value, below which it has been filtered.
 const FILTERED: f64 = 0.2;
 
@@ -159,18 +162,38 @@ fn series(rows: &[&Observation]) -> Vec<Vec<usize>> {
 }
 
 /// Scatter of a curve's points about what their neighbours lead one to expect, no less than a thousandth of its largest value, and that value.
+/// A point that stands far apart is left out: it is in the expectation of as many as it has neighbours, half a short curve.
 fn scatter(points: &[[f64; 3]]) -> Option<[f64; 2]> {
     let even: Vec<[f64; 3]> = points.iter().map(|[x, y, _]| [*x, *y, 1.0]).collect();
-    let none = vec![false; even.len()];
-    let mut apart: Vec<f64> = (0..even.len())
-        .filter_map(|at| {
-            let found = around(&even, at, &none)?;
-            Some((even[at][1] - found.expected).abs() / found.sigma)
-        })
-        .collect();
-    let largest = even.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
-    let found = (!apart.is_empty()).then(|| median(&mut apart) / MEDIAN)?;
+    let mut left_out = vec![false; even.len()];
+    let (mut found, mut furthest) = middle_of_apart(&even, &left_out)?;
+    for _ in 0..even.len() / MOST_APART {
+        left_out[furthest] = true;
+        match middle_of_apart(&even, &left_out) {
+            Some((less, next)) if less < STANDS_APART * found => (found, furthest) = (less, next),
+            _ => {
+                left_out[furthest] = false;
+                break;
+            }
+        }
+    }
+    let kept = even.iter().zip(&left_out).filter(|(_, out)| !**out);
+    let largest = kept.map(|(p, _)| p[1].abs()).fold(0.0, f64::max);
     (largest > 0.0).then(|| [found.max(LEAST * largest), largest])
+}
+
+/// Scatter of the points that are not left out about what their neighbours lead one to expect, and the one that stands furthest apart.
+fn middle_of_apart(even: &[[f64; 3]], left_out: &[bool]) -> Option<(f64, usize)> {
+    let apart = (0..even.len())
+        .filter(|&at| !left_out[at])
+        .filter_map(|at| {
+            let found = around(even, at, left_out)?;
+            Some((at, (even[at][1] - found.expected).abs() / found.sigma))
+        });
+    let apart: Vec<(usize, f64)> = apart.collect();
+    let furthest = apart.iter().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
+    let mut all: Vec<f64> = apart.into_iter().map(|(_, apart)| apart).collect();
+    Some((median(&mut all) / MEDIAN, furthest))
 }
 
 /// Of each quantity by values of the same place and time.
@@ -209,4 +232,27 @@ fn of_stated(observations: &[Observation]) -> BTreeMap<Quantity, f64> {
 fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sixteen points of a parabola with a noise of ±0.1, and one of them with a decimal point at the wrong place.
+    #[test]
+    fn a_slip_of_the_pen_does_not_make_a_curve_scatter() {
+        let noise = |i: usize| 0.1 * (7.3 * (i * i) as f64 + 1.0).sin();
+        let value = |i: usize| 0.5 + 0.05 * (i as f64 - 6.0).powi(2) + noise(i);
+        let clean: Vec<[f64; 3]> = (0..16).map(|i| [i as f64, value(i), 1.0]).collect();
+        let mut slipped = clean.clone();
+        slipped[7][1] *= 10.0;
+        let [of_clean, largest] = scatter(&clean).unwrap();
+        let [of_slipped, same] = scatter(&slipped).unwrap();
+        assert!((0.03..0.2).contains(&of_clean), "{of_clean}");
+        assert!(
+            (of_slipped / of_clean - 1.0).abs() < 0.5,
+            "{of_slipped} {of_clean}"
+        );
+        assert_eq!(largest, same);
+    }
 }

@@ -9,7 +9,7 @@ use super::format::significant;
 use super::html::{Cell, Page, Section, Table};
 use super::{html, ladder};
 use crate::learn::climb::ClimbStep;
-use crate::learn::diagnose::Diagnosis;
+use crate::learn::diagnose::{Diagnosis, Fidelity};
 use crate::learn::{self, Comparison, Version};
 
 /// All that `climb` shows.
@@ -74,6 +74,10 @@ pub fn summary(result: &Result<'_>, study: &str, folder: &Path) -> String {
             }
         );
     }
+    let _ = writeln!(
+        text,
+        "  ln evidence: gained over the last version above that was kept"
+    );
     let _ = writeln!(text, "\nstopped: {}", result.stopped);
     if let Some((_, last)) = result.versions.last() {
         for parameter in &last.parameters {
@@ -85,7 +89,17 @@ pub fn summary(result: &Result<'_>, study: &str, folder: &Path) -> String {
             );
         }
     }
-    let _ = writeln!(text, "\nof what is left: {}", result.diagnosis.sentence);
+    let by = match result
+        .diagnosis
+        .ranking
+        .first()
+        .map(|entry| entry.decided_by)
+    {
+        Some(Fidelity::Screening) => " (by analytic contact)",
+        Some(Fidelity::Middle) => " (by coarse elements)",
+        _ => "",
+    };
+    let _ = writeln!(text, "\nof what is left{by}: {}", result.diagnosis.sentence);
     if let Some(next) = &result.diagnosis.next_experiment {
         let _ = writeln!(text, "next experiment: {}", next.why);
     }
@@ -191,13 +205,24 @@ fn conclusion(result: &Result<'_>) -> String {
     for choice in result.steps.iter().filter_map(|s| s.choice.as_deref()) {
         found += &format!(" {}.", capitalised(choice));
     }
-    match (first, last) {
+    let found = match (first, last) {
         (Some((before, of)), Some((after, _))) if !result.effects.is_empty() => format!(
             "{found} χ² per point of {of} falls from {} to {}; 1 is the noise floor.",
             significant(before, 3),
             significant(after, 3)
         ),
-        _ => found,
+        _ => return found,
+    };
+    // what chose is no longer independent
+    let chose = result.steps.iter().any(|step| {
+        let choice = step.choice.as_deref().unwrap_or_default();
+        step.holdout_chi2_per_point.is_some() && choice.contains(" does best on ")
+    });
+    if chose {
+        found
+            + " They chose between effects that look alike, so a test that had no part in that would prove more."
+    } else {
+        found
     }
 }
 
@@ -207,6 +232,20 @@ fn capitalised(text: &str) -> String {
         .next()
         .map(|letter| letter.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
+}
+
+/// A step in a line, as it is made.
+pub fn step_in_words(step: &ClimbStep) -> String {
+    let error = step.holdout_chi2_per_point.or(step.left_out_chi2_per_point);
+    format!(
+        "{}: chi2 per point {} of the fit tests, {} of tests that it was not fitted to",
+        match &step.effects[..] {
+            [] => "the study".to_owned(),
+            effects => format!("with {}", effects.join(" + ")),
+        },
+        number(step.fit_chi2_per_point),
+        number(error)
+    )
 }
 
 fn name(step: &ClimbStep) -> String {

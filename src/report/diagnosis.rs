@@ -10,11 +10,13 @@ use super::html::{Cell, Page, Section, Table};
 use super::learned;
 use super::measured_curves;
 use crate::learn::diagnose::{
-    Diagnosis, Fidelity, Hypothesis, NextExperiment, NextTest, Ranked, Screened,
+    Diagnosis, Fidelity, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
 };
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
+/// Probability from which the parameters of a rival are worth a line.
+const RIVAL: f64 = 0.05;
 /// Fits listed on the page.
 const FITTED: usize = 20;
 
@@ -36,8 +38,16 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     let decisive = diagnosis.ranking.first().map(|entry| entry.decided_by);
     let _ = writeln!(
         text,
-        "\n  {:<width$}{:>12}{:>12}{:>10}",
-        "", "probability", "χ²/point", "held out"
+        "\n  {:<width$}{:>12}{:>12}{:>10}{}",
+        "",
+        "probability",
+        "χ²/point",
+        "held out",
+        if decisive == Some(Fidelity::Screening) {
+            "   all by analytic contact, whose own error is in both columns"
+        } else {
+            ""
+        }
     );
     for entry in shown() {
         let held = entry
@@ -68,6 +78,11 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
         unknown_name(diagnosis),
         probability(unknown)
     );
+    let is_beside = |entry: &Ranked| matches!(entry.effect, Hypothesis::EffectsAndUnknown(_));
+    if shown().any(is_beside) {
+        text += "  χ² of +unknown: of the effect alone, what is unknown beside it left out\n";
+    }
+    text += &values_of_rivals(diagnosis);
     for warning in &diagnosis.warnings {
         let _ = writeln!(text, "\nwarning: {warning}");
     }
@@ -82,6 +97,22 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
     let _ = writeln!(text, "figures: {}", folder.join("diagnosis.json").display());
     text
+}
+
+/// The parameters of what the data cannot tell apart, a line each, where no sentence has them.
+fn values_of_rivals(diagnosis: &Diagnosis) -> String {
+    if diagnosis.verdict != Verdict::Ambiguous {
+        return String::new();
+    }
+    let rivals = diagnosis.ranking.iter().take(SHOWN);
+    let rivals = rivals.filter(|entry| entry.probability >= RIVAL && !entry.parameters.is_empty());
+    let lines = rivals.map(|entry| format!("\n  {}: {}", name(entry), parameters(entry)));
+    let lines: String = lines.collect();
+    if lines.is_empty() {
+        lines
+    } else {
+        format!("\n  with each, fitted alone:{lines}\n")
+    }
 }
 
 /// What a line was fitted by. Lines by different means have errors of their own: their χ² do not compare to the last digit.
@@ -166,11 +197,18 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
     let ranking = Section::new("Ranking").table(table).note(format!(
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
          its free parameters counted against it.{of_unknown} angle: between what a line and the leading one change in these measurements, \
-         k refitted; at 90° they have nothing in common, below some 10° they do the same. χ² of lines that were decided by other means than the first holds the \
+         k refitted; at 90° they have nothing in common, below some 10° they do the same, towards 180° the opposite. χ² of lines that were decided by other means than the first holds the \
          error of those means too.",
     ));
     let mut sections = vec![why];
-    sections.extend(measured_curves::section(&diagnosis.residual_drivers));
+    let is_established = !matches!(
+        diagnosis.verdict,
+        Verdict::NothingMissing | Verdict::Unknown
+    );
+    sections.extend(measured_curves::section(
+        &diagnosis.residual_drivers,
+        is_established,
+    ));
     sections.extend(diagnosis.learned.as_ref().map(learned::section));
     sections.push(ranking);
     sections.extend(fitted(diagnosis));

@@ -17,8 +17,8 @@ const POINTS: usize = 4;
 type Key<'r> = (&'r str, &'static str, &'static str, u64);
 
 /// The curves that the base model misses by most, each in one picture with both models; none where nothing was measured along a flank
-/// or over a mesh cycle.
-pub(super) fn section(left: &ResidualDrivers) -> Option<Section> {
+/// or over a mesh cycle. An effect that leads without being established is said to do so.
+pub(super) fn section(left: &ResidualDrivers, is_established: bool) -> Option<Section> {
     let plots = plots(left);
     if plots.is_empty() {
         return None;
@@ -26,8 +26,13 @@ pub(super) fn section(left: &ResidualDrivers) -> Option<Section> {
     let with = left.after.as_ref().map(Hypothesis::in_words);
     let text = match &with {
         Some(effect) => format!(
-            "The {} measured curves that the base model misses by most, with the fitted base model and the model with {effect}.",
-            plots.len()
+            "The {} measured curves that the base model misses by most, with the fitted base model and the model with {effect}{}.",
+            plots.len(),
+            if is_established {
+                ""
+            } else {
+                ", which comes nearest of the catalogue and is not established"
+            }
         ),
         None => format!(
             "The {} measured curves that the fitted base model misses by most.",
@@ -185,7 +190,7 @@ mod tests {
         assert_eq!(measured.points[0], (26.0, 2.0));
         assert!(base.points.iter().all(|p| (p.1 - 2.5).abs() < 1e-12));
         assert!(with.points.iter().all(|p| (p.1 - 1.95).abs() < 1e-12));
-        assert!(section(&left(rows([1.0, 1.0], None), None)).is_some());
-        assert!(section(&left(rows([1.0, 1.0], None).split_off(8), None)).is_none());
+        assert!(section(&left(rows([1.0, 1.0], None), None), true).is_some());
+        assert!(section(&left(rows([1.0, 1.0], None).split_off(8), None), true).is_none());
     }
 }

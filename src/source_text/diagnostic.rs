@@ -134,6 +134,12 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .min_by_key(|candidate| strsim::damerau_levenshtein(&word, &candidate.to_lowercase()))
 }
 
+/// Whether a word may be another one misspelt: at most half its letters differ.
+pub fn is_misspelt(word: &str, of: &str) -> bool {
+    let letters = word.chars().count().max(of.chars().count());
+    2 * strsim::damerau_levenshtein(&word.to_lowercase(), &of.to_lowercase()) <= letters
+}
+
 /// Words as a list for a sentence: `a, b, c`.
 pub fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     words.into_iter().collect::<Vec<_>>().join(", ")

@@ -8,7 +8,7 @@ use toml::de::DeValue;
 use super::quantity::{ANY, Quantity, Short};
 use super::reader::{Result, Table, shown};
 use super::units::{self, UnitFault};
-use crate::source_text::{Diagnostic, Fault, nearest};
+use crate::source_text::{Diagnostic, Fault, is_misspelt, nearest};
 
 /// A text and where it stands.
 type Placed<'a> = (&'a str, Range<usize>);
@@ -284,7 +284,9 @@ impl<'a> Table<'a> {
             return Ok(Some(*value));
         }
         let words = choices.iter().map(|(word, _)| *word);
+        // `validation` has more letters of `fit` than of `holdout`, and means the other
         let hint = nearest(text, words.clone())
+            .filter(|near| is_misspelt(text, near))
             .map_or(String::new(), |near| format!("the nearest is \"{near}\""));
         let quoted: Vec<String> = words.map(|word| format!("\"{word}\"")).collect();
         Err(self

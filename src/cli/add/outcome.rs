@@ -36,6 +36,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
                 let [low, high] = ends.map(|end| with_unit(significant(end, 4), &p.unit));
                 format!("95 % between {low} and {high}")
             }
+            None if !comparison.converged => "no interval: the fit came to no end".to_owned(),
             None => NO_INTERVAL.to_owned(),
         };
         let value = with_unit(significant(p.value, 4), &p.unit);
@@ -60,12 +61,18 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     }
     let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
     let without = addition.without_chi2_per_point;
+    let without_it =
+        |chi2: Option<f64>| chi2.map_or(String::new(), |chi2| format!(" (without it {chi2:.3})"));
     if let Some(chi2) = chi2(&comparison.fit) {
-        let without = without.map_or(String::new(), |chi2| format!(" (without it {chi2:.3})"));
+        let without = without_it(without);
         let _ = writeln!(text, "  chi2 per point of the fit tests: {chi2}{without}");
     }
     if let Some(chi2) = chi2(&comparison.holdout) {
-        let _ = writeln!(text, "  chi2 per point of the held-out tests: {chi2}");
+        let without = without_it(addition.without_holdout_chi2_per_point);
+        let _ = writeln!(
+            text,
+            "  chi2 per point of the held-out tests: {chi2}{without}"
+        );
     }
     if addition.compared.given_up.is_none() && addition.betters_nothing() {
         let _ = writeln!(
@@ -127,6 +134,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             "parameters": comparison.parameters,
             "fit": comparison.fit,
             "without_chi2_per_point": without,
+            "without_holdout_chi2_per_point": addition.without_holdout_chi2_per_point,
             "holdout": comparison.holdout,
             "converged": comparison.converged,
             "given_up_explaining": addition.compared.given_up,

@@ -3,20 +3,19 @@
 use super::kept::State;
 use super::version::{Fitted, Fitter};
 use super::{CliError, drop_needless, names, refused};
-use crate::learn::climb::{Standing, choose};
-use crate::learn::diagnose::Diagnosis;
+use crate::learn::climb::{Answer, Standing, choose};
 
 /// Fits each of the effects and goes on from the one that does best on tests that it was not fitted to; false if none pays.
 pub(super) fn best_of(
     effects: &[String],
     state: &mut State,
     fitter: &Fitter<'_>,
-    diagnosis: &Diagnosis,
+    answer: &Answer,
     watch: &(dyn Fn(String) + Sync),
 ) -> Result<bool, CliError> {
     let before = state.standing;
     let fit =
-        |effect: &String| fitter.with_effect(&state.rungs, &state.values, effect, diagnosis, watch);
+        |effect: &String| fitter.with_effect(&state.rungs, &state.values, effect, answer, watch);
     let fitted: Vec<Fitted> = effects.iter().map(fit).collect::<Result<_, _>>()?;
     let paid: Vec<_> = (fitted.iter())
         .map(|fitted| fitted.standing.pays_over(&before))

@@ -9,8 +9,7 @@ use super::CliError;
 use crate::cli::add::drafts::{forms, with_form};
 use crate::cli::fitting;
 use crate::effects::find;
-use crate::learn::climb::Standing;
-use crate::learn::diagnose::Diagnosis;
+use crate::learn::climb::{Answer, Standing};
 use crate::learn::{AddedForm, Comparison, Doing, ModelVersion, compare, left_out};
 use crate::measure::Dataset;
 use crate::study::{Study, rounded};
@@ -109,13 +108,13 @@ impl Fitter<'_> {
         self.judged(rungs, compared.comparison, watch)
     }
 
-    /// Fits the study with one effect more, in the form of it that fits best, from what its `diagnosis` has found.
+    /// Fits the study with one effect more, in the form of it that fits best, from what a diagnosis of it has found.
     pub(super) fn with_effect(
         &self,
         rungs: &[Rung],
         values: &[(String, f64)],
         effect: &str,
-        diagnosis: &Diagnosis,
+        answer: &Answer,
         watch: &(dyn Fn(String) + Sync),
     ) -> Result<Fitted, CliError> {
         let study = self.version(rungs, values)?;
@@ -136,7 +135,7 @@ impl Fitter<'_> {
         }
         let added: Vec<AddedForm> = (drafts.iter().zip(&all))
             .map(|(draft, form)| {
-                let found = diagnosis.values_of(effect, form.map_or("", |form| form.name));
+                let found = answer.values_of(effect, form.map_or("", |form| form.name));
                 AddedForm {
                     version: ModelVersion::of(draft).beginning_at(effect, found),
                     grown: form.map_or(&[], |form| form.grown),

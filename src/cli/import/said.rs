@@ -103,6 +103,9 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
         &format!("row {}, a row for each value below it", long.row),
     );
     titles(&mut text, &long.titles);
+    for words in &long.arranged {
+        line(&mut text, "made of", words);
+    }
     for (written, what) in &long.columns {
         line(&mut text, "column", &format!("`{written}`: {what}"));
     }
@@ -161,6 +164,25 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
             &format!("{n} rows without a value passed over"),
         ),
     }
+    text
+}
+
+/// A table that is read as the one before it.
+pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
+    let of = |name: fn(&Entry) -> String| {
+        let names: BTreeSet<String> = entries.iter().map(name).collect();
+        names.into_iter().collect::<Vec<_>>().join(", ")
+    };
+    let mut text = String::new();
+    let words = format!(
+        "{table}, read alike: {} rows, {} of {} in {} after {}",
+        entries.len(),
+        of(|entry| entry.quantity.name().to_owned()),
+        of(|entry| entry.member.name().to_owned()),
+        of_tests(entries),
+        of(|entry| entry.cycles.to_string()),
+    );
+    line(&mut text, "table", &words);
     text
 }
 

@@ -1,9 +1,12 @@
 //! What a diagnosis proposes to add, and which of several that look alike.
 
+use serde::Deserialize;
+
 use super::Standing;
 use crate::effects::CATALOGUE;
 use crate::learn::decision::Verdict;
-use crate::learn::explanation::{Diagnosis, Named};
+use crate::learn::experiment::decided::DecidedCandidate;
+use crate::learn::explanation::{Diagnosis, Named, Ranked, Screened};
 
 /// Effects that are tried in turn where the first does not pay.
 const IN_TURN: usize = 3;
@@ -30,15 +33,63 @@ pub struct Choice {
     pub why_not: String,
 }
 
+/// What a step up needs of a diagnosis; it can be read from its document.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Answer {
+    /// What is missing.
+    pub verdict: Verdict,
+    /// The named effect or effects.
+    effect: Option<Named>,
+    /// Groups that the data cannot tell apart.
+    indistinguishable: Vec<Vec<String>>,
+    /// What was fitted.
+    screened: Vec<AnswerFit>,
+    /// Candidates, the most probable first.
+    ranking: Vec<DecidedCandidate>,
+}
+
+/// A fit of a diagnosis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct AnswerFit {
+    effects: Vec<String>,
+    chi2_drop: f64,
+}
+
+impl From<&Diagnosis> for Answer {
+    fn from(diagnosis: &Diagnosis) -> Self {
+        let fit = |fit: &Screened| AnswerFit {
+            effects: fit.effects.clone(),
+            chi2_drop: fit.chi2_drop,
+        };
+        Self {
+            verdict: diagnosis.verdict,
+            effect: diagnosis.effect.clone(),
+            indistinguishable: diagnosis.indistinguishable.clone(),
+            screened: diagnosis.screened.iter().map(fit).collect(),
+            ranking: diagnosis.ranking.iter().map(Ranked::decided).collect(),
+        }
+    }
+}
+
+impl Answer {
+    /// The fitted values of a single effect in one of its forms (empty for the card's own), by parameter; none where it is not listed.
+    pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
+        let of_effect = |listed: &&DecidedCandidate| listed.effect == effect && listed.form == form;
+        let values = self.ranking.iter().find(of_effect);
+        let values = values.into_iter().flat_map(|listed| &listed.parameters);
+        values.map(|p| (p.name.as_str(), p.value)).collect()
+    }
+}
+
 /// What a diagnosis proposes: the effects that it names; of what it cannot tell apart, all. None where nothing is missing, or nothing of the
 /// catalogue is established.
-pub fn proposal(diagnosis: &Diagnosis) -> Proposal {
-    let named: Vec<String> = match (diagnosis.verdict, &diagnosis.effect) {
+pub fn proposal(answer: &Answer) -> Proposal {
+    let named: Vec<String> = match (answer.verdict, &answer.effect) {
         (Verdict::NothingMissing | Verdict::Unknown, _) => Vec::new(),
         (_, Some(Named::One(effect))) => vec![effect.clone()],
         (_, Some(Named::Several(effects))) => effects.clone(),
         (_, None) => {
-            let mut alike = known(members(&diagnosis.indistinguishable));
+            let mut alike = known(members(&answer.indistinguishable));
             alike.truncate(COMPARED);
             return match alike.len() {
                 0 | 1 => Proposal::InTurn(alike),
@@ -47,7 +98,7 @@ pub fn proposal(diagnosis: &Diagnosis) -> Proposal {
         }
     };
     let alone = |effect: &str| {
-        let own = diagnosis.screened.iter().filter(|s| s.effects == [effect]);
+        let own = answer.screened.iter().filter(|s| s.effects == [effect]);
         own.map(|s| s.chi2_drop).fold(f64::NEG_INFINITY, f64::max)
     };
     let mut effects = known(named.into_iter());

@@ -44,6 +44,8 @@ pub struct Addition {
     pub compared: Compared,
     /// χ² per point of the fit tests without the effect, what else is free fitted anew; None where that cannot be computed.
     pub without_chi2_per_point: Option<f64>,
+    /// The same of the held-out tests.
+    pub without_holdout_chi2_per_point: Option<f64>,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<Tried>>,
     /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
@@ -138,12 +140,14 @@ pub fn add(
         }
     }
     let (form, compared) = best;
+    let held_out = (without.as_ref()).and_then(|without| without.held_out(&measured));
     let without = (without.as_ref()).and_then(|without| without.base(&measured));
     let points = measured.fitted_points() as f64;
     let mut addition = Addition {
         form,
         compared,
         without_chi2_per_point: without.map(|without| without.square / points),
+        without_holdout_chi2_per_point: held_out,
         tried,
         passed_over,
     };

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 
 use crate::learn::collinear::act_together;
 use crate::learn::fitted::Fit;
+use crate::learn::parameters::short;
 use crate::measure::{Dataset, FacePlace, Observation};
 
 /// All that there is to say.
@@ -21,7 +22,7 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
         warnings.push(format!(
             "{} lies on its bound, {}",
             parameter.name,
-            rounded(parameter.value)
+            short(parameter.value)
         ));
     }
     warnings.extend(act_together(&fit.parameters, &correlation(fit)));
@@ -35,15 +36,6 @@ pub fn data_warnings(data: &Dataset) -> Vec<String> {
     warnings.extend(repeated(data));
     warnings.extend(data.outliers_in_words());
     warnings
-}
-
-/// A bound as people write it.
-fn rounded(value: f64) -> String {
-    if (1e-2..1e6).contains(&value.abs()) {
-        format!("{}", (1e4 * value).round() / 1e4)
-    } else {
-        format!("{value:.3e}")
-    }
 }
 
 /// The correlations of a fit's parameters, on their natural scales.

@@ -45,7 +45,11 @@ pub(in crate::learn) fn sentence(
     map: &Map,
     chi2: Option<f64>,
 ) -> String {
-    let failing = || (cells.iter()).filter(|(_, cell)| significance(cell) > SIGNIFICANT);
+    let fails = |cell: &Cell| significance(cell) > SIGNIFICANT;
+    // what a fit is to mend comes first; a held-out test leads where it alone fails
+    let held_out = !cells.values().any(|cell| fails(cell) && !is_held_out(cell));
+    let failing =
+        || (cells.iter()).filter(|(_, cell)| fails(cell) && is_held_out(cell) == held_out);
     let carried = carried(failing());
     let worst = failing().max_by(|(a, first), (b, second)| {
         let of_quantity = carried[&a.2].total_cmp(&carried[&b.2]);
@@ -65,12 +69,13 @@ pub(in crate::learn) fn sentence(
     };
     let parts = [
         format!(
-            "{}{}{} is {}{} in test {}",
+            "{}{}{} is {}{} in {}test {}",
             subject(key.2),
             whose(key),
             when(key, cell, map),
             size(cell),
             place(key),
+            if held_out { "held-out " } else { "" },
             cell.test
         ),
         format!(
@@ -89,6 +94,10 @@ pub(in crate::learn) fn sentence(
         String::new()
     };
     parts.concat() + "." + &factor
+}
+
+fn is_held_out(cell: &Cell) -> bool {
+    cell.role == "holdout"
 }
 
 fn subject(quantity: Quantity) -> &'static str {
@@ -335,6 +344,35 @@ mod tests {
         assert!(factor(&[ratio(1.61)]).contains("1.61 times the computed"));
         assert_eq!(factor(&[ratio(-1.1e5)]), "");
         assert_eq!(factor(&[ratio(2e3)]), "");
+    }
+
+    /// Test S is held out and further off than A: A leads, and S where A is within its noise.
+    #[test]
+    fn a_held_out_test_leads_where_it_alone_fails() {
+        let held_out = |chi2| Cell {
+            test: "S".to_owned(),
+            role: "holdout".to_owned(),
+            ..cell(Quantity::MassLoss, 9, chi2)
+        };
+        let key = |test| (test, Subject::Pinion, Quantity::MassLoss, None, 0);
+        let map = Map::of_ends(vec![vec![1e5], vec![1e5]]);
+        let told = |of_a: f64| {
+            let cells = BTreeMap::from([
+                (key(0), cell(Quantity::MassLoss, 9, of_a)),
+                (key(1), held_out(40.0)),
+            ]);
+            sentence(&cells, &BTreeMap::new(), &map, None)
+        };
+        assert!(
+            told(20.0).contains("too low in test A (χ² per point 20.0"),
+            "{}",
+            told(20.0)
+        );
+        assert!(
+            told(1.0).contains("too low in held-out test S"),
+            "{}",
+            told(1.0)
+        );
     }
 
     /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.

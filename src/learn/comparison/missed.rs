@@ -6,9 +6,10 @@ use crate::learn::bench::Bench;
 use crate::learn::fit::Scaled;
 use crate::learn::fitted::Fit;
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::Measured;
+use crate::learn::measured::{Measured, Misfit};
 use crate::learn::noise::NoiseModel;
 use crate::learn::search::Effort;
+use crate::study::Role;
 
 /// Share of what is missed below which a fit is hopeless after a look.
 const HOPELESS: f64 = 0.1;
@@ -20,7 +21,13 @@ const LEAST_MISSED: f64 = 0.5;
 pub(super) struct Missed<'m> {
     version: &'m ModelVersion,
     bench: &'m Bench<'m>,
-    base: OnceCell<Option<Scaled>>,
+    base: OnceCell<Option<Base>>,
+}
+
+/// The model without the effect where it fits best.
+struct Base {
+    scaled: Scaled,
+    held_out: Misfit,
 }
 
 impl<'m> Missed<'m> {
@@ -36,6 +43,16 @@ impl<'m> Missed<'m> {
     /// The misfit of the model without the effect where it fits best, and its predictions at the study's own values; None where it cannot be
     /// computed.
     pub(super) fn base(&self, measured: &Measured<'_>) -> Option<&Scaled> {
+        self.fitted(measured).map(|base| &base.scaled)
+    }
+
+    /// Its χ² per point of the held-out tests; None without any.
+    pub(super) fn held_out(&self, measured: &Measured<'_>) -> Option<f64> {
+        let Misfit { square, points } = self.fitted(measured)?.held_out;
+        (points > 0.0).then(|| square / points)
+    }
+
+    fn fitted(&self, measured: &Measured<'_>) -> Option<&Base> {
         let base = self.base.get_or_init(|| {
             let noise = NoiseModel::of(&measured.study().noise);
             let own = self.version.own_values();
@@ -46,9 +63,12 @@ impl<'m> Missed<'m> {
             };
             measured.with_problem(self.bench, self.version, noise, &|_| {}, |problem| {
                 let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
-                Some(Scaled {
-                    square: measured.misfit(&fit).square,
-                    ..problem.scaled(&own)?
+                Some(Base {
+                    scaled: Scaled {
+                        square: measured.misfit(&fit).square,
+                        ..problem.scaled(&own)?
+                    },
+                    held_out: measured.misfit_of(Role::Holdout, &fit),
                 })
             })
         });

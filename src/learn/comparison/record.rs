@@ -8,6 +8,7 @@ use super::ratio::{Ratio, ratios};
 use super::residual_statistics::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
 use super::sanity::sanity;
 use super::uncertainty::{Validation, validate};
+use crate::learn::coefficient_trend::trend_of_coefficients;
 use crate::learn::fitted::Fit;
 use crate::learn::parameters::Estimate;
 use crate::learn::quantity_misfit::misfit_of_one_quantity;
@@ -181,6 +182,7 @@ impl Comparison {
             correlation: correlation(fit),
             sanity: sanity(study, data, fit),
             warnings: (misfit_of_one_quantity(study, data, fit).into_iter())
+                .chain(trend_of_coefficients(study, data, fit))
                 .chain(fit_warnings(data, fit))
                 .collect(),
             tests: test_records(study, fit, &rows),

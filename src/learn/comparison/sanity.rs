@@ -56,6 +56,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         if said.is_empty() {
             said.extend(single_tests::coefficients(study, data, fit));
         }
+        if said.is_empty() {
+            said.extend(single_tests::of_the_other_member(study, data, fit));
+        }
         said.extend(constants(&fitted(data, fit)));
         said.extend(single_tests::worn_before_the_first_cycle(
             study,

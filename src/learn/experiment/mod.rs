@@ -2,7 +2,7 @@
 
 mod campaign;
 mod candidate_tests;
-mod decided;
+pub(in crate::learn) mod decided;
 mod discrimination;
 mod measurement_design;
 pub(in crate::learn) mod next;

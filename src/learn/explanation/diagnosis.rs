@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::findings::Findings;
 use super::ranked::{Ranked, form, parameters, ranked};
 use super::remainder::{Remainder, established, remainder};
-use super::sentences::undecided;
+use super::sentences::{SURE, undecided};
 use super::warnings::warnings;
 use super::wording::Explanation;
 use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
@@ -119,13 +119,10 @@ pub struct Screened {
 }
 
 impl Diagnosis {
-    /// The fitted values of a single effect in one of its forms (empty for the card's own), by parameter; none where it is not listed.
-    pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
-        let of_effect =
-            |listed: &&Ranked| listed.effect.to_string() == effect && listed.form == form;
-        let values = self.ranking.iter().find(of_effect);
-        let values = values.into_iter().flat_map(|listed| &listed.parameters);
-        values.map(|p| (p.name.as_str(), p.value)).collect()
+    /// Whether nothing is missing, and that is no mere guess.
+    pub fn is_sure_of_nothing(&self) -> bool {
+        let nothing = self.probabilities.get("nothing_missing");
+        self.verdict == Verdict::NothingMissing && nothing.is_some_and(|&p| p >= SURE)
     }
 
     /// Puts the answer together.

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::learn::candidate_model::{Anchored, model, predictions};
 use crate::learn::decision::posterior::Posterior;
+use crate::learn::experiment::decided::{DecidedCandidate, DecidedValue};
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::Hypothesis;
@@ -47,6 +48,23 @@ pub struct Ranked {
     pub decided_by: Fidelity,
     /// Whether its fit converged.
     pub converged: bool,
+}
+
+impl Ranked {
+    /// As a later command reads it from the document.
+    pub(in crate::learn) fn decided(&self) -> DecidedCandidate {
+        let value = |p: &ParameterValue| DecidedValue {
+            name: p.name.clone(),
+            value: p.value,
+        };
+        DecidedCandidate {
+            effect: self.effect.to_string(),
+            form: self.form.clone(),
+            probability: self.probability,
+            parameters: self.parameters.iter().map(value).collect(),
+            wear_coefficient: Some(self.wear_coefficient),
+        }
+    }
 }
 
 /// A fitted parameter.

@@ -16,7 +16,7 @@ use crate::learn::model_search::context::Context;
 
 /// Probability of nothing missing below which that is undecided. Of the blind sets of the second and third series with 0.8 or more,
 /// 65 of 72 hide nothing and the others an effect of d < 6; of those with 0.5 to 0.8, 31 of 48, and one an effect of d ≥ 6.
-const SURE: f64 = 0.8;
+pub(super) const SURE: f64 = 0.8;
 /// Scatter of k between tests from which it is worth a sentence.
 const LARGE_SCATTER: f64 = 0.2;
 /// Probability of nothing missing from which the next effect is not worth a sentence.
@@ -92,7 +92,7 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
     let leader = findings.posterior.leader().filter(|_| nothing < CERTAIN);
     let next = leader.map(|leader| {
         format!(
-            "Next would be {} ({}), which lowers χ² per point to {:.3}: too little against the chance of so many candidates.",
+            "Of single effects {} comes nearest ({}): it lowers χ² per point to {:.3}, too little against the chance of so many candidates.",
             leader.candidate.effects,
             percent(decision.probability_of(&leader.candidate.effects)),
             chi2(findings, leader)

@@ -11,7 +11,7 @@ use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::Hypothesis;
 use crate::learn::model_search::context::Context;
 use crate::learn::noise::SigmaModel;
-use crate::learn::parameters::Estimate;
+use crate::learn::parameters::{Estimate, short};
 use crate::learn::quantity_misfit::carried_by;
 
 /// Share of a parameter's prior outside of which a value is told.
@@ -103,10 +103,10 @@ pub(in crate::learn) fn warnings(
         }
         for p in parameters(leader).iter().filter(|p| p.at_bound) {
             warnings.push(format!(
-                "{} of {} lies on its bound, {:e}",
+                "{} of {} lies on its bound, {}",
                 p.name,
                 leader.candidate.hypothesis(),
-                p.value
+                short(p.value)
             ));
         }
         warnings.extend(together(leader));

@@ -50,7 +50,8 @@ pub(super) struct Column {
 }
 
 impl Column {
-    fn of(at: usize, written: &str) -> Self {
+    /// Of a header.
+    pub(super) fn of(at: usize, written: &str) -> Self {
         let (name, unit) = units::name_and_unit(written);
         let revolutions = names::revolutions(&name);
         let hours = names::hours(&name, unit.as_deref());
@@ -160,14 +161,6 @@ pub(super) fn known_by_content(
 
 fn has(columns: &[Column], name: &str) -> bool {
     columns.iter().any(|column| column.is(name))
-}
-
-/// The row of a long table's header: it has columns of cycles and of values.
-pub(super) fn head(sheet: &Sheet) -> Option<usize> {
-    sheet.rows.iter().position(|row| {
-        let columns = columns(row);
-        has(&columns, "cycles") && has(&columns, "value")
-    })
 }
 
 /// What was understood of the row that looks most like a long table's header, and what is missing there; none if no row does.

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::numbers::rounded;
 use super::wanted::ShareOf;
 use super::{ImportError, Wanted, cell_name};
-use crate::measure::{Quantity, Subject};
+use crate::measure::{Place, Quantity, Subject};
 
 /// One of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,10 +44,13 @@ impl Entry {
         format!("{}-{}-{what}{}", self.test, self.member.name(), self.cycles)
     }
 
-    /// What it has in common with all that was measured on its curve.
+    /// What it has in common with all that was measured on its curve: along a flank, or of a whole member over the test.
     fn curve(&self) -> (String, Subject, u64, Quantity, [String; 3]) {
         let labels = [&self.trace, &self.face, &self.tooth].map(String::clone);
-        let cycles = self.cycles.to_bits();
+        let cycles = match self.quantity.place() {
+            Place::Whole => 0,
+            _ => self.cycles.to_bits(),
+        };
         (
             self.test.clone(),
             self.member,

@@ -3,7 +3,8 @@
 mod line;
 mod traces;
 
-use super::columns::{Column, What, columns, head, known_by_content, said};
+use super::arrange::{Arranged, arranged};
+use super::columns::{Column, What, columns, known_by_content, said};
 use super::entry::{Entry, state_sigma};
 use super::numbers::with_points;
 use super::place::PositionKind;
@@ -18,6 +19,8 @@ use line::Line;
 pub struct Long {
     /// Row of the header, counted from 1.
     pub row: usize,
+    /// What was made of the table before it was read, in words.
+    pub arranged: Vec<String>,
     /// The columns that are read, as written, each with what it is.
     pub columns: Vec<(String, String)>,
     /// The columns that are passed over, each with the reason.
@@ -56,7 +59,7 @@ struct Read<'t> {
 /// # Errors
 /// [`ImportError`] where a column is missing or stands twice, or a cell says nothing that can be read.
 pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
-    let Some(head) = head(sheet) else {
+    let Some(Arranged { head, sheets, said }) = arranged(sheet, wanted)? else {
         return Ok(None);
     };
     if wanted.across.is_some() {
@@ -65,6 +68,19 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             head + 1
         )));
     }
+    let tables: Vec<Long> = sheets
+        .iter()
+        .map(|sheet| of_columns(sheet, head, wanted))
+        .collect::<Result<_>>()?;
+    let joined = tables.into_iter().reduce(Long::joined);
+    Ok(joined.map(|long| Long {
+        arranged: said,
+        ..long
+    }))
+}
+
+/// The mapping of a table with a column for everything.
+fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
     let columns = columns;
@@ -106,8 +122,9 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     }
     let traces = traces::name(&mut entries, &read, wanted)?;
     state_sigma(&mut entries, wanted)?;
-    Ok(Some(Long {
+    Ok(Long {
         row: head + 1,
+        arranged: Vec::new(),
         columns: read.in_words(&columns, single, &titles, wanted)?,
         passed_over: passed_over(sheet, head, &columns, read.value),
         titles,
@@ -115,7 +132,24 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         traces,
         empty,
         entries,
-    }))
+    })
+}
+
+impl Long {
+    /// With the rows of the other member.
+    fn joined(mut self, other: Long) -> Long {
+        let new = |known: &[(String, String)], own: &(String, String)| !known.contains(own);
+        for column in other.columns {
+            if new(&self.columns, &column) {
+                self.columns.push(column);
+            }
+        }
+        self.passed_over
+            .retain(|column| other.passed_over.contains(column));
+        self.empty += other.empty;
+        self.entries.extend(other.entries);
+        self
+    }
 }
 
 impl<'t> Read<'t> {

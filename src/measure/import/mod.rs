@@ -2,11 +2,12 @@
 //! checkpoint or place.
 //!
 //! ```text
-//! .xlsx or text -> sheets of cells (cells) -> a row for each value (long, columns), or a column for each checkpoint or place (wide, whole, tests_in_headers)
+//! .xlsx or text -> sheets of cells (cells) -> a row for each value (arrange, long, columns), or a column for each checkpoint or place (wide, whole, tests_in_headers)
 //!               -> entries (entry) -> measurements.csv
 //! ```
 
 mod append;
+mod arrange;
 mod cells;
 mod columns;
 mod entry;

@@ -21,6 +21,8 @@ pub struct Wanted<'a> {
     pub member: Option<Subject>,
     /// What was measured; the table says it otherwise.
     pub quantity: Option<Quantity>,
+    /// After how many pinion revolutions a curve was measured; the table says it otherwise.
+    pub cycles: Option<f64>,
     /// How places are told; the header says it otherwise.
     pub position: Option<PositionKind>,
     /// What the columns are; the numbers say it otherwise.

@@ -235,6 +235,13 @@ pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
             "depth",
             "wear",
             "depthwear",
+            "deviation",
+            "profiledeviation",
+            "abweichung",
+            "profilabweichung",
+            "scostamento",
+            "ecart",
+            "desviacion",
             "flankwear",
             "verschleiss",
             "verschleisstiefe",
@@ -298,6 +305,34 @@ pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
         &["pressung", "pressioncontact", "pressionecontatto"],
     ),
     (Quantity::MeshStiffness, &["eingriffssteifigkeit"]),
+];
+
+/// Names of the mass of a part.
+pub(super) const MASSES: [&str; 10] = [
+    "mass", "weight", "masse", "gewicht", "massa", "peso", "poids", "masa", "massen", "weighing",
+];
+
+/// Words for the time before a test.
+pub(super) const BEFORE: [&str; 15] = [
+    "before", "initial", "start", "new", "vorher", "vor", "anfang", "neu", "prima", "iniziale",
+    "avant", "initiale", "antes", "inicial", "nuevo",
+];
+
+/// Words for the time after a test.
+pub(super) const AFTER: [&str; 13] = [
+    "after",
+    "final",
+    "end",
+    "worn",
+    "remaining",
+    "nachher",
+    "nach",
+    "ende",
+    "dopo",
+    "finale",
+    "apres",
+    "despues",
+    "fin",
 ];
 
 /// Names of losses that may be of depth or of mass: their unit says which.

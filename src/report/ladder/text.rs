@@ -33,6 +33,11 @@ pub fn conclusion(result: &Result<'_>) -> String {
         .filter_map(|step| Some((*step, judge(step)?)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
     let alone = steps.len() < 2 && result.steps.len() > 1;
+    if result.steps.len() == 1 {
+        sentences.push(
+            "This is one version; name those to hold it against behind it, such as the studies that `gearwear add` wrote.".to_owned(),
+        );
+    }
     if let (Some((best, least)), Some(first), false) =
         (best, steps.first().and_then(|s| judge(s)), alone)
     {

@@ -12,6 +12,15 @@ use crate::study::Study;
 const SURE: f64 = 6.0;
 /// Mean square of what a trace from before the first cycle shows beyond its datum, in noise, from which it is no noise.
 const WORN: f64 = 4.0;
+/// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
+const CLEAR_RATIO: f64 = 1.5;
+/// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
+const ALIKE: f64 = 0.3;
+/// Deviation up to which a torque is another one times the ratio, and the part of ln of the ratio by which k must then be lower.
+const SAME_TORQUE: f64 = 0.002;
+const HALF: f64 = 0.5;
+/// How far outside the other tests' torques or cycles a corrected one may lie.
+const AMONG: f64 = 2.0;
 /// Into how many parts a test is usually divided.
 const USUAL_PARTS: [u32; 6] = [2, 3, 4, 5, 8, 10];
 
@@ -96,11 +105,7 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<Ve
 
 /// A test whose own k lies hundreds of times from those of the others.
 pub(super) fn coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
-    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
-    let own: Vec<(usize, f64)> = (fit.tests.iter())
-        .filter(|test| test.coefficient > 0.0 && measured(test.test))
-        .map(|test| (test.test, test.coefficient.ln()))
-        .collect();
+    let own = own_coefficients(data, fit);
     let off = |&(test, k): &(usize, f64)| {
         let mut others: Vec<f64> = own.iter().filter(|o| o.0 != test).map(|o| o.1).collect();
         others.sort_by(f64::total_cmp);
@@ -117,6 +122,101 @@ pub(super) fn coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Vec<Stri
         })
     };
     own.iter().filter_map(off).collect()
+}
+
+/// A test whose own k lies off those of the others, which agree, by the ratio of the numbers of teeth: its torque may be the gear's (too
+/// little wear for what is stated) or its cycles (too much). Only where what the correction makes of it lies among the other tests'.
+pub(super) fn of_the_other_member(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
+    let ratio = f64::from(gear) / f64::from(pinion);
+    if ratio < CLEAR_RATIO {
+        return Vec::new();
+    }
+    let own = own_coefficients(data, fit);
+    let torque = |test: usize| study.tests[test].conditions.torque_nmm / 1e3;
+    let cycles = |test: usize| study.tests[test].conditions.cycles;
+    let off = |&(test, k): &(usize, f64)| {
+        let others: Vec<(usize, f64)> = own.iter().filter(|o| o.0 != test).copied().collect();
+        if others.len() < 2 {
+            return None;
+        }
+        let mean = others.iter().map(|o| o.1).sum::<f64>() / others.len() as f64;
+        let agree = others
+            .iter()
+            .all(|o| (o.1 - mean).abs() < ALIKE * ratio.ln());
+        let by = (k - mean) / ratio.ln();
+        let among = |corrected: f64, stated: &dyn Fn(usize) -> f64| {
+            let of_others = others.iter().map(|o| stated(o.0));
+            let low = of_others.clone().fold(f64::INFINITY, f64::min);
+            let high = of_others.fold(0.0, f64::max);
+            corrected > low / AMONG && corrected < high * AMONG
+        };
+        let off_by_ratio = agree && (by.abs() - 1.0).abs() < ALIKE;
+        // a test of that torque shows it even where the others scatter
+        let twin = others.iter().find(|o| {
+            (torque(test) / (ratio * torque(o.0)) - 1.0).abs() < SAME_TORQUE && !is_simple(ratio)
+        });
+        let said = |what: String, turn: &str| {
+            format!(
+                "test {} {what}: if that is the gear's, {turn} by {gear}/{pinion}",
+                study.tests[test].id
+            )
+        };
+        if let Some((other, of_other)) = twin.filter(|o| k - o.1 < -HALF * ratio.ln()) {
+            let what = format!(
+                "has {gear}/{pinion} times the torque of test {} ({} and {} N m) and wears with a k {} times that test's",
+                study.tests[*other].id,
+                torque(test),
+                torque(*other),
+                two_digits((k - of_other).exp())
+            );
+            Some(said(what, "divide its torque"))
+        } else if off_by_ratio && by < 0.0 && among(torque(test) / ratio, &torque) {
+            let what = format!(
+                "wears with a k {} times that of the others, near {pinion}/{gear}, and they agree; its torque is stated as {} N m",
+                two_digits((k - mean).exp()),
+                torque(test)
+            );
+            Some(said(what, "divide its torque"))
+        } else if off_by_ratio && by > 0.0 && among(cycles(test) * ratio, &cycles) {
+            let what = format!(
+                "wears with a k {} times that of the others, near {gear}/{pinion}, and they agree; it is stated to last {} revolutions",
+                two_digits((k - mean).exp()),
+                cycles(test)
+            );
+            Some(said(what, "multiply its cycles, and those of its rows,"))
+        } else {
+            None
+        }
+    };
+    own.iter().filter_map(off).collect()
+}
+
+/// Whether a ratio is one that tests are chosen by, such as 2 or 3/2.
+fn is_simple(ratio: f64) -> bool {
+    (1..=4).any(|parts| {
+        let part = ratio * f64::from(parts);
+        (part - part.round()).abs() < SAME_CYCLES * part
+    })
+}
+
+/// The tests with rows and ln of their own k.
+fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usize, f64)> {
+    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
+    let known = fit.tests.iter();
+    let known = known.filter(|test| test.coefficient > 0.0 && measured(test.test));
+    known
+        .map(|test| (test.test, test.coefficient.ln()))
+        .collect()
+}
+
+/// Two digits of a factor, below 1 too.
+fn two_digits(factor: f64) -> String {
+    if factor < 1.0 {
+        format!("{factor:.2}")
+    } else {
+        rounded(factor)
+    }
 }
 
 /// Traces from before the first cycle that are not flat.
