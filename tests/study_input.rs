@@ -395,7 +395,9 @@ fn the_examples_have_the_default_numerics() {
         include_str!("../src/cli/examples/fzg-c.toml"),
         include_str!("../src/cli/examples/plastic-steel.toml"),
     ] {
-        assert!(text.contains("[numerics]                # optional, and every key of it; these are the defaults"));
+        assert!(text.contains(
+            "[numerics]                # optional, and every key of it; these are the defaults"
+        ));
         assert_eq!(Study::parse(text, "study.toml").unwrap().numerics, default);
     }
 }

@@ -18,9 +18,9 @@ const ENOUGH: usize = 15;
 const REPEATS: usize = 3;
 /// Least σ over a curve's largest value: smoother ones have been filtered.
 const LEAST: f64 = 1e-3;
-/// Of so many points of a curve one may be left out, where the scatter without it is less than this part of that with it.
+/// Of so many points of a curve one may be left out, where it stands so many times the scatter of the others from what they lead one to expect.
 const MOST_APART: usize = 8;
-const STANDS_APART: f64 = 0.7;
+const FAR_APART: f64 = 8.0;
 /// Scatter of a curve, as a part of that of the middle one of its quantity, both as it is and over the largest value, below which it has been filtered.
 const FILTERED: f64 = 0.2;
 
@@ -169,8 +169,13 @@ fn scatter(points: &[[f64; 3]]) -> Option<[f64; 2]> {
     let (mut found, mut furthest) = middle_of_apart(&even, &left_out)?;
     for _ in 0..even.len() / MOST_APART {
         left_out[furthest] = true;
-        match middle_of_apart(&even, &left_out) {
-            Some((less, next)) if less < STANDS_APART * found => (found, furthest) = (less, next),
+        let without = middle_of_apart(&even, &left_out);
+        let apart = around(&even, furthest, &left_out).map_or(0.0, |near| {
+            (even[furthest][1] - near.expected).abs() / near.sigma
+        });
+        // by noise alone no point stands as far from what the others say of it
+        match without {
+            Some((less, next)) if apart > FAR_APART * less => (found, furthest) = (less, next),
             _ => {
                 left_out[furthest] = false;
                 break;
