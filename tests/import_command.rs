@@ -1145,9 +1145,9 @@ fn files_of_one_curve_each_are_read_together() {
     let all = "import a.txt b.txt --study study.toml --turn-sign --sigma 0.1 -o m.csv";
     let shown = succeed(&home, all);
     for part in [
-        "made of  row 2, `Run`: test A\n",
-        "made of  row 3, `Part`: member pinion\n",
-        "made of  row 4, `Revolutions of pinion`: cycles 100000\n",
+        "layout   row 2, `Run`: test A\n",
+        "layout   row 3, `Part`: member pinion\n",
+        "layout   row 4, `Revolutions of pinion`: cycles 100000\n",
         "title    row 5 passed over: Number of teeth: 27\n",
         "table    b.txt, read alike: 2 rows, wear_depth of pinion in test A after 250000\n",
         "wrote m.csv: 4 rows\n",
@@ -1165,10 +1165,7 @@ fn files_of_one_curve_each_are_read_together() {
     // the same curve twice is no second measurement
     let (code, _, message) = line(&home, "import a.txt a.txt --study study.toml --sigma 0.1");
     assert_eq!(code, Some(2));
-    assert!(
-        message.contains("has the reading A,pinion,100000"),
-        "{message}"
-    );
+    assert!(message.contains("the reading A,pinion,100000"), "{message}");
     // a curve that says nothing of itself
     let bare = "Radius [mm];Deviation [um]\n26.5;2.5\n27.5;1.5\n";
     let options = "--test B --member pinion --cycles 5000 --sigma 0.1";
@@ -1188,7 +1185,7 @@ fn both_members_may_stand_side_by_side() {
                  26.5;2.5;52.5;1.5\n27;1.25;;\n";
     let (shown, written) = rows(&home, table, "--sigma 0.1");
     assert!(
-        shown.contains("made of  the columns of the pinion and of the gear side by side\n"),
+        shown.contains("layout   the columns of the pinion and of the gear side by side\n"),
         "{shown}"
     );
     assert_eq!(
@@ -1214,7 +1211,7 @@ fn two_weighings_are_a_loss() {
     let table = "Test,Revolutions,Member,Mass before [g],Mass after [g]\nA,5000,pinion,812.4312,812.4055\nA,6000,gear,2955.1207,2955.1\n";
     let (shown, written) = rows(&home, table, "--sigma 1");
     assert!(
-        shown.contains("made of  mass loss: `Mass before [g]` less `Mass after [g]`\n"),
+        shown.contains("layout   mass loss: `Mass before [g]` less `Mass after [g]`\n"),
         "{shown}"
     );
     assert_eq!(
@@ -1250,6 +1247,9 @@ fn rows_are_not_put_behind_the_example_of_init() {
     let table = "test,cycles,member,mass loss [mg]\nA,5000,pinion,2\n";
     fs::write(home.path().join("table.csv"), table).unwrap();
     let import = "import table.csv --study new/study.toml --sigma 1 -o new/measurements.csv";
+    let file = home.path().join("new/measurements.csv");
+    let windows = fs::read_to_string(&file).unwrap().replace("\n", "\r\n");
+    fs::write(&file, windows).unwrap();
     for how in ["", " --append"] {
         let (code, _, message) = line(&home, &format!("{import}{how}"));
         assert_eq!(code, Some(2));
@@ -1275,4 +1275,142 @@ fn all_sheets_are_read_one_after_the_other() {
     // which of them cannot be read is said
     assert_eq!(code, Some(2), "{message}");
     assert!(message.contains("tables.xlsx, sheet "), "{message}");
+}
+
+/// What a table says twice has to agree, and what it says of cycles has to be plain.
+#[test]
+fn lines_above_a_header_are_obeyed_or_refused() {
+    let home = home();
+    let curve = |lines: &str| format!("{lines}\nRadius [mm];Depth [um]\n26.5;2.5\n27.5;1.5\n");
+    let all = "Run;A\nPart;pinion\nRevolutions;40000";
+    assert!(
+        rows(&home, &curve(all), "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,40000,")
+    );
+    // 20000 of the gear are 20000 53/27 of the pinion
+    let of_gear = curve("Run: A\nPart: gear\nRevolutions: 20000 gear").replace("26.5", "52.5");
+    assert!(
+        rows(&home, &of_gear.replace("27.5", "53"), "--sigma 0.1")
+            .1
+            .starts_with("A,gear,39259.2593,")
+    );
+    for (lines, options, says) in [
+        ("Run: A\nRevolutions: 40k", "", "a multiple or a time"),
+        (
+            "Run: A\nRevolutions: 40,000",
+            "",
+            "marked between thousands",
+        ),
+        ("Run: A\nRevolutions;40000;x1000", "", "several numbers"),
+        (
+            "Run: A\nRun: B\nRevolutions: 4000",
+            "",
+            "row 2: `Run` says test B, row 1 says A",
+        ),
+        (
+            "Run: A\nRevolutions: 4000\nCycles: 3000",
+            "",
+            "row 2 says 4000",
+        ),
+        ("Run: C\nRevolutions: 4000", "", "the study has no test C"),
+        ("Run: B\nRevolutions: 4000", "--test A", "--test says A"),
+        (
+            "Run: A\nPart: pinion\nRevolutions: 4000",
+            "--member gear",
+            "--member says gear",
+        ),
+        (
+            "Run: A\nRevolutions: 4000",
+            "--cycles 5000",
+            "--cycles is for a table that does not say",
+        ),
+    ] {
+        let message = refused(&home, &curve(lines), &format!("{options} --sigma 0.1"));
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    let long = "Run: B\ntest,cycles,member,mass loss [mg]\nA,5000,pinion,2\n";
+    assert!(refused(&home, long, "--sigma 1").contains("A3 says A: take the wrong one out"));
+    // above a wide table too
+    let wide = "Run;B\nPart;gear\nradius;5000;6000\n52.5;1.5;2.5\n53;1;2\n";
+    assert!(
+        rows(&home, wide, "--sigma 0.1")
+            .1
+            .starts_with("B,gear,5000,wear_depth,52.5,")
+    );
+    assert!(refused(&home, wide, "--test A --sigma 0.1").contains("--test says A"));
+    assert!(refused(&home, wide, "--cycles 5 --sigma 0.1").contains("--cycles is for"));
+    // masses after one count of cycles, and those of both members below a test
+    let masses = "test;member;mass loss [mg]\nA;pinion;12\n";
+    assert_eq!(
+        rows(&home, masses, "--cycles 5000 --sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\n"
+    );
+    let both = "Test;A\n\nrevolutions;pinion loss mg;gear loss mg\n5000;12;30\n";
+    assert_eq!(
+        rows(&home, both, "--sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\nA,gear,5000,mass_loss,,30,1,\n"
+    );
+}
+
+/// Weighings of both members, other marks, and tables that have a loss beside them.
+#[test]
+fn weighings_are_read_with_the_marks_and_the_columns_of_their_table() {
+    let home = home();
+    let sides = "Versuch;Umdrehungen;Masse Ritzel vor [g];Masse Ritzel nach [g];Masse Rad vor [g];Masse Rad nach [g]\n\
+                 A;5000;812,4312;812,4055;2955,1207;2955,1\n";
+    assert_eq!(
+        rows(&home, sides, "--sigma 1").1,
+        "A,pinion,5000,mass_loss,,25.7,1,\nA,gear,5000,mass_loss,,20.7,1,\n"
+    );
+    let points =
+        "test;cycles;member;mass before [g];mass after [g]\nA;5000;pinion;812.4312;812.4055\n";
+    assert!(
+        refused(&home, points, "--sigma 1 --decimal comma")
+            .contains("is no number with --decimal comma")
+    );
+    let unclear = "test;cycles;member;mass before [g];mass after [g]\nA;5000;pinion;2.955;2.950\n";
+    assert!(
+        refused(&home, unclear, "--sigma 1").contains("say --decimal point or --decimal comma")
+    );
+    assert_eq!(
+        rows(&home, unclear, "--sigma 1 --decimal point").1,
+        "A,pinion,5000,mass_loss,,5,1,\n"
+    );
+    let sigma = "test;cycles;member;mass before [g];mass after [g];Unsicherheit [mg]\nA;5000;pinion;812,4312;812,4055;0,5\n";
+    assert_eq!(
+        rows(&home, sigma, "").1,
+        "A,pinion,5000,mass_loss,,25.7,0.5,\n"
+    );
+    for beside in [
+        "test,cycles,member,mass before [g],mass loss [mg]\nA,5000,pinion,812.4312,25.7\n",
+        "test,cycles,member,mass before [g],mass after [g],mass loss [mg]\nA,5000,pinion,812.4312,812.4055,25.7\n",
+    ] {
+        let (shown, written) = rows(&home, beside, "--sigma 1");
+        assert_eq!(written, "A,pinion,5000,mass_loss,,25.7,1,\n");
+        assert!(
+            shown.contains("the column `mass before [g]`: a weighing"),
+            "{shown}"
+        );
+    }
+    // a deviation is a depth only where nothing else is
+    let both = "test,cycles,member,radius,depth,deviation\nA,5000,pinion,26.5,2,9\n";
+    assert!(
+        rows(&home, both, "--sigma 1")
+            .1
+            .contains("wear_depth,26.5,2,1,")
+    );
+    // a table read with the other sign is not said to be read alike
+    let table = "test,cycles,member,radius,depth\nA,5000,pinion,26.5,2\n";
+    fs::write(home.path().join("a.csv"), table).unwrap();
+    let turned = format!(
+        "negative = material lost\n{}",
+        table.replace("5000", "6000")
+    );
+    fs::write(home.path().join("b.csv"), turned).unwrap();
+    let shown = succeed(&home, "import a.csv b.csv --study study.toml --sigma 1");
+    assert!(
+        !shown.contains("read alike") && shown.contains("their sign turned"),
+        "{shown}"
+    );
 }

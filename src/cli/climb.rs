@@ -87,6 +87,7 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
         if step(&mut state, &fitter, &answer, false, most, &watch)?.is_none() {
             kept.keep(&state)?;
         } else {
+            context.tell("note: nothing that it proposes pays; diagnosing anew");
             state.steps.truncate(1);
         }
     }

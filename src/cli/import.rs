@@ -188,10 +188,12 @@ impl Understood {
 
     /// What was read as what, by which a table is like another.
     fn columns(&self) -> Vec<(String, String)> {
-        match self {
-            Understood::Long(long) => long.columns.clone(),
-            Understood::Wide(wide) => vec![wide.corner.clone()],
-        }
+        let (mut columns, turned) = match self {
+            Understood::Long(long) => (long.columns.clone(), long.turned),
+            Understood::Wide(wide) => (vec![wide.corner.clone()], wide.turned),
+        };
+        columns.push(("sign".to_owned(), turned.to_string()));
+        columns
     }
 }
 
@@ -219,9 +221,13 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
                 understood(sheet, &wanted).map_err(|error| unusable(format!("{name}: {error}")))?;
             let (header, rows) = import::lines(understood.entries());
             let source = source(args, file.is_some(), &name);
-            let whole = with_rows(args, file.as_deref(), &header, &rows)?;
+            let whole = with_rows(args, &name, file.as_deref(), &header, &rows)?;
             // what cannot be read back is not written
             Dataset::parse(&whole, &source, &study.known()).map_err(|error| {
+                // the place within the table's own rows, where these alone are wrong
+                let own = format!("{header}\n{}\n", rows.join("\n"));
+                let own = Dataset::parse(&own, &source, &study.known()).err();
+                let error = own.filter(|_| !args.append).unwrap_or(error);
                 reading(&understood)
                     .into_iter()
                     .fold(error, |error, said| error.with_hint(&said))
@@ -242,6 +248,11 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             file = Some(whole);
         }
     }
+    if documents.is_empty() {
+        return Err(unusable(
+            "no sheet of these tables holds anything".to_owned(),
+        ));
+    }
     let whole = file.unwrap_or_default();
     let mut document = match <[serde_json::Value; 1]>::try_from(documents) {
         Ok([one]) => one,
@@ -253,8 +264,8 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             document["written"] = json!([]);
         }
         Some(path) => {
-            write_file(path, whole.as_bytes())?;
             let all = Dataset::parse(&whole, &path.display().to_string(), &study.known())?;
+            write_file(path, whole.as_bytes())?;
             let _ = writeln!(
                 text,
                 "wrote {}: {} rows\nnext: gearwear check {}",
@@ -472,6 +483,7 @@ fn there(args: &ImportArgs) -> Result<Option<String>, CliError> {
 /// The text of the file with these rows.
 fn with_rows(
     args: &ImportArgs,
+    table: &str,
     before: Option<&str>,
     header: &str,
     rows: &[String],
@@ -482,7 +494,7 @@ fn with_rows(
     import::appended(before, header, rows).map_err(|error| {
         CliError::Unusable(match &args.output {
             Some(path) if args.append => format!("{}: {error}", path.display()),
-            _ => error.to_string(),
+            _ => format!("{table}: {error}"),
         })
     })
 }

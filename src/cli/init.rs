@@ -78,7 +78,7 @@ impl Example {
     pub(super) fn holds(text: &str) -> bool {
         Self::value_variants()
             .iter()
-            .any(|example| text.trim_end() == example.measurements().trim_end())
+            .any(|example| text.lines().eq(example.measurements().lines()))
     }
 
     /// The command to go on with.
@@ -216,6 +216,7 @@ mod tests {
                 let Some((_, default)) = line.split_once("; default ") else {
                     continue;
                 };
+                let key = key.trim_start_matches("# ");
                 let doc = KEY_DOCS.iter().find(|doc| doc.key == key).unwrap();
                 assert_eq!(
                     doc.without,

@@ -40,7 +40,7 @@ pub(super) fn trend_of_coefficients(study: &Study, data: &Dataset, fit: &Fit) ->
     let (name, slope, error) =
         found.max_by(|a, b| (a.1 / a.2).abs().total_cmp(&(b.1 / b.2).abs()))?;
     Some(format!(
-        "the tests' own k {} with their {name} (as {name} to the power of {slope:.2} ± {error:.2}): what is taken for scatter between tests may be a \
+        "k of the tests {} with their {name} (as {name} to the power of {slope:.2} ± {error:.2}): what is taken for scatter between tests may be a \
          law that the model lacks",
         if slope > 0.0 { "rises" } else { "falls" }
     ))

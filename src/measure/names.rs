@@ -6,8 +6,8 @@ mod vocabulary;
 use super::quantity::{Quantity, Subject};
 
 use vocabulary::{
-    AFTER, BEFORE, COLUMNS, CYCLES, FILLERS, FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES, MEMBERS,
-    QUANTITIES, TIMES,
+    AFTER, BEFORE, COLUMNS, CYCLES, DEVIATIONS, FILLERS, FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES,
+    MEMBERS, QUANTITIES, TIMES,
 };
 
 /// Which of two weighings.
@@ -117,8 +117,13 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
     found.map(|(_, hours)| *hours)
 }
 
-/// Which weighing of a part a name means, and the name of the mass without it.
-pub(super) fn weighed(name: &str) -> Option<(Weighed, String)> {
+/// Whether a name means the deviation from the new profile.
+pub(super) fn is_deviation(name: &str) -> bool {
+    DEVIATIONS.contains(&telling(name).concat().as_str())
+}
+
+/// Which weighing of a part a name means.
+pub(super) fn weighed(name: &str) -> Option<Weighed> {
     let words = words(name);
     let any = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
     let when = match (any(&BEFORE), any(&AFTER)) {
@@ -135,9 +140,7 @@ pub(super) fn weighed(name: &str) -> Option<(Weighed, String)> {
     let rest = telling(&rest.join(" "));
     // a loss is no weighing
     let [mass] = &rest[..] else { return None };
-    MASSES
-        .contains(&mass.as_str())
-        .then(|| (when, mass.clone()))
+    MASSES.contains(&mass.as_str()).then_some(when)
 }
 
 /// The quantity that a name means, and whether its unit may say otherwise.

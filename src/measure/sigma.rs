@@ -19,7 +19,7 @@ const REPEATS: usize = 3;
 /// Least σ over a curve's largest value: smoother ones have been filtered.
 const LEAST: f64 = 1e-3;
 /// Of so many points of a curve one may be left out, where it stands so many times the scatter of the others from what they lead one to expect.
-const MOST_APART: usize = 8;
+const MOST_APART: usize = 12;
 const FAR_APART: f64 = 8.0;
 /// Scatter of a curve, as a part of that of the middle one of its quantity, both as it is and over the largest value, below which it has been filtered.
 const FILTERED: f64 = 0.2;

@@ -220,7 +220,7 @@ fn conclusion(result: &Result<'_>) -> String {
     });
     if chose {
         found
-            + " They chose between effects that look alike, so a test that had no part in that would prove more."
+            + " The held-out tests chose between effects that look alike, so their error is no independent proof: a further test is."
     } else {
         found
     }

@@ -104,7 +104,7 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
     );
     titles(&mut text, &long.titles);
     for words in &long.arranged {
-        line(&mut text, "made of", words);
+        line(&mut text, "layout", words);
     }
     for (written, what) in &long.columns {
         line(&mut text, "column", &format!("`{written}`: {what}"));
@@ -175,8 +175,11 @@ pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
     };
     let mut text = String::new();
     let words = format!(
-        "{table}, read alike: {} rows, {} of {} in {} after {}",
-        entries.len(),
+        "{table}, read alike: {}, {} of {} in {} after {}",
+        match entries.len() {
+            1 => "1 row".to_owned(),
+            n => format!("{n} rows"),
+        },
         of(|entry| entry.quantity.name().to_owned()),
         of(|entry| entry.member.name().to_owned()),
         of_tests(entries),

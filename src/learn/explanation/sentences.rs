@@ -92,7 +92,7 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
     let leader = findings.posterior.leader().filter(|_| nothing < CERTAIN);
     let next = leader.map(|leader| {
         format!(
-            "Of single effects {} comes nearest ({}): it lowers χ² per point to {:.3}, too little against the chance of so many candidates.",
+            "Of single effects {} comes nearest ({}): it lowers χ² per point to {:.3}, too little, given how many candidates were tried.",
             leader.candidate.effects,
             percent(decision.probability_of(&leader.candidate.effects)),
             chi2(findings, leader)

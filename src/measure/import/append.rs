@@ -57,7 +57,7 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
         let line = line(names.iter().map(field));
         if known.contains(&reading(&record(&line), &names)) {
             return Err(ImportError(format!(
-                "it has the reading {line} already: was this table appended before? --repeat 2 is for a second measurement at the same \
+                "the reading {line} is there already: was this table taken before? --repeat 2 is for a second measurement at the same \
                  checkpoints"
             )));
         }

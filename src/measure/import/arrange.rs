@@ -11,6 +11,8 @@ use std::collections::BTreeSet;
 use super::columns::{Column, What, columns};
 use super::{ImportError, Sheet, Wanted};
 
+pub(super) use labels::stated_above;
+
 /// A table with a column for everything, or one for each member.
 #[derive(Debug)]
 pub(super) struct Arranged {
@@ -25,47 +27,68 @@ pub(super) struct Arranged {
 /// The table so arranged; none if it is no long table.
 ///
 /// # Errors
-/// [`ImportError`] where a mass stands without the other one that makes it a loss.
+/// [`ImportError`] where a mass stands without the other one that makes it a loss, and where what stands above the header contradicts itself
+/// or what is stated elsewhere.
 pub(super) fn arranged(
     sheet: &Sheet,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
     for head in 0..sheet.rows.len() {
-        let mut said = Vec::new();
-        let mut table = sheet.clone();
-        if columns(&table.rows[head])
-            .iter()
-            .any(|column| column.what.own() == Some("cycles"))
+        let sides = sides::apart(sheet, head);
+        if let Some(both) = sides
+            && let Some(found) = completed(both, sheet, head, wanted)?
         {
-            weighings::as_losses(&mut table, head, wanted.decimal, &mut said)?;
+            return Ok(Some(found));
         }
-        let mut sheets = sides::one_by_one(&table, head, &mut said);
-        let mut is_long = true;
-        for table in &mut sheets {
-            labels::as_columns(table, head, wanted, &mut said);
-            is_long &= has_cycles_and_values(&columns(&table.rows[head]));
-        }
-        if is_long {
-            let mut met = BTreeSet::new();
-            said.retain(|words| met.insert(words.clone()));
-            return Ok(Some(Arranged { head, sheets, said }));
+        if let Some(found) = completed(vec![sheet.clone()], sheet, head, wanted)? {
+            return Ok(Some(found));
         }
     }
     Ok(None)
 }
 
+/// The tables with what the whole sheet says of them; none if they are not long ones.
+fn completed(
+    mut sheets: Vec<Sheet>,
+    whole: &Sheet,
+    head: usize,
+    wanted: &Wanted<'_>,
+) -> Result<Option<Arranged>, ImportError> {
+    let mut said = Vec::new();
+    if sheets.len() > 1 {
+        said.push("the columns of the pinion and of the gear side by side".to_owned());
+    }
+    for table in &mut sheets {
+        if weighings::could_be(&columns(&table.rows[head])) {
+            weighings::as_losses(table, head, wanted.decimal, &mut said)?;
+        }
+    }
+    if sheets.len() > 1 && !sheets.iter().all(|own| sides::is_table(own, whole, head)) {
+        return Ok(None);
+    }
+    for table in &mut sheets {
+        labels::as_columns(table, head, wanted, &mut said)?;
+        if !has_cycles_and_values(&columns(&table.rows[head])) {
+            return Ok(None);
+        }
+    }
+    let mut met = BTreeSet::new();
+    said.retain(|words| met.insert(words.clone()));
+    Ok(Some(Arranged { head, sheets, said }))
+}
+
+fn has(columns: &[Column], name: &str) -> bool {
+    columns.iter().any(|column| column.what.own() == Some(name))
+}
+
 fn has_cycles_and_values(columns: &[Column]) -> bool {
-    let has = |name: &str| columns.iter().any(|column| column.what.own() == Some(name));
-    has("cycles") && has("value")
+    has(columns, "cycles") && has(columns, "value")
 }
 
 /// Whether a header has a column of positions and one of depths or the like: a curve.
 fn is_curve(columns: &[Column]) -> bool {
     let values = |column: &Column| matches!(column.what, What::Values(_) | What::Own("value"));
-    columns.iter().any(values)
-        && columns
-            .iter()
-            .any(|column| column.what.own() == Some("position"))
+    columns.iter().any(values) && has(columns, "position")
 }
 
 /// Puts a column behind all others, with one text in all rows below the header that hold something.

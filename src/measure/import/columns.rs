@@ -2,6 +2,7 @@
 
 use super::wanted::Wanted;
 use super::{Sheet, cell_name, units};
+use crate::measure::names::Weighed;
 use crate::measure::{Quantity, Subject, names};
 
 /// What a column is.
@@ -11,6 +12,8 @@ pub(super) enum What {
     Own(&'static str),
     /// Values of a quantity.
     Values(Quantity),
+    /// Masses of one of two weighings.
+    Weighing(Weighed),
     /// For people.
     ForPeople,
     /// Not known.
@@ -61,6 +64,8 @@ impl Column {
             What::ForPeople
         } else if revolutions.is_some() || hours.is_some() {
             What::Own("cycles")
+        } else if let Some(when) = names::weighed(&name) {
+            What::Weighing(when)
         } else {
             match (names::column(&name), names::quantity(&name)) {
                 // `gear [mg]` is no column of members
@@ -114,6 +119,16 @@ pub(super) fn columns(row: &[String]) -> Vec<Column> {
         .map_or(0, |at| at + 1);
     let cells = row[..named].iter().enumerate();
     let mut columns: Vec<Column> = cells.map(|(at, cell)| Column::of(at, cell)).collect();
+    // a deviation is a depth where nothing else is
+    if !has(&columns, "value") {
+        let deviates = |column: &&mut Column| {
+            let (name, _) = units::name_and_unit(&column.written);
+            column.what == What::Unknown && names::is_deviation(&name)
+        };
+        for column in columns.iter_mut().filter(deviates) {
+            column.what = What::Values(Quantity::WearDepth);
+        }
+    }
     // a running time beside cycles says nothing more
     if (columns.iter()).any(|column| column.is("cycles") && column.hours.is_none()) {
         for column in columns.iter_mut().filter(|column| column.hours.is_some()) {

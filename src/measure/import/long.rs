@@ -322,6 +322,7 @@ fn passed_over(
             let why = match column.what {
                 What::ForPeople => "for people",
                 What::Unknown => "not known",
+                What::Weighing(_) => "a weighing",
                 What::Values(_) if column.at != value.at => "another quantity",
                 _ => return None,
             };

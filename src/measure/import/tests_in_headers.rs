@@ -1,5 +1,6 @@
 //! Wide tables whose headers name the test of each column: `run A 140000 cycles`, `run B 100000 cycles`.
 
+use super::arrange::stated_above;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, of_one_test};
 use super::{ImportError, Sheet, cell_name};
@@ -12,6 +13,12 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
+    let (test, member) = stated_above(sheet, wanted)?;
+    let wanted = &Wanted {
+        test: wanted.test.or(test),
+        member: wanted.member.or(member),
+        ..wanted.clone()
+    };
     let Some((head, columns)) = tests_of_columns(sheet, wanted)? else {
         return of_one_test(sheet, wanted);
     };

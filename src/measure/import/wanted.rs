@@ -156,7 +156,7 @@ impl Wanted<'_> {
     }
 
     /// The one test whose id stands in a sheet's name or a header.
-    fn test_named(&self, sheet: &str) -> Option<&str> {
+    pub(super) fn test_named(&self, sheet: &str) -> Option<&str> {
         let stands_in = |id: &str, text: &str| places(id, text).next().is_some();
         let named = self.tests.iter().copied().filter(|id| stands_in(id, sheet));
         let named: Vec<&str> = named.collect();

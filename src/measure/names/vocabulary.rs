@@ -235,13 +235,6 @@ pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
             "depth",
             "wear",
             "depthwear",
-            "deviation",
-            "profiledeviation",
-            "abweichung",
-            "profilabweichung",
-            "scostamento",
-            "ecart",
-            "desviacion",
             "flankwear",
             "verschleiss",
             "verschleisstiefe",
@@ -305,6 +298,18 @@ pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
         &["pressung", "pressioncontact", "pressionecontatto"],
     ),
     (Quantity::MeshStiffness, &["eingriffssteifigkeit"]),
+];
+
+/// Names of the deviation from the new profile.
+pub(super) const DEVIATIONS: [&str; 8] = [
+    "deviation",
+    "profiledeviation",
+    "abweichung",
+    "profilabweichung",
+    "scostamento",
+    "ecart",
+    "desviacion",
+    "dev",
 ];
 
 /// Names of the mass of a part.

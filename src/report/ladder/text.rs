@@ -35,7 +35,7 @@ pub fn conclusion(result: &Result<'_>) -> String {
     let alone = steps.len() < 2 && result.steps.len() > 1;
     if result.steps.len() == 1 {
         sentences.push(
-            "This is one version; name those to hold it against behind it, such as the studies that `gearwear add` wrote.".to_owned(),
+            "This is one version: list the ones to compare it with after it, such as the studies that `gearwear add` wrote.".to_owned(),
         );
     }
     if let (Some((best, least)), Some(first), false) =

@@ -196,7 +196,7 @@ pub(super) fn of_the_other_member(study: &Study, data: &Dataset, fit: &Fit) -> V
 fn is_simple(ratio: f64) -> bool {
     (1..=4).any(|parts| {
         let part = ratio * f64::from(parts);
-        (part - part.round()).abs() < SAME_CYCLES * part
+        (part - part.round()).abs() < SAME_TORQUE * part
     })
 }
 

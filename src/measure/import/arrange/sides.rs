@@ -5,10 +5,15 @@ use crate::measure::import::Sheet;
 use crate::measure::import::columns::{Column, What, columns};
 use crate::measure::{Place, Subject, names};
 
-/// The table of each member, with the columns of the other one emptied and a column of members; the table alone where it is not laid out so.
-pub(super) fn one_by_one(sheet: &Sheet, head: usize, said: &mut Vec<String>) -> Vec<Sheet> {
+/// The table of each member, with the columns of the other one emptied and a column of members; none where not both have columns of their own.
+pub(super) fn apart(sheet: &Sheet, head: usize) -> Option<Vec<Sheet>> {
     let header = &sheet.rows[head];
     let sides: Vec<Option<(Subject, String)>> = header.iter().map(|text| side(text)).collect();
+    let members = [Subject::Pinion, Subject::Gear];
+    let has_side = |member: &Subject| sides.iter().flatten().any(|side| side.0 == *member);
+    if !members.iter().all(has_side) {
+        return None;
+    }
     let of = |member: Subject| {
         let mut own = sheet.clone();
         for (at, side) in sides.iter().enumerate() {
@@ -26,30 +31,20 @@ pub(super) fn one_by_one(sheet: &Sheet, head: usize, said: &mut Vec<String>) -> 
         put_column(&mut own, head, "member", member.name());
         own
     };
-    let both = [Subject::Pinion, Subject::Gear].map(of);
-    if !both
-        .iter()
-        .all(|own| stands_alone(&columns(&own.rows[head]), &columns(header)))
-    {
-        return vec![sheet.clone()];
-    }
-    said.push("the columns of the pinion and of the gear side by side".to_owned());
-    both.into()
+    Some(members.map(of).into())
 }
 
 /// Whether a member's columns make a table of their own where the whole header makes none.
-fn stands_alone(own: &[Column], whole: &[Column]) -> bool {
+pub(super) fn is_table(own: &Sheet, whole: &Sheet, head: usize) -> bool {
     let value = |columns: &[Column]| {
         let mut values = columns.iter().filter(|c| c.what.own() == Some("value"));
         values.next().map(|column| column.what)
     };
-    let has_test = || whole.iter().any(|column| column.what == What::Own("test"));
-    // masses without tests are read as a wide table
-    let of_whole = |what: What| match what {
-        What::Values(quantity) => quantity.place() == Place::Whole && has_test(),
-        _ => false,
-    };
-    value(whole).is_none() && (is_curve(own) || value(own).is_some_and(of_whole))
+    let of_whole =
+        |what: What| matches!(what, What::Values(quantity) if quantity.place() == Place::Whole);
+    let columns_of = |sheet: &Sheet| columns(&sheet.rows[head]);
+    let own = columns_of(own);
+    value(&columns_of(whole)).is_none() && (is_curve(&own) || value(&own).is_some_and(of_whole))
 }
 
 /// The member that a column of places, values or their scatter names, and its header without it.
@@ -63,10 +58,13 @@ fn side(header: &str) -> Option<(Subject, String)> {
     let rest = header.replacen(word, "", 1);
     let rest: Vec<&str> = rest.split_whitespace().collect();
     let rest = rest.join(" ");
-    let own = Column::of(0, &rest).what.own()?;
-    ["position", "value", "sigma", "trace"]
-        .contains(&own)
-        .then_some((member, rest))
+    let column = columns(std::slice::from_ref(&rest)).pop()?;
+    let is_side = match column.what {
+        What::Weighing(_) | What::Values(_) => true,
+        What::Own(own) => ["position", "value", "sigma", "trace"].contains(&own),
+        _ => false,
+    };
+    is_side.then_some((member, rest))
 }
 
 #[cfg(test)]
@@ -81,6 +79,10 @@ mod tests {
             Some(("pinion", "Radius [mm]".to_owned()))
         );
         assert_eq!(of("gear loss mg"), Some(("gear", "loss mg".to_owned())));
+        assert_eq!(
+            of("Masse Ritzel nach [g]"),
+            Some(("pinion", "Masse nach [g]".to_owned()))
+        );
         assert_eq!(
             of("Verschlei\u{df} Rad [\u{b5}m]").map(|o| o.0),
             Some("gear")

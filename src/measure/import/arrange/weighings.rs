@@ -1,9 +1,20 @@
 //! A mass before and a mass after: their difference is what was lost.
 
+use super::has;
 use crate::measure::import::columns::{Column, What};
-use crate::measure::import::numbers::{number, pointed};
+use crate::measure::import::numbers::{number, pointed, with_points};
 use crate::measure::import::{Decimal, ImportError, Sheet, cell_name};
-use crate::measure::{Quantity, names};
+use crate::measure::names::Weighed;
+
+/// Decimals that are written at least: with three `1.234` could be a thousand.
+const DECIMALS: usize = 4;
+
+/// Whether weighings are the values of a table: nothing else is.
+pub(super) fn could_be(columns: &[Column]) -> bool {
+    let weighing = |column: &Column| matches!(column.what, What::Weighing(_));
+    columns.iter().any(weighing) && !has(columns, "value") && has(columns, "member")
+        || columns.iter().filter(|column| weighing(column)).count() > 1 && !has(columns, "value")
+}
 
 /// Puts the loss in the place of the mass after.
 pub(super) fn as_losses(
@@ -13,78 +24,70 @@ pub(super) fn as_losses(
     said: &mut Vec<String>,
 ) -> Result<(), ImportError> {
     let header = sheet.rows[head].clone();
-    let at = |when: names::Weighed| {
-        let mut found = (0..header.len()).filter(|&at| weighed(&header[at]) == Some(when));
+    let columns = crate::measure::import::columns::columns(&header);
+    let of = |when: Weighed| {
+        let mut found = columns.iter().filter(|c| c.what == What::Weighing(when));
         let first = found.next();
         first.filter(|_| found.next().is_none())
     };
-    let (before, after) = match (at(names::Weighed::Before), at(names::Weighed::After)) {
+    let (before, after) = match (of(Weighed::Before), of(Weighed::After)) {
         (Some(before), Some(after)) => (before, after),
-        (None, None) => return Ok(()),
         (one, other) => {
-            let at = one.or(other).unwrap_or_default();
+            let at = one.or(other).map_or(0, |column| column.at);
             return Err(ImportError(format!(
-                "{}: `{}` is a mass and no loss: name the column of the other weighing `mass before` or `mass after`, or write what was lost as \
+                "{}: `{}` is a mass and no loss: name the columns of the two weighings `mass before` and `mass after`, or write what was lost as \
                  `mass loss [mg]`",
                 cell_name(head, at),
                 header[at]
             )));
         }
     };
-    let units = [before, after].map(|at| Column::of(at, &header[at]).unit);
-    if units[0] != units[1] {
+    if before.unit != after.unit {
         return Err(ImportError(format!(
-            "{} and {}: `{}` and `{}` are in two units",
-            cell_name(head, before),
-            cell_name(head, after),
-            header[before],
-            header[after]
+            "{} and {} are in two units",
+            before.cell(head),
+            after.cell(head)
         )));
     }
+    let (before_at, after_at) = (before.at, after.at);
+    let read = with_points(sheet, decimal, |row, column| {
+        row > head && (column == before_at || column == after_at)
+    })?;
     for row in head + 1..sheet.rows.len() {
-        let cells = &sheet.rows[row];
-        let texts = [before, after].map(|at| cells.get(at).cloned().unwrap_or_default());
-        if texts.iter().any(String::is_empty) {
-            if let Some(cell) = sheet.rows[row].get_mut(after) {
+        let text = |sheet: &Sheet, at: usize| sheet.rows[row].get(at).cloned().unwrap_or_default();
+        let written = [before_at, after_at].map(|at| text(sheet, at));
+        if written.iter().any(String::is_empty) {
+            if let Some(cell) = sheet.rows[row].get_mut(after_at) {
                 cell.clear();
             }
             continue;
         }
-        let plain = |text: &str| match decimal {
-            Some(Decimal::Comma) => text.replace('.', "").replace(',', "."),
-            Some(Decimal::Point) => text.replace(',', ""),
-            None => pointed(text),
-        };
-        let [whole, left] = texts.map(|text| plain(&text));
+        let [whole, left] = [before_at, after_at].map(|at| pointed(&text(&read, at)));
         let digits = |text: &str| text.split_once('.').map_or(0, |(_, digits)| digits.len());
-        let digits = digits(&whole).max(digits(&left)).max(1);
-        let lost = number(&whole, row, before)? - number(&left, row, after)?;
-        // one more digit than was read keeps `1.234` from looking like thousands
-        let lost = format!("{lost:.digits$}", digits = digits + 1);
-        sheet.rows[row][after] = match decimal {
-            Some(Decimal::Comma) => lost.replace('.', ","),
-            _ => lost,
+        let digits = digits(&whole).max(digits(&left)).max(DECIMALS);
+        let lost = number(&whole, row, before_at)? - number(&left, row, after_at)?;
+        let lost = format!("{lost:.digits$}");
+        // with the mark of the others, by which all numbers of the table are read
+        let has_commas = match decimal {
+            Some(decimal) => decimal == Decimal::Comma,
+            None => written.iter().any(|text| text.contains(',')),
+        };
+        sheet.rows[row][after_at] = if has_commas {
+            lost.replace('.', ",")
+        } else {
+            lost
         };
     }
-    let unit = units[0]
-        .as_ref()
-        .map_or_else(String::new, |unit| format!(" [{unit}]"));
     said.push(format!(
         "mass loss: `{}` less `{}`",
-        header[before], header[after]
+        header[before_at], header[after_at]
     ));
-    sheet.rows[head][after] = format!("mass loss{unit}");
+    let unit = (after.unit.as_ref()).map_or_else(String::new, |unit| format!(" [{unit}]"));
+    sheet.rows[head][after_at] = format!("mass loss{unit}");
     for row in sheet.rows.iter_mut().skip(head) {
-        if let Some(cell) = row.get_mut(before) {
+        if let Some(cell) = row.get_mut(before_at) {
             cell.clear();
         }
     }
     Ok(())
-}
-
-/// Which weighing a header names.
-fn weighed(header: &str) -> Option<names::Weighed> {
-    let (name, _) = crate::measure::import::units::name_and_unit(header);
-    let (when, rest) = names::weighed(&name)?;
-    (Column::of(0, &rest).what == What::Values(Quantity::MassLoss)).then_some(when)
 }
