@@ -264,7 +264,10 @@ fn each_test_has_the_modulus_and_k_of_its_temperature() {
     const PLASTIC: &str = include_str!("../../cli/examples/plastic-steel.toml");
     const LATER: &str = "gear,5e5,mass_loss,,1,1\n";
     let plain = PLASTIC
-        .replace("# elements_per_half_width = 8", "elements_per_half_width = 2")
+        .replace(
+            "# elements_per_half_width = 8",
+            "elements_per_half_width = 2",
+        )
         .replace("positions = 100", "positions = 24");
     let (head, tests) = plain.split_once("[[test]]").unwrap();
     let rest = &tests[tests.find("[measurements]").unwrap()..];
