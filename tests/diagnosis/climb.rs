@@ -80,6 +80,45 @@ fn it_finds_one_effect_after_the_other_and_ends_with_a_study_of_them() {
         "its measurements are found from its own folder"
     );
     assert!(!folder.path().join("study.out/.climb.checkpoint").exists());
+    // a plan goes on from the diagnosis that the climb ended with
+    let output = gearwear()
+        .args(["plan", "--json", "--quiet"])
+        .arg(target.join("climbed.toml"))
+        .output()
+        .unwrap();
+    let plan: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(plan["diagnosed"], true, "{plan:#}");
+}
+
+/// A climb begins with the finished diagnosis of its study, and takes the same step by it.
+#[test]
+fn it_begins_with_the_finished_diagnosis() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = study(folder.path(), BOTH);
+    let run = |arguments: &[&str]| {
+        let output = gearwear().args(arguments).arg(&path).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{said}");
+        (
+            serde_json::from_slice::<Value>(&output.stdout).unwrap(),
+            said,
+        )
+    };
+    let climb = ["climb", "--json", "--most", "1"];
+    let (alone, said) = run(&climb);
+    assert!(!said.contains("finished diagnosis"), "{said}");
+    run(&["diagnose", "--json", "--quiet"]);
+    let (after, said) = run(&climb);
+    assert!(
+        said.contains("note: the first step goes by the finished diagnosis"),
+        "{said}"
+    );
+    assert_eq!(after["effects"], alone["effects"]);
+    // where the study is another one, that diagnosis is none of it
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, format!("{text}\n# changed\n")).unwrap();
+    let (_, said) = run(&climb);
+    assert!(!said.contains("finished diagnosis"), "{said}");
 }
 
 /// One section of a face that leans by 10 µm: lead slopes and crowning are alike there. All that the diagnosis cannot tell apart are fitted, and
