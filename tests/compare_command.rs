@@ -681,38 +681,72 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
     assert!(!text.contains("gearwear diagnose"), "{text}");
 }
 
-/// A test whose torque, or whose cycles, are those of the gear stands off by the ratio of the teeth: asked, with what to do.
+/// A test whose torque, or whose cycles, are those of the gear stands off by the ratio of the teeth, 53/27: asked, with what to do.
 #[test]
 fn a_test_stated_for_the_gear_is_asked_about() {
     let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
     let base = BASE
         .replace("id = \"H, held out\"", "id = \"H\"")
         .replace("coefficient_scatter = 0.0", "datum = 0.5");
-    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
-    let file = FILE.replace("measurements.csv", "m.csv");
-    write("truth.toml", base.clone());
-    succeed(&home, "synthesize truth.toml -o data --seed 5");
-    // a transmission error bends with the torque, which its k cannot make up for
-    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
-    let rows = (data.lines()).filter(|row| !row.contains("transmission_error"));
-    write("m.csv", rows.map(|row| format!("{row}\n")).collect());
-    let sanity = |base: &str| {
-        write("base.toml", format!("{base}{file}"));
+    let ratio = 53.0 / 27.0;
+    // measured as `truth` has it, the cycles of B's rows multiplied, and compared as `stated` has it
+    let sanity = |truth: &str, stated: &str, factor: f64| {
+        write("truth.toml", truth.to_owned());
+        succeed(&home, "synthesize truth.toml -o data --seed 5");
+        let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+        fs::remove_dir_all(home.path().join("data")).unwrap();
+        // a transmission error bends with the torque, which a test's k cannot make up for
+        let rows = (data.lines()).filter(|row| !row.contains("transmission_error"));
+        let rows = rows.map(|row| {
+            let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+            if cells[0] == "B" {
+                cells[CYCLES] = (cells[CYCLES].parse::<f64>().unwrap() * factor).to_string();
+            }
+            cells.join(",") + "\n"
+        });
+        write("measurements.csv", rows.collect());
+        write("base.toml", format!("{stated}{FILE}"));
         let told = succeed(&home, "compare base.toml --json");
         serde_json::from_str::<Value>(&told).unwrap()["sanity"].clone()
     };
-    assert_eq!(sanity(&base), serde_json::json!([]));
-    let of_the_gear = format!("torque = {:.1}", 170.0 * 53.0 / 27.0);
-    let said = sanity(&base.replace("torque = 170.0", &of_the_gear));
-    let line = said[0].as_str().unwrap_or_default();
-    for word in [
-        "test B",
-        "near 27/53",
-        "333.7 N m",
-        "divide its torque by 53/27",
-    ] {
-        assert!(line.contains(word), "{word}: {said}");
-    }
+    let says = |said: Value, words: &[&str]| {
+        let line = said[0].as_str().unwrap_or_default();
+        for word in words {
+            assert!(line.contains(word), "{word}: {said}");
+        }
+    };
+    assert_eq!(sanity(&base, &base, 1.0), serde_json::json!([]));
+    let torque = |of: f64| format!("torque = {of:.1}");
+    let of_the_gear = base.replace("torque = 170.0", &torque(170.0 * ratio));
+    says(
+        sanity(&base, &of_the_gear, 1.0),
+        &[
+            "test B",
+            "near 27/53",
+            "333.7 N m",
+            "divide its torque by 53/27",
+        ],
+    );
+    // the torque of H, as the gear has it
+    let like_h = base.replace("torque = 170.0", "torque = 130.0");
+    let of_the_gear = base.replace("torque = 170.0", &torque(130.0 * ratio));
+    says(
+        sanity(&like_h, &of_the_gear, 1.0),
+        &[
+            "test B has 53/27 times the torque of test H (255.2 and 130 N m)",
+            "divide its torque",
+        ],
+    );
+    let turns_of_the_gear = base.replace("cycles = 6e5", &format!("cycles = {}", 6e5 / ratio));
+    says(
+        sanity(&base, &turns_of_the_gear, 1.0 / ratio),
+        &[
+            "test B",
+            "near 53/27",
+            "multiply its cycles, and those of its rows, by 53/27",
+        ],
+    );
 }
 
 /// A fit adjusts k and keeps the proportion that the members' own stand in.

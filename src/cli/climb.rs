@@ -81,7 +81,10 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
         1 => inputs::finished::<Answer>(path, &study, fidelity(&study) != Fidelity::Screening)?,
         _ => None,
     };
-    if let Some(answer) = finished {
+    // where it names nothing the last diagnosis has to be made anyway
+    let names_some =
+        |answer: &Answer| !matches!(answer.verdict, Verdict::NothingMissing | Verdict::Unknown);
+    if let Some(answer) = finished.filter(names_some) {
         context.tell("note: the first step goes by the finished diagnosis of this study");
         let watch = |doing| show(0, 0.6, doing);
         if step(&mut state, &fitter, &answer, false, most, &watch)?.is_none() {
@@ -149,9 +152,9 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
 }
 
 /// The document of the last diagnosis, by which `plan` goes on from the climbed study.
-fn last_diagnosis(diagnosis: &Diagnosis, climbed: String) -> Result<Vec<u8>, CliError> {
+fn last_diagnosis(diagnosis: &Diagnosis, identity: String) -> Result<Vec<u8>, CliError> {
     let mut document = json!(diagnosis);
-    document[inputs::KEY] = json!(climbed);
+    document[inputs::KEY] = json!(identity);
     Ok(report::json::text("diagnosis.json", &document)?)
 }
 
@@ -172,7 +175,7 @@ fn fidelity(study: &Study) -> Fidelity {
     }
 }
 
-/// One step up if one pays; else why there is none: `is_sure` tells whether nothing is missing is more than likely.
+/// One step up if one pays; else why there is none. `is_sure`: a verdict that nothing is missing is no mere guess.
 fn step(
     state: &mut State,
     fitter: &Fitter<'_>,

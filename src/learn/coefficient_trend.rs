@@ -25,12 +25,20 @@ const CONDITIONS: [Condition; 2] = [
     ("speed", |operation| operation.speed_rpm),
 ];
 
+/// The tests with rows, and ln of their own k.
+pub(super) fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usize, f64)> {
+    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
+    let known = fit.tests.iter();
+    let known = known.filter(|test| test.coefficient > 0.0 && measured(test.test));
+    known
+        .map(|test| (test.test, test.coefficient.ln()))
+        .collect()
+}
+
 /// The condition that the tests' own k follow most surely, in words; None if they follow none.
 pub(super) fn trend_of_coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
-    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
-    let tests: Vec<(&Operation, f64)> = (fit.tests.iter())
-        .filter(|test| test.coefficient > 0.0 && measured(test.test))
-        .map(|test| (&study.tests[test.test].conditions, test.coefficient.ln()))
+    let tests: Vec<(&Operation, f64)> = (own_coefficients(data, fit).into_iter())
+        .map(|(test, k)| (&study.tests[test].conditions, k))
         .collect();
     let found = CONDITIONS.iter().filter_map(|(name, of)| {
         let points: Vec<(f64, f64)> = tests.iter().map(|(o, k)| (of(o).ln(), *k)).collect();

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::super::residual_statistics::Fitted;
 use super::{EXPLAINS, FAR_FROM_STATED, SAME_CYCLES, rounded, scale};
+use crate::learn::coefficient_trend::own_coefficients;
 use crate::learn::fitted::Fit;
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Study;
@@ -198,16 +199,6 @@ fn is_simple(ratio: f64) -> bool {
         let part = ratio * f64::from(parts);
         (part - part.round()).abs() < SAME_TORQUE * part
     })
-}
-
-/// The tests with rows and ln of their own k.
-fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usize, f64)> {
-    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
-    let known = fit.tests.iter();
-    let known = known.filter(|test| test.coefficient > 0.0 && measured(test.test));
-    known
-        .map(|test| (test.test, test.coefficient.ln()))
-        .collect()
 }
 
 /// Two digits of a factor, below 1 too.

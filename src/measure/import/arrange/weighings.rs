@@ -11,9 +11,13 @@ const DECIMALS: usize = 4;
 
 /// Whether weighings are the values of a table: nothing else is.
 pub(super) fn could_be(columns: &[Column]) -> bool {
-    let weighing = |column: &Column| matches!(column.what, What::Weighing(_));
-    columns.iter().any(weighing) && !has(columns, "value") && has(columns, "member")
-        || columns.iter().filter(|column| weighing(column)).count() > 1 && !has(columns, "value")
+    let weighings = columns
+        .iter()
+        .filter(|c| matches!(c.what, What::Weighing(_)));
+    let count = weighings.count();
+    // one alone may be a word of a title
+    let is_header = count > 1 || count == 1 && has(columns, "member");
+    is_header && !has(columns, "value")
 }
 
 /// Puts the loss in the place of the mass after.
