@@ -338,8 +338,14 @@ fn a_wave_is_found_from_another_valley() {
 fn a_hopeless_effect_is_given_up_early() {
     let home = tempfile::tempdir().unwrap();
     let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
-    let tests = [("A", "100.0"), ("B", "160.0")]
-        .map(|(id, torque)| format!("[[test]]\nid = \"{id}\"\ntorque = {torque}\ncycles = 8e5\n"));
+    let tests = [
+        ("A", "100.0", "fit"),
+        ("B", "160.0", "fit"),
+        ("S", "130.0", "holdout"),
+    ]
+    .map(|(id, torque, role)| {
+        format!("[[test]]\nid = \"{id}\"\nrole = \"{role}\"\ntorque = {torque}\ncycles = 8e5\n")
+    });
     let study = |end: &str| {
         let rest = "[model]\ncontact = \"hertz\"\n[numerics]\npositions = 40\n";
         let wear = WEAR.replace("6e-10", "5e-10").replace("50000", "1e6");
@@ -376,12 +382,17 @@ fn a_hopeless_effect_is_given_up_early() {
     let (_, out, _) = gearwear(&home, &["compare", "made/start.toml", "--json", "--quiet"]);
     let base: serde_json::Value = serde_json::from_str(&out).unwrap();
     let number = |of: &serde_json::Value, pointer: &str| of.pointer(pointer).unwrap().as_f64();
-    let without = number(&right, "/without_chi2_per_point").unwrap();
-    let compared = number(&base, "/fit/chi2_per_point").unwrap();
-    assert!(
-        (without / compared - 1.0).abs() < 1e-3,
-        "{without} {compared}"
-    );
+    for [added, compared] in [
+        ["/without_chi2_per_point", "/fit/chi2_per_point"],
+        ["/without_holdout_chi2_per_point", "/holdout/chi2_per_point"],
+    ] {
+        let without = number(&right, added).unwrap();
+        let compared = number(&base, compared).unwrap();
+        assert!(
+            compared > 2.0 && (without / compared - 1.0).abs() < 1e-3,
+            "{added}: {without} {compared}"
+        );
+    }
     write("made/known.toml", study(&format!("{hidden}{measured}")));
     let (_, out, _) = gearwear(&home, &["add", "made/known.toml", "tip_relief"]);
     assert!(

@@ -27,7 +27,8 @@ pub(super) struct Missed<'m> {
 /// The model without the effect where it fits best.
 struct Base {
     scaled: Scaled,
-    held_out: Misfit,
+    /// Of the held-out tests; None where it cannot be computed.
+    held_out: Option<Misfit>,
 }
 
 impl<'m> Missed<'m> {
@@ -48,7 +49,7 @@ impl<'m> Missed<'m> {
 
     /// Its χ² per point of the held-out tests; None without any.
     pub(super) fn held_out(&self, measured: &Measured<'_>) -> Option<f64> {
-        let Misfit { square, points } = self.fitted(measured)?.held_out;
+        let Misfit { square, points } = self.fitted(measured)?.held_out?;
         (points > 0.0).then(|| square / points)
     }
 
@@ -63,12 +64,13 @@ impl<'m> Missed<'m> {
             };
             measured.with_problem(self.bench, self.version, noise, &|_| {}, |problem| {
                 let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
+                let judged = problem.judged(fit.clone(), &effort).ok();
                 Some(Base {
                     scaled: Scaled {
                         square: measured.misfit(&fit).square,
                         ..problem.scaled(&own)?
                     },
-                    held_out: measured.misfit_of(Role::Holdout, &fit),
+                    held_out: judged.map(|fit| measured.misfit_of(Role::Holdout, &fit)),
                 })
             })
         });
