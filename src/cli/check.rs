@@ -35,12 +35,18 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let default = || folder::default_path(path, "check");
     let target = args.paths.output.clone().unwrap_or_else(default);
     let _reserved = folder::reserve(&target, path, &study)?;
-    let quick = quick(&study, &data)?;
-    let version = ModelVersion::of(&quick);
-    let compared = fitting::fitted(&quick, &data, &version, context, "check")?;
+    let mut judged = analytic(&study)?;
+    let fit =
+        |study: &Study| fitting::fitted(study, &data, &ModelVersion::of(study), context, "check");
+    let mut compared = fit(&judged)?;
+    // elements would follow a wrong unit into teeth worn away
+    if asks_for_elements(&data) && compared.comparison.sanity.is_empty() {
+        judged = study.clone();
+        compared = fit(&judged)?;
+    }
     let name = path.display().to_string();
     let result = comparison::Result {
-        study: &quick,
+        study: &judged,
         name: &name,
         data: &data,
         fit: &compared.fit,
@@ -49,7 +55,11 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let written = report::write_comparison(&result, &target)?;
     let prospects = prospects(&study, &data);
     let mut warnings = data_warnings(&data);
-    warnings.extend(stated_sigma(&study, &data, &compared.fit));
+    let depths = (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
+    // of sigmas that are estimated there is nothing to be said
+    if 2 * data.estimated_sigmas <= depths.count() {
+        warnings.extend(stated_sigma(&study, &data, &compared.fit));
+    }
     warnings.extend(misfit_of_one_quantity(&study, &data, &compared.fit));
     let sanity = &compared.comparison.sanity;
     Ok(Outcome {
@@ -81,19 +91,31 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     })
 }
 
-/// The study by the analytic model, for what is looked for is far larger than what the models differ by; unless something stands over a
-/// rotation, whose curve hangs on the deflection of the teeth, or depths have no trace, whose zeros may be off by less than the models differ.
-fn quick(study: &Study, data: &Dataset) -> Result<Study, CliError> {
+/// The study by the analytic model: most of what is looked for is far larger than what the models differ by.
+fn analytic(study: &Study) -> Result<Study, CliError> {
+    let mut edit = study.edit();
+    edit.put("model.contact", "\"hertz\"");
+    Ok(edit.finish(&study.source().name)?)
+}
+
+/// Whether something stands over a rotation, whose curve hangs on the deflection of the teeth, or depths have no trace, whose zeros may be off by
+/// less than the models differ.
+fn asks_for_elements(data: &Dataset) -> bool {
     let fine = |o: &Observation| {
         let has_no_datum = o.quantity == Quantity::WearDepth && o.trace.is_none();
         o.quantity.place() == Place::Rotation || has_no_datum
     };
-    if data.observations.iter().any(fine) {
-        return Ok(study.clone());
+    data.observations.iter().any(fine)
+}
+
+/// What is said of data in which nothing looks wrong.
+fn right(data: &Dataset) -> &'static str {
+    let depths = || (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
+    if depths().next().is_some() && depths().all(|o| o.trace.is_none()) {
+        "signs and units look right; the zeros of profiles are taken as measured: name each profile in a column trace if its zero is not known"
+    } else {
+        "signs, units and zeros look right"
     }
-    let mut edit = study.edit();
-    edit.put("model.contact", "\"hertz\"");
-    Ok(edit.finish(&study.source().name)?)
 }
 
 /// What belongs to one line: test, member and quantity.
@@ -232,7 +254,7 @@ fn told(
     }
     lines.push(String::new());
     if sanity.is_empty() {
-        lines.push("signs, units and zeros look right".to_owned());
+        lines.push(right(data).to_owned());
     }
     for suspect in sanity {
         lines.push(format!("check first: {suspect}"));

@@ -10,8 +10,8 @@ use super::measured::Measured;
 use super::noise::NoiseModel;
 use super::search::Effort;
 use crate::effects::{Hook, ParamRole};
-use crate::simulate::forward::ContactKind;
-use crate::study::{ContactKind as StudiedContact, FreeParameter};
+use crate::simulate::forward::{ContactKind, ForwardError};
+use crate::study::{ContactKind as StudiedContact, EffectSpec, FreeParameter};
 
 /// How far a cheaper model is fitted from each place: where it stays far from the measurements its last decimals say nothing.
 const LOOK: Effort = Effort {
@@ -22,18 +22,15 @@ const LOOK: Effort = Effort {
     share: 2e-3,
     ..Effort::STAY
 };
-/// The same of coarse elements.
-const COARSE_STEPS: usize = 5;
-/// From so many free parameters of an effect on, places spread over their priors are looked at: so many for each parameter, and so many
-/// for a wave, whose lengths and phases all have valleys of their own.
+/// From so many free parameters of an effect on, or with a phase among them, places spread over their priors are looked at: so many for each
+/// parameter, and so many for a wave, whose lengths and phases all have valleys of their own, unless it runs around the teeth: these meet all
+/// teeth of the other member in turn, which levels out most of its phase.
 const MANY: usize = 3;
 const SPREAD: usize = 8;
 const WAVES: usize = 64;
 /// How weak the waves looked at are, as a share of the prior's median: weak ones come nearer to the measurements the more they are like what
 /// is missing, strong ones only if their size is right too.
 const WEAK: f64 = 0.25;
-/// From how many of the places, at most, a cheaper model is fitted.
-const KEEP: usize = 6;
 
 /// A model cheaper than fine finite elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +39,30 @@ pub(super) enum Cheaper {
     Analytic,
     /// Coarse finite elements: a sixth of the price.
     Coarse,
+}
+
+/// How much is spent on a cheaper model's fit.
+pub(super) struct Spent {
+    /// From how many of the places, at most, it is fitted.
+    pub(super) places: usize,
+    /// Most steps from each by coarse elements.
+    pub(super) coarse_steps: usize,
+}
+
+/// One of something for each cheaper model.
+#[derive(Default)]
+pub(super) struct PerModel<T> {
+    analytic: T,
+    coarse: T,
+}
+
+impl<T> PerModel<T> {
+    fn of(&self, model: Cheaper) -> &T {
+        match model {
+            Cheaper::Analytic => &self.analytic,
+            Cheaper::Coarse => &self.coarse,
+        }
+    }
 }
 
 /// Where a cheaper model is anchored, and what fine elements give there.
@@ -90,7 +111,10 @@ impl Measured<'_> {
         noise: NoiseModel,
         anchor: &Anchor,
         places: Vec<Vec<f64>>,
+        spent: Spent,
     ) -> Option<Fit> {
+        let wave = version.of_last().any(is_phase);
+        let on_teeth = (version.effects.specs().last()).is_some_and(EffectSpec::acts_on_teeth);
         let spread = match version.of_last().count() {
             // thousands of histories by elements cost more than they save
             _ if cheaper == Cheaper::Coarse => 0,
@@ -101,8 +125,8 @@ impl Measured<'_> {
             {
                 0
             }
-            n if version.of_last().any(is_phase) => n * WAVES,
-            n if n >= MANY => n * SPREAD,
+            n if wave && !on_teeth => n * WAVES,
+            n if wave || n >= MANY => n * SPREAD,
             _ => 0,
         };
         self.by(cheaper, version, noise, |problem| {
@@ -118,12 +142,12 @@ impl Measured<'_> {
             let mut all = problem.places(spread);
             all.iter_mut().for_each(|place| settle(version, place));
             all.extend(places);
-            let mut starts = anchored.nearest(all, KEEP);
+            let mut starts = anchored.nearest(all, spent.places);
             let mut look = LOOK;
             match cheaper {
                 Cheaper::Analytic => starts.extend([version.own_values(), version.medians()]),
                 Cheaper::Coarse => {
-                    look.iterations = COARSE_STEPS;
+                    look.iterations = spent.coarse_steps;
                     if starts.is_empty() {
                         starts.push(version.own_values());
                     }
@@ -142,6 +166,13 @@ impl Measured<'_> {
         noise: NoiseModel,
         act: impl FnOnce(&Problem<'_>) -> Option<T>,
     ) -> Option<T> {
+        let workshop = self.cheaper.of(cheaper);
+        let workshop = workshop.get_or_init(|| self.cheaper_workshop(cheaper).ok());
+        let bench = self.bench(workshop.as_ref()?).ok()?;
+        self.with_problem(&bench, version, noise, &|_| {}, act)
+    }
+
+    fn cheaper_workshop(&self, cheaper: Cheaper) -> Result<Workshop, ForwardError> {
         let fine = self.study().resolution();
         let studied = match self.study().contact {
             StudiedContact::Hertz => ContactKind::Hertz,
@@ -152,9 +183,7 @@ impl Measured<'_> {
             Cheaper::Coarse => (studied, Fidelity::Middle.resolution(fine)),
         };
         let set = self.study().gear_set();
-        let workshop = Workshop::new(set, numerics, kind, self.tests()).ok()?;
-        let bench = self.bench(&workshop).ok()?;
-        self.with_problem(&bench, version, noise, &|_| {}, act)
+        Workshop::new(set, numerics, kind, self.tests())
     }
 }
 

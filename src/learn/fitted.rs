@@ -42,6 +42,11 @@ impl Fit {
     pub fn is_settled(&self) -> bool {
         self.converged && self.parameters.iter().all(|p| !p.at_bound)
     }
+
+    /// Whether it says something of a test: it was fitted to it, or has judged it as a held-out one. The rows of others are zeros.
+    pub fn judges(&self, test: usize) -> bool {
+        self.tests.iter().any(|known| known.test == test)
+    }
 }
 
 /// One test in a fit.

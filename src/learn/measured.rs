@@ -1,8 +1,10 @@
 //! A study with its measurements: the bench on which its models are fitted.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::learn::bench::{Bench, MeasuredTest, Workshop};
+use crate::learn::cheaper::PerModel;
 use crate::learn::fit::{Coefficient, FitError, Problem};
 use crate::learn::fitted::Fit;
 use crate::learn::gear_model::GearModel;
@@ -23,6 +25,8 @@ pub struct Measured<'a> {
     /// Role of each test.
     pub roles: Vec<Role>,
     tests: Vec<MeasuredTest>,
+    /// Members of the cheaper models, made when one is first asked; None where they cannot be.
+    pub(super) cheaper: PerModel<OnceLock<Option<Workshop>>>,
 }
 
 impl<'a> Measured<'a> {
@@ -53,6 +57,7 @@ impl<'a> Measured<'a> {
             roles: study.tests.iter().map(|test| test.role).collect(),
             study,
             data,
+            cheaper: PerModel::default(),
         }
     }
 
@@ -169,7 +174,7 @@ impl<'a> Measured<'a> {
     /// χ² of the tests of a role, and their points.
     pub(super) fn misfit_of(&self, role: Role, fit: &Fit) -> Misfit {
         let rows = self.data.observations.iter().zip(&fit.rows);
-        let fitted = rows.filter(|(o, _)| self.roles[o.test] == role);
+        let fitted = rows.filter(|(o, _)| self.roles[o.test] == role && fit.judges(o.test));
         let none = Misfit {
             square: 0.0,
             points: 0.0,

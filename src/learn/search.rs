@@ -124,6 +124,8 @@ pub(super) struct Found {
     /// Derivatives of the rows with respect to (θ, ln k_t), without whitening.
     pub(super) jacobian: DMatrix<f64>,
     pub(super) objective: f64,
+    /// Fall of the objective that a further step promises.
+    pub(super) promised: f64,
     pub(super) iterations: usize,
     pub(super) converged: bool,
 }
@@ -212,7 +214,7 @@ impl Search<'_> {
         let mut taken_at = state.clone();
         let mut damping = 1e-3;
         let (mut iterations, mut rounds) = (0, 0);
-        let (converged, scatter, normal) = loop {
+        let (converged, scatter, normal, promised) = loop {
             let model = self.selection.joined(&values);
             let covariance = &self.selection.covariance;
             let normal = self.selection.normal(&model, &jacobian, covariance);
@@ -235,7 +237,7 @@ impl Search<'_> {
                     continue;
                 }
                 if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
-                    break (true, scatter, normal);
+                    break (true, scatter, normal, promised);
                 }
                 let own = self.own(evaluator, &state);
                 (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
@@ -243,7 +245,7 @@ impl Search<'_> {
                 continue;
             }
             if iterations == effort.iterations {
-                break (false, scatter, normal);
+                break (false, scatter, normal, promised);
             }
             iterations += 1;
             if effort.settle > 0
@@ -272,10 +274,10 @@ impl Search<'_> {
                     continue;
                 }
                 if promised <= floor {
-                    break (true, scatter, normal);
+                    break (true, scatter, normal, promised);
                 }
                 if fresh {
-                    break (false, scatter, normal);
+                    break (false, scatter, normal, promised);
                 }
                 let own = self.own(evaluator, &state);
                 (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
@@ -297,6 +299,7 @@ impl Search<'_> {
         };
         Ok(Found {
             objective: self.layout.objective(normal.square, &state, scatter),
+            promised,
             model: self.selection.joined(&values),
             state,
             scatter,

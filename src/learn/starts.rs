@@ -3,7 +3,7 @@
 //! A search goes downhill; phases, wave numbers, resonances and steep laws have several valleys. A cheaper model tells valleys apart,
 //! and what it is fitted to is most of the way there.
 
-use super::cheaper::{Anchor, Cheaper};
+use super::cheaper::{Anchor, Cheaper, Spent};
 use super::fit::{Problem, Scaled};
 use super::fitted::Fit;
 use super::hypothesis::version::ModelVersion;
@@ -14,6 +14,16 @@ use crate::study::{FreeParameter, WEAR_COEFFICIENT};
 /// How much of an effect is left where a cheaper model is anchored if not at the study's own values: a strong effect that is not there is no
 /// place to judge other values from.
 const FAINT: f64 = 0.05;
+
+/// How much is spent on telling where a fit starts, and on telling what it promises.
+const STARTS: Spent = Spent {
+    places: 6,
+    coarse_steps: 5,
+};
+const PROMISES: Spent = Spent {
+    places: 3,
+    coarse_steps: 3,
+};
 
 /// Where a fit is to start.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +106,9 @@ impl Measured<'_> {
             }
         };
         let cheaper = Cheaper::that_starts(version);
-        let Some(found) = self.cheaper_fit(cheaper, version, problem.noise, &anchor, places) else {
+        let Some(found) =
+            self.cheaper_fit(cheaper, version, problem.noise, &anchor, places, STARTS)
+        else {
             return Start::at(own);
         };
         let promised = self.misfit(&found).square;
@@ -138,11 +150,12 @@ impl Measured<'_> {
         let mut places = places;
         // valleys are told apart by the model that starts fits
         if starts != promises
-            && let Some(found) = self.cheaper_fit(starts, version, noise, &anchor, places.clone())
+            && let Some(found) =
+                self.cheaper_fit(starts, version, noise, &anchor, places.clone(), PROMISES)
         {
             places.push(of_effects(&found));
         }
-        let fit = self.cheaper_fit(promises, version, noise, &anchor, places)?;
+        let fit = self.cheaper_fit(promises, version, noise, &anchor, places, PROMISES)?;
         Some(self.misfit(&fit).square)
     }
 }

@@ -163,6 +163,7 @@ fn places(study: &Study) -> Result<Dataset, CompareError> {
         traces: Vec::new(),
         reading: String::new(),
         outliers: Vec::new(),
+        estimated_sigmas: 0,
     };
     for (number, test) in study.tests.iter().enumerate() {
         let pair = pair(study, test)?;

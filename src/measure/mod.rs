@@ -55,6 +55,8 @@ pub struct Dataset {
     pub reading: String,
     /// Rows that stand apart from their neighbours, in their order.
     pub outliers: Vec<Outlier>,
+    /// Rows without a stated sigma, which is estimated.
+    pub estimated_sigmas: usize,
 }
 
 /// Points that share one unknown constant datum offset.
@@ -161,6 +163,7 @@ impl Dataset {
             traces: reader.into_traces(),
             reading: reading(dialect, &columns, blank, estimated.said()),
             outliers: Vec::new(),
+            estimated_sigmas: estimated.rows(),
         })
     }
 }

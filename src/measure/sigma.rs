@@ -34,6 +34,11 @@ pub(super) struct Estimated {
 }
 
 impl Estimated {
+    /// How many rows.
+    pub(super) fn rows(self) -> usize {
+        self.neighbours + self.others + self.repeats + self.stated
+    }
+
     /// In words; None if every row stated its own.
     pub(super) fn said(self) -> Option<String> {
         let of = |rows: usize, from: &str| match rows {
@@ -53,7 +58,7 @@ impl Estimated {
         .into_iter()
         .flatten()
         .collect();
-        let rows = self.neighbours + self.others + self.repeats + self.stated;
+        let rows = self.rows();
         let rows = if rows == 1 {
             "1 row".to_owned()
         } else {

@@ -50,15 +50,13 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
         }
     );
     for entry in shown() {
-        let held = entry
-            .holdout_chi2_per_point
-            .map_or("–".to_owned(), |c| format!("{c:.2}"));
+        let [fit, held] = figures(entry, 2);
         let _ = writeln!(
             text,
-            "  {:<width$}{:>12}{:>12.2}{:>10}{}",
+            "  {:<width$}{:>12}{:>12}{:>10}{}",
             name(entry),
             probability(entry.probability),
-            entry.fit_chi2_per_point,
+            fit,
             held,
             if Some(entry.decided_by) == decisive {
                 String::new()
@@ -78,8 +76,7 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
         unknown_name(diagnosis),
         probability(unknown)
     );
-    let is_beside = |entry: &Ranked| matches!(entry.effect, Hypothesis::EffectsAndUnknown(_));
-    if shown().any(is_beside) {
+    if shown().any(|entry| is_beside_unknown(entry) && has_figures(entry)) {
         text += "  χ² of +unknown: of the effect alone, what is unknown beside it left out\n";
     }
     text += &values_of_rivals(diagnosis);
@@ -115,6 +112,24 @@ fn values_of_rivals(diagnosis: &Diagnosis) -> String {
     }
 }
 
+fn is_beside_unknown(entry: &Ranked) -> bool {
+    matches!(entry.effect, Hypothesis::EffectsAndUnknown(_))
+}
+
+/// Whether the χ² of a line may stand beside those of the others: an effect that has something unknown beside it is not fitted to take all that it
+/// can, and by cheaper means the error of those adds to what it leaves.
+fn has_figures(entry: &Ranked) -> bool {
+    !is_beside_unknown(entry) || entry.decided_by == Fidelity::Full
+}
+
+/// χ² per point of a line for the fit tests and the held-out ones.
+fn figures(entry: &Ranked, digits: usize) -> [String; 2] {
+    [Some(entry.fit_chi2_per_point), entry.holdout_chi2_per_point].map(|chi2| {
+        let chi2 = chi2.filter(|_| has_figures(entry));
+        chi2.map_or("–".to_owned(), |chi2| format!("{chi2:.digits$}"))
+    })
+}
+
 /// What a line was fitted by. Lines by different means have errors of their own: their χ² do not compare to the last digit.
 fn means(fidelity: Fidelity) -> &'static str {
     match fidelity {
@@ -147,9 +162,8 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
         ]);
     let mut table = Table::new("", head);
     for entry in &diagnosis.ranking {
-        let held = entry
-            .holdout_chi2_per_point
-            .map_or("–".to_owned(), |c| format!("{c:.2}"));
+        let [fit, _] = figures(entry, 3);
+        let [_, held] = figures(entry, 2);
         let angle = entry
             .angle_to_leader
             .map_or("–".to_owned(), |a| format!("{a:.0}°"));
@@ -163,7 +177,7 @@ pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
             Cell::number(format!("{:.1}", entry.evidence_gain)),
         ];
         let last = [
-            Cell::number(format!("{:.3}", entry.fit_chi2_per_point)),
+            Cell::number(fit),
             Cell::number(held),
             Cell::number(angle),
             Cell::text(parameters(entry)),
@@ -267,8 +281,8 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         ]);
     }
     let text = format!(
-        "Anything smooth could bring χ² down by about {attainable:.0}. The {count} best of {} candidates; those whose first look promised \
-         nothing are left out.",
+        "Anything smooth could bring χ² down by about {attainable:.0}. The {count} best of {} candidates; those that showed nothing in \
+         the screening are left out.",
         diagnosis.screened.len()
     );
     Some(

@@ -269,7 +269,7 @@ pub(super) const VISCOSITY: Quantity = Quantity {
     slips: &[slip(
         10.0,
         1e6,
-        "this looks like mPa s (cP); 1 Pa s = 1000 mPa s: write 0.015 for 15 mPa s",
+        "this looks like mPa s (cP); 1 Pa s = 1000 mPa s: write it with its unit, such as \"15 mPa s\", or 0.015 for that",
     )],
     ..quantity(
         "Pa s",

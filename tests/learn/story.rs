@@ -385,7 +385,7 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
     assert!(
         before
             .worst
-            .contains("In size the measured wear of that member is 1."),
+            .contains("As a whole the measured wear of that member is 1."),
         "{}",
         before.worst
     );

@@ -133,7 +133,7 @@ fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome 
         }
     }
     if !after.converged {
-        text.push_str("  the fit came to no end: these are the values where it stopped\n");
+        text.push_str("  the fit did not converge: these are the values where it stopped\n");
     }
     for warning in &after.warnings {
         let _ = writeln!(text, "  warning: {warning}");

@@ -11,6 +11,9 @@ use crate::learn::{Addition, Share};
 use crate::report::comparison::{NO_INTERVAL, with_unit};
 use crate::report::format::significant;
 
+/// χ² per point of the fit tests from which a fit is too far from them for an interval.
+const FAR: f64 = 2.0;
+
 /// What a fit found: a value for each parameter that it was asked for, and what else it has to say.
 #[derive(Debug)]
 pub(super) struct Fitted {
@@ -36,7 +39,10 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
                 let [low, high] = ends.map(|end| with_unit(significant(end, 4), &p.unit));
                 format!("95 % between {low} and {high}")
             }
-            None if !comparison.converged => "no interval: the fit came to no end".to_owned(),
+            None if !comparison.converged => "no interval: the fit did not converge".to_owned(),
+            None if (comparison.fit.chi2_per_point).is_some_and(|chi2| chi2 > FAR) => {
+                "no interval: the model with it is still far from the measurements".to_owned()
+            }
             None => NO_INTERVAL.to_owned(),
         };
         let value = with_unit(significant(p.value, 4), &p.unit);
@@ -51,13 +57,13 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
         );
     } else if !comparison.converged {
         let why = if comparison.fit.is_within_noise() {
-            "it describes the fit tests within their noise, but they hardly tell its parameters apart, so that it wanders along a flat valley; set one \
+            "it describes the fit tests within their noise, but these hardly tell its parameters apart; set one \
              that you know (--set), or measure where they differ"
         } else {
             "these are the values where it stopped, not what the measurements ask for; another effect, or a parameter that is set (--set), may be \
              the answer"
         };
-        let _ = writeln!(text, "  the fit came to no end: {why}");
+        let _ = writeln!(text, "  the fit did not converge: {why}");
     }
     let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
     let without = addition.without_chi2_per_point;
@@ -112,7 +118,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     if !passed_over.is_empty() {
         let _ = writeln!(
             text,
-            "  other forms that a cheaper model promises little of were not fitted: {} (--form fits one)",
+            "  forms not fitted, as a cheaper model shows little gain: {} (--form NAME fits one)",
             passed_over.join("; ")
         );
     }

@@ -188,7 +188,11 @@ impl Measured<'_> {
             version.clone()
         };
         let dear = version.effects.specs().last().is_some_and(multiplies_work);
-        let without = missed.filter(|_| dear).and_then(|missed| missed.base(self));
+        let chosen = version
+            .of_last()
+            .any(|free| free.value != free.prior.median().clamp(free.lower, free.upper));
+        let anchor = missed.filter(|_| dear || !chosen);
+        let without = anchor.and_then(|missed| missed.base(self));
         self.with_problem(bench, version, noise, &told, |problem| {
             let start = self.start_of(problem, version, places, without);
             let problem = &problem.beginning_at(start.coefficient());
@@ -196,12 +200,18 @@ impl Measured<'_> {
             let first = match missed {
                 None => from(start.values, &effort)?,
                 Some(missed) => {
-                    let little =
-                        without.is_some() && !missed.promises(self, version, start.promised);
+                    let little = dear
+                        && without.is_some()
+                        && !missed.promises(self, version, start.promised);
                     let first = self.look(problem, version, missed, &start, little, &look)?;
                     match missed.hopeless(self, &first) {
                         Some(share) => {
-                            let first = problem.judged(first, &effort)?;
+                            // not worth the price of the held-out tests
+                            let first = if dear {
+                                first
+                            } else {
+                                problem.judged(first, &effort)?
+                            };
                             let compared = self.compared(bench, version, first, start.promised);
                             return Ok(Compared {
                                 given_up: Some(share),
@@ -215,7 +225,14 @@ impl Measured<'_> {
             };
             let is_far = |fit: &Fit| missed.is_some() && self.misfit(fit).is_far();
             let better = |second: &Fit| second.log_posterior > first.log_posterior;
-            let second = if first.is_settled() || version.effects.is_empty() || one_valley {
+            let attained = |promised: f64| {
+                is_far(&first) && self.misfit(&first).square < (1.0 + ATTAINED) * promised
+            };
+            let second = if first.is_settled()
+                || version.effects.is_empty()
+                || one_valley
+                || start.promised.is_some_and(attained)
+            {
                 None
             } else if is_far(&first) {
                 let second = from(version.medians(), &look).ok();
@@ -390,7 +407,11 @@ const SMOOTH: Effort = Effort {
 };
 
 /// Part of the misfit beyond noise that a fit of an effect more may leave of ln posterior: what such a fit is asked is how much the effect takes away.
-pub(super) const FAR_SHARE: f64 = 2e-3;
+pub(super) const FAR_SHARE: f64 = 5e-3;
+
+/// A fit that is far from the measurements, and by no more than this share of χ² farther than a cheaper model promises of the best of several starts,
+/// is not looked for from elsewhere.
+const ATTAINED: f64 = 0.05;
 
 /// Whether an effect multiplies the work of fine elements: by the slices of the face, or by the teeth that differ.
 fn multiplies_work(effect: &EffectSpec) -> bool {

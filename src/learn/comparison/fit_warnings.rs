@@ -126,6 +126,7 @@ mod tests {
                 traces: vec![trace("1", 2), trace("2", 5)],
                 reading: String::new(),
                 outliers: Vec::new(),
+                estimated_sigmas: 0,
             })
         };
         let (pinion, gear) = (Subject::Pinion, Subject::Gear);
@@ -175,6 +176,7 @@ mod tests {
                 traces: Vec::new(),
                 reading: String::new(),
                 outliers: Vec::new(),
+                estimated_sigmas: 0,
             })
         };
         let (a, b) = (row(2, Some(26.0), 1.0), row(3, Some(26.0), 1.1));

@@ -226,7 +226,7 @@ fn factor(ratios: &[Ratio]) -> String {
         format!("{times:.2} times the computed at {:.0} cycles", r.cycles)
     };
     let mut text = format!(
-        " In size the measured wear of that member is {}, which explains {:.0} % of the misfit then",
+        " As a whole the measured wear of that member is {} (that factor alone would remove {:.0} % of the misfit there)",
         told(first),
         100.0 * first.explains().min(1.0)
     );

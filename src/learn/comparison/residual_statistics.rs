@@ -85,7 +85,8 @@ pub(in crate::learn) type CellKey = (usize, Subject, Quantity, Option<Region>, u
 
 /// Every observation with its fit, in order.
 pub(in crate::learn) fn fitted<'a>(data: &'a Dataset, fit: &'a Fit) -> Vec<Fitted<'a>> {
-    data.observations.iter().zip(&fit.rows).collect()
+    let rows = data.observations.iter().zip(&fit.rows);
+    rows.filter(|(o, _)| fit.judges(o.test)).collect()
 }
 
 /// The word for a role.

@@ -1,6 +1,8 @@
 //! What a diagnosis left open, as a plan of further tests starts from it: the leading candidates by the analytic model, at the
 //! values that the diagnosis found.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 
 use super::next::NextExperiment;
@@ -30,6 +32,12 @@ pub struct Decided {
     /// The test that it proposes.
     #[serde(default)]
     pub next_experiment: Option<NextExperiment>,
+    /// Probabilities by hypothesis.
+    #[serde(default)]
+    pub probabilities: BTreeMap<String, f64>,
+    /// What it says to do next.
+    #[serde(default)]
+    pub next_step: String,
 }
 
 /// One candidate of a finished diagnosis.
@@ -241,6 +249,8 @@ mod tests {
                     .map(|(&p, card)| candidate(card.name, p))
                     .collect(),
                 next_experiment: None,
+                probabilities: BTreeMap::new(),
+                next_step: String::new(),
             };
             decided.leaders().iter().map(|c| c.probability).collect()
         };
@@ -271,6 +281,8 @@ mod tests {
             verdict: Verdict::Partial,
             ranking,
             next_experiment: None,
+            probabilities: BTreeMap::new(),
+            next_step: String::new(),
         };
         let leaders = decided.leaders();
         let names: Vec<&str> = leaders.iter().map(|c| c.effect.as_str()).collect();

@@ -119,6 +119,7 @@ impl MeasurementDesign {
             traces: self.traces.clone(),
             reading: String::new(),
             outliers: Vec::new(),
+            estimated_sigmas: 0,
         }
     }
 

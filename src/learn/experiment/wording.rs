@@ -1,9 +1,13 @@
 //! The table of feasible tests in sentences.
 
-use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose};
+use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose, shown};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
-use crate::study::Operation;
+use crate::learn::decision::Verdict;
+use crate::study::{Operation, Test};
+
+/// Relative difference up to which two conditions are the same.
+const SAME: f64 = 1e-3;
 
 /// A test made already, made once more.
 pub(super) struct Repetition {
@@ -98,6 +102,53 @@ fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
     })
 }
 
+/// Probability of something that the catalogue does not hold from which that is an open question.
+const OPEN: f64 = 0.05;
+
+/// Probability from which a diagnosis has decided.
+const DECIDED: f64 = 0.95;
+
+/// What the diagnosis left open, or that it left nothing, where the table's best test would be taken for the answer to it; with the space behind it.
+pub(super) fn left_open(decided: Option<&Decided>) -> String {
+    let Some(decided) = decided else {
+        return String::new();
+    };
+    let Some(first) = decided.ranking.first() else {
+        return String::new();
+    };
+    let unknown = decided.probabilities.get("unknown").copied();
+    match unknown.filter(|p| *p > OPEN) {
+        Some(unknown) if decided.verdict == Verdict::Ambiguous => format!(
+            "The diagnosis leaves open whether it is {} or something that the catalogue does not hold ({:.0} %), of which this table cannot tell; next, by \
+             the diagnosis: {}. ",
+            first.effect,
+            100.0 * unknown,
+            decided.next_step.trim_end_matches('.')
+        ),
+        None if decided.verdict == Verdict::Effect && first.probability > DECIDED => format!(
+            "The diagnosis has decided for {}: what follows would confirm it against its nearest rivals. ",
+            first.effect
+        ),
+        _ => String::new(),
+    }
+}
+
+/// Says so where the best test of the table is one that was made already.
+pub(super) fn made_already(best: &RankedTest, tests: &[Test]) -> String {
+    let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+    let is_best = |test: &&Test| {
+        let (own, best) = (shown(&test.conditions), &best.test);
+        same(own.torque, best.torque)
+            && same(own.speed, best.speed)
+            && same(own.misalignment, best.misalignment)
+            && same(own.cycles, best.cycles)
+            && own.reversed == best.reversed
+    };
+    tests.iter().find(is_best).map_or(String::new(), |test| {
+        format!(" These are the conditions of test {}.", test.id)
+    })
+}
+
 /// What the diagnosis proposed, where that is another test.
 pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Operation) -> String {
     let next = decided.and_then(|decided| decided.next_experiment.as_ref());
@@ -114,7 +165,6 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
 
 #[cfg(test)]
 mod tests {
-    use super::super::candidate_tests::shown;
     use super::super::candidate_tests::tests::plain;
     use super::*;
 

@@ -63,7 +63,7 @@ fn said(learned: &LearnedAnswer) -> String {
     let other = others.find(|other| other.decided_by == learned.decided_by);
     let next = other.map_or(String::new(), |other| {
         format!(
-            "; the next driver, {}, has {:.0} less of ln evidence",
+            "; ln evidence of the next driver, {}, is lower by {:.0}",
             other.name.trim_start_matches("learned:"),
             learned.evidence_gain - other.evidence_gain
         )

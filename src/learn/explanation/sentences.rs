@@ -268,7 +268,7 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
     let unidentified = leader.and_then(|j| unidentified(&findings.context.likelihood, j));
     let reason = match (unidentified, leader, posterior.share_of_leader()) {
         (Some((card, parameter)), ..) => Some(format!(
-            "These data do not determine {parameter}, by which {} is known: any other cause of the same pattern would look alike. What would show it: {}.",
+            "These data do not determine {parameter}, the mark of {}: another cause with the same pattern would look alike. What would show it: {}.",
             card.name, card.separated_by
         )),
         (None, Some(leader), Some(share)) => Some(format!(
@@ -294,7 +294,7 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
         }
         (Some(_), _) => "make the proposed test before adding one of them".to_owned(),
         (None, Some((card, _))) => {
-            format!("what shows whether it is {}: {}", card.name, card.separated_by)
+            format!("to show whether it is {}: {}", card.name, card.separated_by)
         }
         (None, None) => "no single test made like these tells them apart: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned(),
     };

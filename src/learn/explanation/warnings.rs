@@ -81,7 +81,17 @@ pub(in crate::learn) fn warnings(
     }
     let leader = posterior.leader();
     let suspects = outlying_curves::suspects(likelihood, &base.fitted.found.model);
-    if suspects.is_empty() {
+    let model = &base.fitted.found.model;
+    let is_named = matches!(
+        posterior.decision.verdict,
+        Verdict::Effect | Verdict::Effects
+    );
+    let one_test = (suspects.is_empty() && !is_named)
+        .then(|| outlying_curves::one_test(likelihood, model))
+        .flatten();
+    if let Some(one_test) = one_test {
+        warnings.push(one_test);
+    } else if suspects.is_empty() {
         let models = std::iter::once(&base.fitted).chain(leader);
         warnings.extend(
             models
@@ -122,7 +132,7 @@ pub(in crate::learn) fn warnings(
     if !not_fitted.is_empty() {
         let names: Vec<String> = not_fitted.iter().map(Hypothesis::to_string).collect();
         warnings.push(format!(
-            "could not be fitted and are not judged: {}",
+            "not judged, since their fits failed: {}",
             names.join(", ")
         ));
     }

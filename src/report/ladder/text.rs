@@ -14,6 +14,33 @@ fn judge(step: &LadderStep) -> Option<f64> {
 /// An error that falls to no less than this share of what it was has not fallen.
 const NO_BETTER: f64 = 0.98;
 
+/// χ² per point up to which held-out tests stand near the noise floor: they cannot show what an effect more would better.
+const NEAR_NOISE: f64 = 1.25;
+
+/// Gain of ln evidence from which the fit tests speak for an effect.
+const CLEAR: f64 = 5.0;
+
+/// What a step is that the fit tests speak for, while the held-out ones were near the noise floor before it; None of others.
+fn not_judged(before: &LadderStep, after: &LadderStep) -> Option<String> {
+    let evidence = after.improvement.as_ref()?.log_evidence?;
+    let (fit, fit_before) = (after.fit_chi2_per_point?, before.fit_chi2_per_point?);
+    let [held, held_before] = [after, before].map(|step| step.holdout_chi2_per_point);
+    let (held, held_before) = (held?, held_before?);
+    (evidence > CLEAR && held_before < NEAR_NOISE && held < NEAR_NOISE).then(|| {
+        format!(
+            "From {} to {} the error on the fit tests falls from {} to {} (ln evidence +{}), but the held-out tests were near the noise floor before ({} to {}) \
+             and cannot judge that step: hold out a test in which the effect shows.",
+            before.study,
+            after.study,
+            significant(fit_before, 3),
+            significant(fit, 3),
+            significant(evidence, 3),
+            significant(held_before, 3),
+            significant(held, 3)
+        )
+    })
+}
+
 /// Which version predicts best, and which steps do not help: of the versions that can be judged against the first.
 pub fn conclusion(result: &Result<'_>) -> String {
     let with = result.steps.iter().zip(&result.notes);
@@ -69,7 +96,11 @@ pub fn conclusion(result: &Result<'_>) -> String {
         let (Some(a), Some(b)) = (judge(before), judge(after)) else {
             continue;
         };
-        if b > NO_BETTER * a {
+        if b > NO_BETTER * a
+            && let Some(open) = not_judged(before, after)
+        {
+            sentences.push(open);
+        } else if b > NO_BETTER * a {
             sentences.push(format!(
                 "From {} to {} the error on {} {} ({} to {}): that step explains nothing new.",
                 before.study,
