@@ -109,6 +109,7 @@ fn wear_data(tests: &[(&str, f64)], points: usize, traces: bool) -> Dataset {
         traces: Vec::new(),
         reading: String::new(),
         outliers: Vec::new(),
+        estimated_sigmas: 0,
     };
     for (test, (id, cycles)) in tests.iter().enumerate() {
         for (member, low) in [(Subject::Pinion, 26.0), (Subject::Gear, 52.0)] {

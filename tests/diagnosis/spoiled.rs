@@ -44,6 +44,25 @@ fn one_spoiled_curve_is_named_and_no_effect() {
     }
 }
 
+/// Positions of one test that are off by the third of a millimetre, as of a test whose misalignment is not the stated one.
+#[test]
+fn one_test_at_other_conditions_is_named() {
+    let mut data = synthetic("", 0.05, 0.03, 26);
+    let off = 1;
+    for o in data.observations.iter_mut().filter(|o| o.test == off) {
+        o.position = o.position.map(|position| position + 0.33);
+    }
+    let found = diagnosed_of(data.clone());
+    let test = format!("misfit is that of test {}", data.tests[off]);
+    let words = [test.as_str(), "positions of its rows"];
+    assert!(
+        warns(&found, &words),
+        "{:?}\n{}",
+        found.warnings,
+        says(&found)
+    );
+}
+
 /// Noise of 0.05 µm and 3 % of each curve's largest depth, stated as 0.03 µm and 3 % of each value: where little is worn it is understated many
 /// times, at the deepest points hardly, and no factor on sigma mends that.
 #[test]

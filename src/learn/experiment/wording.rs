@@ -167,6 +167,36 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
 mod tests {
     use super::super::candidate_tests::tests::plain;
     use super::*;
+    use crate::learn::experiment::decided::DecidedCandidate;
+
+    fn decided(verdict: Verdict, probability: f64, unknown: f64) -> Decided {
+        Decided {
+            verdict,
+            ranking: vec![DecidedCandidate {
+                effect: "dynamic_load".to_owned(),
+                form: String::new(),
+                probability,
+                parameters: Vec::new(),
+                wear_coefficient: None,
+            }],
+            next_experiment: None,
+            probabilities: [("unknown".to_owned(), unknown)].into(),
+            next_step: "tests at several speeds".to_owned(),
+        }
+    }
+
+    #[test]
+    fn what_the_table_cannot_tell_comes_first() {
+        let open = left_open(Some(&decided(Verdict::Ambiguous, 0.67, 0.33)));
+        assert!(
+            open.contains("(33 %)") && open.contains("tests at several speeds"),
+            "{open}"
+        );
+        let done = left_open(Some(&decided(Verdict::Effect, 0.99, 0.01)));
+        assert!(done.contains("has decided for dynamic_load"), "{done}");
+        assert!(left_open(Some(&decided(Verdict::Ambiguous, 0.6, 0.01))).is_empty());
+        assert!(left_open(None).is_empty());
+    }
 
     fn separated(other: &str, chi2: f64) -> Separated {
         Separated {

@@ -203,3 +203,38 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
     lines.push(String::new());
     lines.join("\n")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::not_judged;
+    use crate::learn::{Improvement, LadderStep};
+
+    fn step(fit: f64, held: f64, evidence: Option<f64>) -> LadderStep {
+        LadderStep {
+            study: "study.toml".to_owned(),
+            effects: Vec::new(),
+            fit_chi2_per_point: Some(fit),
+            holdout_chi2_per_point: Some(held),
+            rms_um: None,
+            parameters: Vec::new(),
+            against: None,
+            improvement: evidence.map(|log_evidence| Improvement {
+                fit_factor: None,
+                holdout_factor: None,
+                rms_factor: None,
+                log_evidence: Some(log_evidence),
+            }),
+            sound: true,
+        }
+    }
+
+    #[test]
+    fn a_held_out_test_at_the_noise_floor_judges_no_step() {
+        let before = step(3.13, 1.12, None);
+        let said = not_judged(&before, &step(0.95, 1.10, Some(871.0))).unwrap();
+        assert!(said.contains("cannot judge that step"), "{said}");
+        // a held-out error that was there and does not fall speaks against the step, as do fit tests that hardly gain
+        assert!(not_judged(&step(3.13, 2.4, None), &step(0.95, 2.4, Some(871.0))).is_none());
+        assert!(not_judged(&before, &step(3.12, 1.12, Some(1.0))).is_none());
+    }
+}
