@@ -1414,3 +1414,48 @@ fn weighings_are_read_with_the_marks_and_the_columns_of_their_table() {
         "{shown}"
     );
 }
+
+/// A table is the same one where a face was written beside its rows since, and another one at another face.
+#[test]
+fn a_table_is_not_taken_twice_at_a_face_and_without() {
+    let home = home();
+    let table = |face: &str, value: &str| {
+        let (name, face) = match face {
+            "" => ("", String::new()),
+            face => (",face", format!(",{face}")),
+        };
+        format!(
+            "test,member,cycles,radius,depth [um],sigma{name}\nA,pinion,1e5,26,1.5,0.1{face}\nA,pinion,1e5,27,{value},0.1{face}\n"
+        )
+    };
+    for (first, second, says) in [
+        (
+            "8.07",
+            "8.070",
+            "is there already: was this table taken before?",
+        ),
+        (
+            "8.07",
+            "",
+            "is there already at face 8.07: was this table taken before?",
+        ),
+        (
+            "",
+            "8.07",
+            "is there already without a face: was this table taken before?",
+        ),
+    ] {
+        rows(&home, &table(first, "1.25"), "");
+        let before = read(&home, "out.csv");
+        let message = refused(&home, &table(second, "1.25"), "-o out.csv --append");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+        assert_eq!(read(&home, "out.csv"), before);
+    }
+    // another place, and one value of two that is the same by chance
+    rows(&home, &table("8.07", "1.25"), "");
+    for (face, value) in [("-8.07", "1.25"), ("", "1.75")] {
+        let (code, _, message) = import(&home, &table(face, value), "-o out.csv --append");
+        assert_eq!(code, Some(0), "{message}");
+    }
+    assert_eq!(read(&home, "out.csv").lines().count(), 7);
+}
