@@ -1459,3 +1459,57 @@ fn a_table_is_not_taken_twice_at_a_face_and_without() {
     }
     assert_eq!(read(&home, "out.csv").lines().count(), 7);
 }
+
+/// A weighing sheet with a column for each member: at 2000 rpm half an hour has 60,000 revolutions.
+#[test]
+fn columns_named_after_members_hold_what_the_user_says() {
+    let home = home();
+    let sheet = "Run,Hours,Pinion (g),Wheel (g)\nA,0.5,0.00019,0.01151\nA,1.5,0.04491,\nB,0.5,0.0744,0.0819\n";
+    let (shown, written) = rows(&home, sheet, "--quantity mass_loss --sigma 0.7");
+    assert_eq!(
+        written,
+        "A,pinion,60000,mass_loss,,0.19,0.7,\nA,pinion,180000,mass_loss,,44.91,0.7,\nB,pinion,60000,mass_loss,,74.4,0.7,\n\
+         A,gear,60000,mass_loss,,11.51,0.7,\nB,gear,60000,mass_loss,,81.9,0.7,\n"
+    );
+    for part in [
+        "layout   the columns of the pinion and of the gear side by side\n",
+        "running time, turned into pinion revolutions",
+        "mass_loss in g\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    // revolutions in place of hours, one member alone, no unit
+    let one = "Run,Revolutions,Pinion (mg)\nA,5000,12\n";
+    assert_eq!(
+        rows(&home, one, "--quantity mass_loss --sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\n"
+    );
+    let bare = "Run,Revolutions,Pinion,Wheel\nA,5000,12,30\n";
+    assert_eq!(
+        rows(&home, bare, "--quantity mass_loss --sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\nA,gear,5000,mass_loss,,30,1,\n"
+    );
+    // the masses that are left, or what was lost?
+    for options in ["--sigma 1", "--test A --sigma 1"] {
+        let message = refused(&home, sheet, options);
+        for part in [
+            "C1: `Pinion (g)` and D1: `Wheel (g)`: the columns of the members are in g, so they hold masses",
+            "--quantity mass_loss",
+            "two weighings are understood as well",
+        ] {
+            assert!(message.contains(part), "no `{part}` in: {message}");
+        }
+    }
+    // as the message says
+    let weighings = "Run,Hours,mass pinion before [g],mass pinion after [g],mass wheel before [g],mass wheel after [g]\n\
+                     A,0.5,812.4312,812.4055,2955.1207,2955.1\n";
+    assert_eq!(
+        rows(&home, weighings, "--sigma 1").1,
+        "A,pinion,60000,mass_loss,,25.7,1,\nA,gear,60000,mass_loss,,20.7,1,\n"
+    );
+    let depths = sheet.replace("(g)", "(um)");
+    assert!(
+        refused(&home, &depths, "--quantity mass_loss --sigma 1")
+            .contains("unit um: units of mass_loss are mg, g")
+    );
+}
