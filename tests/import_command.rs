@@ -711,7 +711,7 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
             "E1: `depth [um]` and F1: `mass [mg]` both look like the column `value`",
         ),
         (format!("{header}\nA,pinion,1e5,26,x,0.1\n"), "", "E2: `x` is not a number"),
-        (format!("{header}\nC,pinion,1e5,26,1,0.1\n"), "", "A2: `C` below `test`: the study's tests are A, B"),
+        (format!("{header}\nC,pinion,1e5,26,1,0.1\n"), "", "A2: `C` below `test`: the study has no test C; its tests: A, B. Add a [[test]] with id = \"C\""),
         (format!("{header}\nA,left,1e5,26,1,0.1\n"), "", "B2: `left` below `member`: write pinion, gear"),
         (format!("{header}\nA,gear,1e5,26,1,0.1\n"), "", "D2: `26` below `radius [mm]`: the radius 26 mm is off the gear's flank"),
         (format!("{header}\nA,pinion,1e5,52,1,0.1\n"), "", "it lies on the other member's flank"),
@@ -1512,4 +1512,47 @@ fn columns_named_after_members_hold_what_the_user_says() {
         refused(&home, &depths, "--quantity mass_loss --sigma 1")
             .contains("unit um: units of mass_loss are mg, g")
     );
+}
+
+#[test]
+fn a_test_that_the_study_lacks_is_to_be_added() {
+    let home = home();
+    let study = STUDY.replace("id = \"B\"", "id = \"wet-17\"");
+    fs::write(home.path().join("study.toml"), study).unwrap();
+    let of = |id: &str| format!("test,member,cycles,mass loss [mg]\n{id},pinion,1e5,4\n");
+    for (id, meant) in [
+        ("D", None),
+        ("wet-18", None),
+        ("a", Some("A")),
+        ("WET 17", Some("wet-17")),
+        ("wte-17", Some("wet-17")),
+    ] {
+        let message = refused(&home, &of(id), "--sigma 1");
+        let says = format!(
+            "the study has no test {id}; its tests: A, wet-17. Add a [[test]] with id = \"{id}\" to the study"
+        );
+        assert!(message.contains(&says), "no `{says}` in: {message}");
+        match meant {
+            Some(meant) => assert!(
+                message.contains(&format!("or is `{meant}` meant?")),
+                "{message}"
+            ),
+            None => assert!(!message.contains("meant?"), "{message}"),
+        }
+    }
+    let wide = "radius;100000\n26;1\n";
+    let message = refused(&home, wide, "--test D --sigma 1");
+    assert!(
+        message.contains("Add a [[test]] with id = \"D\""),
+        "{message}"
+    );
+    let headers = "radius;A 100000;D 100000\n26;1;2\n";
+    let message = refused(&home, headers, "--sigma 1");
+    assert!(
+        message.contains("the header `D 100000` names no test of the study, others do")
+            && message.contains("Add a [[test]]"),
+        "{message}"
+    );
+    let nothing = "test,member,cycles,mass loss [mg]\n,pinion,1e5,4\n";
+    assert!(refused(&home, nothing, "--sigma 1").contains("every row says of which test it is"));
 }

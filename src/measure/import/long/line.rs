@@ -118,11 +118,13 @@ impl Line<'_> {
         let Some(column) = self.read.test else {
             return Ok(self.wanted.one_test(self.sheet)?.0);
         };
-        let Some(id) = self.wanted.test_of(self.text(Some(column))) else {
-            return self.refused(
-                column,
-                &format!("the study's tests are {}", self.wanted.tests.join(", ")),
-            );
+        let text = self.text(Some(column));
+        let Some(id) = self.wanted.test_of(text) else {
+            let why = match text {
+                "" => "every row says of which test it is".to_owned(),
+                text => self.wanted.no_test(text).0,
+            };
+            return self.refused(column, &why);
         };
         match self.wanted.test {
             Some(stated) if stated != id => self.refused(
