@@ -740,9 +740,9 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
             "F1: `sigma`: write its unit in the header too: the values are in mm",
         ),
         (
-            "test,member,cycles,mass [mg],U (k=2) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
+            "test,member,cycles,mass [mg],U (k=7) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
             "",
-            "divide the expanded uncertainty by its k",
+            "E1: `U (k=7) [mg]`: k = 7 is no coverage factor, which is 1 to 5; write `U (k=2)`",
         ),
         (
             "test,member,cycles,radius,depth [um],sigma [%]\nA,pinion,1e5,26.5,1.5,3\n".to_owned(),
@@ -1555,4 +1555,102 @@ fn a_test_that_the_study_lacks_is_to_be_added() {
     );
     let nothing = "test,member,cycles,mass loss [mg]\n,pinion,1e5,4\n";
     assert!(refused(&home, nothing, "--sigma 1").contains("every row says of which test it is"));
+}
+
+#[test]
+fn an_expanded_uncertainty_is_divided_by_its_k() {
+    let home = home();
+    let table = |header: &str| {
+        format!("test,member,cycles,radius,depth [um],{header}\nA,pinion,1e5,26,1.5,0.3\n")
+    };
+    for (header, sigma, words) in [
+        (
+            "u(k=2)",
+            "0.15",
+            "an expanded uncertainty, sigma is it over k = 2",
+        ),
+        (
+            "U (k=2)",
+            "0.15",
+            "an expanded uncertainty, sigma is it over k = 2",
+        ),
+        (
+            "U (k = 2) [nm]",
+            "0.00015",
+            "an expanded uncertainty in nm, sigma is it over k = 2",
+        ),
+        (
+            "U [um] (k=3)",
+            "0.1",
+            "an expanded uncertainty in um, sigma is it over k = 3",
+        ),
+        (
+            "expanded uncertainty (k = 1.5)",
+            "0.2",
+            "sigma is it over k = 1.5",
+        ),
+        ("u (k=1) [um]", "0.3", "sigma in um"),
+    ] {
+        let (shown, written) = rows(&home, &table(header), "");
+        assert_eq!(
+            written,
+            format!("A,pinion,100000,wear_depth,26,1.5,{sigma},\n"),
+            "{header}"
+        );
+        let said = format!("column   `{header}`: {words}");
+        assert!(
+            shown.contains(&said) || shown.contains(words),
+            "no `{said}` in:\n{shown}"
+        );
+    }
+    // how many standard deviations it is does not stand there
+    let (shown, written) = rows(&home, &table("U95"), "--sigma 0.2");
+    assert_eq!(written, "A,pinion,100000,wear_depth,26,1.5,0.2,\n");
+    assert!(
+        shown.contains("passed over the column `U95`: an expanded uncertainty that does not say its k: call it `U (k=2)`"),
+        "{shown}"
+    );
+    for k in ["0.5", "6"] {
+        let header = format!("U (k={k})");
+        assert!(refused(&home, &table(&header), "").contains("is no coverage factor"));
+    }
+}
+
+#[test]
+fn cycles_may_be_called_n_and_members_be_numbered() {
+    let home = home();
+    for name in ["N_pinion", "n pinion", "N"] {
+        let table = format!(
+            "run,wheel,{name},quantity,r,value,u(k=2)\nA,1,5.3e4,depth,26,1.5,0.2\nA,2,5.3e4,mass loss,,4,0.8\n"
+        );
+        let (shown, written) = rows(&home, &table, "");
+        assert_eq!(
+            written, "A,pinion,53000,wear_depth,26,1.5,0.1,\nA,gear,53000,mass_loss,,4,0.4,\n",
+            "{name}"
+        );
+        assert!(
+            shown.contains("column   `wheel`: member, 1 the pinion and 2 the gear\n"),
+            "{shown}"
+        );
+    }
+    // a speed, a number of the row or of a gear, one of a part beside a column of members
+    let speed = "run,part,n [rpm],cycles,mass loss [mg]\nA,1,2000,5000,4\n";
+    assert_eq!(
+        rows(&home, speed, "--sigma 1").1,
+        "A,pinion,5000,mass_loss,,4,1,\n"
+    );
+    let row = "n,run,part,mass loss [mg]\n1,A,pinion,4\n";
+    assert!(refused(&home, row, "--sigma 1").contains("missing: cycles"));
+    let gear = "run,N. ruota,member,mass loss [mg]\nA,7,pinion,4\n";
+    assert!(refused(&home, gear, "--sigma 1").contains("missing: cycles"));
+    let words = "run,part,what,cycles,mass loss [mg]\nA,1,gear,5000,4\nA,2,gear,6000,5\n";
+    assert!(
+        refused(&home, words, "--sigma 1").contains("B2: `1` below `part`: write pinion, gear")
+    );
+    let third = "run,part,cycles,mass loss [mg]\nA,1,5000,4\nA,3,6000,5\n";
+    assert!(refused(&home, third, "--sigma 1").contains("`1` below `part`"));
+    assert!(
+        refused(&home, speed, "--sigma 1 --member gear")
+            .contains("--member says gear; leave it out")
+    );
 }

@@ -267,13 +267,9 @@ impl<'t> Read<'t> {
                     "revolutions of the gear, turned into those of the pinion".to_owned()
                 }
                 Some("cycles") => "cycles, pinion revolutions".to_owned(),
-                Some("sigma")
-                    if column
-                        .unit
-                        .as_deref()
-                        .is_some_and(|unit| !unit.contains('=')) =>
-                {
-                    format!("sigma in {}", column.unit.as_deref().unwrap_or_default())
+                Some("sigma") => of_sigma(column),
+                Some("member") if column.numbered => {
+                    "member, 1 the pinion and 2 the gear".to_owned()
                 }
                 Some(own) if column.by_content => format!("{own}, by what stands in it"),
                 Some(own) => own.to_owned(),
@@ -282,6 +278,16 @@ impl<'t> Read<'t> {
             words.push((column.written.clone(), what));
         }
         Ok(words)
+    }
+}
+
+/// What a column of standard deviations is.
+fn of_sigma(column: &Column) -> String {
+    let unit = column.unit.as_deref();
+    let unit = unit.map_or_else(String::new, |unit| format!(" in {unit}"));
+    match column.coverage.filter(|k| *k != 1.0) {
+        Some(k) => format!("an expanded uncertainty{unit}, sigma is it over k = {k}"),
+        None => format!("sigma{unit}"),
     }
 }
 
@@ -323,6 +329,9 @@ fn passed_over(
                 What::ForPeople => "for people",
                 What::Unknown => "not known",
                 What::Weighing(_) => "a weighing",
+                What::Expanded => {
+                    "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
+                }
                 What::Values(_) if column.at != value.at => "another quantity",
                 _ => return None,
             };

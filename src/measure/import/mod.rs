@@ -10,6 +10,7 @@ mod append;
 mod arrange;
 mod cells;
 mod columns;
+mod coverage;
 mod entry;
 mod long;
 mod numbers;

@@ -143,7 +143,12 @@ impl Line<'_> {
                 .stated_member(self.sheet, quantity)?
                 .unwrap_or(Subject::Pinion));
         };
-        let Some(member) = names::member(self.text(Some(column))) else {
+        let text = self.text(Some(column));
+        let named = match column.numbered {
+            true => names::numbered_member(text),
+            false => names::member(text),
+        };
+        let Some(member) = named else {
             return self.refused(column, "write pinion, gear or pair (or small, big, Ritzel, Rad, pignone, corona, pignon, roue, ...)");
         };
         if !subjects.contains(&member) {
