@@ -1654,3 +1654,40 @@ fn cycles_may_be_called_n_and_members_be_numbered() {
             .contains("--member says gear; leave it out")
     );
 }
+
+/// Every second cell would be the decimals of the one before it.
+#[test]
+fn decimal_commas_between_commas_are_refused() {
+    let home = home();
+    let wide = "radius,100000,250000\n26,0,1,5,2,5\n27,5,1,2,2,1\n";
+    let long =
+        "test,member,cycles,radius,depth [um]\nA,pinion,1e5,26,5,1,5\nA,pinion,1e5,27,5,1,2\n";
+    let masses = "Run,Hours,Pinion (g),Wheel (g)\nA,0,5,0,0190,0,0151\nB,0,5,0,0744,0,0819\n";
+    for (table, options, says) in [
+        (
+            wide,
+            "--test A",
+            "row 2 has 6 cells, the header in row 1 has 3",
+        ),
+        (long, "", "row 2 has 7 cells, the header in row 1 has 5"),
+        (
+            masses,
+            "--quantity mass_loss",
+            "row 2 has 7 cells, the header in row 1 has 4",
+        ),
+    ] {
+        let message = refused(&home, table, &format!("{options} --sigma 0.1"));
+        assert!(
+            message.contains(says)
+                && message.contains("cannot be told from the commas between the columns")
+                && message.contains("with semicolons between its columns, or with decimal points"),
+            "no `{says}` in: {message}"
+        );
+    }
+    // in quotes they can, and a remark may have a comma
+    let quoted = "test,member,cycles,radius,depth [um]\nA,pinion,1e5,\"26,5\",\"1,5\"\n";
+    assert!(rows(&home, quoted, "--sigma 0.1").1.contains(",26.5,1.5,"));
+    let remark =
+        "test,member,cycles,radius,depth [um],note\nA,pinion,1e5,26.5,1.5,cleaned, dried\n";
+    assert!(rows(&home, remark, "--sigma 0.1").1.contains(",26.5,1.5,"));
+}

@@ -10,7 +10,7 @@ use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, units};
+use super::{ImportError, Sheet, cell_name, decimal_commas, units};
 use crate::measure::{Place, Quantity};
 use line::Line;
 
@@ -68,6 +68,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             head + 1
         )));
     }
+    decimal_commas::refuse(sheet, head)?;
     let tables: Vec<Long> = sheets
         .iter()
         .map(|sheet| of_columns(sheet, head, wanted))

@@ -11,6 +11,7 @@ mod arrange;
 mod cells;
 mod columns;
 mod coverage;
+mod decimal_commas;
 mod entry;
 mod long;
 mod numbers;

@@ -9,7 +9,7 @@ use super::numbers::{
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, units};
+use super::{ImportError, Sheet, cell_name, decimal_commas, units};
 use crate::gear::Gear;
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -64,6 +64,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         return super::whole::whole(sheet, quantity, wanted);
     }
     let head = header(sheet)?;
+    decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
     let member = (wanted.stated_member(sheet, quantity)?).unwrap_or(Subject::Pinion);
     let gear = wanted.gear_of(member);
