@@ -1270,11 +1270,43 @@ fn all_sheets_are_read_one_after_the_other() {
     assert!(message.contains("--all-sheets"), "{message}");
     let (code, _, message) = line(
         &home,
-        "import tables.xlsx --all-sheets --study study.toml --test A --sigma 0.1",
+        "import tables.xlsx --all-sheets --study study.toml --test B --sigma 0.1",
     );
     // which of them cannot be read is said
     assert_eq!(code, Some(2), "{message}");
-    assert!(message.contains("tables.xlsx, sheet "), "{message}");
+    assert!(
+        message.contains("tables.xlsx, sheet rows: A2: `A` below `test`: --test says B"),
+        "{message}"
+    );
+}
+
+/// What an option says of the sheets without a column of sigma is no second word on those with one.
+#[test]
+fn a_stated_sigma_is_of_the_sheets_without_a_column_of_it() {
+    let home = home();
+    let all = "import tables.xlsx --all-sheets --study study.toml --test A --sigma 0.3 -o m.csv";
+    let shown = succeed(&home, all);
+    for part in [
+        "sigma    0.3 um for each\n",
+        "sigma    as the column says (what the options say is of the sheets without one)\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    let written = read(&home, "m.csv");
+    for row in [
+        "A,gear,100000,wear_depth,52,1.5,0.3,A-gear-100000\n",
+        "A,pinion,100000,wear_depth,26.5,2.5,0.1,p1\n",
+        "A,gear,100000,mass_loss,,55,1.5,\n",
+    ] {
+        assert!(written.contains(row), "no `{row}` in:\n{written}");
+    }
+    let one = "import tables.xlsx --sheet rows --study study.toml --sigma 0.3";
+    let (code, _, message) = line(&home, one);
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("the table has a column of sigma"),
+        "{message}"
+    );
 }
 
 /// What a table says twice has to agree, and what it says of cycles has to be plain.
@@ -1690,4 +1722,84 @@ fn decimal_commas_between_commas_are_refused() {
     let remark =
         "test,member,cycles,radius,depth [um],note\nA,pinion,1e5,26.5,1.5,cleaned, dried\n";
     assert!(rows(&home, remark, "--sigma 0.1").1.contains(",26.5,1.5,"));
+}
+
+/// The face of the study is 33 mm wide.
+#[test]
+fn a_face_may_be_stated_for_a_whole_table() {
+    let home = home();
+    let wide = "radius;100000\n26;1.5\n27;1\n";
+    let options = "--test A --sigma 0.1 --face -8.07";
+    let (shown, written) = rows(&home, wide, options);
+    assert_eq!(
+        written,
+        "A,pinion,100000,wear_depth,26,1.5,0.1,A-pinion-100000-face-8.07,-8.07\n\
+         A,pinion,100000,wear_depth,27,1,0.1,A-pinion-100000-face-8.07,-8.07\n"
+    );
+    assert!(
+        shown.contains("face     -8.07 mm from the middle of the face\n"),
+        "{shown}"
+    );
+    // the same table again, and another profile of the same checkpoint
+    let again = refused(&home, wide, &format!("{options} -o out.csv --append"));
+    assert!(again.contains("is there already"), "{again}");
+    let (code, _, message) = import(
+        &home,
+        wide,
+        "--test A --sigma 0.1 --face 16.5 -o out.csv --append",
+    );
+    assert_eq!(code, Some(0), "{message}");
+    // masses beside depths are of no place
+    let long = "test,member,cycles,quantity,position,value,sigma\nA,pinion,1e5,wear_depth,26,1.5,0.1\nA,pinion,1e5,mass_loss,,4,0.4\n";
+    assert_eq!(
+        rows(&home, long, "--face 4").1,
+        "A,pinion,100000,wear_depth,26,1.5,0.1,,4\nA,pinion,100000,mass_loss,,4,0.4,,\n"
+    );
+    let column = "test,member,cycles,radius,depth [um],sigma,face\nA,pinion,1e5,26,1.5,0.1,8\n";
+    let masses = "test,member,cycles,mass loss [mg]\nA,pinion,1e5,4\n";
+    for (table, options, says) in [
+        (
+            column,
+            "--face 8",
+            "--face: the table has a column of places across the face, G1: `face`",
+        ),
+        (
+            wide,
+            "--test A --sigma 0.1 --face 16.6",
+            "--face 16.6: the face of the study is 33 mm wide, so a place on it is -16.5 to 16.5 mm from its middle",
+        ),
+        (
+            masses,
+            "--sigma 1 --face 8",
+            "mass_loss is of the whole face: leave it out",
+        ),
+        (
+            wide,
+            "--test A --face 8mm",
+            "write a number with a decimal point",
+        ),
+    ] {
+        let message = refused(&home, table, options);
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+#[test]
+fn a_sigma_in_another_unit_than_its_own_is_said_to_be_wrong() {
+    let home = home();
+    let table = |count: usize| {
+        let rows: String = (0..count)
+            .map(|i| format!("{};{}\n", 26.0 + 0.1 * i as f64, 1.0 + 0.04 * i as f64))
+            .collect();
+        format!("radius;100000\n{rows}")
+    };
+    let message = refused(&home, &table(11), "--test A --sigma 70");
+    assert!(
+        message.contains(
+            "--sigma 70: this is 50 times the largest wear_depth of the table, 1.4 um; --sigma takes one standard deviation in um"
+        ) && !message.contains("looks like"),
+        "{message}"
+    );
+    // a few values may be lost in their noise
+    rows(&home, &table(3), "--test A --sigma 70");
 }

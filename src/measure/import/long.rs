@@ -5,7 +5,7 @@ mod traces;
 
 use super::arrange::{Arranged, arranged};
 use super::columns::{Column, What, columns, known_by_content, said};
-use super::entry::{Entry, state_sigma};
+use super::entry::{Entry, state_face, state_sigma};
 use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
@@ -33,6 +33,8 @@ pub struct Long {
     pub traces: &'static str,
     /// Rows without a value.
     pub empty: usize,
+    /// Whether a column states the standard deviations.
+    pub has_sigma: bool,
     /// Rows of a measurement file.
     pub entries: Vec<Entry>,
 }
@@ -122,7 +124,16 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
         )));
     }
     let traces = traces::name(&mut entries, &read, wanted)?;
-    state_sigma(&mut entries, wanted)?;
+    if let (Some(column), Some(_)) = (read.face, wanted.face) {
+        return Err(ImportError(format!(
+            "--face: the table has a column of places across the face, {}; leave one of them out",
+            column.cell(head)
+        )));
+    }
+    state_face(&mut entries, wanted)?;
+    if read.sigma.is_none() {
+        state_sigma(&mut entries, wanted)?;
+    }
     Ok(Long {
         row: head + 1,
         arranged: Vec::new(),
@@ -132,6 +143,7 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
         turned,
         traces,
         empty,
+        has_sigma: read.sigma.is_some(),
         entries,
     })
 }
@@ -148,6 +160,7 @@ impl Long {
         self.passed_over
             .retain(|column| other.passed_over.contains(column));
         self.empty += other.empty;
+        self.has_sigma |= other.has_sigma;
         self.entries.extend(other.entries);
         self
     }

@@ -36,10 +36,14 @@ pub struct Wanted<'a> {
     pub decimal: Option<Decimal>,
     /// One standard deviation, in the quantity's unit; left empty where neither it nor the share is known.
     pub sigma: Option<f64>,
+    /// Whether a table with a column of them goes by that alone: the user's are those of other tables.
+    pub sigma_of_others: bool,
     /// Another, independent one as a share.
     pub relative_sigma: f64,
     /// Of what it is a share.
     pub relative_to: ShareOf,
+    /// Distance of all that was measured from the middle of the face, mm; what a column says otherwise.
+    pub face: Option<f64>,
     /// Whether each checkpoint is a trace with a zero of its own.
     pub traces: bool,
     /// Number of a repeated measurement.

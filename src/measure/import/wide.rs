@@ -1,7 +1,7 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
 use super::columns;
-use super::entry::{Entry, name_repeat, refuse_twice, state_sigma};
+use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
     without_thousands,
@@ -204,8 +204,9 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<()>
         .iter_mut()
         .filter(|entry| wanted.traces && entry.position.is_some())
     {
-        entry.trace = entry.own_trace();
+        entry.trace = entry.own_trace(wanted);
     }
+    state_face(entries, wanted)?;
     name_repeat(entries, wanted);
     state_sigma(entries, wanted)
 }

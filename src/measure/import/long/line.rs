@@ -91,7 +91,10 @@ impl Line<'_> {
                 Some(rounded(factor * number(text, self.row, column.at)?))
             }
         };
-        if let (Some(column), true) = (sigma, self.wanted.states_sigma()) {
+        if let Some(column) = sigma
+            && self.wanted.states_sigma()
+            && !self.wanted.sigma_of_others
+        {
             return Err(ImportError(format!(
                 "--sigma or --relative-sigma: the table has a column of sigma, {}; leave one of them out",
                 column.cell(self.read.head)
