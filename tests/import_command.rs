@@ -711,7 +711,7 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
             "E1: `depth [um]` and F1: `mass [mg]` both look like the column `value`",
         ),
         (format!("{header}\nA,pinion,1e5,26,x,0.1\n"), "", "E2: `x` is not a number"),
-        (format!("{header}\nC,pinion,1e5,26,1,0.1\n"), "", "A2: `C` below `test`: the study's tests are A, B"),
+        (format!("{header}\nC,pinion,1e5,26,1,0.1\n"), "", "A2: `C` below `test`: the study has no test C; its tests: A, B. Add a [[test]] with id = \"C\""),
         (format!("{header}\nA,left,1e5,26,1,0.1\n"), "", "B2: `left` below `member`: write pinion, gear"),
         (format!("{header}\nA,gear,1e5,26,1,0.1\n"), "", "D2: `26` below `radius [mm]`: the radius 26 mm is off the gear's flank"),
         (format!("{header}\nA,pinion,1e5,52,1,0.1\n"), "", "it lies on the other member's flank"),
@@ -740,9 +740,9 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
             "F1: `sigma`: write its unit in the header too: the values are in mm",
         ),
         (
-            "test,member,cycles,mass [mg],U (k=2) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
+            "test,member,cycles,mass [mg],U (k=7) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
             "",
-            "divide the expanded uncertainty by its k",
+            "E1: `U (k=7) [mg]`: k = 7 is no coverage factor, which is 1 to 5; write `U (k=2)`",
         ),
         (
             "test,member,cycles,radius,depth [um],sigma [%]\nA,pinion,1e5,26.5,1.5,3\n".to_owned(),
@@ -1270,11 +1270,43 @@ fn all_sheets_are_read_one_after_the_other() {
     assert!(message.contains("--all-sheets"), "{message}");
     let (code, _, message) = line(
         &home,
-        "import tables.xlsx --all-sheets --study study.toml --test A --sigma 0.1",
+        "import tables.xlsx --all-sheets --study study.toml --test B --sigma 0.1",
     );
     // which of them cannot be read is said
     assert_eq!(code, Some(2), "{message}");
-    assert!(message.contains("tables.xlsx, sheet "), "{message}");
+    assert!(
+        message.contains("tables.xlsx, sheet rows: A2: `A` below `test`: --test says B"),
+        "{message}"
+    );
+}
+
+/// What an option says of the sheets without a column of sigma is no second word on those with one.
+#[test]
+fn a_stated_sigma_is_of_the_sheets_without_a_column_of_it() {
+    let home = home();
+    let all = "import tables.xlsx --all-sheets --study study.toml --test A --sigma 0.3 -o m.csv";
+    let shown = succeed(&home, all);
+    for part in [
+        "sigma    0.3 um for each\n",
+        "sigma    as the column says (what the options say is of the sheets without one)\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    let written = read(&home, "m.csv");
+    for row in [
+        "A,gear,100000,wear_depth,52,1.5,0.3,A-gear-100000\n",
+        "A,pinion,100000,wear_depth,26.5,2.5,0.1,p1\n",
+        "A,gear,100000,mass_loss,,55,1.5,\n",
+    ] {
+        assert!(written.contains(row), "no `{row}` in:\n{written}");
+    }
+    let one = "import tables.xlsx --sheet rows --study study.toml --sigma 0.3";
+    let (code, _, message) = line(&home, one);
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("the table has a column of sigma"),
+        "{message}"
+    );
 }
 
 /// What a table says twice has to agree, and what it says of cycles has to be plain.
@@ -1413,4 +1445,361 @@ fn weighings_are_read_with_the_marks_and_the_columns_of_their_table() {
         !shown.contains("read alike") && shown.contains("their sign turned"),
         "{shown}"
     );
+}
+
+/// A table is the same one where a face was written beside its rows since, and another one at another face.
+#[test]
+fn a_table_is_not_taken_twice_at_a_face_and_without() {
+    let home = home();
+    let table = |face: &str, value: &str| {
+        let (name, face) = match face {
+            "" => ("", String::new()),
+            face => (",face", format!(",{face}")),
+        };
+        format!(
+            "test,member,cycles,radius,depth [um],sigma{name}\nA,pinion,1e5,26,1.5,0.1{face}\nA,pinion,1e5,27,{value},0.1{face}\n"
+        )
+    };
+    for (first, second, says) in [
+        (
+            "8.07",
+            "8.070",
+            "is there already: was this table taken before?",
+        ),
+        (
+            "8.07",
+            "",
+            "is there already at face 8.07: was this table taken before?",
+        ),
+        (
+            "",
+            "8.07",
+            "is there already without a face: was this table taken before?",
+        ),
+    ] {
+        rows(&home, &table(first, "1.25"), "");
+        let before = read(&home, "out.csv");
+        let message = refused(&home, &table(second, "1.25"), "-o out.csv --append");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+        assert_eq!(read(&home, "out.csv"), before);
+    }
+    // another place, and one value of two that is the same by chance
+    rows(&home, &table("8.07", "1.25"), "");
+    for (face, value) in [("-8.07", "1.25"), ("", "1.75")] {
+        let (code, _, message) = import(&home, &table(face, value), "-o out.csv --append");
+        assert_eq!(code, Some(0), "{message}");
+    }
+    assert_eq!(read(&home, "out.csv").lines().count(), 7);
+}
+
+/// A weighing sheet with a column for each member: at 2000 rpm half an hour has 60,000 revolutions.
+#[test]
+fn columns_named_after_members_hold_what_the_user_says() {
+    let home = home();
+    let sheet = "Run,Hours,Pinion (g),Wheel (g)\nA,0.5,0.00019,0.01151\nA,1.5,0.04491,\nB,0.5,0.0744,0.0819\n";
+    let (shown, written) = rows(&home, sheet, "--quantity mass_loss --sigma 0.7");
+    assert_eq!(
+        written,
+        "A,pinion,60000,mass_loss,,0.19,0.7,\nA,pinion,180000,mass_loss,,44.91,0.7,\nB,pinion,60000,mass_loss,,74.4,0.7,\n\
+         A,gear,60000,mass_loss,,11.51,0.7,\nB,gear,60000,mass_loss,,81.9,0.7,\n"
+    );
+    for part in [
+        "layout   the columns of the pinion and of the gear side by side\n",
+        "running time, turned into pinion revolutions",
+        "mass_loss in g\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    // revolutions in place of hours, one member alone, no unit
+    let one = "Run,Revolutions,Pinion (mg)\nA,5000,12\n";
+    assert_eq!(
+        rows(&home, one, "--quantity mass_loss --sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\n"
+    );
+    let bare = "Run,Revolutions,Pinion,Wheel\nA,5000,12,30\n";
+    assert_eq!(
+        rows(&home, bare, "--quantity mass_loss --sigma 1").1,
+        "A,pinion,5000,mass_loss,,12,1,\nA,gear,5000,mass_loss,,30,1,\n"
+    );
+    // the masses that are left, or what was lost?
+    for options in ["--sigma 1", "--test A --sigma 1"] {
+        let message = refused(&home, sheet, options);
+        for part in [
+            "C1: `Pinion (g)` and D1: `Wheel (g)`: the columns of the members are in g, so they hold masses",
+            "--quantity mass_loss",
+            "two weighings are understood as well",
+        ] {
+            assert!(message.contains(part), "no `{part}` in: {message}");
+        }
+    }
+    // as the message says
+    let weighings = "Run,Hours,mass pinion before [g],mass pinion after [g],mass wheel before [g],mass wheel after [g]\n\
+                     A,0.5,812.4312,812.4055,2955.1207,2955.1\n";
+    assert_eq!(
+        rows(&home, weighings, "--sigma 1").1,
+        "A,pinion,60000,mass_loss,,25.7,1,\nA,gear,60000,mass_loss,,20.7,1,\n"
+    );
+    let depths = sheet.replace("(g)", "(um)");
+    assert!(
+        refused(&home, &depths, "--quantity mass_loss --sigma 1")
+            .contains("unit um: units of mass_loss are mg, g")
+    );
+}
+
+#[test]
+fn a_test_that_the_study_lacks_is_to_be_added() {
+    let home = home();
+    let study = STUDY.replace("id = \"B\"", "id = \"wet-17\"");
+    fs::write(home.path().join("study.toml"), study).unwrap();
+    let of = |id: &str| format!("test,member,cycles,mass loss [mg]\n{id},pinion,1e5,4\n");
+    for (id, meant) in [
+        ("D", None),
+        ("wet-18", None),
+        ("a", Some("A")),
+        ("WET 17", Some("wet-17")),
+        ("wte-17", Some("wet-17")),
+    ] {
+        let message = refused(&home, &of(id), "--sigma 1");
+        let says = format!(
+            "the study has no test {id}; its tests: A, wet-17. Add a [[test]] with id = \"{id}\" to the study"
+        );
+        assert!(message.contains(&says), "no `{says}` in: {message}");
+        match meant {
+            Some(meant) => assert!(
+                message.contains(&format!("or is `{meant}` meant?")),
+                "{message}"
+            ),
+            None => assert!(!message.contains("meant?"), "{message}"),
+        }
+    }
+    let wide = "radius;100000\n26;1\n";
+    let message = refused(&home, wide, "--test D --sigma 1");
+    assert!(
+        message.contains("Add a [[test]] with id = \"D\""),
+        "{message}"
+    );
+    let headers = "radius;A 100000;D 100000\n26;1;2\n";
+    let message = refused(&home, headers, "--sigma 1");
+    assert!(
+        message.contains("the header `D 100000` names no test of the study, others do")
+            && message.contains("Add a [[test]]"),
+        "{message}"
+    );
+    let nothing = "test,member,cycles,mass loss [mg]\n,pinion,1e5,4\n";
+    assert!(refused(&home, nothing, "--sigma 1").contains("every row says of which test it is"));
+}
+
+#[test]
+fn an_expanded_uncertainty_is_divided_by_its_k() {
+    let home = home();
+    let table = |header: &str| {
+        format!("test,member,cycles,radius,depth [um],{header}\nA,pinion,1e5,26,1.5,0.3\n")
+    };
+    for (header, sigma, words) in [
+        (
+            "u(k=2)",
+            "0.15",
+            "an expanded uncertainty, sigma is it over k = 2",
+        ),
+        (
+            "U (k=2)",
+            "0.15",
+            "an expanded uncertainty, sigma is it over k = 2",
+        ),
+        (
+            "U (k = 2) [nm]",
+            "0.00015",
+            "an expanded uncertainty in nm, sigma is it over k = 2",
+        ),
+        (
+            "U [um] (k=3)",
+            "0.1",
+            "an expanded uncertainty in um, sigma is it over k = 3",
+        ),
+        (
+            "expanded uncertainty (k = 1.5)",
+            "0.2",
+            "sigma is it over k = 1.5",
+        ),
+        ("u (k=1) [um]", "0.3", "sigma in um"),
+    ] {
+        let (shown, written) = rows(&home, &table(header), "");
+        assert_eq!(
+            written,
+            format!("A,pinion,100000,wear_depth,26,1.5,{sigma},\n"),
+            "{header}"
+        );
+        let said = format!("column   `{header}`: {words}");
+        assert!(
+            shown.contains(&said) || shown.contains(words),
+            "no `{said}` in:\n{shown}"
+        );
+    }
+    // how many standard deviations it is does not stand there
+    let (shown, written) = rows(&home, &table("U95"), "--sigma 0.2");
+    assert_eq!(written, "A,pinion,100000,wear_depth,26,1.5,0.2,\n");
+    assert!(
+        shown.contains("passed over the column `U95`: an expanded uncertainty that does not say its k: call it `U (k=2)`"),
+        "{shown}"
+    );
+    for k in ["0.5", "6"] {
+        let header = format!("U (k={k})");
+        assert!(refused(&home, &table(&header), "").contains("is no coverage factor"));
+    }
+}
+
+#[test]
+fn cycles_may_be_called_n_and_members_be_numbered() {
+    let home = home();
+    for name in ["N_pinion", "n pinion", "N"] {
+        let table = format!(
+            "run,wheel,{name},quantity,r,value,u(k=2)\nA,1,5.3e4,depth,26,1.5,0.2\nA,2,5.3e4,mass loss,,4,0.8\n"
+        );
+        let (shown, written) = rows(&home, &table, "");
+        assert_eq!(
+            written, "A,pinion,53000,wear_depth,26,1.5,0.1,\nA,gear,53000,mass_loss,,4,0.4,\n",
+            "{name}"
+        );
+        assert!(
+            shown.contains("column   `wheel`: member, 1 the pinion and 2 the gear\n"),
+            "{shown}"
+        );
+    }
+    // a speed, a number of the row or of a gear, one of a part beside a column of members
+    let speed = "run,part,n [rpm],cycles,mass loss [mg]\nA,1,2000,5000,4\n";
+    assert_eq!(
+        rows(&home, speed, "--sigma 1").1,
+        "A,pinion,5000,mass_loss,,4,1,\n"
+    );
+    let row = "n,run,part,mass loss [mg]\n1,A,pinion,4\n";
+    assert!(refused(&home, row, "--sigma 1").contains("missing: cycles"));
+    let gear = "run,N. ruota,member,mass loss [mg]\nA,7,pinion,4\n";
+    assert!(refused(&home, gear, "--sigma 1").contains("missing: cycles"));
+    let words = "run,part,what,cycles,mass loss [mg]\nA,1,gear,5000,4\nA,2,gear,6000,5\n";
+    assert!(
+        refused(&home, words, "--sigma 1").contains("B2: `1` below `part`: write pinion, gear")
+    );
+    let third = "run,part,cycles,mass loss [mg]\nA,1,5000,4\nA,3,6000,5\n";
+    assert!(refused(&home, third, "--sigma 1").contains("`1` below `part`"));
+    assert!(
+        refused(&home, speed, "--sigma 1 --member gear")
+            .contains("--member says gear; leave it out")
+    );
+}
+
+/// Every second cell would be the decimals of the one before it.
+#[test]
+fn decimal_commas_between_commas_are_refused() {
+    let home = home();
+    let wide = "radius,100000,250000\n26,0,1,5,2,5\n27,5,1,2,2,1\n";
+    let long =
+        "test,member,cycles,radius,depth [um]\nA,pinion,1e5,26,5,1,5\nA,pinion,1e5,27,5,1,2\n";
+    let masses = "Run,Hours,Pinion (g),Wheel (g)\nA,0,5,0,0190,0,0151\nB,0,5,0,0744,0,0819\n";
+    for (table, options, says) in [
+        (
+            wide,
+            "--test A",
+            "row 2 has 6 cells, the header in row 1 has 3",
+        ),
+        (long, "", "row 2 has 7 cells, the header in row 1 has 5"),
+        (
+            masses,
+            "--quantity mass_loss",
+            "row 2 has 7 cells, the header in row 1 has 4",
+        ),
+    ] {
+        let message = refused(&home, table, &format!("{options} --sigma 0.1"));
+        assert!(
+            message.contains(says)
+                && message.contains("cannot be told from the commas between the columns")
+                && message.contains("with semicolons between its columns, or with decimal points"),
+            "no `{says}` in: {message}"
+        );
+    }
+    // in quotes they can, and a remark may have a comma
+    let quoted = "test,member,cycles,radius,depth [um]\nA,pinion,1e5,\"26,5\",\"1,5\"\n";
+    assert!(rows(&home, quoted, "--sigma 0.1").1.contains(",26.5,1.5,"));
+    let remark =
+        "test,member,cycles,radius,depth [um],note\nA,pinion,1e5,26.5,1.5,cleaned, dried\n";
+    assert!(rows(&home, remark, "--sigma 0.1").1.contains(",26.5,1.5,"));
+}
+
+/// The face of the study is 33 mm wide.
+#[test]
+fn a_face_may_be_stated_for_a_whole_table() {
+    let home = home();
+    let wide = "radius;100000\n26;1.5\n27;1\n";
+    let options = "--test A --sigma 0.1 --face -8.07";
+    let (shown, written) = rows(&home, wide, options);
+    assert_eq!(
+        written,
+        "A,pinion,100000,wear_depth,26,1.5,0.1,A-pinion-100000-face-8.07,-8.07\n\
+         A,pinion,100000,wear_depth,27,1,0.1,A-pinion-100000-face-8.07,-8.07\n"
+    );
+    assert!(
+        shown.contains("face     -8.07 mm from the middle of the face\n"),
+        "{shown}"
+    );
+    // the same table again, and another profile of the same checkpoint
+    let again = refused(&home, wide, &format!("{options} -o out.csv --append"));
+    assert!(again.contains("is there already"), "{again}");
+    let (code, _, message) = import(
+        &home,
+        wide,
+        "--test A --sigma 0.1 --face 16.5 -o out.csv --append",
+    );
+    assert_eq!(code, Some(0), "{message}");
+    // masses beside depths are of no place
+    let long = "test,member,cycles,quantity,position,value,sigma\nA,pinion,1e5,wear_depth,26,1.5,0.1\nA,pinion,1e5,mass_loss,,4,0.4\n";
+    assert_eq!(
+        rows(&home, long, "--face 4").1,
+        "A,pinion,100000,wear_depth,26,1.5,0.1,,4\nA,pinion,100000,mass_loss,,4,0.4,,\n"
+    );
+    let column = "test,member,cycles,radius,depth [um],sigma,face\nA,pinion,1e5,26,1.5,0.1,8\n";
+    let masses = "test,member,cycles,mass loss [mg]\nA,pinion,1e5,4\n";
+    for (table, options, says) in [
+        (
+            column,
+            "--face 8",
+            "--face: the table has a column of places across the face, G1: `face`",
+        ),
+        (
+            wide,
+            "--test A --sigma 0.1 --face 16.6",
+            "--face 16.6: the face of the study is 33 mm wide, so a place on it is -16.5 to 16.5 mm from its middle",
+        ),
+        (
+            masses,
+            "--sigma 1 --face 8",
+            "mass_loss is of the whole face: leave it out",
+        ),
+        (
+            wide,
+            "--test A --face 8mm",
+            "write a number with a decimal point",
+        ),
+    ] {
+        let message = refused(&home, table, options);
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+#[test]
+fn a_sigma_in_another_unit_than_its_own_is_said_to_be_wrong() {
+    let home = home();
+    let table = |count: usize| {
+        let rows: String = (0..count)
+            .map(|i| format!("{};{}\n", 26.0 + 0.1 * i as f64, 1.0 + 0.04 * i as f64))
+            .collect();
+        format!("radius;100000\n{rows}")
+    };
+    let message = refused(&home, &table(11), "--test A --sigma 70");
+    assert!(
+        message.contains(
+            "--sigma 70: this is 50 times the largest wear_depth of the table, 1.4 um; --sigma takes one standard deviation in um"
+        ) && !message.contains("looks like"),
+        "{message}"
+    );
+    // a few values may be lost in their noise
+    rows(&home, &table(3), "--test A --sigma 70");
 }

@@ -62,8 +62,8 @@ pub struct ImportArgs {
     /// Lost material is negative in the table
     #[arg(long)]
     turn_sign: bool,
-    /// One standard deviation of every value, in the quantity's own unit (um of depth) [default: left empty, and estimated from the scatter of
-    /// neighbouring points wherever the file is read]
+    /// One standard deviation of every value, in the quantity's own unit (um of depth); with --all-sheets of the sheets without a column of it
+    /// [default: left empty, and estimated from the scatter of neighbouring points wherever the file is read]
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, value_parser = sigma)]
     sigma: Option<f64>,
     /// A standard deviation as a share (0.03: three percent), beside --sigma or alone, for scatter that grows with the wear
@@ -72,6 +72,9 @@ pub struct ImportArgs {
     /// Of what --relative-sigma is a share
     #[arg(long, value_enum, value_name = "OF", default_value_t = ShareOf::Value)]
     relative_to: ShareOf,
+    /// Distance from the middle of the face at which all rows were taken, mm [default: what a column `face` says]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true, value_parser = plain)]
+    face: Option<f64>,
     /// The instrument's zero is the same for all checkpoints: no trace of its own for each
     #[arg(long)]
     no_traces: bool,
@@ -215,7 +218,12 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
     let mut count = 0;
     for table in &args.tables {
         let sheets = import::sheets(table).map_err(|error| unusable(error.to_string()))?;
-        for sheet in chosen(&sheets, table, args)? {
+        let chosen = chosen(&sheets, table, args)?;
+        let wanted = Wanted {
+            sigma_of_others: args.all_sheets && chosen.len() > 1,
+            ..wanted.clone()
+        };
+        for sheet in chosen {
             let name = named(table, sheet);
             let understood =
                 understood(sheet, &wanted).map_err(|error| unusable(format!("{name}: {error}")))?;
@@ -408,6 +416,13 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
              neighbouring points"
         )));
     }
+    let half = 0.5 * study.gears.face_width;
+    if let Some(face) = args.face.filter(|face| !(-half..=half).contains(face)) {
+        return Err(unusable(format!(
+            "--face {face}: the face of the study is {} mm wide, so a place on it is {} to {half} mm from its middle",
+            study.gears.face_width, -half
+        )));
+    }
     if !(0.0..1.0).contains(&args.relative_sigma) {
         return Err(unusable(format!(
             "--relative-sigma {}: a share of the value, 0 to below 1",
@@ -442,11 +457,13 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         turn_sign: args.turn_sign,
         decimal: args.decimal.map(Decimal::from),
         sigma: args.sigma,
+        sigma_of_others: false,
         relative_sigma: args.relative_sigma,
         relative_to: match args.relative_to {
             ShareOf::Value => import::ShareOf::Value,
             ShareOf::Largest => import::ShareOf::Largest,
         },
+        face: args.face,
         traces: !args.no_traces,
         repeat: args.repeat,
     })

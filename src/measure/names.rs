@@ -6,8 +6,8 @@ mod vocabulary;
 use super::quantity::{Quantity, Subject};
 
 use vocabulary::{
-    AFTER, BEFORE, COLUMNS, CYCLES, DEVIATIONS, FILLERS, FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES,
-    MEMBERS, QUANTITIES, TIMES,
+    AFTER, BEFORE, COLUMNS, CYCLES, DEVIATIONS, EXPANDED, FILLERS, FOR_PEOPLE, HINTS, HOURS,
+    LOSSES, MASSES, MEMBERS, QUANTITIES, TIMES,
 };
 
 /// Which of two weighings.
@@ -83,6 +83,15 @@ pub(super) fn member(word: &str) -> Option<Subject> {
     found.map(|(member, _)| *member)
 }
 
+/// The member that a number means where members are numbered.
+pub(super) fn numbered_member(text: &str) -> Option<Subject> {
+    match text {
+        "1" => Some(Subject::Pinion),
+        "2" => Some(Subject::Gear),
+        _ => None,
+    }
+}
+
 /// The one member that words of a text name; none if they name none or several.
 pub(super) fn one_member(text: &str) -> Option<Subject> {
     let mut named = words(text).into_iter().filter_map(|word| member(&word));
@@ -97,6 +106,17 @@ pub(super) fn revolutions(name: &str) -> Option<Option<Subject>> {
         .partition(|word| member(word).is_some());
     let count = counts.concat();
     (count == "cycles" || CYCLES.contains(&count.as_str())).then(|| one_member(&of.join(" ")))
+}
+
+/// Whether a name is `N`, `N_pinion` or `n pinion`: a count of its revolutions. A small `n` alone may number the rows, and `N. ruota` the gears.
+pub(super) fn is_one_letter_count(name: &str) -> bool {
+    let words = words(name);
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        ["n"] => name.trim() == "N",
+        ["n", of] | [of, "n"] => member(of) == Some(Subject::Pinion),
+        _ => false,
+    }
 }
 
 /// Whether a text speaks of revolutions of the gear.
@@ -115,6 +135,11 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
         Some(_) => None,
     };
     found.map(|(_, hours)| *hours)
+}
+
+/// Whether a name means several standard deviations, without saying how many.
+pub(super) fn is_expanded_uncertainty(name: &str) -> bool {
+    EXPANDED.contains(&telling(name).concat().as_str())
 }
 
 /// Whether a name means the deviation from the new profile.

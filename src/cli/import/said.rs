@@ -69,6 +69,7 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         "sigma",
         &stated_sigma(args, wide.quantity.unit()),
     );
+    face(&mut text, args);
     let traces = match (args.no_traces, wide.position) {
         (_, None) => "none: there are no curves",
         (false, _) => {
@@ -147,13 +148,18 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
         .first()
         .map_or(Quantity::WearDepth, |entry| entry.quantity)
         .unit();
+    let states_sigma = args.sigma.is_some() || args.relative_sigma > 0.0;
     let sigma = match entries.iter().filter(|entry| entry.sigma.is_none()).count() {
-        _ if args.sigma.is_some() || args.relative_sigma > 0.0 => stated_sigma(args, unit),
+        _ if long.has_sigma && states_sigma => {
+            "as the column says (what the options say is of the sheets without one)".to_owned()
+        }
+        _ if states_sigma => stated_sigma(args, unit),
         0 => "as the column says".to_owned(),
         n if n == entries.len() => stated_sigma(args, unit),
         n => format!("as the column says; empty in {n} rows, where it is estimated"),
     };
     line(&mut text, "sigma", &sigma);
+    face(&mut text, args);
     line(&mut text, "traces", long.traces);
     match long.empty {
         0 => {}
@@ -204,6 +210,17 @@ fn of_tests(entries: &[Entry]) -> String {
     let word = if ids.len() > 1 { "tests" } else { "test" };
     let ids: Vec<&str> = ids.into_iter().collect();
     format!("{word} {}", ids.join(", "))
+}
+
+/// Where on the face all rows were taken, if the user says it.
+fn face(text: &mut String, args: &ImportArgs) {
+    if let Some(face) = args.face {
+        line(
+            text,
+            "face",
+            &format!("{face} mm from the middle of the face"),
+        );
+    }
 }
 
 fn titles(text: &mut String, titles: &Titles) {

@@ -1,6 +1,6 @@
 //! Rows behind those of a measurement file that is there already.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use csv::StringRecord;
 
@@ -46,7 +46,8 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
         text.push('\n');
     }
     let records = before.lines().filter(is_record).skip(1).map(record);
-    let known: BTreeSet<Vec<String>> = records.map(|row| reading(&row, &names)).collect();
+    let known = Known::of(records, &names);
+    let mut elsewhere = Vec::new();
     for row in &rows {
         let field = |name: &Option<usize>| {
             let at = new_names
@@ -55,17 +56,73 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
             at.and_then(|at| row.get(at)).unwrap_or_default()
         };
         let line = line(names.iter().map(field));
-        if known.contains(&reading(&record(&line), &names)) {
+        let written = record(&line);
+        if known.has(&written, &names) {
             return Err(ImportError(format!(
                 "the reading {line} is there already: was this table taken before? --repeat 2 is for a second measurement at the same \
                  checkpoints"
             )));
         }
+        if let Some(faces) = known.has_at_a_face_that_one_lacks(&written, &names) {
+            elsewhere.push((line.clone(), faces));
+        }
         text += &line;
         text.push('\n');
     }
-    Ok(text)
+    // a few equal values may be chance
+    match elsewhere.first() {
+        Some((line, faces)) if 2 * elsewhere.len() > rows.len() => Err(ImportError(format!(
+            "the reading {line} is there already {faces}: was this table taken before? Rows at another place across the face say so in a column \
+             `face`, or by --face MM"
+        ))),
+        _ => Ok(text),
+    }
 }
+
+/// The rows that a file has: what each says but its sigma, and without face and trace the faces at which it is said.
+struct Known {
+    readings: BTreeSet<Vec<String>>,
+    faces: BTreeMap<Vec<String>, BTreeSet<String>>,
+}
+
+impl Known {
+    fn of(rows: impl Iterator<Item = StringRecord>, names: &[Option<usize>]) -> Self {
+        let mut known = Self {
+            readings: BTreeSet::new(),
+            faces: BTreeMap::new(),
+        };
+        for row in rows {
+            known.readings.insert(reading(&row, names, &["sigma"]));
+            let anywhere = reading(&row, names, &ANYWHERE);
+            let faces = known.faces.entry(anywhere).or_default();
+            faces.insert(field(&row, names, "face"));
+        }
+        known
+    }
+
+    fn has(&self, row: &StringRecord, names: &[Option<usize>]) -> bool {
+        self.readings.contains(&reading(row, names, &["sigma"]))
+    }
+
+    /// Where the file has it, if either it or the file's row does not say at which face.
+    fn has_at_a_face_that_one_lacks(
+        &self,
+        row: &StringRecord,
+        names: &[Option<usize>],
+    ) -> Option<String> {
+        let faces = self.faces.get(&reading(row, names, &ANYWHERE))?;
+        match field(row, names, "face").as_str() {
+            "" => {
+                let stated = faces.iter().find(|face| !face.is_empty())?;
+                Some(format!("at face {stated}"))
+            }
+            _ => faces.contains("").then(|| "without a face".to_owned()),
+        }
+    }
+}
+
+/// Columns that say nothing of whether two rows are of one reading where one of them lacks its face: the names of traces follow the face.
+const ANYWHERE: [&str; 3] = ["sigma", "trace", "face"];
 
 /// Lines, each with its end.
 fn ended(rows: &[String]) -> String {
@@ -88,19 +145,21 @@ fn line<'f>(fields: impl Iterator<Item = &'f str>) -> String {
     quoted.collect::<Vec<_>>().join(",")
 }
 
-/// What a row says, by columns and but its sigma, which may be stated otherwise when a table is taken a second time.
-fn reading(row: &StringRecord, names: &[Option<usize>]) -> Vec<String> {
-    let said = COLUMNS
-        .iter()
-        .enumerate()
-        .filter(|(_, (name, _))| *name != "sigma");
-    let said = said.map(|(column, _)| {
-        let at = names.iter().position(|name| *name == Some(column));
-        let text = at.and_then(|at| row.get(at)).unwrap_or_default();
-        text.parse::<f64>()
-            .map_or_else(|_| text.to_owned(), |number| number.to_string())
-    });
-    said.collect()
+/// What a row says by columns, without those that are left out: a sigma may be stated otherwise when a table is taken a second time.
+fn reading(row: &StringRecord, names: &[Option<usize>], left_out: &[&str]) -> Vec<String> {
+    let said = COLUMNS.iter().map(|(name, _)| *name);
+    said.filter(|name| !left_out.contains(name))
+        .map(|name| field(row, names, name))
+        .collect()
+}
+
+/// What stands in a row's column, a number as it is written shortest.
+fn field(row: &StringRecord, names: &[Option<usize>], name: &str) -> String {
+    let column = COLUMNS.iter().position(|(own, _)| *own == name);
+    let at = names.iter().position(|own| own.is_some() && *own == column);
+    let text = at.and_then(|at| row.get(at)).unwrap_or_default();
+    text.parse::<f64>()
+        .map_or_else(|_| text.to_owned(), |number| number.to_string())
 }
 
 #[cfg(test)]

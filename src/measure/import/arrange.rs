@@ -1,7 +1,8 @@
 //! Long tables as people lay them out, as tables with a column for everything: what stands above the header (`Run: A`) as columns
-//! below it, both members' columns side by side one member after the other, a mass before and one after as a loss. Cells keep their
-//! places, so messages name them as they stand in the table.
+//! below it, both members' columns side by side one member after the other, columns named after members alone as what the user states, a
+//! mass before and one after as a loss. Cells keep their places, so messages name them as they stand in the table.
 
+mod alone;
 mod labels;
 mod sides;
 mod weighings;
@@ -27,24 +28,39 @@ pub(super) struct Arranged {
 /// The table so arranged; none if it is no long table.
 ///
 /// # Errors
-/// [`ImportError`] where a mass stands without the other one that makes it a loss, and where what stands above the header contradicts itself
-/// or what is stated elsewhere.
+/// [`ImportError`] where a mass stands without the other one that makes it a loss or the word that it is one, and where what stands above the
+/// header contradicts itself or what is stated elsewhere.
 pub(super) fn arranged(
     sheet: &Sheet,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
     for head in 0..sheet.rows.len() {
-        let sides = sides::apart(sheet, head);
-        if let Some(both) = sides
-            && let Some(found) = completed(both, sheet, head, wanted)?
-        {
+        if let Some(found) = with_header(sheet, head, wanted)? {
             return Ok(Some(found));
         }
-        if let Some(found) = completed(vec![sheet.clone()], sheet, head, wanted)? {
+    }
+    for head in 0..sheet.rows.len() {
+        if let Some(named) = alone::named(sheet, head, wanted)?
+            && let Some(found) = with_header(&named, head, wanted)?
+        {
             return Ok(Some(found));
         }
     }
     Ok(None)
+}
+
+/// The table below a header; none if this is no header of a long one.
+fn with_header(
+    sheet: &Sheet,
+    head: usize,
+    wanted: &Wanted<'_>,
+) -> Result<Option<Arranged>, ImportError> {
+    if let Some(both) = sides::apart(sheet, head)
+        && let Some(found) = completed(both, sheet, head, wanted)?
+    {
+        return Ok(Some(found));
+    }
+    completed(vec![sheet.clone()], sheet, head, wanted)
 }
 
 /// The tables with what the whole sheet says of them; none if they are not long ones.

@@ -1,5 +1,6 @@
 //! The header of a long table: which column is what.
 
+use super::coverage::coverage;
 use super::wanted::Wanted;
 use super::{Sheet, cell_name, units};
 use crate::measure::names::Weighed;
@@ -14,6 +15,8 @@ pub(super) enum What {
     Values(Quantity),
     /// Masses of one of two weighings.
     Weighing(Weighed),
+    /// An expanded uncertainty of which nothing says how many standard deviations it is.
+    Expanded,
     /// For people.
     ForPeople,
     /// Not known.
@@ -50,12 +53,21 @@ pub(super) struct Column {
     pub(super) hours: Option<f64>,
     /// Whether what stands in it tells what it is, not its name.
     pub(super) by_content: bool,
+    /// How many standard deviations its values are, if it holds expanded uncertainties.
+    pub(super) coverage: Option<f64>,
+    /// Whether it calls the pinion 1 and the gear 2.
+    pub(super) numbered: bool,
 }
 
 impl Column {
     /// Of a header.
     pub(super) fn of(at: usize, written: &str) -> Self {
-        let (name, unit) = units::name_and_unit(written);
+        let stated = coverage(written).filter(|(_, rest)| {
+            let (name, _) = units::name_and_unit(rest);
+            names::column(&name) == Some("sigma") || names::is_expanded_uncertainty(&name)
+        });
+        let (coverage, plain) = stated.unzip();
+        let (name, unit) = units::name_and_unit(plain.as_deref().unwrap_or(written));
         let revolutions = names::revolutions(&name);
         let hours = names::hours(&name, unit.as_deref());
         let what = if written.is_empty() {
@@ -66,6 +78,8 @@ impl Column {
             What::Own("cycles")
         } else if let Some(when) = names::weighed(&name) {
             What::Weighing(when)
+        } else if names::is_expanded_uncertainty(&name) {
+            coverage.map_or(What::Expanded, |_| What::Own("sigma"))
         } else {
             match (names::column(&name), names::quantity(&name)) {
                 // `gear [mg]` is no column of members
@@ -88,6 +102,8 @@ impl Column {
             unit,
             hours,
             by_content: false,
+            coverage,
+            numbered: false,
         }
     }
 
@@ -129,6 +145,7 @@ pub(super) fn columns(row: &[String]) -> Vec<Column> {
             column.what = What::Values(Quantity::WearDepth);
         }
     }
+    count_by_one_letter(&mut columns);
     // a running time beside cycles says nothing more
     if (columns.iter()).any(|column| column.is("cycles") && column.hours.is_none()) {
         for column in columns.iter_mut().filter(|column| column.hours.is_some()) {
@@ -138,8 +155,22 @@ pub(super) fn columns(row: &[String]) -> Vec<Column> {
     columns
 }
 
+/// Takes `N` for the count of cycles where nothing else is: with a unit it may be a speed.
+fn count_by_one_letter(columns: &mut [Column]) {
+    if has(columns, "cycles") {
+        return;
+    }
+    for column in columns {
+        let (name, unit) = units::name_and_unit(&column.written);
+        let is_count = names::is_one_letter_count(&name) && unit.is_none();
+        if column.what == What::Unknown && is_count {
+            column.what = What::Own("cycles");
+        }
+    }
+}
+
 /// Takes a column that its name does not tell for the tests or the members if nothing else stands in it and no other column has them: passed over,
-/// all its values would go to one of them.
+/// all its values would go to one of them. A column of members may number them, if no other one names them.
 pub(super) fn known_by_content(
     columns: &mut [Column],
     sheet: &Sheet,
@@ -153,23 +184,30 @@ pub(super) fn known_by_content(
         "test" => is_test(text),
         _ => is_member(text),
     };
+    let holds = |column: &Column, is_it: &dyn Fn(&str) -> bool| {
+        let below = sheet.rows[head + 1..].iter();
+        let mut cells = below
+            .filter_map(|row| row.get(column.at))
+            .filter(|cell| !cell.is_empty())
+            .peekable();
+        cells.peek().is_some() && cells.all(|cell| is_it(cell))
+    };
     for name in ["test", "member"] {
         if has(columns, name) {
             continue;
         }
-        let holds = |column: &&mut Column| {
-            let below = sheet.rows[head + 1..].iter();
-            let mut cells = below
-                .filter_map(|row| row.get(column.at))
-                .filter(|cell| !cell.is_empty())
-                .peekable();
-            column.what == What::Unknown
-                && cells.peek().is_some()
-                && cells.all(|cell| is_it(name, cell))
+        let is_one = |column: &&mut Column| {
+            column.what == What::Unknown && holds(column, &|text| is_it(name, text))
         };
-        if let Some(column) = columns.iter_mut().find(holds) {
+        if let Some(column) = columns.iter_mut().find(is_one) {
             column.what = What::Own(name);
             column.by_content = true;
+        }
+    }
+    let names_members = |column: &Column| column.what == What::Unknown && holds(column, &is_member);
+    if !columns.iter().any(names_members) {
+        for column in columns.iter_mut().filter(|column| column.is("member")) {
+            column.numbered = holds(column, &|text| names::numbered_member(text).is_some());
         }
     }
 }
@@ -224,8 +262,10 @@ pub(super) fn said(head: usize, columns: &[Column], missing: &[&str]) -> String 
         };
         Some(format!("`{}` as {what}", column.written))
     });
-    let not =
-        parts(&|column| (column.what == What::Unknown).then(|| format!("`{}`", column.written)));
+    let not = parts(&|column| {
+        let is_known = ![What::Unknown, What::Expanded].contains(&column.what);
+        (!is_known).then(|| format!("`{}`", column.written))
+    });
     format!(
         "the header in row {} is `{}`; understood: {understood}; not understood: {not}; missing: {}. A long table needs columns `test`, \
          `member`, `cycles` (of the pinion), for depths a position (`radius [mm]`, `roll angle [deg]`) and values (`depth [um]`, `mass loss \

@@ -35,13 +35,22 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// The name of the trace of all that was measured at the same time as this.
-    pub(super) fn own_trace(&self) -> String {
+    /// The name of the trace of all that was measured at the same time as this, and at the place across the face that the user states.
+    pub(super) fn own_trace(&self, wanted: &Wanted<'_>) -> String {
         let what = match self.quantity {
             Quantity::WearDepth => String::new(),
             other => format!("{}-", other.name()),
         };
-        format!("{}-{}-{what}{}", self.test, self.member.name(), self.cycles)
+        let place = match wanted.face {
+            Some(face) if self.quantity.is_at_a_place_across_the_face() => format!("-face{face}"),
+            _ => String::new(),
+        };
+        format!(
+            "{}-{}-{what}{}{place}",
+            self.test,
+            self.member.name(),
+            self.cycles
+        )
     }
 
     /// What it has in common with all that was measured on its curve: along a flank, or of a whole member over the test.
@@ -147,6 +156,9 @@ pub(super) fn state_sigma(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<
     if !wanted.states_sigma() {
         return Ok(());
     }
+    if let Some(sigma) = wanted.sigma {
+        refuse_far_too_large(entries, sigma)?;
+    }
     let mut largest: HashMap<_, f64> = HashMap::new();
     for entry in entries.iter() {
         let most = largest.entry(entry.curve()).or_default();
@@ -173,6 +185,48 @@ pub(super) fn state_sigma(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<
             None => relative,
         };
         entry.sigma = Some(four_digits(sigma));
+    }
+    Ok(())
+}
+
+/// So many values of a table, all below half of their standard deviation, are no noise of that size.
+const FEWEST: usize = 8;
+
+/// Refuses a stated standard deviation beside which nothing at all was measured: it is in another unit.
+fn refuse_far_too_large(entries: &[Entry], sigma: f64) -> Result<(), ImportError> {
+    for quantity in Quantity::ALL {
+        let own = || entries.iter().filter(|entry| entry.quantity == quantity);
+        let largest = own().map(|entry| entry.value.abs()).fold(0.0, f64::max);
+        let is_far_too_large = largest > 0.0 && 2.0 * largest < sigma;
+        if is_far_too_large && own().count() >= FEWEST {
+            let (name, unit) = (quantity.name(), quantity.unit());
+            return Err(ImportError(format!(
+                "--sigma {sigma}: this is {:.0} times the largest {name} of the table, {} {unit}; --sigma takes one standard deviation in {unit}, \
+                 whatever the unit of the table",
+                sigma / largest,
+                rounded(largest)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Gives the entries the place across the face that the user states.
+pub(super) fn state_face(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<(), ImportError> {
+    let Some(face) = wanted.face else {
+        return Ok(());
+    };
+    let is_there = |entry: &Entry| entry.quantity.is_at_a_place_across_the_face();
+    if let Some(first) = entries.first()
+        && !entries.iter().any(is_there)
+    {
+        return Err(ImportError(format!(
+            "--face is for what is measured at one place across the face; {} is of the whole face: leave it out",
+            first.quantity.name()
+        )));
+    }
+    for entry in entries.iter_mut().filter(|entry| is_there(entry)) {
+        entry.face = face.to_string();
     }
     Ok(())
 }

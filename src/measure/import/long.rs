@@ -5,12 +5,12 @@ mod traces;
 
 use super::arrange::{Arranged, arranged};
 use super::columns::{Column, What, columns, known_by_content, said};
-use super::entry::{Entry, state_sigma};
+use super::entry::{Entry, state_face, state_sigma};
 use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, units};
+use super::{ImportError, Sheet, cell_name, decimal_commas, units};
 use crate::measure::{Place, Quantity};
 use line::Line;
 
@@ -33,6 +33,8 @@ pub struct Long {
     pub traces: &'static str,
     /// Rows without a value.
     pub empty: usize,
+    /// Whether a column states the standard deviations.
+    pub has_sigma: bool,
     /// Rows of a measurement file.
     pub entries: Vec<Entry>,
 }
@@ -68,6 +70,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             head + 1
         )));
     }
+    decimal_commas::refuse(sheet, head)?;
     let tables: Vec<Long> = sheets
         .iter()
         .map(|sheet| of_columns(sheet, head, wanted))
@@ -121,7 +124,16 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
         )));
     }
     let traces = traces::name(&mut entries, &read, wanted)?;
-    state_sigma(&mut entries, wanted)?;
+    if let (Some(column), Some(_)) = (read.face, wanted.face) {
+        return Err(ImportError(format!(
+            "--face: the table has a column of places across the face, {}; leave one of them out",
+            column.cell(head)
+        )));
+    }
+    state_face(&mut entries, wanted)?;
+    if read.sigma.is_none() {
+        state_sigma(&mut entries, wanted)?;
+    }
     Ok(Long {
         row: head + 1,
         arranged: Vec::new(),
@@ -131,6 +143,7 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
         turned,
         traces,
         empty,
+        has_sigma: read.sigma.is_some(),
         entries,
     })
 }
@@ -147,6 +160,7 @@ impl Long {
         self.passed_over
             .retain(|column| other.passed_over.contains(column));
         self.empty += other.empty;
+        self.has_sigma |= other.has_sigma;
         self.entries.extend(other.entries);
         self
     }
@@ -267,13 +281,9 @@ impl<'t> Read<'t> {
                     "revolutions of the gear, turned into those of the pinion".to_owned()
                 }
                 Some("cycles") => "cycles, pinion revolutions".to_owned(),
-                Some("sigma")
-                    if column
-                        .unit
-                        .as_deref()
-                        .is_some_and(|unit| !unit.contains('=')) =>
-                {
-                    format!("sigma in {}", column.unit.as_deref().unwrap_or_default())
+                Some("sigma") => of_sigma(column),
+                Some("member") if column.numbered => {
+                    "member, 1 the pinion and 2 the gear".to_owned()
                 }
                 Some(own) if column.by_content => format!("{own}, by what stands in it"),
                 Some(own) => own.to_owned(),
@@ -282,6 +292,16 @@ impl<'t> Read<'t> {
             words.push((column.written.clone(), what));
         }
         Ok(words)
+    }
+}
+
+/// What a column of standard deviations is.
+fn of_sigma(column: &Column) -> String {
+    let unit = column.unit.as_deref();
+    let unit = unit.map_or_else(String::new, |unit| format!(" in {unit}"));
+    match column.coverage.filter(|k| *k != 1.0) {
+        Some(k) => format!("an expanded uncertainty{unit}, sigma is it over k = {k}"),
+        None => format!("sigma{unit}"),
     }
 }
 
@@ -323,6 +343,9 @@ fn passed_over(
                 What::ForPeople => "for people",
                 What::Unknown => "not known",
                 What::Weighing(_) => "a weighing",
+                What::Expanded => {
+                    "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
+                }
                 What::Values(_) if column.at != value.at => "another quantity",
                 _ => return None,
             };

@@ -10,6 +10,8 @@ mod append;
 mod arrange;
 mod cells;
 mod columns;
+mod coverage;
+mod decimal_commas;
 mod entry;
 mod long;
 mod numbers;

@@ -1,11 +1,15 @@
-//! The unit of a column of standard deviations.
+//! The unit of a column of standard deviations, or of expanded uncertainties.
 
 use super::columns::Column;
 use super::wanted::Wanted;
 use super::{ImportError, units};
 use crate::measure::Quantity;
 
-/// From the column's unit to the quantity's own. Beside values in another unit the column has to state its own.
+/// Least and largest coverage factor that is believed.
+const COVERAGE: [f64; 2] = [1.0, 5.0];
+
+/// From the column's unit to the quantity's own, and from an expanded uncertainty to one standard deviation. Beside values in another unit
+/// the column has to state its own.
 pub(super) fn factor(
     sigma: &Column,
     value: &Column,
@@ -13,25 +17,15 @@ pub(super) fn factor(
     wanted: &Wanted<'_>,
 ) -> Result<f64, ImportError> {
     let refuse = |why: String| Err(ImportError(format!("{}: {why}", sigma.cell(head))));
-    let text = sigma.written.to_lowercase().replace(' ', "");
-    let covering = text.split_once("k=").map(|(_, rest)| {
-        let number: String = rest
-            .chars()
-            .take_while(|c| c.is_ascii_digit() || *c == '.')
-            .collect();
-        number.parse::<f64>()
-    });
-    if covering.is_some_and(|k| k != Ok(1.0)) {
-        return refuse(
-            "sigma is one standard deviation: divide the expanded uncertainty by its k".to_owned(),
-        );
+    let coverage = sigma.coverage.unwrap_or(1.0);
+    let [least, largest] = COVERAGE;
+    if !(least..=largest).contains(&coverage) {
+        return refuse(format!(
+            "k = {coverage} is no coverage factor, which is {least} to {largest}; write `U (k=2)` above two standard deviations"
+        ));
     }
-    // what stands in brackets may be the k alone
-    let unit = sigma
-        .unit
-        .as_deref()
-        .filter(|unit| !unit.to_lowercase().starts_with('k'));
-    match (unit, value.unit.as_deref(), wanted.unit) {
+    let unit = sigma.unit.as_deref();
+    let to_own = match (unit, value.unit.as_deref(), wanted.unit) {
         (Some("%"), _, _) if quantity != Quantity::LoadShare => refuse(format!(
             "a share of each value is no sigma; write it in {}, or leave the column out and say --sigma and --relative-sigma 0.03",
             quantity.unit()
@@ -45,5 +39,6 @@ pub(super) fn factor(
         ),
         (None, None, Some(stated)) => units::factor(stated, quantity),
         (None, _, _) => Ok(1.0),
-    }
+    }?;
+    Ok(to_own / coverage)
 }

@@ -69,7 +69,8 @@ fn tests_of_columns<'w>(
     let is_named = |column: usize| named.iter().any(|(other, ..)| *other == column);
     if let Some((column, text)) = cells.iter().find(|(column, _)| !is_named(*column)) {
         return Err(ImportError(format!(
-            "{}: the header `{text}` names no test of the study, others do (test {first}); its tests: {}",
+            "{}: the header `{text}` names no test of the study, others do (test {first}); its tests: {}. Add a [[test]] to the study with the id that \
+             the header names, or take the column out",
             cell_name(head, *column),
             wanted.tests.join(", ")
         )));

@@ -5,6 +5,7 @@ use super::place::PositionKind;
 use super::{Across, Decimal, ImportError, Sheet, units};
 use crate::gear::{Gear, Member};
 use crate::measure::{Quantity, Subject, names};
+use crate::source_text::is_misspelt;
 
 /// What the user states of a table.
 #[derive(Debug, Clone)]
@@ -35,10 +36,14 @@ pub struct Wanted<'a> {
     pub decimal: Option<Decimal>,
     /// One standard deviation, in the quantity's unit; left empty where neither it nor the share is known.
     pub sigma: Option<f64>,
+    /// Whether a table with a column of them goes by that alone: the user's are those of other tables.
+    pub sigma_of_others: bool,
     /// Another, independent one as a share.
     pub relative_sigma: f64,
     /// Of what it is a share.
     pub relative_to: ShareOf,
+    /// Distance of all that was measured from the middle of the face, mm; what a column says otherwise.
+    pub face: Option<f64>,
     /// Whether each checkpoint is a trace with a zero of its own.
     pub traces: bool,
     /// Number of a repeated measurement.
@@ -125,8 +130,12 @@ impl Wanted<'_> {
 
     /// The study has no such test.
     pub(super) fn no_test(&self, id: &str) -> ImportError {
+        let meant = match self.tests.iter().find(|other| may_mean(id, other)) {
+            Some(other) => format!("; or is `{other}` meant?"),
+            None => String::new(),
+        };
         ImportError(format!(
-            "the study has no test {id}; its tests: {}",
+            "the study has no test {id}; its tests: {}. Add a [[test]] with id = \"{id}\" to the study{meant}",
             self.tests.join(", ")
         ))
     }
@@ -227,6 +236,16 @@ impl Wanted<'_> {
         }
         Ok((unit.to_owned(), from))
     }
+}
+
+/// Fewest letters of which one may be a slip.
+const SLIP: usize = 4;
+
+/// Whether an id may be another one misspelt: with the same digits, and but for case and signs the same or long enough for a slip.
+fn may_mean(id: &str, other: &str) -> bool {
+    let digits = |text: &str| -> String { text.chars().filter(char::is_ascii_digit).collect() };
+    let is_slip = other.chars().count() >= SLIP && is_misspelt(id, other);
+    digits(id) == digits(other) && (names::folded(id) == names::folded(other) || is_slip)
 }
 
 /// Where an id stands in a text as a word of its own.

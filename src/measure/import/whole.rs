@@ -8,7 +8,7 @@ use super::wide::{
     Across, Wide, across_numbers, counts_gear_revolutions, down_numbers, header, in_order,
     leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
-use super::{ImportError, Sheet, cell_name, units};
+use super::{ImportError, Sheet, cell_name, decimal_commas, units};
 use crate::measure::{Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -42,6 +42,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         Some(head) => head,
         None => header(sheet).map_err(|_| no_header(sheet))?,
     };
+    decimal_commas::refuse(sheet, head)?;
     let mut sheet = with_points(sheet, wanted.decimal, |row, column| {
         row > head && column > 0
     })?;

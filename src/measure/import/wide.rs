@@ -1,7 +1,7 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
 use super::columns;
-use super::entry::{Entry, name_repeat, refuse_twice, state_sigma};
+use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
     without_thousands,
@@ -9,7 +9,7 @@ use super::numbers::{
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, units};
+use super::{ImportError, Sheet, cell_name, decimal_commas, units};
 use crate::gear::Gear;
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -64,6 +64,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         return super::whole::whole(sheet, quantity, wanted);
     }
     let head = header(sheet)?;
+    decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
     let member = (wanted.stated_member(sheet, quantity)?).unwrap_or(Subject::Pinion);
     let gear = wanted.gear_of(member);
@@ -203,8 +204,9 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<()>
         .iter_mut()
         .filter(|entry| wanted.traces && entry.position.is_some())
     {
-        entry.trace = entry.own_trace();
+        entry.trace = entry.own_trace(wanted);
     }
+    state_face(entries, wanted)?;
     name_repeat(entries, wanted);
     state_sigma(entries, wanted)
 }

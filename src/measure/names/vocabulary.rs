@@ -112,6 +112,17 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
     ("tooth", &["zahn", "dente", "dent", "diente"]),
 ];
 
+/// Names of several standard deviations.
+pub(super) const EXPANDED: [&str; 7] = [
+    "u95",
+    "expandeduncertainty",
+    "erweiterteunsicherheit",
+    "erweitertemessunsicherheit",
+    "incertezzaestesa",
+    "incertitudeelargie",
+    "incertidumbreexpandida",
+];
+
 /// Names of counts of revolutions.
 pub(super) const CYCLES: &[&str] = &[
     "cycle",

@@ -91,7 +91,10 @@ impl Line<'_> {
                 Some(rounded(factor * number(text, self.row, column.at)?))
             }
         };
-        if let (Some(column), true) = (sigma, self.wanted.states_sigma()) {
+        if let Some(column) = sigma
+            && self.wanted.states_sigma()
+            && !self.wanted.sigma_of_others
+        {
             return Err(ImportError(format!(
                 "--sigma or --relative-sigma: the table has a column of sigma, {}; leave one of them out",
                 column.cell(self.read.head)
@@ -118,11 +121,13 @@ impl Line<'_> {
         let Some(column) = self.read.test else {
             return Ok(self.wanted.one_test(self.sheet)?.0);
         };
-        let Some(id) = self.wanted.test_of(self.text(Some(column))) else {
-            return self.refused(
-                column,
-                &format!("the study's tests are {}", self.wanted.tests.join(", ")),
-            );
+        let text = self.text(Some(column));
+        let Some(id) = self.wanted.test_of(text) else {
+            let why = match text {
+                "" => "every row says of which test it is".to_owned(),
+                text => self.wanted.no_test(text).0,
+            };
+            return self.refused(column, &why);
         };
         match self.wanted.test {
             Some(stated) if stated != id => self.refused(
@@ -141,7 +146,12 @@ impl Line<'_> {
                 .stated_member(self.sheet, quantity)?
                 .unwrap_or(Subject::Pinion));
         };
-        let Some(member) = names::member(self.text(Some(column))) else {
+        let text = self.text(Some(column));
+        let named = match column.numbered {
+            true => names::numbered_member(text),
+            false => names::member(text),
+        };
+        let Some(member) = named else {
             return self.refused(column, "write pinion, gear or pair (or small, big, Ritzel, Rad, pignone, corona, pignon, roue, ...)");
         };
         if !subjects.contains(&member) {

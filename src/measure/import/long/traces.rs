@@ -40,11 +40,11 @@ pub(super) fn name(
     } else {
         let mut counts: BTreeMap<String, usize> = BTreeMap::new();
         for entry in entries.iter().filter(|entry| entry.position.is_some()) {
-            *counts.entry(entry.own_trace()).or_default() += 1;
+            *counts.entry(entry.own_trace(wanted)).or_default() += 1;
         }
         let mut any = false;
         for entry in entries.iter_mut() {
-            let trace = entry.own_trace();
+            let trace = entry.own_trace(wanted);
             if counts.get(&trace).is_some_and(|&points| points > 1) {
                 entry.trace = trace;
                 any = true;
