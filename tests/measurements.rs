@@ -134,7 +134,7 @@ refusals! {
     open_quote_in_the_last_column: with("53.5,2.1,0.15,A-g-1", "53.5,2.1,0.15,\"A-g-1")
         => Syntax "" at 4:1, "a line break in quotes", "a row on each line", "never closed";
     unknown_test: with("B,pinion", "E,pinion")
-        => BadValue "test" at 8:1, "`E`", "A, B, C, D", "no such test";
+        => BadValue "test" at 8:1, "`E`", "A, B, C, D", "add a [[test]] with id = \"E\" to the study";
     missing_test: with("B,pinion", ",pinion")
         => BadValue "test" at 8:1, "nothing", "A, B, C, D", "no such test";
     test_in_small_letters: with("B,pinion", "b,pinion")

@@ -207,7 +207,15 @@ impl<'k> Reader<'k> {
         };
         let message = "the study has no such test";
         let fault = cell.fault(Fault::BadValue, message, &allowed);
-        Err(fault.with_hint(cell.nearest_of(ids())).into())
+        let named = cell.text();
+        let hint = match cell.nearest_of(ids()) {
+            _ if named.is_empty() => String::new(),
+            near if near.is_empty() => format!("add a [[test]] with id = \"{named}\" to the study"),
+            near => format!(
+                "{near}; if it is another test, add a [[test]] with id = \"{named}\" to the study"
+            ),
+        };
+        Err(fault.with_hint(hint).into())
     }
 
     fn radius(&self, cell: Cell<'_, '_>, member: Member) -> Result<f64> {
