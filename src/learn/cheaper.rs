@@ -49,22 +49,6 @@ pub(super) struct Spent {
     pub(super) coarse_steps: usize,
 }
 
-/// One of something for each cheaper model.
-#[derive(Default)]
-pub(super) struct PerModel<T> {
-    analytic: T,
-    coarse: T,
-}
-
-impl<T> PerModel<T> {
-    fn of(&self, model: Cheaper) -> &T {
-        match model {
-            Cheaper::Analytic => &self.analytic,
-            Cheaper::Coarse => &self.coarse,
-        }
-    }
-}
-
 /// Where a cheaper model is anchored, and what fine elements give there.
 pub(super) struct Anchor {
     place: Vec<f64>,
@@ -166,7 +150,7 @@ impl Measured<'_> {
         noise: NoiseModel,
         act: impl FnOnce(&Problem<'_>) -> Option<T>,
     ) -> Option<T> {
-        let workshop = self.cheaper.of(cheaper);
+        let workshop = &self.cheaper[cheaper as usize];
         let workshop = workshop.get_or_init(|| self.cheaper_workshop(cheaper).ok());
         let bench = self.bench(workshop.as_ref()?).ok()?;
         self.with_problem(&bench, version, noise, &|_| {}, act)

@@ -4,7 +4,6 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::learn::bench::{Bench, MeasuredTest, Workshop};
-use crate::learn::cheaper::PerModel;
 use crate::learn::fit::{Coefficient, FitError, Problem};
 use crate::learn::fitted::Fit;
 use crate::learn::gear_model::GearModel;
@@ -25,8 +24,8 @@ pub struct Measured<'a> {
     /// Role of each test.
     pub roles: Vec<Role>,
     tests: Vec<MeasuredTest>,
-    /// Members of the cheaper models, made when one is first asked; None where they cannot be.
-    pub(super) cheaper: PerModel<OnceLock<Option<Workshop>>>,
+    /// Members of the cheaper models (analytic contact, coarse elements), made when one is first asked; None where they cannot be.
+    pub(super) cheaper: [OnceLock<Option<Workshop>>; 2],
 }
 
 impl<'a> Measured<'a> {
@@ -57,7 +56,7 @@ impl<'a> Measured<'a> {
             roles: study.tests.iter().map(|test| test.role).collect(),
             study,
             data,
-            cheaper: PerModel::default(),
+            cheaper: Default::default(),
         }
     }
 

@@ -94,7 +94,7 @@ pub(in crate::learn) fn scatter_in_words(sigma: SigmaModel) -> Option<String> {
             Some(depths(match (floor, share) {
                 (0.0, _) => of_largest,
                 (_, 0.0) => format!("{floor:.3} µm at all depths"),
-                _ => format!("{floor:.3} µm and {of_largest}"),
+                _ => format!("{floor:.3} µm plus {of_largest}"),
             }))
         }
     }

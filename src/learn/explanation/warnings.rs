@@ -32,10 +32,14 @@ pub(in crate::learn) fn warnings(
         );
     }
     let sigma = likelihood.noise.sigma;
-    let scatter = noise_level::scatter_in_words(sigma);
-    warnings.extend(
-        scatter.map(|words| format!("{words}. It was taken so here; χ² is still in stated sigmas")),
-    );
+    warnings.extend(noise_level::scatter_in_words(sigma).map(|words| {
+        let measured = likelihood.measured;
+        if 2 * measured.data.estimated_sigmas > measured.data.observations.len() {
+            "sigma, estimated curve by curve, was replaced by what all curves together show; χ² is still in the estimated sigmas".to_owned()
+        } else {
+            format!("{words}. It was taken so here; χ² is still in stated sigmas")
+        }
+    }));
     if sigma == SigmaModel::AS_STATED
         && let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model)
     {
