@@ -55,9 +55,8 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let written = report::write_comparison(&result, &target)?;
     let prospects = prospects(&study, &data);
     let mut warnings = data_warnings(&data);
-    let depths = (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
-    // of sigmas that are estimated there is nothing to be said
-    if 2 * data.estimated_sigmas <= depths.count() {
+    // nobody stated those that are estimated
+    if !data.estimates_sigmas() {
         warnings.extend(stated_sigma(&study, &data, &compared.fit));
     }
     warnings.extend(misfit_of_one_quantity(&study, &data, &compared.fit));

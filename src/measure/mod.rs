@@ -107,6 +107,11 @@ impl Dataset {
         Self::read(source, known)
     }
 
+    /// Whether most sigmas are estimated.
+    pub fn estimates_sigmas(&self) -> bool {
+        2 * self.estimated_sigmas > self.observations.len()
+    }
+
     /// File and line of an observation, for messages: `measurements.csv:7`.
     pub fn place(&self, observation: &Observation) -> String {
         format!("{}:{}", self.name, observation.line)

@@ -11,9 +11,6 @@ use crate::learn::{Addition, Share};
 use crate::report::comparison::{NO_INTERVAL, with_unit};
 use crate::report::format::significant;
 
-/// χ² per point of the fit tests from which a fit is too far from them for an interval.
-const FAR: f64 = 2.0;
-
 /// What a fit found: a value for each parameter that it was asked for, and what else it has to say.
 #[derive(Debug)]
 pub(super) struct Fitted {
@@ -40,7 +37,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
                 format!("95 % between {low} and {high}")
             }
             None if !comparison.converged => "no interval: the fit did not converge".to_owned(),
-            None if (comparison.fit.chi2_per_point).is_some_and(|chi2| chi2 > FAR) => {
+            None if comparison.fit.is_far() => {
                 "no interval: the model with it is still far from the measurements".to_owned()
             }
             None => NO_INTERVAL.to_owned(),

@@ -100,6 +100,17 @@ pub(in crate::learn) fn scatter_in_words(sigma: SigmaModel) -> Option<String> {
     }
 }
 
+/// What is said of a diagnosis that goes by the scatter in place of the σ of the rows, which are stated or `estimated`; None where it does not.
+pub(in crate::learn) fn replaced_in_words(sigma: SigmaModel, estimated: bool) -> Option<String> {
+    scatter_in_words(sigma).map(|words| {
+        if estimated {
+            "sigma, estimated curve by curve, was replaced by what all curves together show; χ² is still in the estimated sigmas".to_owned()
+        } else {
+            format!("{words}. It was taken so here; χ² is still in stated sigmas")
+        }
+    })
+}
+
 /// Scatter over stated σ where that is far too little for independent points.
 pub(in crate::learn) fn too_smooth(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
     scatter(likelihood, model).filter(|found| *found < SMOOTH)
@@ -231,6 +242,22 @@ mod tests {
 
     use super::*;
     use crate::measure::Subject;
+
+    #[test]
+    fn sigmas_that_nobody_stated_are_not_called_stated() {
+        let sigma = SigmaModel::OfCurve {
+            floor: 0.045,
+            share: 0.021,
+        };
+        let stated = replaced_in_words(sigma, false).unwrap();
+        assert!(
+            stated.contains("stated sigma") && stated.contains("0.045 µm plus 2.1 %"),
+            "{stated}"
+        );
+        let estimated = replaced_in_words(sigma, true).unwrap();
+        assert!(!estimated.contains("leave the column"), "{estimated}");
+        assert!(replaced_in_words(SigmaModel::AS_STATED, true).is_none());
+    }
 
     /// Traces of 50 points, unevenly spaced, trace by trace twice as deep, with a smooth misfit of 30 sigmas of 0.1 and normal noise: of each
     /// row as `noise` has it of the trace's largest depth and its own, stated as `stated` has it.

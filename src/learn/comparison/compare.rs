@@ -191,6 +191,7 @@ impl Measured<'_> {
         let chosen = version
             .of_last()
             .any(|free| free.value != free.prior.median().clamp(free.lower, free.upper));
+        // values that somebody chose may be nearer to the measurements than the model without the effect
         let anchor = missed.filter(|_| dear || !chosen);
         let without = anchor.and_then(|missed| missed.base(self));
         self.with_problem(bench, version, noise, &told, |problem| {
@@ -407,7 +408,7 @@ const SMOOTH: Effort = Effort {
 };
 
 /// Part of the misfit beyond noise that a fit of an effect more may leave of ln posterior: what such a fit is asked is how much the effect takes away.
-pub(super) const FAR_SHARE: f64 = 5e-3;
+pub(super) const FAR_SHARE: f64 = 2e-3;
 
 /// A fit that is far from the measurements, and by no more than this share of χ² farther than a cheaper model promises of the best of several starts,
 /// is not looked for from elsewhere.

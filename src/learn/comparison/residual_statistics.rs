@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::gear::Region;
 use crate::learn::fit::is_within_noise;
 use crate::learn::fitted::{Fit, RowFit};
+use crate::learn::measured::Misfit;
 use crate::learn::region::Map;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::{Role, Study};
@@ -27,6 +28,15 @@ impl Share {
     pub fn is_within_noise(&self) -> bool {
         let within = |chi2: f64| is_within_noise(chi2 * self.points as f64, self.points);
         self.chi2_per_point.is_some_and(within)
+    }
+
+    /// Whether χ² is far more than noise makes: a fit that leaves so much supports no interval.
+    pub fn is_far(&self) -> bool {
+        let points = self.points as f64;
+        self.chi2_per_point.is_some_and(|chi2| {
+            let square = chi2 * points;
+            Misfit { square, points }.is_far()
+        })
     }
 }
 

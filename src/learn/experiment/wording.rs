@@ -105,9 +105,6 @@ fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
 /// Probability of something that the catalogue does not hold from which that is an open question.
 const OPEN: f64 = 0.05;
 
-/// Probability from which a diagnosis has decided.
-const DECIDED: f64 = 0.95;
-
 /// What the diagnosis left open, or that it left nothing, where the table's best test would be taken for the answer to it; with the space behind it.
 pub(super) fn left_open(decided: Option<&Decided>) -> String {
     let Some(decided) = decided else {
@@ -116,16 +113,17 @@ pub(super) fn left_open(decided: Option<&Decided>) -> String {
     let Some(first) = decided.ranking.first() else {
         return String::new();
     };
-    let unknown = decided.probabilities.get("unknown").copied();
-    match unknown.filter(|p| *p > OPEN) {
-        Some(unknown) if decided.verdict == Verdict::Ambiguous => format!(
+    let unknown = decided.probabilities.get("unknown");
+    let unknown = unknown.copied().unwrap_or(0.0);
+    match decided.verdict {
+        Verdict::Ambiguous if unknown > OPEN => format!(
             "The diagnosis leaves open whether it is {} or something that the catalogue does not hold ({:.0} %), of which this table cannot tell; next, by \
              the diagnosis: {}. ",
             first.effect,
             100.0 * unknown,
             decided.next_step.trim_end_matches('.')
         ),
-        None if decided.verdict == Verdict::Effect && first.probability > DECIDED => format!(
+        Verdict::Effect => format!(
             "The diagnosis has decided for {}: what follows would confirm it against its nearest rivals. ",
             first.effect
         ),

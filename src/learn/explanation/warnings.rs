@@ -32,14 +32,8 @@ pub(in crate::learn) fn warnings(
         );
     }
     let sigma = likelihood.noise.sigma;
-    warnings.extend(noise_level::scatter_in_words(sigma).map(|words| {
-        let measured = likelihood.measured;
-        if 2 * measured.data.estimated_sigmas > measured.data.observations.len() {
-            "sigma, estimated curve by curve, was replaced by what all curves together show; χ² is still in the estimated sigmas".to_owned()
-        } else {
-            format!("{words}. It was taken so here; χ² is still in stated sigmas")
-        }
-    }));
+    let estimated = likelihood.measured.data.estimates_sigmas();
+    warnings.extend(noise_level::replaced_in_words(sigma, estimated));
     if sigma == SigmaModel::AS_STATED
         && let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model)
     {

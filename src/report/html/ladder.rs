@@ -74,8 +74,8 @@ fn errors(result: &Result<'_>) -> Section {
     Section::new("Error").plots(plots::of_ladder(result)).table(table).note(
         "χ² per point is the mean of ((model − measured)/sigma)² with each trace's most probable datum and each test's most \
          probable wear coefficient; 1 is the noise floor. An effect more always fits the fit tests at least as well; whether it \
-         is true shows in the held-out tests: no parameter was fitted to them but the scatter of their own k about that of the fit tests and their \
-         datums, so that they judge where and when teeth wear more than how much. ln evidence: gain of the logarithm of the \
+         is true shows in the held-out tests. Nothing is fitted to these but their datums and a k of their own within the scatter between tests: they \
+         judge where and when teeth wear more than how much. ln evidence: gain of the logarithm of the \
          marginal likelihood, which counts the parameters' freedom against them.",
     )
 }
