@@ -124,8 +124,6 @@ pub(super) struct Found {
     /// Derivatives of the rows with respect to (θ, ln k_t), without whitening.
     pub(super) jacobian: DMatrix<f64>,
     pub(super) objective: f64,
-    /// Fall of the objective that a further step promises.
-    pub(super) promised: f64,
     pub(super) iterations: usize,
     pub(super) converged: bool,
 }
@@ -214,7 +212,7 @@ impl Search<'_> {
         let mut taken_at = state.clone();
         let mut damping = 1e-3;
         let (mut iterations, mut rounds) = (0, 0);
-        let (converged, scatter, normal, promised) = loop {
+        let (converged, scatter, normal) = loop {
             let model = self.selection.joined(&values);
             let covariance = &self.selection.covariance;
             let normal = self.selection.normal(&model, &jacobian, covariance);
@@ -237,7 +235,7 @@ impl Search<'_> {
                     continue;
                 }
                 if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
-                    break (true, scatter, normal, promised);
+                    break (true, scatter, normal);
                 }
                 let own = self.own(evaluator, &state);
                 (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
@@ -245,7 +243,7 @@ impl Search<'_> {
                 continue;
             }
             if iterations == effort.iterations {
-                break (false, scatter, normal, promised);
+                break (false, scatter, normal);
             }
             iterations += 1;
             if effort.settle > 0
@@ -274,10 +272,10 @@ impl Search<'_> {
                     continue;
                 }
                 if promised <= floor {
-                    break (true, scatter, normal, promised);
+                    break (true, scatter, normal);
                 }
                 if fresh {
-                    break (false, scatter, normal, promised);
+                    break (false, scatter, normal);
                 }
                 let own = self.own(evaluator, &state);
                 (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
@@ -299,7 +297,6 @@ impl Search<'_> {
         };
         Ok(Found {
             objective: self.layout.objective(normal.square, &state, scatter),
-            promised,
             model: self.selection.joined(&values),
             state,
             scatter,

@@ -74,8 +74,7 @@ impl Context<'_> {
         (candidates.par_iter().zip(&predictors).zip(looks))
             .filter_map(|((candidate, predictor), found)| {
                 let mut found = found?;
-                // a threshold far from its start shows little in two steps, and promises more
-                if found.objective - found.promised <= bar && !found.converged {
+                if found.objective <= bar && !found.converged {
                     let state = found.state.clone();
                     let parameters = &candidate.parameters;
                     if let Ok(further) = self.likelihood.fit(predictor, parameters, state, &SCREEN)
