@@ -618,6 +618,34 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
         },
         &["53 times more wear", "one tooth"],
     );
+    told(
+        &|cells| {
+            if is(cells, "mass_loss") {
+                times(cells, 1e3);
+            }
+        },
+        &[
+            "times less wear than its masses: the masses look like µg, or like mg that were taken for g",
+        ],
+    );
+    told(
+        &|cells| {
+            if is(cells, "mass_loss") {
+                let sigma: f64 = cells[SIGMA].parse().unwrap();
+                cells[SIGMA] = (1e-3 * sigma).to_string();
+            }
+        },
+        &["sigma of mass_loss", "another unit than the values"],
+    );
+    let over = |cells: &mut [String], factor: f64| {
+        let cycles: f64 = cells[CYCLES].parse().unwrap();
+        cells[CYCLES] = (cycles / factor).to_string();
+    };
+    told(
+        &|cells| over(cells, 60.0 * 2000.0),
+        &["of tests A, B", "they look like hours of running"],
+    );
+    told(&|cells| over(cells, 1e6), &["they look like millions"]);
     let of_b = |cells: &[String]| cells[0] == "B";
     told(
         &|cells| {

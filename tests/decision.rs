@@ -274,6 +274,34 @@ fn an_effect_that_leaves_half_is_established_beside_something_unknown() {
     assert_eq!(decided(&figures).verdict, Verdict::Unknown);
 }
 
+/// Something unknown leads, but beside an effect as probably as alone: neither is denied, and the more probable of the two kinds is not headed as
+/// if the catalogue held nothing.
+#[test]
+fn an_effect_beside_something_unknown_and_something_unknown_alone_can_be_undecided() {
+    let with = |gain_over_unknown| {
+        decided(&Evidence {
+            beside_unknown: vec![beside(0, gain_over_unknown, 1000.0, 1000.0)],
+            ..evidence(vec![candidate(&[0], 480.0, 1000.0)], 2000.0, 850.0)
+        })
+    };
+    // from hardly any to clear evidence beside the discrepancy
+    let verdicts: Vec<Verdict> = (0..60).map(|i| with(f64::from(i)).verdict).collect();
+    let place = |verdict| verdicts.iter().position(|v| *v == verdict);
+    let (undecided, partial) = (place(Verdict::Ambiguous), place(Verdict::Partial));
+    assert_eq!(verdicts[0], Verdict::Unknown);
+    assert!(undecided < partial && undecided.is_some(), "{verdicts:?}");
+    let decision = with(undecided.unwrap() as f64);
+    let own = EffectSet::new([CATALOGUE[0]]);
+    let beside = Hypothesis::EffectsAndUnknown(own.clone());
+    assert!(decision.probability(&beside) > 0.45, "{decision:?}");
+    assert!(
+        decision.probability(&Hypothesis::Unknown) > 0.3,
+        "{decision:?}"
+    );
+    assert_eq!(decision.group, [beside, Hypothesis::Unknown]);
+    assert_eq!(decision.leading_effects(), Some(&own));
+}
+
 /// An effect that accounts for nine tenths is one; what it leaves beyond another form of it is said, what another form leaves is not.
 /// Figures of a made-up set with an ageing lubricant and a starved band of the flank, which no effect is: a pair with a load that ripples comes near
 /// and leaves a twentieth. Whatever the second cause, the first stands in every hypothesis of weight.

@@ -70,7 +70,11 @@ fn a_sheet_with_a_column_for_each_checkpoint_is_shown_and_then_written() {
         assert!(shown.contains(part), "no `{part}` in:\n{shown}");
     }
     assert!(!home.path().join("m.csv").exists());
-    succeed(&home, &format!("{PINION} -o m.csv"));
+    let told = succeed(&home, &format!("{PINION} -o m.csv"));
+    assert!(
+        told.ends_with("wrote m.csv: 5 rows\nnext: gearwear check study.toml\n"),
+        "{told}"
+    );
     assert_eq!(
         read(&home, "m.csv"),
         "test,member,cycles,quantity,position,value,sigma,trace\n\
@@ -98,9 +102,16 @@ fn a_sheet_with_a_column_for_each_checkpoint_is_shown_and_then_written() {
         "{rows}"
     );
     // a sheet that is a measurement file is one
-    succeed(
+    let told = succeed(
         &home,
         "import tables.xlsx --sheet rows --study study.toml -o rows.csv",
+    );
+    // which is not the one that the study reads
+    assert!(
+        told.contains(
+            "the study reads m.csv: put file = \"rows.csv\" under its [measurements]\nnext: "
+        ),
+        "{told}"
     );
     assert_eq!(
         read(&home, "rows.csv"),
@@ -188,7 +199,7 @@ fn headers_with_units_other_marks_and_repeated_measurements_are_read() {
         "radius;100000\n26,5;1,0\n",
     );
     assert!(
-        told.contains("0.2 um for each, and 30 % of the value"),
+        told.contains("0.2 um and 30 % of the value, as the root of their squares"),
         "{told}"
     );
     assert!(read(&home, "rel.csv").contains("26.5,1,0.3606,"));

@@ -120,9 +120,10 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             write_file(path, whole.as_bytes())?;
             let _ = writeln!(
                 text,
-                "wrote {}: {} rows\nnext: gearwear check {}",
+                "wrote {}: {} rows\n{}next: gearwear check {}",
                 path.display(),
                 all.observations.len(),
+                read_from(&study, &args.study, path),
                 args.study.display()
             );
             document["written"] = json!([path.display().to_string()]);
@@ -133,6 +134,28 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
         text,
         success: true,
     })
+}
+
+/// What is to be changed in a study, of that file, that does not read the file that was written; a line.
+fn read_from(study: &Study, file: &Path, written: &Path) -> String {
+    let is_same = |own: &Path| match (own.canonicalize(), written.canonicalize()) {
+        (Ok(own), Ok(written)) => own == written,
+        _ => own == written,
+    };
+    let reads = match &study.measurements {
+        Some(own) if is_same(own) => return String::new(),
+        Some(own) => format!("the study reads {}", own.display()),
+        None => "the study reads no measurements yet".to_owned(),
+    };
+    let whole = written.canonicalize();
+    let whole = whole.as_deref().unwrap_or(written);
+    let file = file.canonicalize().ok();
+    let folder = file.as_deref().and_then(Path::parent);
+    let from_study = folder.and_then(|folder| whole.strip_prefix(folder).ok());
+    format!(
+        "{reads}: put file = \"{}\" under its [measurements]\n",
+        from_study.unwrap_or(whole).display()
+    )
 }
 
 /// A sheet as either kind of table.

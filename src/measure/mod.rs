@@ -17,6 +17,7 @@ mod names;
 pub mod neighbours;
 mod observation;
 pub mod outliers;
+mod pooled_scatter;
 mod quantity;
 mod row_reader;
 mod sigma;

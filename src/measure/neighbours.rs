@@ -9,8 +9,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{FacePlace, Observation};
 
-/// Points on each side.
-const SIDE: usize = 4;
+/// Points on each side, where a curve has enough.
+pub(super) const SIDE: usize = 4;
 /// Fewest points of a curve that a parabola is laid through.
 const FEWEST: usize = 7;
 
@@ -46,12 +46,22 @@ pub fn curves(rows: &[&Observation]) -> Vec<Vec<usize>> {
 /// What the other points of a curve say of the one at `at`: points are (position, value, σ) by ascending position, those `passed_over` not
 /// asked. None where there are too few.
 pub fn around(points: &[[f64; 3]], at: usize, passed_over: &[bool]) -> Option<Neighbours> {
+    around_within(points, at, passed_over, SIDE)
+}
+
+/// The same of so many points on each side: fewer follow a curve that bends within a few points.
+pub(super) fn around_within(
+    points: &[[f64; 3]],
+    at: usize,
+    passed_over: &[bool],
+    side: usize,
+) -> Option<Neighbours> {
     if points.len() < FEWEST {
         return None;
     }
     let asked = |i: &usize| !passed_over[*i];
-    let before = (0..at).rev().filter(asked).take(SIDE);
-    let after = (at + 1..points.len()).filter(asked).take(SIDE);
+    let before = (0..at).rev().filter(asked).take(side);
+    let after = (at + 1..points.len()).filter(asked).take(side);
     let near: Vec<usize> = before.chain(after).collect();
     if near.len() < 4 {
         return None;

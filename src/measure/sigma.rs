@@ -1,18 +1,19 @@
 //! The σ of rows that state none, from what the measurements themselves tell of their noise.
 //!
 //! In this order: the scatter of a curve's points about what their neighbours lead one to expect ([`super::neighbours`]; of a value that has
-//! no position, about those before and after it in the test's life); values of the same quantity measured again at the same place and time;
+//! no position, about those before and after it in the test's life), pooled over the curves of its quantity ([`super::pooled_scatter`]); values of the same quantity measured again at the same place and time;
 //! the σ that other rows of the quantity state. If none of these tells it, the row is refused.
 
 use std::collections::BTreeMap;
 
 use super::Observation;
-use super::neighbours::{around, curves, points};
+use super::neighbours::{SIDE, around, around_within, curves, points};
+use super::pooled_scatter::{CurveScatter, ScatterLaw};
 use super::quantity::Quantity;
 
 /// Median of |x| of a standard normal number.
 const MEDIAN: f64 = 0.674_490;
-/// Points of a curve that give a scatter of their own; of shorter ones the middle of all curves of the quantity is taken.
+/// Points of a curve of which it can be told whether it has been filtered.
 const ENOUGH: usize = 15;
 /// Values measured again that give a scatter.
 const REPEATS: usize = 3;
@@ -103,7 +104,7 @@ pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, us
     Ok(estimated)
 }
 
-/// Of each row by the scatter of its curve, or of the quantity's middle curve; false where that is of other curves though its own has one.
+/// Of each row by the scatter of its curve and of the others of its quantity; false where it is of the others although its own has one.
 fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
     let rows: Vec<&Observation> = observations.iter().collect();
     let along = (curves(&rows).into_iter()).map(|curve| (points(&rows, &curve), curve));
@@ -111,42 +112,51 @@ fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
         let point = |&i: &usize| [rows[i].cycles, rows[i].value, 1.0];
         (own.iter().map(point).collect(), own)
     });
-    let mut found = vec![None; rows.len()];
     let mut quantities: BTreeMap<Quantity, Vec<Curve>> = BTreeMap::new();
     let all: Vec<(Vec<[f64; 3]>, Vec<usize>)> = along.chain(in_time).collect();
     for (points, own) in all {
-        if let Some([scatter, largest]) = scatter(&points) {
-            let quantity = quantities.entry(rows[own[0]].quantity).or_default();
-            quantity.push(Curve {
-                rows: own,
-                scatter,
-                largest,
-            });
-        }
+        let quantity = quantities.entry(rows[own[0]].quantity).or_default();
+        quantity.push(Curve {
+            scatter: scatter(&points),
+            largest: (points.iter()).fold(0.0, |most, point| most.max(point[1].abs())),
+            rows: own,
+        });
     }
-    for (quantity, curves) in &quantities {
-        let of =
-            |f: &dyn Fn(&Curve) -> f64| median(&mut curves.iter().map(f).collect::<Vec<f64>>());
-        let (middle, share) = (of(&|c| c.scatter), of(&|c| c.scatter / c.largest));
-        for curve in curves.iter().filter(|curve| curve.rows.len() >= ENOUGH) {
-            let others = middle.min(share * curve.largest);
-            let own = curve.scatter >= FILTERED * others;
-            let sigma = if own { curve.scatter } else { others };
-            (curve.rows.iter()).for_each(|&row| found[row] = Some((sigma, own)));
-        }
-        for (row, found) in found.iter_mut().enumerate() {
-            if rows[row].quantity == *quantity {
-                *found = found.or(Some((middle, true)));
-            }
+    let mut found = vec![None; rows.len()];
+    for curves in quantities.values() {
+        let all: Vec<CurveScatter> = curves.iter().filter_map(|curve| curve.scatter).collect();
+        let of = |f: &dyn Fn(&CurveScatter) -> f64| {
+            let mut values: Vec<f64> = all.iter().map(f).collect();
+            (!values.is_empty()).then(|| median(&mut values))
+        };
+        let (Some(middle), Some(share)) = (of(&|c| c.scatter), of(&|c| c.scatter / c.largest))
+        else {
+            continue;
+        };
+        let filtered = |c: &CurveScatter| {
+            c.points >= ENOUGH && c.scatter < FILTERED * middle.min(share * c.largest)
+        };
+        let raw: Vec<CurveScatter> = all.iter().filter(|c| !filtered(c)).copied().collect();
+        let Some(law) = ScatterLaw::through(&raw) else {
+            continue;
+        };
+        for curve in curves {
+            let sigma = match curve.scatter {
+                Some(scatter) if !filtered(&scatter) => (law.of(&scatter), true),
+                scatter => (law.at(curve.largest), scatter.is_none()),
+            };
+            curve.rows.iter().for_each(|&row| found[row] = Some(sigma));
         }
     }
     found
 }
 
-/// Rows of one curve, and how they scatter.
+/// Rows of one curve.
 struct Curve {
     rows: Vec<usize>,
-    scatter: f64,
+    /// None where it has too few points to tell.
+    scatter: Option<CurveScatter>,
+    /// Its largest absolute value.
     largest: f64,
 }
 
@@ -166,9 +176,25 @@ fn series(rows: &[&Observation]) -> Vec<Vec<usize>> {
     series
 }
 
-/// Scatter of a curve's points about what their neighbours lead one to expect, no less than a thousandth of its largest value, and that value.
+/// Points on each side that lead one to expect a value: a tenth of the curve's, since wear bends within a few of twenty points (with four on each
+/// side the scatter of such a curve comes out up to a half too large). Of a short curve all that there are.
+fn side(points: usize) -> usize {
+    if points < ENOUGH {
+        SIDE
+    } else {
+        (points / 10).clamp(2, SIDE)
+    }
+}
+
+/// Variance of the logarithm of such a scatter of independent normal points (2,000 draws each of 15 to 80 points: 2.65, 2.1 and 1.7 over their number
+/// with two, three and four on each side).
+fn variance(points: usize) -> f64 {
+    (0.75 + 3.8 / side(points) as f64) / points as f64
+}
+
+/// Scatter of a curve's points about what their neighbours lead one to expect, no less than a thousandth of its largest value.
 /// A point that stands far apart is left out: it is in the expectation of as many as it has neighbours, half a short curve.
-fn scatter(points: &[[f64; 3]]) -> Option<[f64; 2]> {
+fn scatter(points: &[[f64; 3]]) -> Option<CurveScatter> {
     let even: Vec<[f64; 3]> = points.iter().map(|[x, y, _]| [*x, *y, 1.0]).collect();
     let mut left_out = vec![false; even.len()];
     let (mut found, mut furthest) = middle_of_apart(&even, &left_out)?;
@@ -189,7 +215,12 @@ fn scatter(points: &[[f64; 3]]) -> Option<[f64; 2]> {
     }
     let kept = even.iter().zip(&left_out).filter(|(_, out)| !**out);
     let largest = kept.map(|(p, _)| p[1].abs()).fold(0.0, f64::max);
-    (largest > 0.0).then(|| [found.max(LEAST * largest), largest])
+    (largest > 0.0).then(|| CurveScatter {
+        scatter: found.max(LEAST * largest),
+        largest,
+        points: even.len(),
+        variance: variance(even.len()),
+    })
 }
 
 /// Scatter of the points that are not left out about what their neighbours lead one to expect, and the one that stands furthest apart.
@@ -197,7 +228,7 @@ fn middle_of_apart(even: &[[f64; 3]], left_out: &[bool]) -> Option<(f64, usize)>
     let apart = (0..even.len())
         .filter(|&at| !left_out[at])
         .filter_map(|at| {
-            let found = around(even, at, left_out)?;
+            let found = around_within(even, at, left_out, side(even.len()))?;
             Some((at, (even[at][1] - found.expected).abs() / found.sigma))
         });
     let apart: Vec<(usize, f64)> = apart.collect();
@@ -256,8 +287,9 @@ mod tests {
         let clean: Vec<[f64; 3]> = (0..16).map(|i| [i as f64, value(i), 1.0]).collect();
         let mut slipped = clean.clone();
         slipped[7][1] *= 10.0;
-        let [of_clean, largest] = scatter(&clean).unwrap();
-        let [of_slipped, same] = scatter(&slipped).unwrap();
+        let [of_clean, of_slipped] = [&clean, &slipped].map(|points| scatter(points).unwrap());
+        let (largest, same) = (of_clean.largest, of_slipped.largest);
+        let (of_clean, of_slipped) = (of_clean.scatter, of_slipped.scatter);
         assert!((0.03..0.2).contains(&of_clean), "{of_clean}");
         assert!(
             (of_slipped / of_clean - 1.0).abs() < 0.5,

@@ -373,10 +373,18 @@ fn parameters(entry: &Ranked) -> String {
         .parameters
         .iter()
         .map(|p| {
+            let figure = match p.skewed_interval() {
+                Some([low, high]) => format!(
+                    "{} (95 %: {} to {})",
+                    with_unit(significant(p.value, 3), &p.unit),
+                    significant(low, 3),
+                    significant(high, 3)
+                ),
+                None => with_unit(uncertain(p.value, p.sigma), &p.unit),
+            };
             format!(
-                "{} = {}{}",
+                "{} = {figure}{}",
                 p.name,
-                with_unit(uncertain(p.value, p.sigma), &p.unit),
                 if p.at_bound { " (bound)" } else { "" }
             )
         })

@@ -164,7 +164,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
 
     number("lubricant", "viscosity", &q::VISCOSITY, NOT_STATED, "dynamic, at the operating temperature"),
     number("lubricant", "pressure_viscosity", &q::PRESSURE_VISCOSITY, NOT_STATED, "pressure viscosity coefficient"),
-    number("lubricant", "roughness", &q::ROUGHNESS, NOT_STATED, "composite Rq of both flanks"),
+    number("lubricant", "roughness", &q::ROUGHNESS, NOT_STATED, "composite Rq of both flanks, sqrt(Rq1^2 + Rq2^2); of a stated Ra, Rq is about 1.25 Ra (normal heights: sqrt(pi/2))"),
     number("lubricant", "friction_coefficient", &q::FRICTION, NOT_STATED, "coefficient of friction"),
 
     number("thermal", "bulk_temperature", &q::TEMPERATURE, NOT_STATED, "bulk temperature of the teeth"),

@@ -175,10 +175,14 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
 
 /// A table that is read as the one before it.
 pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
-    let of = |name: fn(&Entry) -> String| {
-        let names: BTreeSet<String> = entries.iter().map(name).collect();
+    let of = |name: fn(&Entry) -> &str| {
+        let names: BTreeSet<&str> = entries.iter().map(name).collect();
         names.into_iter().collect::<Vec<_>>().join(", ")
     };
+    let mut times: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let times: Vec<String> = times.iter().map(f64::to_string).collect();
     let mut text = String::new();
     let words = format!(
         "{table}, read alike: {}, {} of {} in {} after {}",
@@ -186,10 +190,10 @@ pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
             1 => "1 row".to_owned(),
             n => format!("{n} rows"),
         },
-        of(|entry| entry.quantity.name().to_owned()),
-        of(|entry| entry.member.name().to_owned()),
+        of(|entry| entry.quantity.name()),
+        of(|entry| entry.member.name()),
         of_tests(entries),
-        of(|entry| entry.cycles.to_string()),
+        times.join(", "),
     );
     line(&mut text, "table", &words);
     text
@@ -253,7 +257,7 @@ fn stated_sigma(args: &ImportArgs, unit: &str) -> String {
         (None, false) => "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned(),
         (None, true) => share,
         (Some(sigma), false) => format!("{sigma} {unit} for each"),
-        (Some(sigma), true) => format!("{sigma} {unit} for each, and {share}"),
+        (Some(sigma), true) => format!("{sigma} {unit} and {share}, as the root of their squares"),
     }
 }
 

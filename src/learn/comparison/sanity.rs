@@ -30,6 +30,8 @@ const NEAR_TEETH: f64 = 1.7;
 const COEFFICIENTS: [f64; 2] = [1e-13, 1e-5];
 /// Factor between the fitted k and the stated one from which a unit is likelier than a poor guess.
 const FAR_FROM_STATED: f64 = 300.0;
+/// σ over the largest value that no instrument of wear has.
+const TOO_SURE: f64 = 3e-5;
 /// Misfit beyond the noise, in its standard deviations, and share of it that constants must explain to be told.
 const REAL: f64 = 10.0;
 const CONSTANTS: f64 = 0.85;
@@ -40,13 +42,18 @@ const BETTER_THAN_FACTORS: f64 = 0.5;
 
 /// All that there is to say, the worst first.
 pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    // all else would follow from it
+    if let Some(other) = single_tests::cycles_in_another_unit(study, data) {
+        return vec![other];
+    }
     let of_one_k = of_one_k(data, fit);
     let rows: Vec<Fitted<'_>> = data.observations.iter().zip(&of_one_k).collect();
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
     if said.is_empty() {
-        let of_tests = single_tests::depths_and_masses(study, &rows);
+        let k = fit.coefficient;
+        let of_tests = single_tests::depths_and_masses(study, &rows, k);
         said.extend(
-            of_tests.unwrap_or_else(|| depths_and_masses(study, &rows).into_iter().collect()),
+            of_tests.unwrap_or_else(|| depths_and_masses(study, &rows, k).into_iter().collect()),
         );
         said.extend(other_units(study, &rows));
         said.extend(coefficient(fit.coefficient));
@@ -65,6 +72,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             &fitted(data, fit),
         ));
     }
+    said.extend(too_sure(data));
     said.extend(gear_revolutions(study, data));
     said.extend(single_tests::short_of_their_cycles(study, data));
     said
@@ -202,8 +210,33 @@ fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
     said
 }
 
-/// Depths and masses of a member that call for different coefficients.
-fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<String> {
+/// Quantities of which a sigma is stated that no instrument has: in another unit than the value.
+fn too_sure(data: &Dataset) -> Vec<String> {
+    let mut of: BTreeMap<Quantity, (f64, Vec<f64>)> = BTreeMap::new();
+    for o in &data.observations {
+        let (largest, sigmas) = of.entry(o.quantity).or_default();
+        *largest = largest.max(o.value.abs());
+        sigmas.push(o.sigma);
+    }
+    (of.into_iter())
+        .filter_map(|(quantity, (largest, mut sigmas))| {
+            sigmas.sort_by(f64::total_cmp);
+            let middle = sigmas[sigmas.len() / 2];
+            (middle < TOO_SURE * largest).then(|| {
+                format!(
+                    "sigma of {} is about {middle:.1e} {} where values go up to {} {}: is it in another unit than the values?",
+                    quantity.name(),
+                    quantity.unit(),
+                    rounded(largest),
+                    quantity.unit()
+                )
+            })
+        })
+        .collect()
+}
+
+/// Depths and masses of a member that call for different coefficients; `k`: the fitted one.
+fn depths_and_masses(study: &Study, rows: &[Fitted<'_>], k: f64) -> Option<String> {
     let of = |member: Subject| {
         let depth = scale(rows, Quantity::WearDepth, Some(member))?;
         let mass = scale(rows, Quantity::MassLoss, Some(member))?;
@@ -216,34 +249,46 @@ fn depths_and_masses(study: &Study, rows: &[Fitted<'_>]) -> Option<String> {
         } else {
             all
         };
-        (sure && (one > 1.0) == (all > 1.0)).then_some(nearer)
+        let far = |scale: f64| (k * scale / study.wear.coefficient).ln().abs();
+        let masses_first = far(mass.factor) >= far(depth.factor);
+        (sure && (one > 1.0) == (all > 1.0)).then_some((nearer, masses_first))
     };
     let gears = &study.gears;
     let members = [
         (Subject::Pinion, gears.pinion.spec.teeth),
         (Subject::Gear, gears.gear.spec.teeth),
     ];
-    let ratios: Vec<(Subject, f64, f64)> = members
+    let ratios: Vec<(Subject, f64, (f64, bool))> = members
         .into_iter()
         .filter_map(|(member, teeth)| Some((member, f64::from(teeth), of(member)?)))
         .collect();
-    let (member, teeth, ratio) =
-        (ratios.iter().copied()).max_by(|a, b| a.2.ln().abs().total_cmp(&b.2.ln().abs()))?;
+    let (member, teeth, (ratio, masses_first)) =
+        (ratios.iter().copied()).max_by(|a, b| a.2.0.ln().abs().total_cmp(&b.2.0.ln().abs()))?;
     if ratio.ln().abs() < FACTOR.ln() {
         return None;
     }
     // what else is missing may pull at one member, hardly at both alike
-    let one_tooth =
-        |(_, teeth, ratio): &(Subject, f64, f64)| (ratio / teeth).ln().abs() < NEAR_TEETH.ln();
+    let one_tooth = |(_, teeth, (ratio, _)): &(Subject, f64, (f64, bool))| {
+        (ratio / teeth).ln().abs() < NEAR_TEETH.ln()
+    };
     let of_one_tooth = ratios.len() > 1 && ratios.iter().all(one_tooth);
+    // what is farther from the stated k is likelier to be off
     let known = [
         (
             1e3,
-            "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm)",
+            if masses_first {
+                "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm)"
+            } else {
+                "the depths look like nm: they are wanted in µm (or the masses like g, wanted in mg)"
+            },
         ),
         (
             1e-3,
-            "the depths look like mm: they are wanted in µm (or the masses like µg, wanted in mg)",
+            if masses_first {
+                "the masses look like µg, or like mg that were taken for g: they are wanted in mg (or the depths like mm, wanted in µm)"
+            } else {
+                "the depths look like mm: they are wanted in µm (or the masses like µg, or like mg that were taken for g; wanted in mg)"
+            },
         ),
         (1e6, "the masses look like kg: they are wanted in mg"),
         (

@@ -2,7 +2,7 @@
 
 use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
 use super::rule::DecisionRule;
-use super::verdict::{Decision, Verdict, decide};
+use super::verdict::{Decision, decide};
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
@@ -93,8 +93,8 @@ impl Posterior {
         &'p self,
         base: &'p BaseFit,
     ) -> Option<&'p FittedCandidate> {
-        match (self.decision.verdict, self.decision.group.first()) {
-            (Verdict::Partial, Some(first)) => self.fitted(base, first),
+        match self.decision.group.first() {
+            Some(first @ Hypothesis::EffectsAndUnknown(_)) => self.fitted(base, first),
             _ => self.leader(),
         }
     }

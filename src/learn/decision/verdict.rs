@@ -36,8 +36,10 @@
 //! effect, effects   p(0) < doubt and p₁ ≥ claim
 //! partial           p(0) < doubt, and what holds the most probable effect beside something unknown (that, the effect alone, and every set
 //!                   with it) ≥ claim, unless it is alike no more; or all those beside something unknown together: then they are a group
-//! unknown           p(u) ≥ Σ and p(u) ≥ p(0)                  p(u): with all that stands beside something unknown
-//! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone)
+//! unknown           p(u) ≥ Σ and p(u) ≥ p(0), unless what holds the most probable effect beside something unknown is more probable than
+//!                   something unknown alone                   p(u): with all that stands beside something unknown
+//! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone);
+//!                   if that exception holds, the effect beside something unknown and something unknown alone
 //! ```
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -102,11 +104,11 @@ impl Decision {
         self.effects.first()
     }
 
-    /// The effects that a person is shown as the leading ones: of the verdict `partial` those that something unknown stands beside, else
+    /// The effects that a person is shown as the leading ones: those that something unknown stands beside where such lead the group, else
     /// the most probable effect or set.
     pub fn leading_effects(&self) -> Option<&EffectSet> {
-        match (self.verdict, self.group.first()) {
-            (Verdict::Partial, Some(Hypothesis::EffectsAndUnknown(effects))) => Some(effects),
+        match self.group.first() {
+            Some(Hypothesis::EffectsAndUnknown(effects)) => Some(effects),
             _ => self.leader(),
         }
     }
@@ -132,6 +134,11 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
     let verdict = verdict(&mass, &effects, &remainders, &log_probabilities, rule);
     let group = match verdict {
         Verdict::NothingMissing | Verdict::Unknown => Vec::new(),
+        Verdict::Ambiguous if mass.is_unnamed() => {
+            let (leader, _) = remainders[0];
+            let leader = Hypothesis::EffectsAndUnknown(leader.clone());
+            vec![leader, Hypothesis::Unknown]
+        }
         Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => {
             look_alikes(verdict, &mass, &effects, &log_of, rule)
         }
@@ -166,6 +173,14 @@ struct Mass {
     leading: f64,
     /// All effects beside something unknown.
     partial: f64,
+}
+
+impl Mass {
+    /// Whether something unknown, alone or beside an effect, is more probable than nothing missing and than all that the catalogue names alone.
+    fn is_unnamed(&self) -> bool {
+        let unknown = self.unknown + self.partial;
+        unknown >= self.named && unknown >= self.nothing
+    }
 }
 
 /// The first verdict of which the condition holds.
@@ -205,7 +220,8 @@ fn verdict(
             return Verdict::Partial;
         }
     }
-    if unknown >= named && unknown >= nothing {
+    let alone_is_less = |&(effect, _): &(&EffectSet, f64)| held(logs, effect) > mass.unknown;
+    if mass.is_unnamed() && !remainders.first().is_some_and(alone_is_less) {
         Verdict::Unknown
     } else {
         Verdict::Ambiguous

@@ -1,6 +1,7 @@
 //! A learned law in words.
 
 use super::diagnosis::Diagnosis;
+use crate::effects::variables;
 use crate::learn::fidelity::Fidelity;
 use crate::learn::model_search::learned_drivers::LearnedAnswer;
 
@@ -63,13 +64,15 @@ fn said(learned: &LearnedAnswer) -> String {
     let other = others.find(|other| other.decided_by == learned.decided_by);
     let next = other.map_or(String::new(), |other| {
         format!(
-            "; ln evidence of the next driver, {}, is lower by {:.0}",
+            "; ln evidence of the next driver that was judged so, {}, is lower by {:.0}",
             other.name.trim_start_matches("learned:"),
             learned.evidence_gain - other.evidence_gain
         )
     });
+    let variable = variables::find(&learned.driver);
+    let meaning = variable.map_or(String::new(), |v| format!(" ({})", v.meaning));
     format!(
-        "A learned law: k times {:.2} to {:.2}{on}, following {}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{not}",
+        "A learned law: k times {:.2} to {:.2}{on}, following {}{meaning}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{not}",
         least.exp(),
         most.exp(),
         learned.driver

@@ -67,6 +67,9 @@ impl Ranked {
     }
 }
 
+/// σ over the value from which ± hides more than it says.
+const WIDE: f64 = 0.5;
+
 /// A fitted parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ParameterValue {
@@ -74,12 +77,24 @@ pub struct ParameterValue {
     pub name: String,
     /// Most probable value.
     pub value: f64,
-    /// One standard deviation.
+    /// One standard deviation; on a logarithmic scale the value times that of its logarithm.
     pub sigma: f64,
+    /// The central 95 %, on the parameter's natural scale; None in documents of older programs.
+    #[serde(default)]
+    pub interval_95: Option<[f64; 2]>,
     /// Unit.
     pub unit: String,
     /// Whether it lies on a bound.
     pub at_bound: bool,
+}
+
+impl ParameterValue {
+    /// The ends of its interval where value ± σ would say less: a positive quantity that is known by its size only.
+    pub fn skewed_interval(&self) -> Option<[f64; 2]> {
+        let one_sign = |[low, high]: &[f64; 2]| low * high > 0.0;
+        let wide = self.sigma > WIDE * self.value.abs();
+        self.interval_95.filter(|ends| wide && one_sign(ends))
+    }
 }
 
 /// The ranking, the most probable first.
@@ -169,6 +184,7 @@ pub(in crate::learn) fn parameters(fitted: &FittedCandidate) -> Vec<ParameterVal
                 },
                 value: estimate.value,
                 sigma: estimate.sigma,
+                interval_95: Some(estimate.interval),
                 unit: estimate.unit,
                 at_bound: estimate.at_bound,
             }

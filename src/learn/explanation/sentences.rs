@@ -264,7 +264,8 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
         .map(|(hypothesis, p)| format!("{} ({})", hypothesis.in_words(), percent(*p)))
         .collect();
     let doubted = decision.group.contains(&Hypothesis::Unknown);
-    let leader = posterior.leader().filter(|_| doubted);
+    let leader = decision.leading_effects().filter(|_| doubted);
+    let leader = leader.and_then(|effects| posterior.best_form(effects));
     let unidentified = leader.and_then(|j| unidentified(&findings.context.likelihood, j));
     let reason = match (unidentified, leader, posterior.share_of_leader()) {
         (Some((card, parameter)), ..) => Some(format!(

@@ -45,10 +45,28 @@ pub(super) fn values(j: &FittedCandidate) -> String {
             } else {
                 format!(" {}", p.unit)
             };
-            format!("{} {}{unit}", p.name, uncertain(p.value, p.sigma))
+            match p.skewed_interval() {
+                Some([low, high]) => format!(
+                    "{} {}{unit} (95 %: {} to {})",
+                    p.name,
+                    short(p.value),
+                    short(low),
+                    short(high)
+                ),
+                None => format!("{} {}{unit}", p.name, uncertain(p.value, p.sigma)),
+            }
         })
         .collect();
     all.join(", ")
+}
+
+/// A value to three digits.
+fn short(value: f64) -> String {
+    if !(1e-2..1e6).contains(&value.abs()) {
+        return format!("{value:.2e}");
+    }
+    let digits = (2.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
+    grouped(value, digits)
 }
 
 /// The commands that add a candidate's effects in its forms, one after the other.
