@@ -302,6 +302,30 @@ fn an_effect_beside_something_unknown_and_something_unknown_alone_can_be_undecid
     assert_eq!(decision.leading_effects(), Some(&own));
 }
 
+/// Figures of half the points of a set that hides `sliding_speed_exponent` (d 8): noise has moved its share of a weak discrepancy to six tenths. That
+/// something remains beside it is denied by evidence, so it is not passed over; where evidence speaks for a remainder, it is.
+#[test]
+fn a_small_share_of_a_weak_discrepancy_is_undecided_where_evidence_denies_a_remainder() {
+    let own = place("sliding_speed_exponent");
+    let with = |remainder_gain| {
+        decided(&Evidence {
+            attainable_spread: 27.9,
+            beside_unknown: vec![RemainderEvidence {
+                remainder_gain,
+                remaining_spread: 27.9,
+                ..beside(own, 6.2, 84.8, 64.9)
+            }],
+            ..evidence(vec![candidate(&[own], 38.7, 84.8)], 146.4, 21.4)
+        })
+    };
+    let decision = with(-3.0);
+    assert_eq!(decision.verdict, Verdict::Ambiguous, "{decision:?}");
+    let effects = EffectSet::new([CATALOGUE[own]]);
+    assert!(decision.probability_in_all(&effects) > 0.5, "{decision:?}");
+    assert!(decision.group.contains(&Hypothesis::Unknown));
+    assert_eq!(with(5.0).verdict, Verdict::Unknown);
+}
+
 /// An effect that accounts for nine tenths is one; what it leaves beyond another form of it is said, what another form leaves is not.
 /// Figures of a made-up set with an ageing lubricant and a starved band of the flank, which no effect is: a pair with a load that ripples comes near
 /// and leaves a twentieth. Whatever the second cause, the first stands in every hypothesis of weight.

@@ -7,7 +7,7 @@
 //!
 //! ```text
 //! ln σ = (ln s/v + ln(a + b L)/τ²)/(1/v + 1/τ²),   v: variance of ln s
-//! τ² = max(0, (Σ w r² − (N − p))/Σ w),             w = 1/v, r = ln s − ln(a + b L), p = 2 terms
+//! τ² = max(0, (Σ w r² − (N − p))/(Σ w − Σ w²/Σ w)),   w = 1/v, r = ln s − ln(a + b L), p = 2 terms
 //! ```
 //! Where curves differ by more than chance τ² is large and each keeps its own. Of few curves the law has one term, the better of the two.
 
@@ -44,6 +44,9 @@ impl ScatterLaw {
     /// Through `curves`; None where there is none.
     pub(super) fn through(curves: &[CurveScatter]) -> Option<Self> {
         let unit = curves.iter().fold(0.0, |most: f64, c| most.max(c.largest));
+        if curves.is_empty() {
+            return None;
+        }
         let (steps, terms) = if curves.len() < FEWEST {
             (1, 1)
         } else {
@@ -69,13 +72,16 @@ impl ScatterLaw {
                 (squares.sum::<f64>(), floor * mean.exp(), share * mean.exp())
             })
             .min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let squared = weights.iter().map(|w| w * w).sum::<f64>();
+        let freedom = curves.len() as f64 - terms as f64;
         Some(Self {
             floor,
             share,
             least: curves
                 .iter()
                 .fold(f64::INFINITY, |least, c| least.min(c.largest)),
-            between: ((misfit - (curves.len() as f64 - terms as f64)) / total).max(0.0),
+            // of one curve neither is more than nothing
+            between: ((misfit - freedom) / (total - squared / total)).max(0.0),
         })
     }
 

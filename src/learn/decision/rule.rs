@@ -31,6 +31,10 @@ pub struct DecisionRule {
     pub single_share_width: f64,
     /// Standard deviations of the share that count in a single effect's favour.
     pub single_share_spreads: f64,
+    /// ln Z(effect and discrepancy) − ln Z(effect) below which evidence denies a remainder: then a small share leaves a single effect and
+    /// something unknown at even odds, since noise alone moves the share of a weak discrepancy that far; this much above, the share counts
+    /// in full by a unit of its ln odds for each of ln Z.
+    pub remainder_denied: f64,
     /// Least share for two effects together: with twice the freedom they come nearer to anything; pairs that were really there
     /// accounted for all of it.
     pub pair_share: f64,
@@ -73,6 +77,7 @@ impl Default for DecisionRule {
             single_share: 0.85,
             single_share_width: 0.03,
             single_share_spreads: 1.0,
+            remainder_denied: -1.0,
             pair_share: 0.95,
             pair_share_width: 0.025,
             pair_share_spreads: 1.5,

@@ -6,7 +6,8 @@
 //! q(c) = exp(Δ ln Z_c) π_c/forms_c              π_c: prior of singles (pairs) over the number of single effects (pairs)
 //! t(c) = q* (q(c)/q*)^(1/T)                     q* the largest q
 //! s(c) = Δχ²_c/A,  δ = sd(A)/max(A, 1)          A: attainable fall of χ²; s = 1 if A < 5 sd(A)
-//! x(c) = (s_min − s(c) − m δ)/width             ln odds that such a share is not the missing effect's own
+//! x(c) = (s_min − s(c) − m δ)/width             ln odds that such a share is not the missing effect's own; of a single effect at most
+//!        max(0, ln Z_R(c) − ln Z_c − r)         R(c): the same beside a discrepancy. Evidence that denies a remainder leaves even odds
 //! y(c) = (r_min − r(c))/width                   for pairs: r the fall of χ² added to the stronger effect's alone, over that fall
 //! S(x) = 1/(1 + eˣ)
 //!
@@ -50,6 +51,9 @@ use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::numeric::logarithm::{log_sum_exp, softplus};
+
+/// Fall of χ² by which another form of an effect may be behind and leave as much.
+const LEAVES_AS_MUCH: f64 = 1.0;
 
 /// What is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -134,9 +138,8 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
     let verdict = verdict(&mass, &effects, &remainders, &log_probabilities, rule);
     let group = match verdict {
         Verdict::NothingMissing | Verdict::Unknown => Vec::new(),
-        Verdict::Ambiguous if mass.is_unnamed() => {
-            let (leader, _) = remainders[0];
-            let leader = Hypothesis::EffectsAndUnknown(leader.clone());
+        Verdict::Ambiguous if mass.is_unnamed() && remainders[0].1 > mass.leading => {
+            let leader = Hypothesis::EffectsAndUnknown(remainders[0].0.clone());
             vec![leader, Hypothesis::Unknown]
         }
         Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => {
@@ -316,8 +319,12 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
         let share = evidence.share(c);
         let odds = match c.effects.single() {
             Some(_) => {
-                (rule.single_share - share - rule.single_share_spreads * doubt)
-                    / rule.single_share_width
+                let odds = (rule.single_share - share - rule.single_share_spreads * doubt)
+                    / rule.single_share_width;
+                match remainder_gain(evidence, c) {
+                    Some(gain) => odds.min((gain - rule.remainder_denied).max(0.0)),
+                    None => odds,
+                }
             }
             None => {
                 (rule.pair_share - share - rule.pair_share_spreads * doubt) / rule.pair_share_width
@@ -355,6 +362,14 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
     (logs.into_iter())
         .map(|(hypothesis, log)| (hypothesis, log - total))
         .collect()
+}
+
+/// ln evidence for a remainder beside a form of a single effect, where one that leaves as much or more was fitted beside a discrepancy.
+fn remainder_gain(evidence: &Evidence, c: &CandidateEvidence) -> Option<f64> {
+    let mut fitted = evidence.beside_unknown.iter();
+    let own =
+        fitted.find(|r| r.effects == c.effects && r.chi2_drop <= c.chi2_drop + LEAVES_AS_MUCH);
+    own.map(|r| r.remainder_gain)
 }
 
 /// Shares the weight of the unknown, and of effects that leave something, with effects beside something unknown.

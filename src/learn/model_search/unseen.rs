@@ -16,8 +16,10 @@ use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::quadratic::State;
 
-/// Share of the attainable fall of χ² below which nothing explains what is there.
+/// Share of the attainable fall of χ² below which nothing explains what is there, and standard deviations of the attainable that count in an
+/// explanation's favour: of a weak discrepancy noise alone moves the share by more than a tenth.
 const EXPLAINED: f64 = 0.85;
+const SPREADS: f64 = 0.5;
 /// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face or on single teeth is too little
 /// for a fit; and that of one start with either sign for a look at the others.
 const ROUGH_SHARE: f64 = 0.2;
@@ -43,7 +45,7 @@ impl Context<'_> {
         if smooth.drop < smooth.spread() {
             return refined;
         }
-        let explained = most > EXPLAINED * smooth.drop;
+        let explained = most + SPREADS * smooth.spread() > EXPLAINED * smooth.drop;
         let leader = (refined.iter()).max_by(|a, b| a.log_evidence.total_cmp(&b.log_evidence));
         let forms_are_one = self.likelihood.states_places_across_the_face();
         let looked_at = |judged: &FittedCandidate| {
