@@ -165,8 +165,11 @@ fn sentence(plan: &Plan) -> &str {
 
 /// A figure of the table; what is enough for certain is a bound, for the mean counts no pair higher.
 fn capped(chi2: f64, digits: usize) -> String {
-    let bound = if chi2 >= ENOUGH { "≥ " } else { "" };
-    format!("{bound}{}", significant(chi2.min(ENOUGH), digits))
+    if chi2 >= ENOUGH {
+        format!("≥ {ENOUGH}")
+    } else {
+        significant(chi2, digits)
+    }
 }
 
 fn least(row: &RankedTest) -> f64 {

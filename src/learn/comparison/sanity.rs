@@ -210,10 +210,11 @@ fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
     said
 }
 
-/// Quantities of which a sigma is stated that no instrument has: in another unit than the value.
+/// Depths or masses of which a sigma is stated that no instrument has: in another unit than the value.
 fn too_sure(data: &Dataset) -> Vec<String> {
     let mut of: BTreeMap<Quantity, (f64, Vec<f64>)> = BTreeMap::new();
-    for o in &data.observations {
+    let wears = |o: &&Observation| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss);
+    for o in data.observations.iter().filter(wears) {
         let (largest, sigmas) = of.entry(o.quantity).or_default();
         *largest = largest.max(o.value.abs());
         sigmas.push(o.sigma);
