@@ -565,7 +565,7 @@ fn a_sigma_that_is_not_stated_is_estimated_from_the_neighbours() {
     }
     let data = parse(&text).unwrap();
     for o in &data.observations {
-        assert!((o.sigma / truth - 1.0).abs() < 0.15, "{}", o.sigma);
+        assert!((o.sigma / truth - 1.0).abs() < 0.25, "{}", o.sigma);
     }
     let mean = data.observations.iter().map(|o| o.sigma).sum::<f64>() / 360.0;
     assert!((mean / truth - 1.0).abs() < 0.12, "{mean}");
@@ -588,7 +588,7 @@ fn an_estimated_sigma_follows_the_law_of_all_traces() {
             let radius = 25.7 + 0.13 * f64::from(point);
             let shape = 0.8 + 0.2 * (1.7 * radius).sin();
             let wear = f64::from(trace) * shape + sigma(trace) * normal(&mut random);
-            text += &format!("A,pinion,{trace}00000,wear_depth,{radius},{wear},,A-p-{trace}\n");
+            text += &format!("A,pinion,{trace}0000,wear_depth,{radius},{wear},,A-p-{trace}\n");
         }
     }
     let data = parse(&text).unwrap();

@@ -216,7 +216,7 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     let shows = |card: &&'static Card| format!("How {} shows: {}.", card.name, card.signature);
     Explanation {
         sentence: format!(
-            "{} missing: {} (probability {}). With it χ² per point falls from {:.2} to {:.2}; {}.",
+            "{} missing: {} (probability {}). With {} χ² per point falls from {:.2} to {:.2}; {}.",
             if several {
                 "These effects are"
             } else {
@@ -224,6 +224,7 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
             },
             candidate.effects.in_words(),
             percent((findings.posterior.decision).probability_of(&candidate.effects)),
+            if several { "them" } else { "it" },
             before(findings),
             chi2(findings, leader),
             values(leader)

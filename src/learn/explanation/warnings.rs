@@ -167,8 +167,11 @@ fn unheard_of(leader: &FittedCandidate) -> impl Iterator<Item = String> {
         let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
         (value < low || value > high).then(|| {
             format!(
-                "{} would be {value:.3e}, known are {low:.3e} to {high:.3e}: the name holds only if such a size makes sense here",
-                parameter.name
+                "{} would be {}, known are {} to {}: the name holds only if such a size makes sense here",
+                parameter.name,
+                short(value),
+                short(low),
+                short(high)
             )
         })
     })

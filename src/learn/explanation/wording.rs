@@ -49,9 +49,9 @@ pub(super) fn values(j: &FittedCandidate) -> String {
                 Some([low, high]) => format!(
                     "{} {}{unit} (95 %: {} to {})",
                     p.name,
-                    short(p.value),
-                    short(low),
-                    short(high)
+                    three_digits(p.value),
+                    three_digits(low),
+                    three_digits(high)
                 ),
                 None => format!("{} {}{unit}", p.name, uncertain(p.value, p.sigma)),
             }
@@ -61,7 +61,7 @@ pub(super) fn values(j: &FittedCandidate) -> String {
 }
 
 /// A value to three digits.
-fn short(value: f64) -> String {
+fn three_digits(value: f64) -> String {
     if !(1e-2..1e6).contains(&value.abs()) {
         return format!("{value:.2e}");
     }
