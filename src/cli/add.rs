@@ -20,7 +20,7 @@ use self::drafts::{Draft, card, draft, forms, setting, settings};
 use self::outcome::{Fitted, Report, fitted};
 use self::target::{is_free, target, writable, write_whole};
 use super::{CliError, Context, Outcome, inputs};
-use crate::learn::diagnose::Decided;
+use crate::learn::diagnose::{Decided, Verdict};
 use crate::learn::{AddedForm, ModelVersion};
 use crate::measure::Dataset;
 use crate::study::{Study, WEAR_COEFFICIENT, rounded};
@@ -96,7 +96,28 @@ fn fit(
     let addition = crate::learn::add(&drafts[0].study, data, &forms, &|doing, form| {
         super::fitting::show_form(&progress, doing, drafts[form].form());
     })?;
-    Ok(fitted(drafts, &addition))
+    let mut fitted = fitted(drafts, &addition);
+    fitted.text += &decided.map_or(String::new(), |decided| named_otherwise(effect, decided));
+    Ok(fitted)
+}
+
+/// What a finished diagnosis of the same inputs names, if that is not the effect; a line.
+fn named_otherwise(effect: &str, decided: &Decided) -> String {
+    let first = decided.ranking.first();
+    let other = first.filter(|first| {
+        let named = matches!(
+            decided.verdict,
+            Verdict::Effect | Verdict::Effects | Verdict::Partial
+        );
+        named && !first.effect.split('+').any(|name| name == effect)
+    });
+    other.map_or(String::new(), |other| {
+        format!(
+            "  the diagnosis of these measurements names {} ({:.1} %), not this\n",
+            other.effect,
+            100.0 * other.probability
+        )
+    })
 }
 
 /// The command with its fit, which is asked only if a parameter has no set value.

@@ -252,7 +252,7 @@ fn told(
         ));
     }
     lines.push(String::new());
-    if sanity.is_empty() {
+    if sanity.is_empty() && warnings.is_empty() {
         lines.push(right(data).to_owned());
     }
     for suspect in sanity {

@@ -6,6 +6,7 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod mass_balance;
 mod single_tests;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -55,6 +56,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         said.extend(
             of_tests.unwrap_or_else(|| depths_and_masses(study, &rows, k).into_iter().collect()),
         );
+        if said.is_empty() {
+            said.extend(mass_balance::masses_and_depths(study, data));
+        }
         said.extend(other_units(study, &rows));
         said.extend(coefficient(fit.coefficient));
         if said.is_empty() {

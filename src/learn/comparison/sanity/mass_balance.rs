@@ -1,0 +1,122 @@
+//! Masses held against the depths of the same member, test and time, without a model of wear.
+//!
+//! ```text
+//! m = ρ b z ∫ max(h, 0) ds,   ds = r dr/r_b        of an involute; h the depth of the mean curve
+//! ```
+//! A curve may cover a part of the flank and its zero may be off, so that only factors as between units are told.
+
+use std::collections::BTreeMap;
+
+use super::{SAME_CYCLES, rounded};
+use crate::gear::Gear;
+use crate::measure::neighbours::curves;
+use crate::measure::{Dataset, Observation, Quantity, Subject};
+use crate::study::Study;
+
+/// Factor between a mass and that of the depths from which it is a unit's.
+const FACTOR: f64 = 200.0;
+/// How far from a known factor it is told by name.
+const NEAR: f64 = 3.0;
+/// Standard deviations from which a depth, or a mass that is too large, is no noise.
+const SURE: f64 = 5.0;
+
+/// Tests of which the masses are hundreds of times more or less than the depths make up.
+pub(super) fn masses_and_depths(study: &Study, data: &Dataset) -> Option<String> {
+    let ratios = ratios(study, data);
+    let middle = |logs: &Vec<f64>| {
+        let mut logs = logs.clone();
+        logs.sort_by(f64::total_cmp);
+        logs[logs.len() / 2]
+    };
+    let all: Vec<(usize, f64)> = ratios
+        .iter()
+        .map(|(test, logs)| (*test, middle(logs)))
+        .collect();
+    let far = |(_, log): &&(usize, f64)| log.abs() > FACTOR.ln();
+    let (_, first) = *all.iter().find(far)?;
+    let alike = |found: &&(usize, f64)| far(found) && (found.1 > 0.0) == (first > 0.0);
+    let off: Vec<&str> = (all.iter().filter(alike))
+        .map(|(test, _)| study.tests[*test].id.as_str())
+        .collect();
+    let near = |factor: f64| (first.abs() - factor.ln()).abs() < NEAR.ln();
+    let hint = match first > 0.0 {
+        true if near(1e3) => {
+            "the masses look like µg, or like mg that were taken for g: they are wanted in mg (or the depths like mm, wanted in µm)"
+        }
+        false if near(1e3) => {
+            "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm)"
+        }
+        false if near(1e6) => "the masses look like kg: they are wanted in mg",
+        _ => "look at their units (mg and µm), at density and face_width",
+    };
+    Some(format!(
+        "the masses of test{} {} are about {} times {} than what the depths there make up: {hint}",
+        if off.len() > 1 { "s" } else { "" },
+        off.join(", "),
+        rounded(first.abs().exp()),
+        if first > 0.0 { "more" } else { "less" }
+    ))
+}
+
+/// ln of mass over that of the depths by test, wherever both were measured.
+fn ratios(study: &Study, data: &Dataset) -> BTreeMap<usize, Vec<f64>> {
+    let rows: Vec<&Observation> = data.observations.iter().collect();
+    let mut areas: BTreeMap<(usize, Subject, u64), Vec<f64>> = BTreeMap::new();
+    for curve in curves(&rows) {
+        let first = rows[curve[0]];
+        let depths = first.quantity == Quantity::WearDepth;
+        if let Some(area) =
+            area(study, &curve.iter().map(|&i| rows[i]).collect::<Vec<_>>()).filter(|_| depths)
+        {
+            let key = (first.test, first.member, first.cycles.to_bits());
+            areas.entry(key).or_default().push(area);
+        }
+    }
+    let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for o in rows
+        .iter()
+        .filter(|o| o.quantity == Quantity::MassLoss && o.value > 0.0)
+    {
+        let same = |(test, member, cycles): &(usize, Subject, u64)| {
+            (*test, *member) == (o.test, o.member)
+                && (f64::from_bits(*cycles) / o.cycles - 1.0).abs() < SAME_CYCLES
+        };
+        let Some((_, areas)) = areas.iter().find(|(key, _)| same(key)) else {
+            continue;
+        };
+        let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+        let Some((gear, density)) = member(study, o.member) else {
+            continue;
+        };
+        let volume = 1e-3 * mean * study.gears.face_width * f64::from(gear.spec.teeth);
+        let ratio = (o.value / (1e-3 * density * volume)).ln();
+        // a noisy mass is more than a small one by chance, never hundreds of times less than a large one
+        if ratio < 0.0 || o.value > SURE * o.sigma {
+            ratios.entry(o.test).or_default().push(ratio);
+        }
+    }
+    ratios
+}
+
+/// A member and its density, kg/m³; None of the pair.
+fn member(study: &Study, subject: Subject) -> Option<(&Gear, f64)> {
+    let (gears, materials) = (&study.gears, &study.materials);
+    match subject {
+        Subject::Pinion => Some((&gears.pinion, materials.pinion.density_kg_m3)),
+        Subject::Gear => Some((&gears.gear, materials.gear.density_kg_m3)),
+        Subject::Pair => None,
+    }
+}
+
+/// Worn area of a depth curve, µm mm along the flank; None where it is no more than noise.
+fn area(study: &Study, curve: &[&Observation]) -> Option<f64> {
+    let base = member(study, curve.first()?.member)?.0.base_radius;
+    let is_sure = |o: &&Observation| o.value > SURE * o.sigma;
+    let place = |o: &Observation| o.position.map(|r| r * r / (2.0 * base));
+    let area = curve.windows(2).filter_map(|pair| {
+        let [a, b] = [pair[0], pair[1]];
+        Some(0.5 * (a.value.max(0.0) + b.value.max(0.0)) * (place(b)? - place(a)?))
+    });
+    let area: f64 = area.sum();
+    (curve.iter().any(is_sure) && area > 0.0).then_some(area)
+}
