@@ -110,7 +110,7 @@ pub fn plan_after(
         sentence: tests.first().map_or_else(
             || "No feasible test could be computed.".to_owned(),
             |best| {
-                wording::left_open(decided)
+                wording::left_open(decided, from_diagnosis)
                     + &wording::sentence(best, &plainest, repetition.as_ref())
                     + &wording::made_already(best, &study.tests)
                     + &wording::proposed(decided, best, &plainest)

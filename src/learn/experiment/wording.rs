@@ -36,7 +36,8 @@ pub(super) fn sentence(
     )
 }
 
-/// What a test is for, as a sentence with the space behind it.
+/// What a test is for, as a sentence with the space behind it. `holds_its_leaders`:
+/// the table is of the diagnosis's leaders.
 pub(super) fn purpose_of(test: &NextTest, plain: &Operation) -> String {
     let purpose = purpose(test, plain);
     let mut letters = purpose.chars();
@@ -106,7 +107,7 @@ fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
 const OPEN: f64 = 0.05;
 
 /// What the diagnosis left open, or that it left nothing, where the table's best test would be taken for the answer to it; with the space behind it.
-pub(super) fn left_open(decided: Option<&Decided>) -> String {
+pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> String {
     let Some(decided) = decided else {
         return String::new();
     };
@@ -123,7 +124,12 @@ pub(super) fn left_open(decided: Option<&Decided>) -> String {
             100.0 * unknown,
             decided.next_step.trim_end_matches('.')
         ),
-        Verdict::Effect => format!(
+        Verdict::Effects if !holds_its_leaders => format!(
+            "The diagnosis has decided for {} ({:.0} %), which this table does not judge: add them (gearwear add), then plan from the study with them. ",
+            first.effect,
+            100.0 * first.probability
+        ),
+        Verdict::Effect | Verdict::Effects => format!(
             "The diagnosis has decided for {}: what follows would confirm it against its nearest rivals. ",
             first.effect
         ),
@@ -185,15 +191,17 @@ mod tests {
 
     #[test]
     fn what_the_table_cannot_tell_comes_first() {
-        let open = left_open(Some(&decided(Verdict::Ambiguous, 0.67, 0.33)));
+        let open = left_open(Some(&decided(Verdict::Ambiguous, 0.67, 0.33)), true);
         assert!(
             open.contains("(33 %)") && open.contains("tests at several speeds"),
             "{open}"
         );
-        let done = left_open(Some(&decided(Verdict::Effect, 0.99, 0.01)));
+        let done = left_open(Some(&decided(Verdict::Effect, 0.99, 0.01)), true);
         assert!(done.contains("has decided for dynamic_load"), "{done}");
-        assert!(left_open(Some(&decided(Verdict::Ambiguous, 0.6, 0.01))).is_empty());
-        assert!(left_open(None).is_empty());
+        assert!(left_open(Some(&decided(Verdict::Ambiguous, 0.6, 0.01)), true).is_empty());
+        assert!(left_open(None, false).is_empty());
+        let pair = left_open(Some(&decided(Verdict::Effects, 0.95, 0.01)), false);
+        assert!(pair.contains("which this table does not judge"), "{pair}");
     }
 
     fn separated(other: &str, chi2: f64) -> Separated {
