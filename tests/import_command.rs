@@ -254,6 +254,12 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             table,
             "are the cycles `250.000` marked between thousands?",
         ),
+        // nobody counts 18 revolutions to three decimals
+        (
+            "test,member,cycles,quantity,position,value\nA,pinion,18.000,wear_depth,26.5,1.2\n",
+            "import table.csv --study study.toml --sigma 0.2",
+            "are the cycles `18.000` marked between thousands?",
+        ),
         (
             "radius;250k\n26;1\n",
             table,

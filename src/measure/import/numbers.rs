@@ -143,6 +143,21 @@ pub(super) fn plain_cycles(text: &str, row: usize, column: usize) -> Result<()> 
     }
 }
 
+/// The same of one cell or line of cycles. Where a point can only be a decimal one (`plain_decimals`) it is still none before a last zero: a
+/// spreadsheet's own numbers have none there, and nobody counts 18 revolutions as `18.000`.
+pub(super) fn plain_count(
+    text: &str,
+    row: usize,
+    column: usize,
+    plain_decimals: bool,
+) -> Result<()> {
+    let written = |word: &&str| in_thousands(word) && word.ends_with('0');
+    if plain_decimals && !number_words(text).iter().any(written) {
+        return Ok(());
+    }
+    plain_cycles(text, row, column)
+}
+
 /// A header row without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are.
 pub(super) fn without_thousands(header: &mut [String]) {
     let marked = |text: &String, least: usize| {

@@ -2,7 +2,7 @@
 
 use super::{has, is_curve, put_column};
 use crate::measure::import::columns::{Column, columns};
-use crate::measure::import::numbers::{header_number, number_words, plain_cycles};
+use crate::measure::import::numbers::{header_number, number_words, plain_count};
 use crate::measure::import::{ImportError, Sheet, Wanted, cell_name};
 use crate::measure::{Subject, names};
 
@@ -194,8 +194,8 @@ fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Resul
         _ if number_words(&text).is_empty() => Ok(None),
         _ => {
             let count = header_number(&text, row, 0)?;
-            if wanted.decimal.is_none() && !sheet.plain_decimals {
-                plain_cycles(&text, row, 0)?;
+            if wanted.decimal.is_none() {
+                plain_count(&text, row, 0, sheet.plain_decimals)?;
             }
             let is_of_gear = names::one_member(&text) == Some(Subject::Gear);
             let name = if is_of_gear && !column.of_gear {

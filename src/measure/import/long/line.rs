@@ -3,7 +3,7 @@
 use super::Read;
 use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
-use crate::measure::import::numbers::{number, plain_cycles, pointed, rounded};
+use crate::measure::import::numbers::{number, plain_count, pointed, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
 use crate::measure::import::wanted::Wanted;
@@ -196,8 +196,8 @@ impl Line<'_> {
                 "every row says after how many revolutions of the pinion it was measured",
             );
         }
-        if self.wanted.decimal.is_none() && !self.sheet.plain_decimals && column.hours.is_none() {
-            plain_cycles(text, self.row, column.at)?;
+        if self.wanted.decimal.is_none() && column.hours.is_none() {
+            plain_count(text, self.row, column.at, self.sheet.plain_decimals)?;
         }
         let cycles = number(text, self.row, column.at)?;
         Ok(match column.hours {
