@@ -59,8 +59,11 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     if !data.estimates_sigmas() {
         warnings.extend(stated_sigma(&study, &data, &compared.fit));
     }
-    warnings.extend(misfit_of_one_quantity(&study, &data, &compared.fit));
+    let carried = misfit_of_one_quantity(&study, &data, &compared.fit);
     let sanity = &compared.comparison.sanity;
+    // nothing looks right where one quantity carries the misfit, whatever the reason
+    let looks_right = sanity.is_empty() && carried.is_none();
+    warnings.extend(carried);
     Ok(Outcome {
         json: json!({
             "reading": data.reading,
@@ -74,7 +77,7 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
         text: told(
             &study,
             &data,
-            (&compared.comparison.sanity, &warnings),
+            (sanity, &warnings, looks_right),
             &prospects,
             &format!(
                 "drawn:   {}\nnext:    {}gearwear compare {name}\n",
@@ -136,7 +139,7 @@ fn curves<'d>(study: &Study, data: &'d Dataset) -> BTreeMap<Key, Vec<&'d Observa
 fn told(
     study: &Study,
     data: &Dataset,
-    (sanity, warnings): (&[String], &[String]),
+    (sanity, warnings, looks_right): (&[String], &[String], bool),
     prospects: &Prospects,
     end: &str,
 ) -> String {
@@ -252,7 +255,7 @@ fn told(
         ));
     }
     lines.push(String::new());
-    if sanity.is_empty() && warnings.is_empty() {
+    if looks_right {
         lines.push(right(data).to_owned());
     }
     for suspect in sanity {
