@@ -599,6 +599,43 @@ fn an_estimated_sigma_follows_the_law_of_all_traces() {
     }
 }
 
+/// Four weighings of both members in two tests, none with a sigma: their scatter about a smooth growth, of all together. One weighing alone tells
+/// nothing.
+#[test]
+fn masses_without_a_sigma_tell_it_by_their_scatter() {
+    let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+    let mut random = 3;
+    let truth = 2.0;
+    for (test, member) in [
+        ("A", "pinion"),
+        ("A", "gear"),
+        ("B", "pinion"),
+        ("B", "gear"),
+    ] {
+        for step in 1..=4 {
+            let mass = 40.0 * f64::from(step).powf(0.8) + truth * normal(&mut random);
+            text += &format!("{test},{member},{step}0000,mass_loss,,{mass},\n");
+        }
+    }
+    let data = parse(&text).unwrap();
+    for o in &data.observations {
+        assert!((0.5..2.0).contains(&(o.sigma / truth)), "{}", o.sigma);
+    }
+    assert!(
+        data.reading
+            .contains("16 from the scatter of a few times of a test"),
+        "{}",
+        data.reading
+    );
+    let alone = "test,member,cycles,quantity,position,value,sigma\nA,pinion,10000,mass_loss,,40,\n";
+    assert!(
+        parse(alone)
+            .unwrap_err()
+            .to_string()
+            .contains("sigma is missing")
+    );
+}
+
 /// A curve that is computed, or filtered, is not known a hundred times as well as the others; one that scatters less in proportion is.
 #[test]
 fn a_far_smoother_curve_gets_the_sigma_of_the_others() {

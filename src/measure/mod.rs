@@ -20,6 +20,7 @@ pub mod outliers;
 mod pooled_scatter;
 mod quantity;
 mod row_reader;
+mod short_series;
 mod sigma;
 mod surface;
 mod table;
@@ -212,7 +213,7 @@ fn without_sigma(
             let allowed = format!("one standard deviation, at least {LEAST_SIGMA:e}, {unit}");
             let fault = cell.fault(Fault::MissingKey, "sigma is missing", &allowed);
             return Ok(fault.with_hint(
-                "it is estimated where points along a trace, repeated measurements or other rows of the quantity show it; here none does: state it (`gearwear import` by --sigma or --relative-sigma)",
+                "it is estimated where points along a trace, several times of a test, repeated measurements or other rows of the quantity show it; here none does: state it (`gearwear import` by --sigma or --relative-sigma)",
             ));
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! In this order: the scatter of a curve's points about what their neighbours lead one to expect ([`super::neighbours`]; of a value that has
 //! no position, about those before and after it in the test's life), pooled over the curves of its quantity ([`super::pooled_scatter`]); values of the same quantity measured again at the same place and time;
-//! the σ that other rows of the quantity state. If none of these tells it, the row is refused.
+//! the σ that other rows of the quantity state; of values without a position the scatter of a few in a test's life ([`super::short_series`]). If none of these tells it, the row is refused.
 
 use std::collections::BTreeMap;
 
@@ -10,6 +10,7 @@ use super::Observation;
 use super::neighbours::{SIDE, around, around_within, curves, points};
 use super::pooled_scatter::{CurveScatter, ScatterLaw};
 use super::quantity::Quantity;
+use super::short_series;
 
 /// Median of |x| of a standard normal number.
 const MEDIAN: f64 = 0.674_490;
@@ -17,6 +18,8 @@ const MEDIAN: f64 = 0.674_490;
 const ENOUGH: usize = 15;
 /// Values measured again that give a scatter.
 const REPEATS: usize = 3;
+/// Degrees of freedom of all short series of a quantity together from which they tell a scatter.
+const FREEDOM: usize = 6;
 /// Least σ over a curve's largest value: smoother ones have been filtered.
 const LEAST: f64 = 1e-3;
 /// Of so many points of a curve one may be left out, where it stands so many times the scatter of the others from what they lead one to expect.
@@ -32,12 +35,13 @@ pub(super) struct Estimated {
     others: usize,
     repeats: usize,
     stated: usize,
+    series: usize,
 }
 
 impl Estimated {
     /// How many rows.
     pub(super) fn rows(self) -> usize {
-        self.neighbours + self.others + self.repeats + self.stated
+        self.neighbours + self.others + self.repeats + self.stated + self.series
     }
 
     /// In words; None if every row stated its own.
@@ -55,6 +59,10 @@ impl Estimated {
             ),
             of(self.repeats, "repeated measurements"),
             of(self.stated, "the sigma of other rows"),
+            of(
+                self.series,
+                "the scatter of a few times of a test about a smooth growth",
+            ),
         ]
         .into_iter()
         .flatten()
@@ -84,6 +92,7 @@ pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, us
     let neighbours = of_neighbours(observations);
     let repeats = of_repeats(observations);
     let stated = of_stated(observations);
+    let short = of_short_series(observations);
     for row in unknown {
         let o = &observations[row];
         let (count, sigma) = if let Some((sigma, own)) = neighbours[row] {
@@ -95,6 +104,8 @@ pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, us
             (&mut estimated.repeats, *sigma)
         } else if let Some(sigma) = stated.get(&o.quantity) {
             (&mut estimated.stated, *sigma)
+        } else if let Some(sigma) = short[row] {
+            (&mut estimated.series, sigma)
         } else {
             return Err(row);
         };
@@ -146,6 +157,40 @@ fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
                 scatter => (law.at(curve.largest), scatter.is_none()),
             };
             curve.rows.iter().for_each(|&row| found[row] = Some(sigma));
+        }
+    }
+    found
+}
+
+/// Of rows without a position by the scatter of their test's few, and of the others of their quantity; none where all together tell little.
+fn of_short_series(observations: &[Observation]) -> Vec<Option<f64>> {
+    let rows: Vec<&Observation> = observations.iter().collect();
+    let mut quantities: BTreeMap<Quantity, Vec<Vec<usize>>> = BTreeMap::new();
+    for own in series(&rows) {
+        let all = quantities.entry(rows[own[0]].quantity).or_default();
+        all.push(own);
+    }
+    let mut found = vec![None; rows.len()];
+    for all in quantities.values() {
+        let of = |own: &Vec<usize>| {
+            let points: Vec<[f64; 2]> = (own.iter())
+                .map(|&i| [rows[i].cycles, rows[i].value])
+                .collect();
+            short_series::scatter(&points, LEAST)
+        };
+        let scatters: Vec<Option<CurveScatter>> = all.iter().map(of).collect();
+        let known: Vec<CurveScatter> = scatters.iter().flatten().copied().collect();
+        let freedom: usize = known.iter().map(|series| series.points - 2).sum();
+        let Some(law) = ScatterLaw::through(&known).filter(|_| freedom >= FREEDOM) else {
+            continue;
+        };
+        for (own, scatter) in all.iter().zip(&scatters) {
+            let largest = own.iter().map(|&i| rows[i].value.abs()).fold(0.0, f64::max);
+            let sigma = match scatter {
+                Some(scatter) => law.of(scatter),
+                None => law.at(largest),
+            };
+            own.iter().for_each(|&row| found[row] = Some(sigma));
         }
     }
     found

@@ -100,7 +100,10 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             .zip(&addition.tried)
             .filter_map(|(draft, tried)| {
                 let chi2 = (*tried)?.chi2_per_point?;
-                Some(format!("{} {chi2:.3}", draft.form()))
+                // the effect left out is one of its own cases: that fit went astray
+                let astray = without.is_some_and(|without| chi2 > without);
+                let note = if astray { ", fit gone astray" } else { "" };
+                Some(format!("{} {chi2:.3}{note}", draft.form()))
             });
         let each: Vec<String> = each.collect();
         let _ = writeln!(

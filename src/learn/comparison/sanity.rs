@@ -6,6 +6,7 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod falling;
 mod mass_balance;
 mod single_tests;
 
@@ -75,6 +76,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             study,
             &fitted(data, fit),
         ));
+    }
+    if said.is_empty() {
+        said.extend(falling::falling(study, &rows));
     }
     said.extend(too_sure(data));
     said.extend(gear_revolutions(study, data));
