@@ -101,16 +101,20 @@ fn fit(
     Ok(fitted)
 }
 
-/// What a finished diagnosis of the same inputs names, if that is not the effect; a line.
+/// Probability of all that holds an effect from which a diagnosis does not speak against it.
+const POSSIBLE: f64 = 0.05;
+
+/// What a finished diagnosis of the same inputs names, if it leaves the effect next to no probability; a line.
 fn named_otherwise(effect: &str, decided: &Decided) -> String {
-    let first = decided.ranking.first();
-    let other = first.filter(|first| {
-        let named = matches!(
-            decided.verdict,
-            Verdict::Effect | Verdict::Effects | Verdict::Partial
-        );
-        named && !first.effect.split('+').any(|name| name == effect)
-    });
+    let holds = |hypothesis: &str| hypothesis.split('+').any(|name| name == effect);
+    let held = decided.probabilities.iter().filter(|(name, _)| holds(name));
+    let possible = held.map(|(_, p)| p).sum::<f64>() >= POSSIBLE;
+    let named = matches!(
+        decided.verdict,
+        Verdict::Effect | Verdict::Effects | Verdict::Partial
+    );
+    let other =
+        (decided.ranking.first()).filter(|first| named && !possible && !holds(&first.effect));
     other.map_or(String::new(), |other| {
         format!(
             "  the diagnosis of these measurements names {} ({:.1} %), not this\n",

@@ -26,6 +26,7 @@ PROGRAM = TARGET / "release/examples/decision_rule"
 # Thresholds by their names in src/learn/decision/rule.rs, which says what each is and where it was chosen.
 TRIED = {
     "single_share": [0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9],
+    "remainder_denied": [-3.0, -2.0, -1.0, 0.0],
     "pair_share": [0.7, 0.8, 0.85, 0.9, 0.95, 1.0],
     "second_share": [0.0, 0.05, 0.1, 0.15, 0.2, 0.3],
     "temper": [1.0, 1.4, 1.8, 2.5, 4.0],

@@ -24,6 +24,9 @@ pub(super) struct Fitted {
     pub(super) text: String,
 }
 
+/// χ² of a form over that without the effect from which its fit has not found its end.
+const ASTRAY: f64 = 1.02;
+
 /// A fit in words and in the command's document.
 pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
@@ -100,9 +103,9 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             .zip(&addition.tried)
             .filter_map(|(draft, tried)| {
                 let chi2 = (*tried)?.chi2_per_point?;
-                // the effect left out is one of its own cases: that fit went astray
-                let astray = without.is_some_and(|without| chi2 > without);
-                let note = if astray { ", fit gone astray" } else { "" };
+                // the model without the effect is one of its own cases, but for what priors cost
+                let astray = without.is_some_and(|without| chi2 > ASTRAY * without);
+                let note = if astray { ", did not converge" } else { "" };
                 Some(format!("{} {chi2:.3}{note}", draft.form()))
             });
         let each: Vec<String> = each.collect();

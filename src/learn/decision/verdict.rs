@@ -138,13 +138,15 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
     let verdict = verdict(&mass, &effects, &remainders, &log_probabilities, rule);
     let group = match verdict {
         Verdict::NothingMissing | Verdict::Unknown => Vec::new(),
-        Verdict::Ambiguous if mass.is_unnamed() && remainders[0].1 > mass.leading => {
-            let leader = Hypothesis::EffectsAndUnknown(remainders[0].0.clone());
-            vec![leader, Hypothesis::Unknown]
-        }
-        Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => {
-            look_alikes(verdict, &mass, &effects, &log_of, rule)
-        }
+        Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => match remainders.first() {
+            Some((leader, p))
+                if verdict == Verdict::Ambiguous && mass.is_unnamed() && *p > mass.leading =>
+            {
+                let leader = Hypothesis::EffectsAndUnknown((*leader).clone());
+                vec![leader, Hypothesis::Unknown]
+            }
+            _ => look_alikes(verdict, &mass, &effects, &log_of, rule),
+        },
         Verdict::Partial => {
             // as with effects alone, one that is probable enough has no look-alikes
             let (leader, most) = remainders[0];

@@ -36,8 +36,7 @@ pub(super) fn sentence(
     )
 }
 
-/// What a test is for, as a sentence with the space behind it. `holds_its_leaders`:
-/// the table is of the diagnosis's leaders.
+/// What a test is for, as a sentence with the space behind it.
 pub(super) fn purpose_of(test: &NextTest, plain: &Operation) -> String {
     let purpose = purpose(test, plain);
     let mut letters = purpose.chars();
@@ -107,6 +106,7 @@ fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
 const OPEN: f64 = 0.05;
 
 /// What the diagnosis left open, or that it left nothing, where the table's best test would be taken for the answer to it; with the space behind it.
+/// `holds_its_leaders`: the table separates the leaders of that diagnosis.
 pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> String {
     let Some(decided) = decided else {
         return String::new();

@@ -4,7 +4,8 @@
 //! y ≈ s f of each depth curve     f the fitted model, the curve's datum removed, least squares weighted by 1/σ²
 //! s N of a later checkpoint far below that of an earlier one: what the model wears grows with N
 //! ```
-//! Masses are compared as they are.
+//! Only of curves that have the model's shape: where the pattern changes over life, s may fall although every point wears. Masses are compared
+//! as they are.
 
 use std::collections::BTreeMap;
 
@@ -15,8 +16,9 @@ use crate::study::Study;
 /// Standard deviations from which a fall is no noise, and how far it must go.
 const SURE: f64 = 6.0;
 const FALLS_TO: f64 = 0.8;
-/// Fewest points of a curve.
+/// Fewest points of a curve, and the share of its squares that `s f` must explain.
 const FEWEST: usize = 4;
+const OF_ITS_SHAPE: f64 = 0.8;
 
 /// How much was worn at a checkpoint, in any unit, and its standard deviation.
 struct Worn {
@@ -50,6 +52,8 @@ fn fall(worn: &[Worn]) -> Option<(f64, f64)> {
     worn.windows(2).find_map(|pair| {
         let [before, after] = [&pair[0], &pair[1]];
         let far = before.amount - after.amount > SURE * before.sigma.hypot(after.sigma);
+        // traces of one checkpoint are no fall
+        let far = far && before.cycles < after.cycles;
         (far && after.amount < FALLS_TO * before.amount).then_some((before.cycles, after.cycles))
     })
 }
@@ -103,9 +107,11 @@ fn depth(own: &[&Fitted<'_>]) -> Option<Worn> {
     let weight = sum(&|_, _| 1.0);
     let [f, y] = [sum(&|f, _| f) / weight, sum(&|_, y| y) / weight];
     let ff = sum(&|model, _| (model - f).powi(2));
+    let yy = sum(&|_, value| (value - y).powi(2));
     let fy = sum(&|model, value| (model - f) * (value - y));
     let cycles = own.first()?.0.cycles;
-    (own.len() >= FEWEST && ff > 0.0).then(|| Worn {
+    let of_its_shape = fy * fy > OF_ITS_SHAPE * ff * yy;
+    (own.len() >= FEWEST && ff > 0.0 && of_its_shape).then(|| Worn {
         cycles,
         amount: cycles * fy / ff,
         sigma: cycles / ff.sqrt(),

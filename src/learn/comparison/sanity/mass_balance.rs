@@ -60,23 +60,20 @@ pub(super) fn masses_and_depths(study: &Study, data: &Dataset) -> Option<String>
 
 /// ln of mass over that of the depths by test, wherever both were measured.
 fn ratios(study: &Study, data: &Dataset) -> BTreeMap<usize, Vec<f64>> {
-    let rows: Vec<&Observation> = data.observations.iter().collect();
     let mut areas: BTreeMap<(usize, Subject, u64), Vec<f64>> = BTreeMap::new();
-    for curve in curves(&rows) {
-        let first = rows[curve[0]];
-        let depths = first.quantity == Quantity::WearDepth;
-        if let Some(area) =
-            area(study, &curve.iter().map(|&i| rows[i]).collect::<Vec<_>>()).filter(|_| depths)
-        {
+    let depths = |o: &&Observation| o.quantity == Quantity::WearDepth;
+    let depths: Vec<&Observation> = data.observations.iter().filter(depths).collect();
+    for curve in curves(&depths) {
+        let first = depths[curve[0]];
+        let curve: Vec<&Observation> = curve.into_iter().map(|i| depths[i]).collect();
+        if let Some(area) = area(study, &curve) {
             let key = (first.test, first.member, first.cycles.to_bits());
             areas.entry(key).or_default().push(area);
         }
     }
     let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
-    for o in rows
-        .iter()
-        .filter(|o| o.quantity == Quantity::MassLoss && o.value > 0.0)
-    {
+    let lost = |o: &&Observation| o.quantity == Quantity::MassLoss && o.value > 0.0;
+    for o in data.observations.iter().filter(lost) {
         let same = |(test, member, cycles): &(usize, Subject, u64)| {
             (*test, *member) == (o.test, o.member)
                 && (f64::from_bits(*cycles) / o.cycles - 1.0).abs() < SAME_CYCLES
@@ -119,4 +116,36 @@ fn area(study: &Study, curve: &[&Observation]) -> Option<f64> {
     });
     let area: f64 = area.sum();
     (curve.iter().any(is_sure) && area > 0.0).then_some(area)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 10 µm off the whole flank of all teeth: the area is the depth times the involute's length (r₂² − r₁²)/(2 r_b), the mass 7.85 mg/mm³ of
+    /// that by 33 mm and the teeth. By hand for the pinion: 27 teeth of module 2, r_b = 27 cos 20° = 25.3717 mm, 26 to 29 mm: 3.2517 mm, 227.4 mg.
+    #[test]
+    fn an_even_depth_weighs_what_its_volume_does() {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let of = |mass: f64| {
+            let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+            for radius in [26.0, 26.5, 27.4, 28.2, 29.0] {
+                text += &format!("A,pinion,100000,wear_depth,{radius},10,0.1\n");
+            }
+            text += &format!("A,pinion,100000,mass_loss,,{mass},1\n");
+            Dataset::parse(&text, "m.csv", &study.known()).unwrap()
+        };
+        let by_hand = 227.432;
+        let ratio = ratios(&study, &of(by_hand))[&0][0];
+        assert!(ratio.abs() < 1e-3, "{ratio}");
+        assert!((ratios(&study, &of(2.0 * by_hand))[&0][0] - 2f64.ln()).abs() < 1e-3);
+        assert_eq!(masses_and_depths(&study, &of(by_hand)), None);
+        let said = |mass| masses_and_depths(&study, &of(mass)).unwrap();
+        assert!(
+            said(1e-3 * by_hand).contains("1000 times less")
+                && said(1e-3 * by_hand).contains("look like g")
+        );
+        assert!(said(1e3 * by_hand).contains("1000 times more"));
+    }
 }

@@ -264,9 +264,10 @@ pub(super) fn cycles_in_another_unit(study: &Study, data: &Dataset) -> Option<St
     };
     let tests: Vec<&str> = early.iter().map(|(test, ..)| test.id.as_str()).collect();
     Some(format!(
-        "the rows of test{} {} end at {last} cycles{} where the study states {}, {times:.0} times as many: cycles are revolutions of the pinion; {looks}",
+        "the rows of test{} {} end at {} cycles{} where the study states {}, {times:.0} times as many: cycles are revolutions of the pinion; {looks}",
         if tests.len() > 1 { "s" } else { "" },
         tests.join(", "),
+        rounded(*last),
         if tests.len() > 1 {
             format!(" (test {})", test.id)
         } else {
