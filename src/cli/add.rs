@@ -97,7 +97,10 @@ fn fit(
         super::fitting::show_form(&progress, doing, drafts[form].form());
     })?;
     let mut fitted = fitted(drafts, &addition);
-    fitted.text += &decided.map_or(String::new(), |decided| named_otherwise(effect, decided));
+    if let Some(decided) = decided {
+        fitted.text += &named_otherwise(effect, decided);
+        fitted.text += &named_beside(effect, decided);
+    }
     Ok(fitted)
 }
 
@@ -122,6 +125,24 @@ fn named_otherwise(effect: &str, decided: &Decided) -> String {
             100.0 * other.probability
         )
     })
+}
+
+/// What else a finished diagnosis of the same inputs finds missing where it names the effect among several; a line.
+fn named_beside(effect: &str, decided: &Decided) -> String {
+    let first = decided.ranking.first();
+    let first = first.filter(|_| decided.verdict == Verdict::Effects);
+    let names: Vec<&str> = first.map_or(Vec::new(), |first| first.effect.split('+').collect());
+    let others: Vec<&str> = (names.iter().copied())
+        .filter(|name| *name != effect)
+        .collect();
+    if others.is_empty() || others.len() == names.len() {
+        return String::new();
+    }
+    format!(
+        "  the diagnosis names {} together: these values are provisional until {} is in the study too\n",
+        names.join(" and "),
+        others.join(" and ")
+    )
 }
 
 /// The command with its fit, which is asked only if a parameter has no set value.

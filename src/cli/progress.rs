@@ -1,16 +1,44 @@
-//! Progress on standard error: a bar with the time left where somebody looks, nothing elsewhere.
+//! Progress on standard error: a bar with the time left on a terminal, now and then a line in a log.
 
 use std::fmt::Write;
+use std::io::IsTerminal;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-/// A progress bar; hidden ones cost nothing.
+/// How far a command has come. Quiet ones cost nothing.
 #[derive(Debug)]
-pub(crate) struct Progress(ProgressBar);
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    /// Where standard error is no terminal: lines instead of a bar.
+    log: Option<Log>,
+}
+
+/// Lines of progress for a file or a pipe: none of short work, and of long work few.
+#[derive(Debug, Default)]
+struct Log {
+    /// Since the start, when the last line was written.
+    last: Mutex<Duration>,
+}
+
+impl Log {
+    /// Between two lines, and before the first.
+    const BETWEEN: Duration = Duration::from_secs(30);
+
+    /// Whether a line is due after the time `elapsed`; the next one then waits again.
+    fn is_due(&self, elapsed: Duration) -> bool {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let due = elapsed >= *last + Self::BETWEEN;
+        if due {
+            *last = elapsed;
+        }
+        due
+    }
+}
 
 impl Progress {
-    /// A bar named `what`. Standard error that is no terminal hides it, as `quiet` does.
+    /// Progress of `what`: nothing where `quiet`.
     pub(super) fn new(what: &'static str, quiet: bool) -> Self {
         let target = if quiet {
             ProgressDrawTarget::hidden()
@@ -19,27 +47,29 @@ impl Progress {
         };
         let bar = ProgressBar::with_draw_target(Some(1000), target).with_prefix(what);
         let template = "{prefix} [{bar:30}] {percent:>3} %, {left}  {wide_msg}";
-        Self(
-            bar.with_style(
-                ProgressStyle::with_template(template)
-                    .unwrap_or_else(|_| ProgressStyle::default_bar())
-                    .with_key("left", |state: &ProgressState, out: &mut dyn Write| {
-                        let _ = out.write_str(&left(state.fraction(), state.elapsed()));
-                    })
-                    .progress_chars("=> "),
-            ),
-        )
+        let style = ProgressStyle::with_template(template)
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .with_key("left", |state: &ProgressState, out: &mut dyn Write| {
+                let _ = out.write_str(&left(state.fraction(), state.elapsed()));
+            })
+            .progress_chars("=> ");
+        let is_log = !quiet && !std::io::stderr().is_terminal();
+        Self {
+            bar: bar.with_style(style),
+            log: is_log.then(Log::default),
+        }
     }
 
     /// Whether somebody may look at it: standard error is a terminal.
     pub(crate) fn is_seen(&self) -> bool {
-        !self.0.is_hidden()
+        !self.bar.is_hidden()
     }
 
     /// Shows which stage begins.
     pub(crate) fn stage(&self, name: &'static str) {
-        self.0.set_message(name);
-        self.0.tick();
+        self.bar.set_message(name);
+        self.bar.tick();
+        self.write_log(name);
     }
 
     /// The same, with the fraction that is behind us by then.
@@ -49,8 +79,24 @@ impl Progress {
 
     /// Shows that the fraction `done` (0 to 1) is behind us, and what is going on.
     pub(crate) fn show(&self, done: f64, doing: String) {
-        self.0.set_message(doing);
-        self.0.set_position((done.clamp(0.0, 1.0) * 1000.0) as u64);
+        self.bar
+            .set_position((done.clamp(0.0, 1.0) * 1000.0) as u64);
+        self.write_log(&doing);
+        self.bar.set_message(doing);
+    }
+
+    /// Writes where the work stands to a log, if a line is due.
+    fn write_log(&self, doing: &str) {
+        let elapsed = self.bar.elapsed();
+        if self.log.as_ref().is_some_and(|log| log.is_due(elapsed)) {
+            let done = self.bar.position() as f32 / 1000.0;
+            let what = self.bar.prefix();
+            eprintln!(
+                "{what}: {:.0} %, {}: {doing}",
+                100.0 * done,
+                left(done, elapsed)
+            );
+        }
     }
 }
 
@@ -72,13 +118,22 @@ fn left(done: f32, elapsed: Duration) -> String {
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_log_gets_a_line_every_half_minute() {
+        let log = Log::default();
+        let due: Vec<u64> = (0..100)
+            .filter(|&second| log.is_due(Duration::from_secs(second)))
+            .collect();
+        assert_eq!(due, [30, 60, 90]);
+    }
 
     #[test]
     fn the_time_left_is_told_once_it_is_known() {

@@ -90,6 +90,8 @@ pub struct Form {
     /// Values of those that it frees, which stand behind all that the own form fits, each a place from which this form is tried beside what the
     /// own one was fitted to. None: it is fitted for itself.
     pub grown: &'static [&'static [f64]],
+    /// What it does to the wear where that is not what the card says; empty: the card's.
+    pub signature: &'static str,
 }
 
 impl Form {
@@ -101,6 +103,7 @@ impl Form {
         idle: &[],
         even: &[],
         grown: &[],
+        signature: "",
     };
 }
 

@@ -35,22 +35,38 @@ pub(super) fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usize, f64)> {
         .collect()
 }
 
-/// The condition that the tests' own k follow most surely, in words; None if they follow none.
+/// The conditions that the tests' own k follow, the surest first, in words; None if they follow none.
 pub(super) fn trend_of_coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
     let tests: Vec<(&Operation, f64)> = (own_coefficients(data, fit).into_iter())
         .map(|(test, k)| (&study.tests[test].conditions, k))
         .collect();
-    let found = CONDITIONS.iter().filter_map(|(name, of)| {
-        let points: Vec<(f64, f64)> = tests.iter().map(|(o, k)| (of(o).ln(), *k)).collect();
-        let (slope, error) = line(&points)?;
-        Some((*name, slope, error))
+    let mut found: Vec<(&str, f64, f64)> = CONDITIONS
+        .iter()
+        .filter_map(|(name, of)| {
+            let points: Vec<(f64, f64)> = tests.iter().map(|(o, k)| (of(o).ln(), *k)).collect();
+            let (slope, error) = line(&points)?;
+            Some((*name, slope, error))
+        })
+        .collect();
+    found.sort_by(|a, b| (b.1 / b.2).abs().total_cmp(&(a.1 / a.2).abs()));
+    in_words(&found)
+}
+
+/// The sentence on conditions with slope and standard error; None without any.
+fn in_words(found: &[(&str, f64, f64)]) -> Option<String> {
+    let each = found.iter().map(|(name, slope, error)| {
+        let turn = if *slope > 0.0 { "rises" } else { "falls" };
+        format!("{turn} with their {name} (as {name} to the power of {slope:.2} ± {error:.2})")
     });
-    let (name, slope, error) =
-        found.max_by(|a, b| (a.1 / a.2).abs().total_cmp(&(b.1 / b.2).abs()))?;
+    let each: Vec<String> = each.collect();
+    let which = match found {
+        [] => return None,
+        [_] => "",
+        _ => "; these tests change them together, so it may be either",
+    };
     Some(format!(
-        "k of the tests {} with their {name} (as {name} to the power of {slope:.2} ± {error:.2}): what is taken for scatter between tests may be a \
-         law that the model lacks",
-        if slope > 0.0 { "rises" } else { "falls" }
+        "k of the tests {}{which}: what is taken for scatter between tests may be a law that the model lacks",
+        each.join(" and ")
     ))
 }
 
@@ -96,6 +112,14 @@ mod tests {
         let (slope, error) = line(&five).unwrap();
         assert!((slope - 0.499).abs() < 1e-12, "{slope}");
         assert!((error - 0.005_131_601).abs() < 1e-8, "{error}");
+        // two conditions at once are both named
+        assert_eq!(in_words(&[]), None);
+        let both = in_words(&[("speed", 0.5, 0.01), ("torque", -0.3, 0.02)]).unwrap();
+        assert!(
+            both.starts_with("k of the tests rises with their speed (as speed to the power of 0.50 ± 0.01) and falls with their torque"),
+            "{both}"
+        );
+        assert!(both.contains("it may be either"), "{both}");
         // too few, or one condition for all
         assert_eq!(line(&five[..3]), None);
         assert_eq!(

@@ -31,6 +31,7 @@ pub(super) fn folded(text: &str) -> String {
             'ò' | 'ó' | 'ô' | 'ö' => plain.push('o'),
             'ù' | 'ú' | 'û' | 'ü' => plain.push('u'),
             'ñ' => plain.push('n'),
+            '⌀' => plain.push('ø'),
             c if c.is_alphanumeric() => plain.push(c),
             _ => {}
         }
@@ -40,7 +41,7 @@ pub(super) fn folded(text: &str) -> String {
 
 /// The words of a text, each [`folded`].
 pub(super) fn words(text: &str) -> Vec<String> {
-    let words = text.split(|c: char| !c.is_alphanumeric());
+    let words = text.split(|c: char| !c.is_alphanumeric() && c != '⌀');
     words.map(folded).filter(|word| !word.is_empty()).collect()
 }
 

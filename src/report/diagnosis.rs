@@ -30,7 +30,7 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     for reason in &diagnosis.reasons {
         let _ = writeln!(text, "  {reason}");
     }
-    let shown = || diagnosis.ranking.iter().take(SHOWN);
+    let shown = || shown(&diagnosis.ranking).into_iter();
     let names = shown()
         .map(name)
         .chain([unknown_name(diagnosis).to_owned()]);
@@ -94,6 +94,18 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
     let _ = writeln!(text, "figures: {}", folder.join("diagnosis.json").display());
     text
+}
+
+/// The first entries; the first rival without anything unknown beside it among them, for it is the one that the reasons speak of.
+fn shown(ranking: &[Ranked]) -> Vec<&Ranked> {
+    let mut shown: Vec<&Ranked> = ranking.iter().take(SHOWN).collect();
+    let is_rival = |entry: &&Ranked| matches!(entry.effect, Hypothesis::Effects(_));
+    let has_rival = shown.iter().skip(1).any(is_rival);
+    let later = ranking.iter().skip(SHOWN).find(is_rival);
+    if let (false, Some(rival), Some(last)) = (has_rival, later, shown.last_mut()) {
+        *last = rival;
+    }
+    shown
 }
 
 /// The parameters of what the data cannot tell apart, a line each, where no sentence has them.

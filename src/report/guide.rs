@@ -184,7 +184,16 @@ fn effect(text: &mut String, card: &Card) {
         let settings = settings.map(|(name, value)| format!("`{name} = {value}`"));
         let freed = form.frees.iter().map(|name| format!("`{name}` fitted"));
         let all: Vec<String> = settings.chain(freed).collect();
-        let _ = writeln!(text, "- *also accepted, {}*: {}", form.name, all.join(", "));
+        let shows = match form.signature {
+            "" => String::new(),
+            own => format!("; {}", cell(own)),
+        };
+        let _ = writeln!(
+            text,
+            "- *also accepted, {}*: {}{shows}",
+            form.name,
+            all.join(", ")
+        );
     }
     if !card.needs.is_empty() {
         let _ = writeln!(text, "- *needs from the study*: {}", code_list(card.needs));

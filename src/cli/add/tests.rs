@@ -125,3 +125,29 @@ fn the_study_itself_is_never_overwritten() {
     let study = fs::read_to_string(home.path().join("study.toml")).unwrap();
     assert_eq!(study, STUDY);
 }
+
+/// What a diagnosis decided, as its document holds it.
+fn decided(verdict: &str, leader: &str, probability: f64) -> Decided {
+    let document = json!({
+        "verdict": verdict,
+        "ranking": [{"effect": leader, "form": "", "probability": probability, "parameters": []}],
+        "probabilities": {leader: probability},
+    });
+    serde_json::from_value(document).unwrap()
+}
+
+#[test]
+fn a_diagnosis_that_names_something_else_or_more_is_recalled() {
+    let other = decided("effect", "pressure_exponent", 0.99);
+    let line = named_otherwise("running_in", &other);
+    assert!(line.contains("names pressure_exponent (99.0 %)"), "{line}");
+    assert_eq!(named_beside("running_in", &other), "");
+    let pair = decided("effects", "dynamic_load+running_in", 0.95);
+    let line = named_beside("running_in", &pair);
+    assert!(line.contains("until dynamic_load is in"), "{line}");
+    assert_eq!(named_otherwise("running_in", &pair), "");
+    // the effect alone, or not among them: nothing to recall
+    let alone = decided("effect", "running_in", 0.99);
+    assert_eq!(named_beside("running_in", &alone), "");
+    assert_eq!(named_beside("tip_relief", &pair), "");
+}

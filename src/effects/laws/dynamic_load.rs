@@ -149,6 +149,7 @@ pub(super) const CARD: Card = Card {
             ],
             frees: &["mean_rise", "speed_exponent"],
             idle: &["resonance_speed"],
+            signature: "a ripple of one base pitch along the flank and a higher mean load, both growing with the speed",
             ..Form::PLAIN
         },
     ],

@@ -8,6 +8,7 @@
 
 mod falling;
 mod mass_balance;
+mod sigmas;
 mod single_tests;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,8 +33,6 @@ const NEAR_TEETH: f64 = 1.7;
 const COEFFICIENTS: [f64; 2] = [1e-13, 1e-5];
 /// Factor between the fitted k and the stated one from which a unit is likelier than a poor guess.
 const FAR_FROM_STATED: f64 = 300.0;
-/// σ over the largest value that no instrument of wear has.
-const TOO_SURE: f64 = 3e-5;
 /// Misfit beyond the noise, in its standard deviations, and share of it that constants must explain to be told.
 const REAL: f64 = 10.0;
 const CONSTANTS: f64 = 0.85;
@@ -80,7 +79,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     if said.is_empty() {
         said.extend(falling::falling(study, &rows));
     }
-    said.extend(too_sure(data));
+    said.extend(sigmas::of_another_unit(data));
     said.extend(gear_revolutions(study, data));
     said.extend(single_tests::short_of_their_cycles(study, data));
     said
@@ -216,32 +215,6 @@ fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
         );
     }
     said
-}
-
-/// Depths or masses of which a sigma is stated that no instrument has: in another unit than the value.
-fn too_sure(data: &Dataset) -> Vec<String> {
-    let mut of: BTreeMap<Quantity, (f64, Vec<f64>)> = BTreeMap::new();
-    let wears = |o: &&Observation| matches!(o.quantity, Quantity::WearDepth | Quantity::MassLoss);
-    for o in data.observations.iter().filter(wears) {
-        let (largest, sigmas) = of.entry(o.quantity).or_default();
-        *largest = largest.max(o.value.abs());
-        sigmas.push(o.sigma);
-    }
-    (of.into_iter())
-        .filter_map(|(quantity, (largest, mut sigmas))| {
-            sigmas.sort_by(f64::total_cmp);
-            let middle = sigmas[sigmas.len() / 2];
-            (middle < TOO_SURE * largest).then(|| {
-                format!(
-                    "sigma of {} is about {middle:.1e} {} where values go up to {} {}: is it in another unit than the values?",
-                    quantity.name(),
-                    quantity.unit(),
-                    rounded(largest),
-                    quantity.unit()
-                )
-            })
-        })
-        .collect()
 }
 
 /// Depths and masses of a member that call for different coefficients; `k`: the fitted one.

@@ -114,6 +114,7 @@ pub fn plan_after(
                     + &wording::sentence(best, &plainest, repetition.as_ref())
                     + &wording::made_already(best, &study.tests)
                     + &wording::proposed(decided, best, &plainest)
+                    + wording::held_out(decided, &study.tests)
             },
         ),
         basis: basis(decided, from_diagnosis),

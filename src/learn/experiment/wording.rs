@@ -4,7 +4,7 @@ use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose, shown};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
-use crate::study::{Operation, Test};
+use crate::study::{Operation, Role, Test};
 
 /// Relative difference up to which two conditions are the same.
 const SAME: f64 = 1e-3;
@@ -133,7 +133,27 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             "The diagnosis has decided for {}: what follows would confirm it against its nearest rivals. ",
             first.effect
         ),
+        Verdict::NothingMissing => format!(
+            "The diagnosis finds nothing missing ({:.0} %): what follows would show whether {} hides below the noise after all. ",
+            100.0 * first.probability,
+            decided
+                .ranking
+                .get(1)
+                .map_or("an effect", |next| &next.effect)
+        ),
         _ => String::new(),
+    }
+}
+
+/// What a settled diagnosis needs more than another comparison of rivals: a test that nothing was fitted to.
+pub(super) fn held_out(decided: Option<&Decided>, tests: &[Test]) -> &'static str {
+    let settled =
+        |decided: &Decided| !matches!(decided.verdict, Verdict::Ambiguous | Verdict::Unknown);
+    let is_held_out = |test: &Test| test.role == Role::Holdout;
+    if decided.is_some_and(settled) && !tests.iter().any(is_held_out) {
+        " No test of this study is held out: mark the new one role = \"holdout\", and ladder shows whether the model foretells what it was not fitted to."
+    } else {
+        ""
     }
 }
 
@@ -172,6 +192,7 @@ mod tests {
     use super::super::candidate_tests::tests::plain;
     use super::*;
     use crate::learn::experiment::decided::DecidedCandidate;
+    use crate::study::Study;
 
     fn decided(verdict: Verdict, probability: f64, unknown: f64) -> Decided {
         Decided {
@@ -200,8 +221,23 @@ mod tests {
         assert!(done.contains("has decided for dynamic_load"), "{done}");
         assert!(left_open(Some(&decided(Verdict::Ambiguous, 0.6, 0.01)), true).is_empty());
         assert!(left_open(None, false).is_empty());
+        let none = left_open(Some(&decided(Verdict::NothingMissing, 0.93, 0.01)), true);
+        assert!(none.contains("nothing missing (93 %)"), "{none}");
         let pair = left_open(Some(&decided(Verdict::Effects, 0.95, 0.01)), false);
         assert!(pair.contains("which this table does not judge"), "{pair}");
+    }
+
+    #[test]
+    fn a_settled_diagnosis_asks_for_a_test_that_is_held_out() {
+        let study = include_str!("../../cli/examples/hidden-effect.toml");
+        let mut tests = Study::parse(study, "study.toml").unwrap().tests;
+        let settled = decided(Verdict::Effect, 0.99, 0.0);
+        assert_eq!(held_out(Some(&settled), &tests), "");
+        tests.retain(|test| test.role == Role::Fit);
+        assert!(held_out(Some(&settled), &tests).contains("role = \"holdout\""));
+        assert_eq!(held_out(None, &tests), "");
+        let open = decided(Verdict::Ambiguous, 0.5, 0.3);
+        assert_eq!(held_out(Some(&open), &tests), "");
     }
 
     fn separated(other: &str, chi2: f64) -> Separated {

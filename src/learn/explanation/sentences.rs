@@ -3,7 +3,7 @@
 use super::findings::Findings;
 use super::remainder::partial;
 use super::wording::{Explanation, added, before, chi2, percent, values};
-use crate::effects::Card;
+use crate::effects::{Card, Form};
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::checks::sufficiency::{few, measured_once};
 use crate::learn::decision::posterior::Posterior;
@@ -29,8 +29,8 @@ const BESIDE_LEADER: f64 = 0.9;
 const TOLD: usize = 3;
 /// Log evidence to the runner-up below which what separates the two is told.
 const CLOSE: f64 = 5.0;
-/// Probability below which a rival is not worth a word: what [`percent`] writes as under 0.1 %.
-const IMPROBABLE: f64 = 1e-3;
+/// Probability below which a rival is not worth a word.
+const IMPROBABLE: f64 = 0.01;
 /// Pairs of effects that are looked at for one that they have in common.
 const BEST_PAIRS: usize = 3;
 
@@ -213,7 +213,11 @@ fn common_to_pairs(by_probability: &[EffectSet]) -> Option<&'static Card> {
 fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     let candidate = &leader.candidate;
     let several = candidate.effects.len() > 1;
-    let shows = |card: &&'static Card| format!("How {} shows: {}.", card.name, card.signature);
+    let shows = |(card, form): (&'static Card, Option<&'static Form>)| {
+        let own = form.map_or("", |form| form.signature);
+        let signature = if own.is_empty() { card.signature } else { own };
+        format!("How {} shows: {signature}.", card.name)
+    };
     Explanation {
         sentence: format!(
             "{} missing: {} (probability {}). With {} χ² per point falls from {:.2} to {:.2}; {}.",
@@ -229,7 +233,7 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
             chi2(findings, leader),
             values(leader)
         ),
-        reasons: candidate.effects.cards().iter().map(shows).collect(),
+        reasons: candidate.added_forms().map(shows).collect(),
         next_step: added(candidate),
     }
 }
@@ -396,7 +400,7 @@ mod tests {
             (effects("running_in"), 0.5),
             (beside("running_in"), 0.3),
             (beside("coating"), 0.15),
-            (Hypothesis::Unknown, 4e-4),
+            (Hypothesis::Unknown, 0.009),
             (effects("tip_relief"), 0.04),
         ];
         let group = [effects("running_in"), Hypothesis::Unknown];

@@ -62,7 +62,15 @@ impl PositionKind {
             PositionKind::RollAngle
         } else if says(&["roll", "wälz"]) {
             PositionKind::RollLength
-        } else if says(&["diam", "diám", "diam\u{e8}", "durchmesser", "ø"]) {
+        } else if says(&[
+            "diam",
+            "diám",
+            "diam\u{e8}",
+            "durchmesser",
+            "messkreis",
+            "ø",
+            "⌀",
+        ]) {
             PositionKind::Diameter
         } else {
             PositionKind::Radius

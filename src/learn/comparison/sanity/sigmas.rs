@@ -1,0 +1,138 @@
+//! Standard deviations of depths and masses that stand in another unit than the values: of all tests, or of some.
+//!
+//! ```text
+//! r_t = median of σ over the largest value, of test t      all r_t < 3e-5: no instrument of wear;  r_t a 200th of the others' median, or 200 times it
+//! ```
+
+use std::collections::BTreeMap;
+
+use super::rounded;
+use crate::measure::{Dataset, Observation, Quantity};
+
+/// σ over the largest value that no instrument of wear has.
+const TOO_SURE: f64 = 3e-5;
+/// Factor between a test's r and those of the others from which it is no matter of care: two units of one kind lie 1000 apart.
+const FACTOR: f64 = 200.0;
+/// The same of σ itself: a test without wear to speak of has a large r by the ordinary σ.
+const FACTOR_OF_SIGMA: f64 = 30.0;
+
+/// Of one quantity in one test.
+struct Stated {
+    test: usize,
+    /// Median of σ.
+    sigma: f64,
+    /// Largest value.
+    largest: f64,
+}
+
+impl Stated {
+    fn ratio(&self) -> f64 {
+        self.sigma / self.largest
+    }
+}
+
+/// A line for each quantity whose sigmas ask for it.
+pub(super) fn of_another_unit(data: &Dataset) -> Vec<String> {
+    let all = [Quantity::WearDepth, Quantity::MassLoss].into_iter();
+    all.filter_map(|quantity| {
+        let stated = stated(data, quantity);
+        too_sure(quantity, &stated).or_else(|| unlike_the_others(data, quantity, &stated))
+    })
+    .collect()
+}
+
+/// Each test that has the quantity.
+fn stated(data: &Dataset, quantity: Quantity) -> Vec<Stated> {
+    let mut tests: BTreeMap<usize, Vec<&Observation>> = BTreeMap::new();
+    for o in data.observations.iter().filter(|o| o.quantity == quantity) {
+        tests.entry(o.test).or_default().push(o);
+    }
+    let of_test = |(test, rows): (usize, Vec<&Observation>)| Stated {
+        test,
+        sigma: median(rows.iter().map(|o| o.sigma).collect()),
+        largest: rows.iter().map(|o| o.value.abs()).fold(0.0, f64::max),
+    };
+    (tests.into_iter().map(of_test))
+        .filter(|stated| stated.largest > 0.0)
+        .collect()
+}
+
+fn too_sure(quantity: Quantity, stated: &[Stated]) -> Option<String> {
+    let largest = stated.iter().map(|s| s.largest).fold(0.0, f64::max);
+    let sigma = median(stated.iter().map(|s| s.sigma).collect());
+    let all = stated.iter().all(|s| s.sigma < TOO_SURE * largest);
+    (all && !stated.is_empty()).then(|| {
+        let (name, unit) = (quantity.name(), quantity.unit());
+        format!(
+            "sigma of {name} is about {sigma:.1e} {unit} where values go up to {} {unit}: is it in another unit than the values?",
+            rounded(largest)
+        )
+    })
+}
+
+fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> Option<String> {
+    let usual = median(stated.iter().map(Stated::ratio).collect());
+    let usual_sigma = median(stated.iter().map(|s| s.sigma).collect());
+    let is_unlike = |s: &&Stated| {
+        let (ratio, sigma) = (s.ratio() / usual, s.sigma / usual_sigma);
+        let beyond = |x: f64, factor: f64| x > factor || x * factor < 1.0;
+        beyond(ratio, FACTOR) && beyond(sigma, FACTOR_OF_SIGMA) && (ratio > 1.0) == (sigma > 1.0)
+    };
+    let unlike: Vec<&Stated> = stated.iter().filter(is_unlike).collect();
+    let first = unlike.first()?;
+    let names: Vec<&str> = unlike.iter().map(|s| data.tests[s.test].as_str()).collect();
+    Some(format!(
+        "sigma of {} in {} is about {:.1e} {} where values go up to {}, in the other tests about {:.1} % of the largest value: is it in another unit there?",
+        quantity.name(),
+        names.join(", "),
+        first.sigma,
+        quantity.unit(),
+        rounded(first.largest),
+        100.0 * usual
+    ))
+}
+
+/// The middle one, of an even number the lower; 0 of none.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    (values.len().checked_sub(1)).map_or(0.0, |last| values[last / 2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Study;
+
+    /// Three tests with ten values of 10 to 1 µm, each with its sigma.
+    fn lines(sigmas: [f64; 3]) -> Vec<String> {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        for (test, sigma) in ["A", "B", "C"].iter().zip(sigmas) {
+            for i in 0..10 {
+                let (radius, depth) = (26.0 + 0.3 * f64::from(i), 10 - i);
+                text += &format!("{test},pinion,100000,wear_depth,{radius},{depth},{sigma}\n");
+            }
+        }
+        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        of_another_unit(&data)
+    }
+
+    #[test]
+    fn sigmas_of_one_test_in_another_unit_are_asked_about_by_its_name() {
+        assert!(lines([0.2, 0.2, 0.2]).is_empty());
+        assert!(lines([0.02, 0.2, 1.0]).is_empty());
+        for other in [0.0002, 200.0] {
+            let said = lines([0.2, other, 0.2]);
+            assert!(
+                said[0].contains("sigma of wear_depth in B is about"),
+                "{said:?}"
+            );
+        }
+        let all = lines([0.0002, 0.0002, 0.0002]);
+        assert!(
+            all[0].starts_with("sigma of wear_depth is about 2.0e-4"),
+            "{all:?}"
+        );
+    }
+}
