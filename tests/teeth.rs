@@ -245,6 +245,49 @@ fn a_wave_of_pitch_deviations_swings_the_transmission_error() {
     }
 }
 
+/// Teeth along a wave: three whose wear is computed against a chart with every tooth for itself, by the analytic model, worn by 30 µm; also where a tooth
+/// meets the same mates for ever, so that the wave comes to the mate's teeth too.
+#[test]
+fn three_teeth_stand_for_all_along_a_wave() {
+    for (teeth, shown) in [(None, [0, 9, 20]), (Some([12, 24]), [0, 5, 9])] {
+        let count = teeth.map_or(27, |[pinion, _]| pinion);
+        let back =
+            |i: u32| 20.0 * (std::f64::consts::TAU * f64::from(i) / f64::from(count) + 0.3).cos();
+        let chart: Vec<f64> = (0..count).map(back).collect();
+        let chart = set(
+            teeth,
+            &format!("[teeth.pinion]\npitch_deviations = {chart:?}\n"),
+        );
+        let conditions = Conditions {
+            coefficient: [3e-9; 2],
+            ..conditions()
+        };
+        let mut each = Forward::new(&chart, None, conditions, numerics()).unwrap();
+        let (each, _) = worn(&mut each);
+        let plain = set(teeth, "");
+        let wave = acting("run_out", &[("amplitude", 20.0), ("phase", 0.3)]);
+        let mut few =
+            Forward::with_effects(&plain, None, conditions, numerics(), Some(&wave)).unwrap();
+        let classes = if teeth.is_some() { [3, 3] } else { [3, 1] };
+        assert_eq!(few.sequence().map(|s| s.classes()), Some(classes));
+        let (few, _) = worn(&mut few);
+        let of = |state: &WearState, side: usize, tooth: usize| -> Vec<f64> {
+            let own = |t: &&ToothState| t.side == side && t.teeth.contains(&tooth);
+            state.teeth.iter().find(own).unwrap().depth.clone()
+        };
+        let spread = largest_difference(&of(&each, 0, shown[0]), &of(&each, 0, shown[2]));
+        for side in 0..2 {
+            for tooth in shown {
+                let off = largest_difference(&of(&few, side, tooth), &of(&each, side, tooth));
+                eprintln!(
+                    "{count} teeth, side {side}, tooth {tooth}: {off:.1e} where teeth differ by {spread:.1e}"
+                );
+                assert!(off < 0.02, "side {side}, tooth {tooth}: {off}");
+            }
+        }
+    }
+}
+
 /// Where the numbers of teeth have a common factor the mates of a tooth are few: every second pinion tooth of 12 meets every second gear
 /// tooth of 14 alone, and these wear apart; of 13 all gear teeth wear alike.
 #[test]

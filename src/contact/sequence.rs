@@ -11,6 +11,9 @@
 //! Teeth i and k meet where i − k is a multiple of the common factor of both numbers of teeth. By [`Hunting::Average`] a tooth of a class
 //! passes a mate that is the mean of all that it meets: their mean place and their mean wear. What depends on the wear of two teeth in a
 //! straight line is right so; what is left out is the part of the load sharing that is crooked over the differences between mates.
+//!
+//! Where teeth stand along a wave over the turn, those of a few places around the member are classes, and the others wear as a wave through these
+//! ([`Groups`]).
 
 mod groups;
 mod sharing;
@@ -25,7 +28,7 @@ use sharing::add;
 
 use crate::contact::cycle::Cycle;
 use crate::contact::slices::Flanks;
-use crate::gear::{Hunting, common_factor};
+use crate::gear::{Hunting, ToothClasses, common_factor};
 
 /// Neighbours on either side that tell teeth apart: a pair shares the load with those next to it, and these with the next ones.
 const NEIGHBOURS: i64 = 2;
@@ -35,8 +38,8 @@ const NEIGHBOURS: i64 = 2;
 pub struct Kinds {
     /// By member and tooth, in the order in which they come into mesh: teeth with equal numbers stand alike.
     pub of: [Vec<Vec<f64>>; 2],
-    /// The most classes by member.
-    pub most: [usize; 2],
+    /// Teeth whose wear is computed, by member.
+    pub classes: [ToothClasses; 2],
     /// Which mates a tooth meets.
     pub hunting: Hunting,
 }
@@ -64,8 +67,10 @@ struct Passage {
 pub struct Sequence {
     teeth: [usize; 2],
     common: usize,
-    /// Class of every tooth.
-    class: [Vec<usize>; 2],
+    /// Of every tooth the number of what it wears as.
+    worn_as: [Vec<usize>; 2],
+    /// What teeth wear as: classes with their weights.
+    wears: [Vec<Mix>; 2],
     /// Number of what stands alike, of every tooth.
     kind: [Vec<usize>; 2],
     passages: Vec<Passage>,
@@ -86,13 +91,13 @@ struct Meetings {
     read: Vec<Vec<usize>>,
 }
 
-/// What a seat is to a contact: its class, what it stands like, and whether it is a mean.
+/// What a seat is to a contact: what it wears as, what it stands like, and whether it is a mean.
 type Place = (usize, usize, bool);
 
-/// Depths (mm) of all classes and mean mates.
+/// Depths (mm) of all teeth that wear differently, and of mean mates.
 #[derive(Debug, Clone)]
 pub struct ToothDepths {
-    of_class: [Vec<Vec<f64>>; 2],
+    of_teeth: [Vec<Vec<f64>>; 2],
     of_mean: [Vec<Vec<f64>>; 2],
 }
 
@@ -121,7 +126,7 @@ impl Sequence {
             |m: usize| -> Vec<Vec<f64>> { (0..teeth[m]).map(|i| of_tooth(m, i)).collect() };
         let around = [0, 1].map(of_member);
         let groups = [0, 1].map(|m| match kinds.hunting {
-            Hunting::Average => Groups::new(&around[m], kinds.most[m]),
+            Hunting::Average => Groups::of_classes(&around[m], kinds.classes[m]),
             Hunting::Full => Groups::apart(teeth[m]),
         });
         let alike = |m: usize| around[m].iter().all(|a| close(a, &around[m][0]));
@@ -160,8 +165,9 @@ impl Sequence {
         let mut out = Self {
             teeth,
             common,
-            kind: [0, 1].map(|m| Groups::new(&kinds.of[m], usize::MAX).of),
-            class: groups.map(|groups| groups.of),
+            kind: [0, 1].map(|m| Groups::alike(&kinds.of[m], usize::MAX).worn_as),
+            wears: groups.each_ref().map(|groups| groups.wears.clone()),
+            worn_as: groups.map(|groups| groups.worn_as),
             sharing: Arc::default(),
             weights: [Vec::new(), Vec::new()],
             back: teeth.map(|count| vec![0.0; count]),
@@ -239,7 +245,7 @@ impl Sequence {
 
     fn same(&self, m: usize, seat: Seat) -> Place {
         match seat {
-            Seat::Tooth(i) => (self.class[m][i], self.kind[m][i], false),
+            Seat::Tooth(i) => (self.worn_as[m][i], self.kind[m][i], false),
             Seat::Mean(r) if self.sharing.homes[m].len() > 1 => (r, r, true),
             // all teeth alike: none stands out of the mean
             Seat::Mean(_) => (0, 0, true),
@@ -255,26 +261,42 @@ impl Sequence {
 
     fn mix(&self, m: usize, seat: Seat) -> Mix {
         match seat {
-            Seat::Tooth(i) => vec![(self.class[m][i], 1.0)],
-            Seat::Mean(r) => {
-                let met: Vec<usize> = (r..self.teeth[m]).step_by(self.common).collect();
-                let mut mix = Mix::new();
-                for i in &met {
-                    let class = self.class[m][*i];
-                    match mix.iter_mut().find(|(c, _)| *c == class) {
-                        Some((_, count)) => *count += 1.0,
-                        None => mix.push((class, 1.0)),
-                    }
-                }
-                mix.iter_mut()
-                    .for_each(|(_, count)| *count /= met.len() as f64);
-                mix
+            Seat::Tooth(i) => self.wear(m, i).clone(),
+            Seat::Mean(r) => self.mean_wear(m, (r..self.teeth[m]).step_by(self.common)),
+        }
+    }
+
+    /// What a tooth wears as.
+    fn wear(&self, m: usize, tooth: usize) -> &Mix {
+        &self.wears[m][self.worn_as[m][tooth]]
+    }
+
+    /// What the mean of some teeth wears as.
+    fn mean_wear(&self, m: usize, teeth: impl Iterator<Item = usize>) -> Mix {
+        let (mut mix, mut count) = (Mix::new(), 0.0);
+        for &(class, weight) in teeth.flat_map(|tooth| {
+            count += 1.0;
+            self.wear(m, tooth)
+        }) {
+            match mix.iter_mut().find(|(c, _)| *c == class) {
+                Some((_, sum)) => *sum += weight,
+                None => mix.push((class, weight)),
             }
+        }
+        mix.iter_mut().for_each(|(_, sum)| *sum /= count);
+        mix
+    }
+
+    /// The class of a tooth whose wear is computed.
+    fn class(&self, m: usize, tooth: usize) -> Option<usize> {
+        match self.wear(m, tooth)[..] {
+            [(class, _)] => Some(class),
+            _ => None,
         }
     }
 
     fn feeds_of(&self, m: usize, classes: usize) -> Vec<Mix> {
-        let own = |passage: &Passage| passage.tooth[m].map(|i| self.class[m][i]);
+        let own = |passage: &Passage| passage.tooth[m].and_then(|i| self.class(m, i));
         let of_class = |c: usize| {
             let passages = self.passages.iter().enumerate();
             let passing: Vec<usize> = (passages.clone())
@@ -284,7 +306,7 @@ impl Sequence {
             if passing.is_empty() {
                 // one class, whose teeth pass those of every class of the other member
                 let shares = self.shares(1 - m);
-                let mate = |p: &Passage| p.tooth[1 - m].map(|k| self.class[1 - m][k]);
+                let mate = |p: &Passage| p.tooth[1 - m].and_then(|k| self.class(1 - m, k));
                 let weighted = passages.filter_map(|(i, p)| Some((i, shares[mate(p)?])));
                 return weighted.collect();
             }
@@ -294,14 +316,11 @@ impl Sequence {
         (0..classes).map(of_class).collect()
     }
 
-    /// Share of each class in the teeth of a member.
-    pub fn shares(&self, m: usize) -> Vec<f64> {
-        let classes = self.class[m].iter().max().map_or(0, |c| c + 1);
-        let mut shares = vec![0.0; classes];
-        for class in &self.class[m] {
-            shares[*class] += 1.0 / self.teeth[m] as f64;
-        }
-        shares
+    /// Share of each class in the mean of a member's teeth.
+    fn shares(&self, m: usize) -> Vec<f64> {
+        let mut mean = self.mean_wear(m, 0..self.teeth[m]);
+        mean.sort_by_key(|(class, _)| *class);
+        mean.into_iter().map(|(_, share)| share).collect()
     }
 
     /// Number of passages: a state holds the depths of both members for each.
@@ -319,14 +338,19 @@ impl Sequence {
         &self.sharing
     }
 
-    /// Class of every tooth of a member.
-    pub fn class_of(&self, m: usize) -> &[usize] {
-        &self.class[m]
+    /// Teeth of a member that wear alike, together.
+    pub fn worn_alike(&self, m: usize) -> Vec<Vec<usize>> {
+        let mut alike = vec![Vec::new(); self.wears[m].len()];
+        for (tooth, worn_as) in self.worn_as[m].iter().enumerate() {
+            alike[*worn_as].push(tooth);
+        }
+        alike
     }
 
-    /// The passage that holds the depths of a tooth.
-    pub fn home(&self, m: usize, tooth: usize) -> usize {
-        self.sharing.homes[m][self.class[m][tooth]]
+    /// Passages that hold the depths of a tooth, with their weights.
+    pub fn homes(&self, m: usize, tooth: usize) -> Mix {
+        let of_class = |&(class, weight): &(usize, f64)| (self.sharing.homes[m][class], weight);
+        self.wear(m, tooth).iter().map(of_class).collect()
     }
 
     /// Share of each passage in the mean tooth of a member.
@@ -424,7 +448,7 @@ impl Sequence {
 
     fn depth<'u>(&self, m: usize, seat: Seat, depths: &'u ToothDepths) -> &'u [f64] {
         match seat {
-            Seat::Tooth(i) => &depths.of_class[m][self.class[m][i]],
+            Seat::Tooth(i) => &depths.of_teeth[m][self.worn_as[m][i]],
             Seat::Mean(r) => &depths.of_mean[m][r],
         }
     }
@@ -451,7 +475,11 @@ impl Sequence {
             let of = |r: usize| sum(&self.mix(m, Seat::Mean(r)), &of_class[m]);
             (0..self.common).map(of).collect()
         });
-        ToothDepths { of_class, of_mean }
+        let of_teeth = [0, 1].map(|m| {
+            let wears = self.wears[m].iter();
+            wears.map(|wear| sum(wear, &of_class[m])).collect()
+        });
+        ToothDepths { of_teeth, of_mean }
     }
 }
 

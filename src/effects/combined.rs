@@ -2,6 +2,7 @@
 
 use super::effect::{Effect, FaceAt, Hook, OperationChange, OperationState, Tooth, UsualTrace};
 use super::local::{Local, ProfileAt};
+use crate::gear::ToothClasses;
 
 /// The effects of one model.
 #[derive(Default)]
@@ -127,10 +128,17 @@ impl Effect for Combined {
         kinds.flat_map(|effect| effect.tooth_kind(tooth)).collect()
     }
 
-    fn tooth_classes(&self) -> usize {
-        self.of(Hook::ToothOffset).fold(1, |all: usize, effect| {
-            all.saturating_mul(effect.tooth_classes())
-        })
+    /// Several patterns of teeth that stand alike have as many kinds as pairs of theirs; with a wave all teeth differ.
+    fn tooth_classes(&self) -> ToothClasses {
+        let each = self.of(Hook::ToothOffset).map(Effect::tooth_classes);
+        let both = |a: ToothClasses, b: ToothClasses| match (a, b) {
+            (ToothClasses::Alike(a), ToothClasses::Alike(b)) => {
+                ToothClasses::Alike(a.saturating_mul(b))
+            }
+            (ToothClasses::Wave(a), ToothClasses::Wave(b)) => ToothClasses::Wave(a.max(b)),
+            _ => ToothClasses::Alike(usize::MAX),
+        };
+        each.reduce(both).unwrap_or(ToothClasses::Alike(1))
     }
 
     fn lead(&self, at: &FaceAt) -> Option<f64> {

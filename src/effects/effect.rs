@@ -1,7 +1,7 @@
 //! The trait of a physical effect: hooks through which it changes a run, each neutral unless an effect says otherwise.
 
 use super::local::{Local, ProfileAt};
-use crate::gear::Member;
+use crate::gear::{Member, ToothClasses};
 
 /// Where an effect acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -135,9 +135,9 @@ pub trait Effect: Send + Sync {
         Vec::new()
     }
 
-    /// How many classes of teeth of a member the effect's pattern needs at most.
-    fn tooth_classes(&self) -> usize {
-        usize::MAX
+    /// Of which teeth of a member the wear is to be computed.
+    fn tooth_classes(&self) -> ToothClasses {
+        ToothClasses::Alike(usize::MAX)
     }
 
     /// Material missing across the face, µm along the path of contact on both flanks together. None: the effect knows nothing of the face.

@@ -37,7 +37,7 @@ pub use lead::{Coupling, Face, Lead};
 pub use outline::{ProfileResolution, polygon_area};
 pub use pair::{JAM_TOLERANCE, Pair};
 pub use rack::BasicRack;
-pub use teeth::{Hunting, Teeth, common_factor};
+pub use teeth::{Hunting, Teeth, ToothClasses, common_factor};
 pub use thickness::{ThicknessLoss, WornDepths};
 pub use tip::TipRounding;
 pub use tooth::{Gear, MIN_TEETH, ToothSpec};

@@ -34,6 +34,15 @@ pub enum Hunting {
     Full,
 }
 
+/// Teeth of a member whose wear is computed, for all others to wear by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ToothClasses {
+    /// Of those that stand alike one; where there are more kinds than this, those nearest are taken together.
+    Alike(usize),
+    /// So many around the member: the wear of the others follows a wave through these, over the turn or a part of it after which all begins again.
+    Wave(usize),
+}
+
 impl Teeth {
     /// The most classes of a member unless the study says otherwise.
     pub const USUAL_CLASSES: usize = 64;

@@ -310,7 +310,7 @@ impl<'r, 'f> Reading<'r, 'f> {
         let by_effects = acting.is_some_and(|acting| acting.acts(Hook::ToothOffset));
         let measured = (by_effects && !self.forward.states_teeth()).then_some(0);
         match tooth.or(measured) {
-            Some(tooth) => vec![(sequence.home(side(member), tooth), 1.0)],
+            Some(tooth) => sequence.homes(side(member), tooth),
             None => self.all_sections(member),
         }
     }

@@ -118,17 +118,24 @@ pub fn state_of<M: ContactModel + ?Sized>(
     })
 }
 
-/// The classes of teeth, with the depths of all passages.
+/// The teeth that wear differently, by the depths of all passages.
 fn tooth_states(sequence: &Sequence, flanks: &[[&[f64]; 2]]) -> Vec<ToothState> {
-    let of_class = |(side, class): (usize, usize)| {
-        let own = sequence.class_of(side).iter().enumerate();
-        let teeth: Vec<usize> = (own.filter(|(_, c)| **c == class)).map(|t| t.0).collect();
-        let depth = flanks[sequence.home(side, teeth[0])][side].to_vec();
+    let state = |side: usize, teeth: Vec<usize>| {
+        let mut depth = vec![0.0; flanks[0][side].len()];
+        for (passage, weight) in sequence.homes(side, teeth[0]) {
+            let own = flanks[passage][side].iter();
+            depth
+                .iter_mut()
+                .zip(own)
+                .for_each(|(d, own)| *d += weight * own);
+        }
         ToothState { side, teeth, depth }
     };
-    let classes = sequence.classes();
-    let all = (0..2).flat_map(|side| (0..classes[side]).map(move |class| (side, class)));
-    all.map(of_class).collect()
+    let all = (0..2).flat_map(|side| {
+        let alike = sequence.worn_alike(side).into_iter();
+        alike.map(move |teeth| (side, teeth))
+    });
+    all.map(|(side, teeth)| state(side, teeth)).collect()
 }
 
 /// Depths of pinion and gear, slice by slice.

@@ -7,7 +7,7 @@
 //! teeth wears for itself ([`crate::contact::sequence`]).
 
 use crate::effects::{Card, Effect, Form, Hook, Param, Prior, Tooth};
-use crate::gear::Member;
+use crate::gear::{Member, ToothClasses};
 
 pub(super) const CARD: Card = Card {
     name: "pitch_error",
@@ -125,7 +125,7 @@ impl Effect for PitchError {
     }
 
     /// An odd number of teeth has two alike side by side somewhere; they are counted to the others.
-    fn tooth_classes(&self) -> usize {
-        if self.alternate { 2 } else { usize::MAX }
+    fn tooth_classes(&self) -> ToothClasses {
+        ToothClasses::Alike(if self.alternate { 2 } else { usize::MAX })
     }
 }

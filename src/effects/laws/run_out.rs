@@ -9,7 +9,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::effects::{Card, Effect, Form, Hook, Param, ParamRole, Prior, Tooth};
-use crate::gear::Member;
+use crate::gear::{Member, ToothClasses};
 
 pub(super) const CARD: Card = Card {
     name: "run_out",
@@ -25,7 +25,7 @@ pub(super) const CARD: Card = Card {
         "extra_flexibility",
     ],
     separated_by: "measuring four teeth or more around the member",
-    left_out: "an axis that lies off: it moves all pairs in mesh together and changes the distance of the axes, radial_misalignment for the measured tooth; differences between the mates that a tooth meets; groups of teeth wear as one. Not beside slices of the face",
+    left_out: "an axis that lies off: it moves all pairs in mesh together and changes the distance of the axes, radial_misalignment for the measured tooth; differences between the mates that a tooth meets; teeth between three around the member wear by the wave through these. Not beside slices of the face",
     needs: &[],
     params: &[
         Param::new(
@@ -69,8 +69,8 @@ pub(super) const CARD: Card = Card {
     },
 };
 
-/// Groups of teeth around the member: wear differs between them by less than traces are told apart by.
-const GROUPS: usize = 8;
+/// Teeth around the member whose wear is computed: what the wave does to wear is a wave too, to 0.1 % of the depth where it is 20 µm.
+const AROUND: usize = 3;
 
 struct RunOut {
     amplitude: f64,
@@ -100,7 +100,7 @@ impl Effect for RunOut {
         }
     }
 
-    fn tooth_classes(&self) -> usize {
-        GROUPS
+    fn tooth_classes(&self) -> ToothClasses {
+        ToothClasses::Wave(AROUND)
     }
 }

@@ -15,7 +15,7 @@ use crate::contact::sequence::{Kinds, Sequence};
 use crate::contact::slices::Slices;
 use crate::contact::strips::Strips;
 use crate::effects::{Effect, Hook};
-use crate::gear::{Coupling, Member, Teeth};
+use crate::gear::{Coupling, Member, Teeth, ToothClasses};
 use crate::simulate::blanks::Blanks;
 use crate::simulate::history::Progress;
 use crate::simulate::members::{MemberError, Members};
@@ -446,15 +446,19 @@ impl Forward<'_> {
             return None;
         }
         let stand_apart = |m: usize| teeth.back[m].windows(2).any(|two| two[0] != two[1]);
-        let most = |m: usize| match acting {
+        let usual = |m: usize| teeth.classes[m].unwrap_or(Teeth::USUAL_CLASSES);
+        let classes = |m: usize| match acting {
             // what an effect's own pattern takes is enough where nothing else tells teeth apart
             Some(acting) if !stand_apart(m) => acting.effects.tooth_classes(),
-            _ => usize::MAX,
+            _ => ToothClasses::Alike(usize::MAX),
         };
-        let usual = |m: usize| teeth.classes[m].unwrap_or(Teeth::USUAL_CLASSES);
+        let at_most_usual = |m: usize| match classes(m) {
+            ToothClasses::Alike(most) => ToothClasses::Alike(most.min(usual(m))),
+            ToothClasses::Wave(count) => ToothClasses::Wave(count.min(usual(m))),
+        };
         let sequence = Sequence::new(&Kinds {
             of: [0, 1].map(|m| (0..counts[m]).map(|i| kind(m, i)).collect()),
-            most: [0, 1].map(|m| most(m).min(usual(m))),
+            classes: [0, 1].map(at_most_usual),
             hunting: teeth.hunting,
         })?;
         Some(sequence.over(&self.cycle, back))
