@@ -377,11 +377,10 @@ fn a_hopeless_effect_is_given_up_early() {
     let share = explained("tip_relief").expect("the profile does not run in");
     assert!((-0.2..0.1).contains(&share), "{share}");
     // a costly effect that is given up is not judged on the held-out test: no figure stands for what was not computed
-    let run_out = fit("run_out");
+    let costly = fit("lead_crowning");
     assert!(
-        run_out["given_up_explaining"].is_number()
-            && run_out["holdout"]["chi2_per_point"].is_null(),
-        "{run_out}"
+        costly["given_up_explaining"].is_number() && costly["holdout"]["chi2_per_point"].is_null(),
+        "{costly}"
     );
     // the right effect beside the model without it; on top of that another betters nothing
     let right = fit("running_in");
