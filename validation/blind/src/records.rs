@@ -93,7 +93,10 @@ pub fn write(records: &[Record], path: &Path) -> Result<()> {
 }
 
 fn short_truth(truth: &Value) -> Value {
-    let mut out = json!({"effects": [{"drivers": truth["effects"][0]["drivers"]}]});
+    let effects = truth["effects"].as_array().into_iter().flatten();
+    let counting =
+        |e: &Value| json!({"kind": e["kind"], "class": e["class"], "drivers": e["drivers"]});
+    let mut out = json!({"effects": effects.map(counting).collect::<Vec<Value>>()});
     for key in ["class", "kinds", "noise", "gear", "d", "d_each"] {
         out[key] = truth[key].clone();
     }
@@ -124,28 +127,48 @@ mod tests {
     /// What is kept is judged as the whole was.
     #[test]
     fn a_kept_record_counts_as_the_whole() {
-        let truth = json!({"class": "outside", "kinds": ["groove"], "noise": 0.05, "gear": "random", "d": 8.5, "d_each": [8.5], "seed": 3,
-            "effects": [{"kind": "groove", "form": "own", "drivers": ["position"], "parameters": {"a": 1.0}}],
+        let alone = json!({"class": "outside", "kinds": ["groove"], "noise": 0.05, "gear": "random", "d": 8.5, "d_each": [8.5], "seed": 3,
+            "effects": [{"kind": "groove", "class": "outside", "form": "own", "drivers": ["position"], "parameters": {"a": 1.0}}],
             "rivals": [{"left_chi2": 12.0, "share": 0.7, "name": "x"}]});
-        let found = json!({"verdict": "unknown", "effect": null, "indistinguishable": [], "driver": {"name": "position", "variance_share": 0.4},
+        let unknown = json!({"verdict": "unknown", "effect": null, "indistinguishable": [], "driver": {"name": "position", "variance_share": 0.4},
             "probabilities": {"unknown": 0.9, "running_in": 0.0999, "nothing_missing": 0.0001}, "ranking": [1, 2]});
+        let mut mixed = alone.clone();
+        mixed["class"] = json!("mixed");
+        mixed["kinds"] = json!(["coating", "groove"]);
+        mixed["d_each"] = json!([8.5, 7.0]);
+        mixed["effects"] =
+            json!([{"kind": "coating", "class": "single", "form": "step"}, alone["effects"][0]]);
+        let mut partial = unknown.clone();
+        partial["verdict"] = json!("partial");
+        partial["effect"] = json!("coating");
+        assert_eq!(kept_and_judged(&alone, &unknown), "exact");
+        assert_eq!(kept_and_judged(&mixed, &partial), "exact");
+    }
+
+    /// The result of a record that was written and read, checked to be that of the whole.
+    fn kept_and_judged(truth: &Value, found: &Value) -> &'static str {
         let record = Record {
             name: "s1_0001".into(),
-            truth: short_truth(&truth),
-            found: short_found(&found),
+            truth: short_truth(truth),
+            found: short_found(found),
             simple: vec![("nobody".into(), json!({"verdict": "unknown"}))],
             made: "full 10 8 abc".into(),
         };
-        let path = std::env::temp_dir().join(format!("blind_records_{}.jsonl", std::process::id()));
+        let path = std::env::temp_dir().join(format!(
+            "blind_records_{}_{}.jsonl",
+            std::process::id(),
+            truth["class"]
+        ));
         write(&[record], &path).unwrap();
         let back = Record::of_file(&path).unwrap();
         fs::remove_file(&path).unwrap();
         let kept = score::judge(&back[0].name, &back[0].truth, &back[0].found);
-        let whole = score::judge("s1_0001", &truth, &found);
+        let whole = score::judge("s1_0001", truth, found);
         assert_eq!(format!("{kept:?}"), format!("{whole:?}"));
         assert_eq!(
             (back[0].simple.len(), back[0].made.as_str()),
             (1, "full 10 8 abc")
         );
+        kept.result
     }
 }

@@ -546,6 +546,10 @@ mod tests {
         assert_eq!(one(&t, &found("partial", Value::Null, beside)), "half");
         let beside = json!([["b+unknown", "c+unknown"]]);
         assert_eq!(one(&t, &found("partial", Value::Null, beside)), "wrong");
+        let mut t = truth("mixed", &["a", "own"]);
+        t["effects"] =
+            json!([{"kind": "a", "class": "single"}, {"kind": "own", "class": "outside"}]);
+        assert_eq!(one(&t, &found("partial", json!("a"), json!([]))), "exact");
         let t = truth("pair", &["b", "a"]);
         assert_eq!(
             one(&t, &found("effects", json!(["a", "b"]), json!([]))),
