@@ -211,7 +211,16 @@ mod tests {
                 "cycles",
             ),
             (
-                &["r", "Roll length", "Raggio", "rayon", "roll_angle"],
+                &[
+                    "r",
+                    "Roll length",
+                    "Raggio",
+                    "rayon",
+                    "roll_angle",
+                    "Ø",
+                    "⌀",
+                    "Messkreis-Ø",
+                ],
                 "position",
             ),
             (

@@ -238,12 +238,12 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     }
 }
 
-/// The effects that stand in all rivals, if these are sets of several, and the probability that they are missing.
+/// The effects that stand in all rivals, alone, beside others or beside something unknown, and the probability that they are missing.
 fn common_to(rivals: &[(&Hypothesis, f64)], decision: &Decision) -> Option<(EffectSet, f64)> {
     let sets: Option<Vec<&EffectSet>> = (rivals.iter())
         .map(|(hypothesis, _)| match hypothesis {
-            Hypothesis::Effects(effects) if effects.len() > 1 => Some(effects),
-            _ => None,
+            Hypothesis::Effects(effects) | Hypothesis::EffectsAndUnknown(effects) => Some(effects),
+            Hypothesis::NothingMissing | Hypothesis::Unknown => None,
         })
         .collect();
     let [first, others @ ..] = &sets?[..] else {
@@ -272,10 +272,19 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
     let leader = decision.leading_effects().filter(|_| doubted);
     let leader = leader.and_then(|effects| posterior.best_form(effects));
     let unidentified = leader.and_then(|j| unidentified(&findings.context.likelihood, j));
+    let is_common = |effects: &EffectSet| {
+        let common = common.as_ref();
+        common.is_some_and(|(common, _)| common.contains(effects))
+    };
     let reason = match (unidentified, leader, posterior.share_of_leader()) {
         (Some((card, parameter)), ..) => Some(format!(
             "These data do not determine {parameter}, the mark of {}: another cause with the same pattern would look alike. What would show it: {}.",
             card.name, card.separated_by
+        )),
+        (None, Some(leader), Some(share)) if is_common(&leader.candidate.effects) => Some(format!(
+            "{} accounts for {} of the attainable reduction of χ²: whether the rest is another cause, or a spoiled measurement, is open.",
+            leader.candidate.effects,
+            percent(share.max(0.0))
         )),
         (None, Some(leader), Some(share)) => Some(format!(
             "{} accounts for {} of the attainable reduction of χ²: neither it nor an uncatalogued cause, or a spoiled measurement, can be ruled out.",
@@ -291,13 +300,16 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
             percent(*probability)
         )
     });
+    let single = common.as_ref().and_then(|(effects, _)| effects.single());
     let next_step = match (next, unidentified) {
-        (Some(_), _) if common.is_some() => {
-            let common = common.map_or(String::new(), |(effects, _)| effects.to_string());
-            format!(
-                "gearwear add STUDY {common}, which stands in all of them; make the proposed test before adding what they differ in"
-            )
-        }
+        (Some(_), _) if single.is_some() => format!(
+            "gearwear add STUDY {}, which stands in all of them; make the proposed test before adding what they differ in",
+            single.map_or("", |card| card.name)
+        ),
+        (None, None) if single.is_some() => format!(
+            "gearwear add STUDY {}, which stands in all of them, and diagnose the new study: that shows what is left with it in",
+            single.map_or("", |card| card.name)
+        ),
         (Some(_), _) => "make the proposed test before adding one of them".to_owned(),
         (None, Some((card, _))) => {
             format!("to show whether it is {}: {}", card.name, card.separated_by)
@@ -413,6 +425,12 @@ mod tests {
             names,
             ["running_in", "running_in+unknown", "coating+unknown"]
         );
+        assert_eq!(common_to(&rivals(&decision), &decision), None);
+        // one effect in all of them, alone and beside something unknown
+        let one = decided(&all[..2], &group);
+        let (common, probability) = common_to(&rivals(&one), &one).unwrap();
+        assert_eq!(common.to_string(), "running_in");
+        assert!((probability - 0.8).abs() < 1e-12, "{probability}");
         // nothing else is left: the two most probable stand there all the same
         let few = [(effects("running_in"), 0.9), (Hypothesis::Unknown, 4e-4)];
         assert_eq!(rivals(&decided(&few, &group)).len(), 2);

@@ -101,3 +101,22 @@ const ROUNDING: f64 = 5e-4;
 pub(super) fn on_flank(gear: &Gear, radius: f64) -> bool {
     (gear.form_radius - ROUNDING..=gear.tip_radius + ROUNDING).contains(&radius)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_tells_how_places_are_told() {
+        for (header, kind) in [
+            ("Radius [mm]", PositionKind::Radius),
+            ("Ø [mm]", PositionKind::Diameter),
+            ("⌀", PositionKind::Diameter),
+            ("Messkreis", PositionKind::Diameter),
+            ("Wälzlänge", PositionKind::RollLength),
+            ("roll [°]", PositionKind::RollAngle),
+        ] {
+            assert_eq!(PositionKind::of_header(header), kind, "{header}");
+        }
+    }
+}

@@ -56,6 +56,7 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
             "ø",
             "messkreis",
             "messkreisdurchmesser",
+            "messkreisø",
             "walzwinkel",
             "walzlange",
             "raggio",
