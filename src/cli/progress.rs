@@ -86,6 +86,7 @@ impl Progress {
     }
 
     /// Writes where the work stands to a log, if a line is due.
+    #[expect(clippy::print_stderr, reason = "progress is for people")]
     fn write_log(&self, doing: &str) {
         let elapsed = self.bar.elapsed();
         if self.log.as_ref().is_some_and(|log| log.is_due(elapsed)) {
