@@ -16,18 +16,19 @@
 //! ([`Groups`]).
 
 mod groups;
+mod meetings;
 mod sharing;
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 pub use groups::Groups;
 use groups::close;
+use meetings::Meetings;
+pub use meetings::ToothDepths;
 pub use sharing::Sharing;
 use sharing::add;
 
 use crate::contact::cycle::Cycle;
-use crate::contact::slices::Flanks;
 use crate::gear::{Hunting, ToothClasses, common_factor};
 
 /// Neighbours on either side that tell teeth apart: a pair shares the load with those next to it, and these with the next ones.
@@ -67,10 +68,8 @@ struct Passage {
 pub struct Sequence {
     teeth: [usize; 2],
     common: usize,
-    /// Of every tooth the number of what it wears as.
-    worn_as: [Vec<usize>; 2],
-    /// What teeth wear as: classes with their weights.
-    wears: [Vec<Mix>; 2],
+    /// Classes of teeth, by member.
+    groups: [Groups; 2],
     /// Number of what stands alike, of every tooth.
     kind: [Vec<usize>; 2],
     passages: Vec<Passage>,
@@ -80,25 +79,6 @@ pub struct Sequence {
     /// How far every tooth stands back, mm along the path of contact.
     back: [Vec<f64>; 2],
     meetings: Vec<Meetings>,
-}
-
-/// What meets at one mesh position.
-#[derive(Debug, Clone, PartialEq)]
-struct Meetings {
-    /// Teeth of every pair.
-    situations: Vec<Vec<[Seat; 2]>>,
-    /// Which of them a passage has where a pair is its own, by passage and pair.
-    read: Vec<Vec<usize>>,
-}
-
-/// What a seat is to a contact: what it wears as, what it stands like, and whether it is a mean.
-type Place = (usize, usize, bool);
-
-/// Depths (mm) of all teeth that wear differently, and of mean mates.
-#[derive(Debug, Clone)]
-pub struct ToothDepths {
-    of_teeth: [Vec<Vec<f64>>; 2],
-    of_mean: [Vec<Vec<f64>>; 2],
 }
 
 impl Sequence {
@@ -166,8 +146,7 @@ impl Sequence {
             teeth,
             common,
             kind: [0, 1].map(|m| Groups::alike(&kinds.of[m], usize::MAX).worn_as),
-            wears: groups.each_ref().map(|groups| groups.wears.clone()),
-            worn_as: groups.map(|groups| groups.worn_as),
+            groups,
             sharing: Arc::default(),
             weights: [Vec::new(), Vec::new()],
             back: teeth.map(|count| vec![0.0; count]),
@@ -187,7 +166,7 @@ impl Sequence {
         let feeds = [0, 1].map(|m| out.feeds_of(m, classes[m]));
         for m in 0..2 {
             out.weights[m] = vec![0.0; out.passages.len()];
-            for (feeds, share) in feeds[m].iter().zip(out.shares(m)) {
+            for (feeds, share) in feeds[m].iter().zip(out.groups[m].shares()) {
                 for &(passage, weight) in feeds {
                     out.weights[m][passage] += share * weight;
                 }
@@ -217,41 +196,6 @@ impl Sequence {
         self
     }
 
-    fn meetings_of(&self, numbers: &[i64]) -> Meetings {
-        let mut known: HashMap<Vec<[Place; 2]>, usize> = HashMap::new();
-        let mut out = Meetings {
-            situations: Vec::new(),
-            read: Vec::new(),
-        };
-        for passage in &self.passages {
-            let of_pair = |own: &i64| {
-                // a pair with a larger number came into mesh before
-                let seats: Vec<[Seat; 2]> = (numbers.iter())
-                    .map(|other| [0, 1].map(|m| self.seat(passage, m, own - other)))
-                    .collect();
-                let key = (seats.iter())
-                    .map(|seats| [0, 1].map(|m| self.same(m, seats[m])))
-                    .collect();
-                *known.entry(key).or_insert_with(|| {
-                    out.situations.push(seats);
-                    out.situations.len() - 1
-                })
-            };
-            let read = numbers.iter().map(of_pair).collect();
-            out.read.push(read);
-        }
-        out
-    }
-
-    fn same(&self, m: usize, seat: Seat) -> Place {
-        match seat {
-            Seat::Tooth(i) => (self.worn_as[m][i], self.kind[m][i], false),
-            Seat::Mean(r) if self.sharing.homes[m].len() > 1 => (r, r, true),
-            // all teeth alike: none stands out of the mean
-            Seat::Mean(_) => (0, 0, true),
-        }
-    }
-
     fn seat(&self, passage: &Passage, m: usize, d: i64) -> Seat {
         match (passage.tooth[m], passage.tooth[1 - m]) {
             (Some(i), _) => Seat::Tooth(place(i, d, self.teeth[m])),
@@ -261,42 +205,13 @@ impl Sequence {
 
     fn mix(&self, m: usize, seat: Seat) -> Mix {
         match seat {
-            Seat::Tooth(i) => self.wear(m, i).clone(),
-            Seat::Mean(r) => self.mean_wear(m, (r..self.teeth[m]).step_by(self.common)),
-        }
-    }
-
-    /// What a tooth wears as.
-    fn wear(&self, m: usize, tooth: usize) -> &Mix {
-        &self.wears[m][self.worn_as[m][tooth]]
-    }
-
-    /// What the mean of some teeth wears as.
-    fn mean_wear(&self, m: usize, teeth: impl Iterator<Item = usize>) -> Mix {
-        let (mut mix, mut count) = (Mix::new(), 0.0);
-        for &(class, weight) in teeth.flat_map(|tooth| {
-            count += 1.0;
-            self.wear(m, tooth)
-        }) {
-            match mix.iter_mut().find(|(c, _)| *c == class) {
-                Some((_, sum)) => *sum += weight,
-                None => mix.push((class, weight)),
-            }
-        }
-        mix.iter_mut().for_each(|(_, sum)| *sum /= count);
-        mix
-    }
-
-    /// The class of a tooth whose wear is computed.
-    fn class(&self, m: usize, tooth: usize) -> Option<usize> {
-        match self.wear(m, tooth)[..] {
-            [(class, _)] => Some(class),
-            _ => None,
+            Seat::Tooth(i) => self.groups[m].wear(i).clone(),
+            Seat::Mean(r) => self.groups[m].mean_wear((r..self.teeth[m]).step_by(self.common)),
         }
     }
 
     fn feeds_of(&self, m: usize, classes: usize) -> Vec<Mix> {
-        let own = |passage: &Passage| passage.tooth[m].and_then(|i| self.class(m, i));
+        let own = |passage: &Passage| passage.tooth[m].and_then(|i| self.groups[m].class(i));
         let of_class = |c: usize| {
             let passages = self.passages.iter().enumerate();
             let passing: Vec<usize> = (passages.clone())
@@ -305,8 +220,8 @@ impl Sequence {
                 .collect();
             if passing.is_empty() {
                 // one class, whose teeth pass those of every class of the other member
-                let shares = self.shares(1 - m);
-                let mate = |p: &Passage| p.tooth[1 - m].and_then(|k| self.class(1 - m, k));
+                let shares = self.groups[1 - m].shares();
+                let mate = |p: &Passage| p.tooth[1 - m].and_then(|k| self.groups[1 - m].class(k));
                 let weighted = passages.filter_map(|(i, p)| Some((i, shares[mate(p)?])));
                 return weighted.collect();
             }
@@ -314,13 +229,6 @@ impl Sequence {
             passing.into_iter().map(|i| (i, each)).collect()
         };
         (0..classes).map(of_class).collect()
-    }
-
-    /// Share of each class in the mean of a member's teeth.
-    fn shares(&self, m: usize) -> Vec<f64> {
-        let mut mean = self.mean_wear(m, 0..self.teeth[m]);
-        mean.sort_by_key(|(class, _)| *class);
-        mean.into_iter().map(|(_, share)| share).collect()
     }
 
     /// Number of passages: a state holds the depths of both members for each.
@@ -340,17 +248,13 @@ impl Sequence {
 
     /// Teeth of a member that wear alike, together.
     pub fn worn_alike(&self, m: usize) -> Vec<Vec<usize>> {
-        let mut alike = vec![Vec::new(); self.wears[m].len()];
-        for (tooth, worn_as) in self.worn_as[m].iter().enumerate() {
-            alike[*worn_as].push(tooth);
-        }
-        alike
+        self.groups[m].worn_alike()
     }
 
     /// Passages that hold the depths of a tooth, with their weights.
     pub fn homes(&self, m: usize, tooth: usize) -> Mix {
         let of_class = |&(class, weight): &(usize, f64)| (self.sharing.homes[m][class], weight);
-        self.wear(m, tooth).iter().map(of_class).collect()
+        self.groups[m].wear(tooth).iter().map(of_class).collect()
     }
 
     /// Share of each passage in the mean tooth of a member.
@@ -365,11 +269,16 @@ impl Sequence {
         for m in 0..2 {
             let first = m * self.sharing.stations[0];
             let own = &mut mean[first..first + self.sharing.stations[m]];
-            for (class, share) in self.shares(m).into_iter().enumerate() {
+            for (class, share) in self.groups[m].shares().into_iter().enumerate() {
                 add(own, share, &classes[self.sharing.class_part(m, class)]);
             }
         }
         mean
+    }
+
+    /// Base pitches of one turn of the member with more teeth.
+    pub fn base_pitches_of_a_turn(&self) -> usize {
+        self.teeth[0].max(self.teeth[1])
     }
 
     /// Share of each passage in the mean of all contacts.
@@ -382,121 +291,11 @@ impl Sequence {
         };
         (0..self.count()).map(mean).collect()
     }
-
-    /// Number of different contacts at the position `q`.
-    pub fn situations(&self, q: usize) -> usize {
-        self.meetings[q].situations.len()
-    }
-
-    /// Which contact a passage has at the position `q` where the pair `index` is its own.
-    pub fn read(&self, q: usize, passage: usize, index: usize) -> usize {
-        self.meetings[q].read[passage][index]
-    }
-
-    /// The flanks that meet in the contact `situation` of the position `q`, the teeth standing where they do.
-    pub fn flanks<'u>(&self, q: usize, situation: usize, depths: &'u ToothDepths) -> Flanks<'u> {
-        self.flanks_with(q, situation, depths, &self.back)
-    }
-
-    /// The same with the teeth standing back by `back`, mm by member and tooth; or with derivatives of both.
-    pub fn flanks_with<'u>(
-        &self,
-        q: usize,
-        situation: usize,
-        depths: &'u ToothDepths,
-        back: &[Vec<f64>; 2],
-    ) -> Flanks<'u> {
-        self.seated(&self.meetings[q].situations[situation], depths, back)
-    }
-
-    /// Base pitches of one turn of the member with more teeth.
-    pub fn base_pitches_of_a_turn(&self) -> usize {
-        self.teeth[0].max(self.teeth[1])
-    }
-
-    /// The flanks of the pairs `numbers` so many base pitches after the first teeth of both members met in the pitch point, each tooth where it
-    /// stands.
-    pub fn flanks_after<'u>(
-        &self,
-        turned: usize,
-        numbers: &[i64],
-        depths: &'u ToothDepths,
-    ) -> Flanks<'u> {
-        // a pair with a larger number came into mesh before
-        let seats = |number: &i64| {
-            self.teeth
-                .map(|count| Seat::Tooth(place(turned, -number, count)))
-        };
-        let seats: Vec<[Seat; 2]> = numbers.iter().map(seats).collect();
-        self.seated(&seats, depths, &self.back)
-    }
-
-    fn seated<'u>(
-        &self,
-        seats: &[[Seat; 2]],
-        depths: &'u ToothDepths,
-        back: &[Vec<f64>; 2],
-    ) -> Flanks<'u> {
-        let mut flanks = Flanks::new(&[seats.len()], |_, pair| {
-            [0, 1].map(|m| self.depth(m, seats[pair][m], depths))
-        });
-        for (own, seats) in flanks.back.iter_mut().zip(seats) {
-            *own = (0..2).map(|m| self.back_of(m, seats[m], &back[m])).sum();
-        }
-        flanks
-    }
-
-    fn depth<'u>(&self, m: usize, seat: Seat, depths: &'u ToothDepths) -> &'u [f64] {
-        match seat {
-            Seat::Tooth(i) => &depths.of_teeth[m][self.worn_as[m][i]],
-            Seat::Mean(r) => &depths.of_mean[m][r],
-        }
-    }
-
-    fn back_of(&self, m: usize, seat: Seat, back: &[f64]) -> f64 {
-        match seat {
-            _ if back.is_empty() => 0.0,
-            Seat::Tooth(i) => back[i],
-            Seat::Mean(r) => {
-                let met = back[r..].iter().step_by(self.common);
-                met.sum::<f64>() / (self.teeth[m] / self.common) as f64
-            }
-        }
-    }
-
-    /// Depths of all classes and mean mates in the state `u`.
-    pub fn depths(&self, u: &[f64]) -> ToothDepths {
-        let of_class = [0, 1].map(|m| {
-            let homes = self.sharing.homes[m].iter();
-            let of = |home: &usize| u[self.sharing.part(*home, m)].to_vec();
-            homes.map(of).collect::<Vec<Vec<f64>>>()
-        });
-        let of_mean = [0, 1].map(|m| {
-            let of = |r: usize| sum(&self.mix(m, Seat::Mean(r)), &of_class[m]);
-            (0..self.common).map(of).collect()
-        });
-        let of_teeth = [0, 1].map(|m| {
-            let wears = self.wears[m].iter();
-            wears.map(|wear| sum(wear, &of_class[m])).collect()
-        });
-        ToothDepths { of_teeth, of_mean }
-    }
 }
 
 /// The tooth `d` after `i` of `count`.
 fn place(i: usize, d: i64, count: usize) -> usize {
     (i as i64 + d).rem_euclid(count as i64) as usize
-}
-
-fn sum(mix: &[(usize, f64)], of: &[Vec<f64>]) -> Vec<f64> {
-    if let [(only, 1.0)] = mix {
-        return of[*only].clone();
-    }
-    let mut sum = vec![0.0; of[0].len()];
-    for &(i, weight) in mix {
-        add(&mut sum, weight, &of[i]);
-    }
-    sum
 }
 
 /// The mean of the lists whose number has the remainder `r` by `common`.

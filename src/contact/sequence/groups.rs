@@ -116,6 +116,53 @@ impl Groups {
             centres,
         }
     }
+
+    /// What a tooth wears as.
+    pub(super) fn wear(&self, tooth: usize) -> &Mix {
+        &self.wears[self.worn_as[tooth]]
+    }
+
+    /// What the mean of some teeth wears as.
+    pub(super) fn mean_wear(&self, teeth: impl Iterator<Item = usize>) -> Mix {
+        let (mut mix, mut count) = (Mix::new(), 0.0);
+        for tooth in teeth {
+            count += 1.0;
+            for &(class, weight) in self.wear(tooth) {
+                match mix.iter_mut().find(|(c, _)| *c == class) {
+                    Some((_, sum)) => *sum += weight,
+                    None => mix.push((class, weight)),
+                }
+            }
+        }
+        mix.iter_mut().for_each(|(_, sum)| *sum /= count);
+        mix
+    }
+
+    /// The class of a tooth whose wear is that of one class.
+    pub(super) fn class(&self, tooth: usize) -> Option<usize> {
+        match self.wear(tooth)[..] {
+            [(class, _)] => Some(class),
+            _ => None,
+        }
+    }
+
+    /// Share of each class in the mean of all teeth.
+    pub(super) fn shares(&self) -> Vec<f64> {
+        let mut shares = vec![0.0; self.centres.len()];
+        for (class, share) in self.mean_wear(0..self.worn_as.len()) {
+            shares[class] = share;
+        }
+        shares
+    }
+
+    /// Teeth that wear alike, together.
+    pub(super) fn worn_alike(&self) -> Vec<Vec<usize>> {
+        let mut alike = vec![Vec::new(); self.wears.len()];
+        for (tooth, worn_as) in self.worn_as.iter().enumerate() {
+            alike[*worn_as].push(tooth);
+        }
+        alike
+    }
 }
 
 /// Number of teeth after which all begins again.
