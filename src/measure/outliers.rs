@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use super::neighbours::{around, curves, points};
 use super::quantity::Quantity;
 use super::{Dataset, Observation};
+use crate::numeric::median;
 
 /// Standard deviations from what the neighbours say from which a row stands apart: one of 150 000 Gaussian ones.
 const APART: f64 = 4.5;
@@ -68,10 +69,8 @@ impl Curve {
 }
 
 /// Standard deviation of numbers about 0 by the median of their magnitudes, in which a few large ones do not show.
-fn scatter(mut magnitudes: Vec<f64>) -> f64 {
-    magnitudes.sort_by(f64::total_cmp);
-    let middle = magnitudes.get(magnitudes.len() / 2).copied();
-    middle.map_or(1.0, |middle| (middle / MEDIAN).max(f64::MIN_POSITIVE))
+fn scatter(magnitudes: Vec<f64>) -> f64 {
+    median(magnitudes).map_or(1.0, |middle| (middle / MEDIAN).max(f64::MIN_POSITIVE))
 }
 
 /// All rows that stand apart from their neighbours.

@@ -11,6 +11,7 @@ use super::neighbours::{SIDE, around, around_within, curves, points};
 use super::pooled_scatter::{CurveScatter, ScatterLaw};
 use super::quantity::Quantity;
 use super::short_series;
+use crate::numeric::median;
 
 /// Median of |x| of a standard normal number.
 const MEDIAN: f64 = 0.674_490;
@@ -136,10 +137,7 @@ fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
     let mut found = vec![None; rows.len()];
     for curves in quantities.values() {
         let all: Vec<CurveScatter> = curves.iter().filter_map(|curve| curve.scatter).collect();
-        let of = |f: &dyn Fn(&CurveScatter) -> f64| {
-            let mut values: Vec<f64> = all.iter().map(f).collect();
-            (!values.is_empty()).then(|| median(&mut values))
-        };
+        let of = |f: &dyn Fn(&CurveScatter) -> f64| median(all.iter().map(f).collect());
         let (Some(middle), Some(share)) = (of(&|c| c.scatter), of(&|c| c.scatter / c.largest))
         else {
             continue;
@@ -278,8 +276,8 @@ fn middle_of_apart(even: &[[f64; 3]], left_out: &[bool]) -> Option<(f64, usize)>
         });
     let apart: Vec<(usize, f64)> = apart.collect();
     let furthest = apart.iter().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
-    let mut all: Vec<f64> = apart.into_iter().map(|(_, apart)| apart).collect();
-    Some((median(&mut all) / MEDIAN, furthest))
+    let all = apart.into_iter().map(|(_, apart)| apart).collect();
+    Some((median(all)? / MEDIAN, furthest))
 }
 
 /// Of each quantity by values of the same place and time.
@@ -311,13 +309,8 @@ fn of_stated(observations: &[Observation]) -> BTreeMap<Quantity, f64> {
         stated.entry(o.quantity).or_default().push(o.sigma);
     }
     (stated.into_iter())
-        .map(|(quantity, mut all)| (quantity, median(&mut all)))
+        .filter_map(|(quantity, all)| Some((quantity, median(all)?)))
         .collect()
-}
-
-fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }
 
 #[cfg(test)]

@@ -30,6 +30,16 @@ pub fn chebyshev(degree: usize, x: f64) -> f64 {
     (degree as f64 * x.acos()).cos()
 }
 
+/// The middle one of some numbers, of an even count the upper of the two; None of none.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return None;
+    }
+    let (_, median, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(*median)
+}
+
 /// Piecewise linear interpolation of `y` over ascending `x`, constant beyond the ends.
 pub fn interpolate(x: &[f64], y: &[f64], at: f64) -> f64 {
     let next = x.partition_point(|&v| v <= at);

@@ -403,3 +403,49 @@ fn parameters(entry: &Ranked) -> String {
         .collect();
     all.join(", ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::find;
+    use crate::learn::diagnose::EffectSet;
+
+    fn entry(effect: Hypothesis) -> Ranked {
+        Ranked {
+            effect,
+            form: String::new(),
+            probability: 0.1,
+            evidence_gain: 0.0,
+            parameters: Vec::new(),
+            wear_coefficient: 1e-10,
+            fit_chi2_per_point: 1.0,
+            holdout_chi2_per_point: None,
+            angle_to_leader: None,
+            decided_by: Fidelity::Full,
+            converged: true,
+        }
+    }
+
+    #[test]
+    fn a_rival_that_is_far_down_takes_the_last_line() {
+        let set = |name| EffectSet::new([find(name).unwrap()]);
+        let alone = |name| entry(Hypothesis::Effects(set(name)));
+        let beside = |name| entry(Hypothesis::EffectsAndUnknown(set(name)));
+        let names = [
+            "coating",
+            "tip_relief",
+            "surface_layer",
+            "lead_crowning",
+            "oxidative",
+            "running_in",
+        ];
+        let mut ranking = vec![alone("running_in")];
+        ranking.extend(names.map(beside));
+        ranking.push(alone("lubricant_ageing"));
+        let last = |ranking: &[Ranked]| shown(ranking).last().unwrap().effect.to_string();
+        assert_eq!(shown(&ranking).len(), SHOWN);
+        assert_eq!(last(&ranking), "lubricant_ageing");
+        ranking[1] = alone("coating");
+        assert_eq!(last(&ranking), "oxidative+unknown");
+    }
+}

@@ -17,6 +17,7 @@ use crate::learn::likelihood::Likelihood;
 use crate::learn::noise::SigmaModel;
 use crate::measure::neighbours::curves;
 use crate::measure::{Dataset, Observation, Quantity};
+use crate::numeric::median;
 use crate::study::{Role, Study};
 
 /// Differences needed for an estimate.
@@ -181,11 +182,9 @@ fn scale(differences: &[Difference], sigma: &[f64]) -> Option<f64> {
     if differences.len() < LEAST {
         return None;
     }
-    let mut squares: Vec<f64> = (differences.iter())
-        .map(|d| (d.value / d.sigma(sigma)).powi(2))
-        .collect();
-    squares.sort_by(f64::total_cmp);
-    Some((squares[squares.len() / 2] / MEDIAN).sqrt())
+    let square = |d: &Difference| (d.value / d.sigma(sigma)).powi(2);
+    let middle = median(differences.iter().map(square).collect())?;
+    Some((middle / MEDIAN).sqrt())
 }
 
 /// L of independent differences, for σ known up to a factor.

@@ -11,6 +11,7 @@ use super::{SAME_CYCLES, rounded};
 use crate::gear::Gear;
 use crate::measure::neighbours::curves;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
+use crate::numeric::median;
 use crate::study::Study;
 
 /// Factor between a mass and that of the depths from which it is a unit's.
@@ -23,14 +24,9 @@ const SURE: f64 = 5.0;
 /// Tests of which the masses are hundreds of times more or less than the depths make up.
 pub(super) fn masses_and_depths(study: &Study, data: &Dataset) -> Option<String> {
     let ratios = ratios(study, data);
-    let middle = |logs: &Vec<f64>| {
-        let mut logs = logs.clone();
-        logs.sort_by(f64::total_cmp);
-        logs[logs.len() / 2]
-    };
     let all: Vec<(usize, f64)> = ratios
         .iter()
-        .map(|(test, logs)| (*test, middle(logs)))
+        .filter_map(|(test, logs)| Some((*test, median(logs.clone())?)))
         .collect();
     let far = |(_, log): &&(usize, f64)| log.abs() > FACTOR.ln();
     let (_, first) = *all.iter().find(far)?;

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use super::rounded;
 use crate::measure::{Dataset, Observation, Quantity};
+use crate::numeric::median;
 
 /// σ over the largest value that no instrument of wear has.
 const TOO_SURE: f64 = 3e-5;
@@ -47,21 +48,23 @@ fn stated(data: &Dataset, quantity: Quantity) -> Vec<Stated> {
     for o in data.observations.iter().filter(|o| o.quantity == quantity) {
         tests.entry(o.test).or_default().push(o);
     }
-    let of_test = |(test, rows): (usize, Vec<&Observation>)| Stated {
-        test,
-        sigma: median(rows.iter().map(|o| o.sigma).collect()),
-        largest: rows.iter().map(|o| o.value.abs()).fold(0.0, f64::max),
+    let of_test = |(test, rows): (usize, Vec<&Observation>)| {
+        Some(Stated {
+            test,
+            sigma: median(rows.iter().map(|o| o.sigma).collect())?,
+            largest: rows.iter().map(|o| o.value.abs()).fold(0.0, f64::max),
+        })
     };
-    (tests.into_iter().map(of_test))
+    (tests.into_iter().filter_map(of_test))
         .filter(|stated| stated.largest > 0.0)
         .collect()
 }
 
 fn too_sure(quantity: Quantity, stated: &[Stated]) -> Option<String> {
     let largest = stated.iter().map(|s| s.largest).fold(0.0, f64::max);
-    let sigma = median(stated.iter().map(|s| s.sigma).collect());
+    let sigma = median(stated.iter().map(|s| s.sigma).collect())?;
     let all = stated.iter().all(|s| s.sigma < TOO_SURE * largest);
-    (all && !stated.is_empty()).then(|| {
+    all.then(|| {
         let (name, unit) = (quantity.name(), quantity.unit());
         format!(
             "sigma of {name} is about {sigma:.1e} {unit} where values go up to {} {unit}: is it in another unit than the values?",
@@ -71,8 +74,8 @@ fn too_sure(quantity: Quantity, stated: &[Stated]) -> Option<String> {
 }
 
 fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> Option<String> {
-    let usual = median(stated.iter().map(Stated::ratio).collect());
-    let usual_sigma = median(stated.iter().map(|s| s.sigma).collect());
+    let usual = median(stated.iter().map(Stated::ratio).collect())?;
+    let usual_sigma = median(stated.iter().map(|s| s.sigma).collect())?;
     let is_unlike = |s: &&Stated| {
         let (ratio, sigma) = (s.ratio() / usual, s.sigma / usual_sigma);
         let beyond = |x: f64, factor: f64| x > factor || x * factor < 1.0;
@@ -90,12 +93,6 @@ fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> O
         rounded(first.largest),
         100.0 * usual
     ))
-}
-
-/// The middle one, of an even number the lower; 0 of none.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    (values.len().checked_sub(1)).map_or(0.0, |last| values[last / 2])
 }
 
 #[cfg(test)]
