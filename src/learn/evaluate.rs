@@ -26,8 +26,8 @@ pub(super) struct Evaluator<'a> {
     /// Id and number of observations of each test.
     tests: Vec<(&'a str, usize)>,
     known: HashMap<Key, Prediction>,
-    /// Points at which derivatives were asked for.
-    differentiated: usize,
+    /// Predictions made, with derivatives or without.
+    evaluations: usize,
 }
 
 impl<'a> Evaluator<'a> {
@@ -36,13 +36,13 @@ impl<'a> Evaluator<'a> {
             predictor,
             tests,
             known: HashMap::new(),
-            differentiated: 0,
+            evaluations: 0,
         }
     }
 
     /// How many predictions have been made, with derivatives or without.
     pub(super) fn evaluations(&self) -> usize {
-        self.known.len() + self.differentiated
+        self.evaluations
     }
 
     /// The predictions at all points, in their order.
@@ -52,6 +52,7 @@ impl<'a> Evaluator<'a> {
             .iter()
             .filter(|point| !self.known.contains_key(&key(point)) && asked.insert(key(point)))
             .collect();
+        self.evaluations += new.len();
         let found: Vec<Prediction> = new.par_iter().map(|point| self.predict(point)).collect();
         for (point, found) in new.into_iter().zip(found) {
             self.known.insert(key(point), found);
@@ -71,7 +72,7 @@ impl<'a> Evaluator<'a> {
         if !self.predictor.has_derivatives() {
             return vec![None; points.len()];
         }
-        self.differentiated += points.len();
+        self.evaluations += points.len();
         let (predictor, tests) = (self.predictor, &self.tests);
         let own = |(point, moves): &(Point, Vec<Move>)| {
             let (test, k) = (point.test, point.coefficient);

@@ -62,7 +62,7 @@ pub struct TestFit {
     pub sigma: f64,
     /// ε: the logarithm of its coefficient over the common one.
     pub deviation: f64,
-    /// Standard deviations of the prediction's rows that what was fitted leaves, in the unit of each row, in the test's order.
+    /// Derivatives of the test's predictions, and the covariance of what they are taken by.
     pub uncertainty: Jacobian,
 }
 

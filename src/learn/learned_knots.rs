@@ -109,6 +109,7 @@ impl Measured<'_> {
             let locals = model
                 .locals(test.test, test.coefficient, &[])
                 .unwrap_or_default();
+            let before = values.len();
             values.extend(
                 locals
                     .into_iter()
@@ -116,7 +117,7 @@ impl Measured<'_> {
                     .filter(concerned)
                     .map(|local| wanted.driver.at(&local)),
             );
-            if values.is_empty() {
+            if values.len() == before {
                 // mass and transmission error stand nowhere on a flank, but they have a time
                 let observed = bench.tests[test.test].observations.iter();
                 if wanted.driver.name == "cycles" {

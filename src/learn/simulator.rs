@@ -196,22 +196,29 @@ impl<'a> Simulator<'a> {
         let middle = model.predict(test, k, values)?;
         let mut derivatives = DMatrix::zeros(middle.len(), values.len() + 1);
         let moves = self.moves(values, DIFFERENCE);
+        let bounds: Vec<_> = (self.effect_parameters())
+            .map(|parameter| parameter.lower..=parameter.upper)
+            .collect();
         for column in 0..=values.len() {
             let at = |sign: f64| match moves.get(column) {
                 Some(a_move) => {
                     let mut moved = values.to_vec();
                     moved[column] += sign * a_move.step;
-                    model.predict(test, k, &moved)
+                    // a law says nothing beyond its bounds
+                    (bounds[column].contains(&moved[column]))
+                        .then(|| model.predict(test, k, &moved))
                 }
-                None => model.predict(test, k * (sign * DIFFERENCE).exp(), values),
+                None => Some(model.predict(test, k * (sign * DIFFERENCE).exp(), values)),
             };
             let apart = moves.get(column).map_or(DIFFERENCE, |a_move| a_move.step);
             // to one side only where the model has no answer on the other
             let (low, high, apart) = match (at(-1.0), at(1.0)) {
-                (Ok(low), Ok(high)) => (low, high, 2.0 * apart),
-                (Err(_), Ok(high)) => (middle.clone(), high, apart),
-                (Ok(low), Err(_)) => (low, middle.clone(), apart),
-                (Err(error), Err(_)) => return Err(error),
+                (Some(Ok(low)), Some(Ok(high))) => (low, high, 2.0 * apart),
+                (_, Some(Ok(high))) => (middle.clone(), high, apart),
+                (Some(Ok(low)), _) => (low, middle.clone(), apart),
+                (Some(Err(error)), _) | (_, Some(Err(error))) => return Err(error),
+                // narrower than a step
+                (None, None) => (middle.clone(), middle.clone(), apart),
             };
             for (row, (low, high)) in low.iter().zip(&high).enumerate() {
                 derivatives[(row, column)] = (high - low) / apart;

@@ -14,7 +14,7 @@ use crate::learn::quadratic::State;
 
 /// Orders of magnitude that the even half spans, as a logarithm.
 const SPAN: f64 = 4.0 * std::f64::consts::LN_10;
-/// Log evidence that a strength loses by it at the least: the data pin it to a third of itself, ln(3 SPAN/√(2π)).
+/// Log evidence that each strength loses by it at the least: the data pin it to a third of itself, ln(3 SPAN/√(2π)).
 const LEAST_LOSS: f64 = 2.4;
 
 /// What the evidence of a fit gains over that under the catalogue's priors, which is `gain` over the base model's where χ² falls by `fall`.
@@ -22,10 +22,12 @@ const LEAST_LOSS: f64 = 2.4;
 /// A strength that the data do not pin gains nothing.
 pub(super) fn regained(candidate: &Candidate, state: &State, gain: f64, fall: f64) -> f64 {
     let added = (candidate.parameters.iter().zip(&state.theta)).skip(candidate.inherited);
-    let more: f64 = (added.zip(candidate.neutrals()))
+    let of_each: Vec<f64> = (added.zip(candidate.neutrals()))
         .filter_map(|((parameter, &natural), neutral)| Some(more(parameter, natural, neutral?)))
-        .sum();
-    more.min((0.5 * fall - LEAST_LOSS - gain).max(0.0))
+        .collect();
+    let least_loss = LEAST_LOSS * of_each.len() as f64;
+    let more: f64 = of_each.iter().sum();
+    more.min((0.5 * fall - least_loss - gain).max(0.0))
 }
 
 /// ln p/p_catalogue of one strength at `natural`, which does nothing at the value `neutral`.

@@ -7,7 +7,7 @@
 //! ```
 //! Whatever is smooth along a trace drops out of such differences (Rice, Ann. Statist. 12, 1984; with positions as Gasser, Sroka &
 //! Jennen-Steinmetz, Biometrika 73, 1986); 0.4549 is the median of χ² with one degree of freedom. Evidence knows only the stated σ: if that
-//! is too small by two, noise is four times as discrimination, and something seems to be missing. If it is too small at some points and too
+//! is too small by two, noise counts four times in χ², and something seems to be missing. If it is too small at some points and too
 //! large at others, no factor mends that: then a σ of another shape, a constant and a share of each curve's largest depth, is
 //! taken where the differences speak for it by L. Laplace's law, since outliers shall not decide; neighbouring differences share two points
 //! of three, and the sizes of normal ones are correlated by 4/9, so that L/2 is what independent ones would have.
@@ -65,7 +65,7 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
     let scatter = scale(&differences(&own, &of_own), &SigmaModel::AS_STATED.of(&own));
     match scatter.filter(|found| *found < SMOOTH) {
         Some(smooth) => Some(smooth_in_words(smooth)),
-        None => scatter_in_words(of_residual(&rows, &residual)),
+        None => scatter_in_words(of_residual(&own, &of_own)),
     }
 }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use super::Standing;
 use crate::effects::CATALOGUE;
 use crate::learn::decision::Verdict;
-use crate::learn::experiment::decided::DecidedCandidate;
+use crate::learn::experiment::decided::{DecidedCandidate, values_of};
 use crate::learn::explanation::{Diagnosis, Named, Ranked, Screened};
 
 /// Effects that are tried in turn where the first does not pay.
@@ -72,12 +72,10 @@ impl From<&Diagnosis> for Answer {
 }
 
 impl Answer {
-    /// The fitted values of a single effect in one of its forms (empty for the card's own), by parameter; none where it is not listed.
+    /// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by
+    /// parameter; none where it is not listed.
     pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
-        let of_effect = |listed: &&DecidedCandidate| listed.effect == effect && listed.form == form;
-        let values = self.ranking.iter().find(of_effect);
-        let values = values.into_iter().flat_map(|listed| &listed.parameters);
-        values.map(|p| (p.name.as_str(), p.value)).collect()
+        values_of(&self.ranking, effect, form)
     }
 }
 

@@ -82,9 +82,13 @@ fn repeated(data: &Dataset) -> Option<String> {
     let mut again = placed.filter(|o| !seen.insert(contents(o)));
     let first = again.next()?;
     let count = 1 + again.count();
-    let rows = if count == 1 { "row says" } else { "rows say" };
+    let rows = if count == 1 {
+        "row repeats"
+    } else {
+        "rows repeat"
+    };
     Some(format!(
-        "{count} {rows} again what an earlier one says, the first at {}: each counts as a measurement of its own",
+        "{count} {rows} an earlier one, the first at {}: each counts as a measurement of its own",
         data.place(first)
     ))
 }
@@ -188,7 +192,7 @@ mod tests {
         };
         let said = told(vec![a, b, again]).unwrap();
         assert!(
-            said.starts_with("1 row says again what an earlier one says, the first at m.csv:7"),
+            said.starts_with("1 row repeats an earlier one, the first at m.csv:7"),
             "{said}"
         );
         // a balance reads the same mass twice

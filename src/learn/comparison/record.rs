@@ -196,7 +196,7 @@ impl Comparison {
             }),
             by_quantity: Group::by(&rows, |o| Some(o.quantity), |q| q.name().to_owned()),
             ratios: ratios.into_values().flatten().collect(),
-            validation: validate(data, &roles, fit, &rows),
+            validation: validate(data, &roles, fit),
             outliers: outliers(data, &rows),
             converged: fit.converged,
             log_evidence: fit.log_evidence,

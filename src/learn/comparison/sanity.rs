@@ -48,7 +48,10 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         return vec![other];
     }
     let of_one_k = of_one_k(data, fit);
-    let rows: Vec<Fitted<'_>> = data.observations.iter().zip(&of_one_k).collect();
+    let judged = |(o, _): &Fitted<'_>| fit.judges(o.test);
+    let rows: Vec<Fitted<'_>> = (data.observations.iter().zip(&of_one_k))
+        .filter(judged)
+        .collect();
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
     if said.is_empty() {
         let k = fit.coefficient;

@@ -11,9 +11,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::residual_statistics::{Fitted, role_name};
+use super::residual_statistics::role_name;
 use crate::learn::fitted::Fit;
-use crate::measure::{Dataset, Quantity, Subject};
+use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Role;
 
 /// Stated numerical error of the model, relative to a curve's largest magnitude.
@@ -49,14 +49,10 @@ pub struct Validation {
 }
 
 /// Of every test, member and quantity.
-pub(in crate::learn) fn validate(
-    data: &Dataset,
-    roles: &[Role],
-    fit: &Fit,
-    rows: &[Fitted<'_>],
-) -> Vec<Validation> {
+pub(in crate::learn) fn validate(data: &Dataset, roles: &[Role], fit: &Fit) -> Vec<Validation> {
     let mut groups: BTreeMap<_, Vec<usize>> = BTreeMap::new();
-    for (i, (o, _)) in rows.iter().enumerate() {
+    let judged = |(_, o): &(usize, &Observation)| fit.judges(o.test);
+    for (i, o) in data.observations.iter().enumerate().filter(judged) {
         groups
             .entry((o.test, o.member, o.quantity))
             .or_default()
@@ -64,28 +60,29 @@ pub(in crate::learn) fn validate(
     }
     let of = |((test, member, quantity), group): ((usize, Subject, Quantity), Vec<usize>)| {
         let n = group.len() as f64;
-        let error = group.iter().map(|&i| rows[i].1.residual).sum::<f64>() / n;
-        let noise: f64 = group.iter().map(|&i| rows[i].0.sigma.powi(2)).sum();
+        let rows = &data.observations;
+        let error = group.iter().map(|&i| fit.rows[i].residual).sum::<f64>() / n;
+        let noise: f64 = group.iter().map(|&i| rows[i].sigma.powi(2)).sum();
         let datums: f64 = fit
             .datums
             .iter()
             .map(|datum| {
                 let points = group
                     .iter()
-                    .filter(|&&i| rows[i].0.trace == Some(datum.trace))
+                    .filter(|&&i| rows[i].trace == Some(datum.trace))
                     .count();
                 (points as f64 * datum.sigma).powi(2)
             })
             .sum();
         let mut tops: BTreeMap<u64, f64> = BTreeMap::new();
         for &i in &group {
-            let top = tops.entry(rows[i].0.cycles.to_bits()).or_default();
-            *top = top.max(rows[i].1.model.abs());
+            let top = tops.entry(rows[i].cycles.to_bits()).or_default();
+            *top = top.max(fit.rows[i].model.abs());
         }
         let u_num = NUMERICAL
             * group
                 .iter()
-                .map(|&i| tops[&rows[i].0.cycles.to_bits()])
+                .map(|&i| tops[&rows[i].cycles.to_bits()])
                 .sum::<f64>()
             / n;
         let u_data = (noise + datums).sqrt() / n;

@@ -39,10 +39,6 @@ pub struct RemainderEvidence {
     pub remaining_drop: f64,
     /// Standard deviation of that on noise alone.
     pub remaining_spread: f64,
-    /// Fall of χ² where the effect may be stronger in one test and weaker in another, beside the discrepancy.
-    pub transfer_drop: f64,
-    /// How many strengths more that takes.
-    pub transfer_strengths: usize,
 }
 
 impl RemainderEvidence {

@@ -119,7 +119,5 @@ fn remainder(likelihood: &Likelihood<'_>, beside: &BesideUnknown) -> RemainderEv
         chi2_drop: beside.chi2_drop,
         remaining_drop: beside.remaining.drop,
         remaining_spread: beside.remaining.spread(),
-        transfer_drop: beside.transfer.0,
-        transfer_strengths: beside.transfer.1,
     }
 }

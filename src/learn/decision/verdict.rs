@@ -16,6 +16,7 @@
 //!             a pair              Σ_forms t S(x) S(y)
 //!             unknown             W + Σ_c not identified t S(x) o             W: Σ_c t S(−x) + min(u, cap)
 //! u = Z_GP/Z_base e^offset π_u,     ln cap = ln t* + max(x*, Δ ln Z_GP − Δ ln Z*)          *: the candidate with the largest t
+//!                                                                                        no cap where nothing smooth is missed
 //! ```
 //! A free discrepancy follows what remains of an effect in another form too. It counts only as far as the leader's share leaves room
 //! for it, or its evidence exceeds the leader's: effects that were really there never let that happen (97 of 99 sets gained at least 1.8
@@ -36,7 +37,8 @@
 //! nothing_missing   p(0) ≥ p(u) and p(0) ≥ Σ,  or  p(0) ≥ doubt and p(u) < Σ and p(0) > p₁
 //! effect, effects   p(0) < doubt and p₁ ≥ claim
 //! partial           p(0) < doubt, and what holds the most probable effect beside something unknown (that, the effect alone, and every set
-//!                   with it) ≥ claim, unless it is alike no more; or all those beside something unknown together: then they are a group
+//!                   with it) ≥ claim, unless its own is at most alike · p₁; or the same of all those beside something unknown that are alike (> alike ·
+//!                   the most probable of them), or all those beside something unknown together: then they are a group
 //! unknown           p(u) ≥ Σ and p(u) ≥ p(0), unless what holds the most probable effect beside something unknown is more probable than
 //!                   something unknown alone                   p(u): with all that stands beside something unknown
 //! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone);
@@ -100,7 +102,7 @@ impl Decision {
 
     /// The probability that `effects` are missing, alone, beside others of the catalogue or beside something unknown.
     pub fn probability_in_all(&self, effects: &EffectSet) -> f64 {
-        held(&self.log_probabilities, effects)
+        held(&self.log_probabilities, &[effects])
     }
 
     /// The most probable effect or set that alone is missing.
@@ -149,14 +151,14 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
         },
         Verdict::Partial => {
             // as with effects alone, one that is probable enough has no look-alikes
-            let (leader, most) = remainders[0];
-            let least = if held(&log_probabilities, leader) >= rule.claim {
-                most
+            let leader = remainders[0].0;
+            let own = if held(&log_probabilities, &[leader]) >= rule.claim {
+                vec![leader]
             } else {
-                rule.alike * most
+                alike(&remainders, rule)
             };
-            let own = remainders.iter().filter(|(_, p)| *p >= least);
-            own.map(|(effects, _)| Hypothesis::EffectsAndUnknown((*effects).clone()))
+            (own.into_iter())
+                .map(|effects| Hypothesis::EffectsAndUnknown(effects.clone()))
                 .collect()
         }
     };
@@ -216,16 +218,23 @@ fn verdict(
             None => Verdict::Effects,
         };
     }
-    if let Some((effect, p)) = remainders.first() {
-        let alone = logs.get(&Hypothesis::Effects((*effect).clone()));
-        let is_partial = *p >= alone.map_or(0.0, |log| log.exp())
-            && *p > rule.alike * leading
-            && held(logs, effect) >= rule.claim * all;
+    if let Some((first, p)) = remainders.first() {
+        // one or more effects of which one is missing, and more often beside something unknown than alone
+        let is_established = |effects: &[&EffectSet]| {
+            let sum = |of: fn(EffectSet) -> Hypothesis| -> f64 {
+                let logs = effects.iter().filter_map(|&own| logs.get(&of(own.clone())));
+                logs.map(|log| log.exp()).sum()
+            };
+            sum(Hypothesis::EffectsAndUnknown) >= sum(Hypothesis::Effects)
+                && held(logs, effects) >= rule.claim * all
+        };
+        let is_partial = *p > rule.alike * leading
+            && (is_established(&[first]) || is_established(&alike(remainders, rule)));
         if nothing < rule.doubt && (is_partial || partial >= rule.claim * all) {
             return Verdict::Partial;
         }
     }
-    let alone_is_less = |&(effect, _): &(&EffectSet, f64)| held(logs, effect) > mass.unknown;
+    let alone_is_less = |&(effect, _): &(&EffectSet, f64)| held(logs, &[effect]) > mass.unknown;
     if mass.is_unnamed() && !remainders.first().is_some_and(alone_is_less) {
         Verdict::Unknown
     } else {
@@ -267,10 +276,19 @@ fn look_alikes(
     group
 }
 
-/// The probability of all hypotheses that hold `effects`.
-fn held(logs: &BTreeMap<Hypothesis, f64>, effects: &EffectSet) -> f64 {
+/// Of what stands beside something unknown, the most probable and all that the data cannot tell from it.
+fn alike<'e>(remainders: &[(&'e EffectSet, f64)], rule: &DecisionRule) -> Vec<&'e EffectSet> {
+    let most = remainders.first().map_or(0.0, |(_, p)| *p);
+    let own = remainders.iter().filter(|(_, p)| *p >= rule.alike * most);
+    own.map(|(effects, _)| *effects).collect()
+}
+
+/// The probability of all hypotheses that hold any of `effects`.
+fn held(logs: &BTreeMap<Hypothesis, f64>, effects: &[&EffectSet]) -> f64 {
     let holds = |hypothesis: &Hypothesis| match hypothesis {
-        Hypothesis::Effects(own) | Hypothesis::EffectsAndUnknown(own) => own.contains(effects),
+        Hypothesis::Effects(own) | Hypothesis::EffectsAndUnknown(own) => {
+            effects.iter().any(|effects| own.contains(effects))
+        }
         Hypothesis::NothingMissing | Hypothesis::Unknown => false,
     };
     let all = logs.iter().filter(|(hypothesis, _)| holds(hypothesis));

@@ -31,7 +31,7 @@ pub(in crate::learn) fn polynomials(kinds: &[usize], values: &[f64], most: usize
         .collect()
 }
 
-/// Cosines over the range of the values, fewer than there are different values.
+/// Cosines over the range of the values, no more than there are different values.
 pub(in crate::learn) fn waves(kinds: &[usize], values: &[f64], most: usize) -> Functions {
     let (x, distinct) = ranged(kinds, values);
     (0..most.min(distinct))
@@ -39,7 +39,7 @@ pub(in crate::learn) fn waves(kinds: &[usize], values: &[f64], most: usize) -> F
         .collect()
 }
 
-/// Means of cosines over 0 to a value, sin(pπx)/(pπx) with x the value as a share of the largest, fewer than there are different values.
+/// Means of cosines over 0 to a value, sin(pπx)/(pπx) with x the value as a share of the largest, no more than there are different values.
 pub(in crate::learn) fn mean_waves(values: &[f64], most: usize) -> Functions {
     let largest = values.iter().copied().fold(0.0, f64::max);
     let mut distinct = values.to_vec();

@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use super::basis::{Functions, numbered, polynomials, waves};
 use crate::learn::likelihood::Likelihood;
 use crate::learn::region::Map;
-use crate::measure::Observation;
+use crate::measure::{Observation, Quantity};
 
 /// Most functions of the position, of the cycles, of the depth, and of a condition of the tests.
 const ALONG: usize = 24;
@@ -81,7 +81,11 @@ pub(in crate::learn) fn drivers(
     let cycles = [f64::ln_1p, |n| n]
         .map(|scale| polynomials(&seen.kinds, &by(&|o| scale(o.cycles)), OVER_CYCLES))
         .map(|functions| seen.share(&all, &functions));
-    let depth = seen.share(&all, &polynomials(&seen.kinds, model, OVER_DEPTH));
+    let of_depths = |i: usize| likelihood.observation(i).quantity == Quantity::WearDepth;
+    let depths: Vec<f64> = (0..rows)
+        .map(|i| if of_depths(i) { model[i] } else { 0.0 })
+        .collect();
+    let depth = seen.share(&all, &polynomials(&seen.kinds, &depths, OVER_DEPTH));
     let others = [
         ("position", position),
         ("member", member),

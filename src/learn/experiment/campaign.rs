@@ -19,6 +19,7 @@ use crate::learn::bench::Workshop;
 use crate::learn::fidelity::Fidelity;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::model_search::context::{DiagnoseError, Watch};
+use crate::learn::noise::SigmaModel;
 use crate::learn::predictor::PredictError;
 use crate::learn::quadratic::State;
 use crate::measure::Quantity;
@@ -208,7 +209,7 @@ impl TestResponses {
             Err(error) => return Err(error.clone()),
         };
         let data = design.with(&base);
-        let noise = noise_ahead(study);
+        let noise = noise_ahead(study, SigmaModel::AS_STATED);
         let scatter = match study.noise.coefficient_scatter {
             Scatter::Relative(scatter) => scatter,
             Scatter::Estimate => LEAST_SCATTER,

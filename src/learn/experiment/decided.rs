@@ -158,17 +158,27 @@ impl DecidedCandidate {
     }
 }
 
+/// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by parameter; none
+/// where the `ranking` does not list it.
+pub(in crate::learn) fn values_of<'r>(
+    ranking: &'r [DecidedCandidate],
+    effect: &str,
+    form: &str,
+) -> Vec<(&'r str, f64)> {
+    let in_form = |name: &str| {
+        let mut listed = ranking.iter();
+        listed.find(|c| c.effect == name && c.form == form)
+    };
+    let known = in_form(effect).or_else(|| in_form(&format!("{effect}{BESIDE_UNKNOWN}")));
+    let values = known.into_iter().flat_map(|c| &c.parameters);
+    values.map(|p| (p.name.as_str(), p.value)).collect()
+}
+
 impl Decided {
     /// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by
     /// parameter; none where it was not listed.
     pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
-        let in_form = |name: &str| {
-            let mut listed = self.ranking.iter();
-            listed.find(|c| c.effect == name && c.form == form)
-        };
-        let known = in_form(effect).or_else(|| in_form(&format!("{effect}{BESIDE_UNKNOWN}")));
-        let values = known.into_iter().flat_map(|c| &c.parameters);
-        values.map(|p| (p.name.as_str(), p.value)).collect()
+        values_of(&self.ranking, effect, form)
     }
 
     /// What leads: the first two effects or sets, and up to two more that are not far behind. What stands beside something unknown counts with
@@ -210,7 +220,8 @@ impl Decided {
         base: &BaseFit,
     ) -> Vec<(FittedCandidate, Leader)> {
         let leaders = self.leaders();
-        let (singles, _) = Candidate::singles(context.likelihood.measured.study());
+        let measured = context.likelihood.measured;
+        let (singles, _) = Candidate::singles_for(measured.study(), &measured.data);
         let fitted = leaders.iter().filter_map(|leader| {
             let fitted = leader.at_its_values(context, base, &singles)?;
             let told = Leader {

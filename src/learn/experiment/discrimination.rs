@@ -13,7 +13,7 @@ use crate::learn::bench::Bench;
 use crate::learn::candidate_model::model;
 use crate::learn::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::noise::{Covariance, ModelError, NoiseModel};
+use crate::learn::noise::{Covariance, ModelError, NoiseModel, SigmaModel};
 use crate::learn::predictor::{PredictError, Predictor};
 use crate::learn::quadratic::State;
 use crate::measure::{Dataset, Quantity};
@@ -180,9 +180,10 @@ impl Discrimination {
     }
 }
 
-/// The noise of a test to be made: it will be judged by finite elements.
-pub(in crate::learn) fn noise_ahead(study: &Study) -> NoiseModel {
+/// The noise of a test to be made, with this σ of its rows: it will be judged by finite elements.
+pub(in crate::learn) fn noise_ahead(study: &Study, sigma: SigmaModel) -> NoiseModel {
     NoiseModel {
+        sigma,
         model_error: Some(ModelError::default()),
         ..NoiseModel::of(&study.noise)
     }

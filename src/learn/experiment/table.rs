@@ -11,6 +11,7 @@ use super::next::{Place, plain};
 use super::plan::{LEADERS, LEADING, Leader, NextTests, Plan, RankedTest, Separated};
 use super::wording::{self, Repetition};
 use crate::learn::bench::Workshop;
+use crate::learn::checks::noise_level;
 use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fidelity::Fidelity;
 use crate::learn::fitted_candidate::FittedCandidate;
@@ -19,7 +20,7 @@ use crate::learn::likelihood::Likelihood;
 use crate::learn::measured::Measured;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::context::{DiagnoseError, Watch};
-use crate::learn::noise::NoiseModel;
+use crate::learn::noise::{NoiseModel, SigmaModel};
 use crate::measure::Quantity;
 use crate::simulate::forward::ContactKind;
 use crate::study::{Operation, Role};
@@ -58,7 +59,7 @@ pub fn plan_after(
     let set = study.gear_set();
     let shop = Workshop::new(set, numerics, ContactKind::Hertz, measured.tests())?;
     let hertz = measured.bench(&shop)?;
-    let context = Context {
+    let mut context = Context {
         likelihood,
         hertz: &hertz,
         middle: &hertz,
@@ -67,7 +68,13 @@ pub fn plan_after(
         approximate: true,
     };
     watch(0.0, "fitting the base model".to_owned());
-    let base = context.base(Candidate::base(study))?;
+    let mut base = context.base(Candidate::base(study))?;
+    let sigma = noise_level::sigma_model(&context.likelihood, &base.fitted.found.model);
+    if sigma != fitted.sigma {
+        context.likelihood = Likelihood::new(measured, NoiseModel { sigma, ..fitted }, Role::Fit);
+        base = context.base(Candidate::base(study))?;
+    }
+    let base = base;
     let diagnosed = decided.map(|decided| {
         watch(0.2, "fitting what the diagnosis left".to_owned());
         decided.fitted(&context, &base)
@@ -75,7 +82,7 @@ pub fn plan_after(
     let diagnosed = diagnosed.filter(|leaders| leaders.len() >= LEADERS[0]);
     let from_diagnosis = diagnosed.is_some();
     let leaders = diagnosed.unwrap_or_else(|| {
-        let (singles, _) = Candidate::singles(study);
+        let (singles, _) = Candidate::singles_for(study, &measured.data);
         watch(0.2, format!("screening {} effects", singles.len()));
         leaders(&base.fitted, &context.screen(&base, &singles))
     });
@@ -165,7 +172,7 @@ fn basis(decided: Option<&Decided>, from_diagnosis: bool) -> String {
         Some(decided) if from_diagnosis => {
             let unknown = match decided.verdict {
                 Verdict::Unknown => {
-                    "; it holds a cause outside the catalogue for likeliest, of which these tests cannot tell"
+                    "; it finds a cause outside the catalogue most likely, which these tests cannot show"
                 }
                 Verdict::Partial => {
                     "; these tests do not tell what is unknown beside them"
@@ -265,9 +272,18 @@ fn told(
         })
         .collect();
     let data = design.with(&said[0].values);
-    let ahead = noise_ahead(study);
+    let likelihood = &context.likelihood;
+    let is_measured = |quantity: Quantity| {
+        (0..likelihood.len()).any(|row| likelihood.observation(row).quantity == quantity)
+    };
     let of_rows = |(quantity, rows): (Option<Quantity>, Vec<usize>)| {
-        let scale = Whitening::new(&data, rows, &ahead);
+        // what was measured scatters as it did; of the rest the noise is assumed
+        let sigma = if quantity.is_none_or(is_measured) {
+            likelihood.noise.sigma
+        } else {
+            SigmaModel::AS_STATED
+        };
+        let scale = Whitening::new(&data, rows, &noise_ahead(study, sigma));
         let whitened = |columns: &[Vec<f64>]| -> Vec<DVector<f64>> {
             columns.iter().map(|c| scale.white(c)).collect()
         };
@@ -283,7 +299,8 @@ fn told(
             quantity,
             chi2,
             weights: leaders[1..].iter().map(|(_, l)| l.weight()).collect(),
-            place: Place::of(&data, &said[0].values, &said[1].values),
+            place: (said.get(1))
+                .and_then(|second| Place::of(&data, &said[0].values, &second.values)),
         }
     };
     let rows: Vec<(Option<Quantity>, Vec<usize>)> = match noise {

@@ -151,7 +151,7 @@ pub(super) fn held_out(decided: Option<&Decided>, tests: &[Test]) -> &'static st
         |decided: &Decided| !matches!(decided.verdict, Verdict::Ambiguous | Verdict::Unknown);
     let is_held_out = |test: &Test| test.role == Role::Holdout;
     if decided.is_some_and(settled) && !tests.iter().any(is_held_out) {
-        " No test of this study is held out: mark the new one role = \"holdout\", and ladder shows whether the model foretells what it was not fitted to."
+        " No test of this study is held out: mark the new one role = \"holdout\", and ladder shows whether the model predicts what it was not fitted to."
     } else {
         ""
     }

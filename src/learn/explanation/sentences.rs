@@ -27,6 +27,8 @@ const NEGLIGIBLE: f64 = 0.01;
 const BESIDE_LEADER: f64 = 0.9;
 /// Most leaders of an undecided diagnosis.
 const TOLD: usize = 3;
+/// Ratio of probabilities below which they are about the same.
+const CLEARLY: f64 = 1.5;
 /// Log evidence to the runner-up below which what separates the two is told.
 const CLOSE: f64 = 5.0;
 /// Probability below which a rival is not worth a word.
@@ -356,7 +358,7 @@ fn depends_on(driver: &Driver) -> Vec<String> {
         percent(driver.variance_share)
     )];
     if driver.name == "trace" {
-        reasons.push("Traces are shifted or tilted each by itself, as wear of the same teeth is not: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth. [noise] trace_tilt and trace_shift allow for it.".to_owned());
+        reasons.push("Each trace is shifted or tilted on its own, which wear of the same teeth would not do: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth. [noise] trace_tilt and trace_shift allow for it.".to_owned());
     }
     reasons
 }
@@ -369,11 +371,15 @@ fn why_not_the_runner_up(findings: &Findings<'_>) -> Vec<String> {
         return Vec::new();
     };
     let behind = leader.log_evidence - other.log_evidence;
+    let [of_leader, of_other] = [leader, other].map(|fitted| {
+        let alone = Hypothesis::Effects(fitted.candidate.effects.clone());
+        posterior.decision.log_probabilities[&alone]
+    });
     let mut reasons = vec![format!(
         "Why not {}: fitted as well as it can be it leaves χ² {:.2} per point, {}.",
         other.candidate.effects,
         chi2(findings, other),
-        against(behind / posterior.rule.temper)
+        against(of_leader - of_other)
     )];
     if let Some(card) = (other.candidate.effects.cards().first()).filter(|_| behind < CLOSE) {
         reasons.push(format!(
@@ -387,8 +393,10 @@ fn why_not_the_runner_up(findings: &Findings<'_>) -> Vec<String> {
 fn against(log: f64) -> String {
     if log > 14.0 {
         "more than a million times less probable".to_owned()
+    } else if log < CLEARLY.ln() {
+        "about as probable".to_owned()
     } else {
-        format!("about {:.0} times less probable", log.max(0.0).exp())
+        format!("about {:.0} times less probable", log.exp())
     }
 }
 

@@ -167,7 +167,7 @@ fn unheard_of(leader: &FittedCandidate) -> impl Iterator<Item = String> {
         let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
         (value < low || value > high).then(|| {
             format!(
-                "{} would be {}, known are {} to {}: the name holds only if such a size makes sense here",
+                "{} would be {}, known values run from {} to {}: the name holds only if such a size makes sense here",
                 parameter.name,
                 short(value),
                 short(low),

@@ -61,7 +61,7 @@ impl Candidate {
         }
     }
 
-    /// The same for what `data` is measured: where rows state several places across the face and the model is at one of them, effects across the
+    /// As [`Candidate::singles`], given where `data` was measured: where rows state several places across the face and the model is at one of them, effects across the
     /// face are not judged.
     pub(in crate::learn) fn singles_for(
         study: &Study,
@@ -291,16 +291,19 @@ fn of_form(
     study: &Study,
 ) -> Option<(Candidate, Vec<FreeParameter>)> {
     // A form's settings lie in the ranges of its card: tests walk the catalogue.
-    let spec = EffectSpec::of_form(card, form, &[]).ok()?;
-    if !study.suits(&spec) {
-        return None;
-    }
+    let accepted = |form| {
+        let spec = EffectSpec::of_form(card, form, &[]).ok()?;
+        study.suits(&spec).then_some(spec)
+    };
+    let spec = accepted(form)?;
+    let all = std::iter::once(None).chain(card.forms.iter().map(Some));
+    let siblings = all.filter_map(accepted).count();
     let fitted = spec.fitted();
     let version = base.version.with(spec);
     let candidate = Candidate {
         effects: EffectSet::new([card]),
         forms: vec![form],
-        siblings: 1 + card.forms.len(),
+        siblings,
         parameters: parameters(&version.free),
         inherited: base.inherited,
         version,

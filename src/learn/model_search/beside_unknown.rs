@@ -7,7 +7,6 @@
 //! effect that is there gains over the process alone although it leaves a remainder, and a remainder that is smooth is not sold as an effect
 //! (Kennedy & O'Hagan, J. R. Stat. Soc. B 63, 2001, with the physics ranked inside).
 
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::context::Context;
@@ -16,11 +15,10 @@ use crate::learn::candidate_model::{Anchored, model};
 use crate::learn::discrepancy::gaussian_process;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate, orthonormalise};
+use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::EffectSet;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::likelihood::Likelihood;
-use crate::learn::search::Found;
 
 /// Effects whose evidence is taken with every kind of discrepancy.
 const JUDGED: usize = 6;
@@ -40,9 +38,6 @@ pub(in crate::learn) struct BesideUnknown {
     pub(in crate::learn) chi2_drop: f64,
     /// What anything smooth could still bring once the effect is in.
     pub(in crate::learn) remaining: SmoothDiscrepancy,
-    /// Fall of χ² where the effect may be stronger in one test and weaker in another, beside the discrepancy, and how many strengths more
-    /// that takes.
-    pub(in crate::learn) transfer: (f64, usize),
 }
 
 impl Context<'_> {
@@ -106,7 +101,6 @@ impl Context<'_> {
                     remainder_gain,
                     chi2_drop: before - without.square,
                     remaining,
-                    transfer: transfer(&context.likelihood, &fitted),
                     fitted,
                 })
             })
@@ -230,28 +224,4 @@ fn with_discrepancy(plain: &Likelihood<'_>, fitted: &FittedCandidate) -> f64 {
     let change = (!fitted.change.is_empty()).then_some(fitted.change.as_slice());
     let parameters = &fitted.candidate.parameters;
     gaussian_process::log_evidence(plain, &fitted.found, parameters, change)
-}
-
-/// Fall of χ² where an effect may be stronger in one test and weaker in another, and how many strengths more that takes.
-fn transfer(likelihood: &Likelihood<'_>, fitted: &FittedCandidate) -> (f64, usize) {
-    let (found, change): (&Found, &[f64]) = (&fitted.found, &fitted.change);
-    let mut adjustable = likelihood.covariance.whiten_all(&found.jacobian);
-    orthonormalise(&mut adjustable);
-    let visible = |v: Vec<f64>| {
-        let v = DVector::from_vec(likelihood.covariance.whiten(&v));
-        let along = adjustable.tr_mul(&v);
-        v - &adjustable * along
-    };
-    let columns: Vec<DVector<f64>> = (likelihood.rows.iter())
-        .map(|rows| {
-            let mut column = vec![0.0; change.len()];
-            rows.iter().for_each(|&row| column[row] = change[row]);
-            visible(column)
-        })
-        .collect();
-    let mut x = DMatrix::from_columns(&columns);
-    orthonormalise(&mut x);
-    let strengths = x.column_iter().filter(|column| column.norm() > 0.5).count();
-    let right = x.tr_mul(&visible(likelihood.residual(&found.model)));
-    (right.norm_squared(), strengths)
 }

@@ -89,12 +89,12 @@ pub struct OtherDriver {
     pub decided_by: Fidelity,
 }
 
-/// Of results of before the deciding model looked at laws.
+/// For documents written before the deciding model fitted laws.
 fn analytic() -> Fidelity {
     Fidelity::Screening
 }
 
-/// The laws that one model fitted, the greatest evidence first.
+/// The laws that one model fitted, the greatest evidence first; those fitted closely before those that had a glance.
 struct Ranked {
     without: Fit,
     laws: Vec<(WantedLaw, LearnedFit)>,
@@ -172,9 +172,11 @@ fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<Ranked> {
         let learned = measured.learn(bench, version, &without, law, noise, &|_| {});
         (*law, learned.unwrap_or_else(|_| glance.clone()))
     };
-    let closer: Vec<(WantedLaw, LearnedFit)> = laws[..count].par_iter().map(close).collect();
-    laws.splice(..count, closer);
-    Some(Ranked::new(without, laws, Fidelity::Screening))
+    let closer = laws[..count].par_iter().map(close).collect();
+    let closer = Ranked::new(without, closer, Fidelity::Screening);
+    // behind these stay those that had a glance only: theirs is the evidence at one size and length, not the mean over all
+    laws.splice(..count, closer.laws);
+    Some(Ranked { laws, ..closer })
 }
 
 /// The best few by the model that decides; None where none of them can be fitted by it.

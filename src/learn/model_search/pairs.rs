@@ -120,7 +120,8 @@ fn promising(
             }
         }
     }
-    // Second effects on top of the best one, as fitted: its change makes the residual smaller before the other is looked at.
+    // Second effects on top of the best one, as fitted: its change makes the residual smaller before the other is looked at. Of either sign: beside
+    // the best one an effect may act the other way than alone.
     let leader = singles
         .iter()
         .position(|s| std::ptr::eq(s, best))

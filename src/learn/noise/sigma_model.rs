@@ -3,10 +3,10 @@
 use crate::measure::neighbours::curves;
 use crate::measure::{Observation, Quantity};
 
-/// Which σ the rows get; all but depths along a curve keep the stated one.
+/// Which σ the rows get. What stands on no curve, as masses do, keeps the stated one: no neighbours tell of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SigmaModel {
-    /// The stated σ times a factor.
+    /// The stated σ along curves times a factor.
     Stated {
         /// 1: as stated.
         factor: f64,
@@ -30,8 +30,9 @@ impl SigmaModel {
             Self::Stated { factor } => factor,
             _ => 1.0,
         };
-        let mut sigma: Vec<f64> = rows.iter().map(|o| factor * o.sigma).collect();
+        let mut sigma: Vec<f64> = rows.iter().map(|o| o.sigma).collect();
         for curve in curves(rows) {
+            curve.iter().for_each(|&i| sigma[i] *= factor);
             let depths = rows[curve[0]].quantity == Quantity::WearDepth;
             let values = curve.iter().map(|&i| rows[i].value.abs());
             let own = self.of_curve(values.fold(0.0, f64::max));

@@ -81,8 +81,10 @@ impl Search<'_> {
         let points: Vec<Point> = asked.iter().map(shifted).collect();
         let mut found = evaluator.all(&points);
         for factor in [-1.0, -NARROWER, -1.0] {
-            let failed: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_err()).collect();
+            let mut failed: Vec<usize> = (0..found.len()).filter(|&i| found[i].is_err()).collect();
             failed.iter().for_each(|&i| asked[i].2 *= factor);
+            // beyond a bound the model is asked at the bound, where the search may stand
+            failed.retain(|&i| self.is_within(state, asked[i].1, asked[i].2));
             let again: Vec<Point> = failed.iter().map(|&i| shifted(&asked[i])).collect();
             for (i, second) in failed.into_iter().zip(evaluator.all(&again)) {
                 found[i] = second;
@@ -101,6 +103,13 @@ impl Search<'_> {
             jacobian,
             exact: own.iter().all(Option::is_some),
         })
+    }
+
+    /// Whether a parameter moved by `step` lies within its bounds; ln k has none here.
+    fn is_within(&self, state: &State, column: usize, step: f64) -> bool {
+        let priors = self.layout.parameters.iter().zip(&state.theta);
+        let mut own = priors.skip(column).take(1);
+        own.all(|(prior, at)| (prior.lower..=prior.upper).contains(&(at + step)))
     }
 
     /// The model's `own` derivatives as rows; zeros for the tests without.
