@@ -35,12 +35,20 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let default = || folder::default_path(path, "check");
     let target = args.paths.output.clone().unwrap_or_else(default);
     let _reserved = folder::reserve(&target, path, &study)?;
-    let mut judged = analytic(&study)?;
+    // spur teeth in slices are for elements only
+    let mut judged = if study.face.slices > 1 && study.gears.pinion.helix_angle == 0.0 {
+        study.clone()
+    } else {
+        analytic(&study)?
+    };
     let fit =
         |study: &Study| fitting::fitted(study, &data, &ModelVersion::of(study), context, "check");
     let mut compared = fit(&judged)?;
     // elements would follow a wrong unit into teeth worn away
-    if asks_for_elements(&data) && compared.comparison.sanity.is_empty() {
+    if judged.contact != study.contact
+        && asks_for_elements(&data)
+        && compared.comparison.sanity.is_empty()
+    {
         judged = study.clone();
         compared = fit(&judged)?;
     }

@@ -180,7 +180,7 @@ fn parameter(text: &mut String, param: &Param) {
         let _ = write!(line, "; does nothing at {neutral}");
     }
     if !param.fitted {
-        line.push_str("; fits leave it alone");
+        line.push_str("; not fitted by default");
     }
     wrap(text, "      ", "      ", &line);
 }

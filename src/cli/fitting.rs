@@ -2,7 +2,7 @@
 
 use super::progress::Progress;
 use super::{CliError, Context};
-use crate::learn::{CompareError, Compared, Doing, ModelVersion, compare};
+use crate::learn::{CompareError, CompareStage, Compared, ModelVersion, compare};
 use crate::measure::Dataset;
 use crate::study::Study;
 
@@ -24,30 +24,30 @@ pub(super) fn fitted(
 const PREPARING: f64 = 0.15;
 
 /// Shows what a comparison is at.
-pub(super) fn show(progress: &Progress, doing: Doing) {
+pub(super) fn show(progress: &Progress, doing: CompareStage) {
     let (done, what) = state(doing);
     progress.show(done, what);
 }
 
 /// Shows what fitting one form of an effect is at.
-pub(super) fn show_form(progress: &Progress, doing: Doing, form: &str) {
+pub(super) fn show_form(progress: &Progress, doing: CompareStage, form: &str) {
     let (done, what) = state(doing);
     progress.show(done, format!("form {form}: {what}"));
 }
 
 /// Shows what the comparison `number` (from 0) of `count` is at.
-pub(super) fn show_one_of(progress: &Progress, doing: Doing, number: usize, count: usize) {
+pub(super) fn show_one_of(progress: &Progress, doing: CompareStage, number: usize, count: usize) {
     let (done, what) = state(doing);
     let done = (number as f64 + done) / count.max(1) as f64;
     progress.show(done, format!("version {} of {count}: {what}", number + 1));
 }
 
 /// Share done, and what is being done.
-pub(super) fn state(doing: Doing) -> (f64, String) {
+pub(super) fn state(doing: CompareStage) -> (f64, String) {
     match doing {
-        Doing::Members => (0.0, "meshing and condensing the members".to_owned()),
-        Doing::Tests => (0.1, "preparing the tests".to_owned()),
-        Doing::Fitting {
+        CompareStage::Members => (0.0, "meshing and condensing the members".to_owned()),
+        CompareStage::Tests => (0.1, "preparing the tests".to_owned()),
+        CompareStage::Fitting {
             histories,
             expected,
         } => {

@@ -20,9 +20,9 @@ pub use proposal::{Answer, Choice, Proposal, choose, proposal};
 
 use serde::{Deserialize, Serialize};
 
-use super::comparison::{Comparison, LeftOut};
-use super::decision::DecisionRule;
 use crate::effects::CATALOGUE;
+use crate::learn::comparison::{Comparison, LeftOut};
+use crate::learn::decision::DecisionRule;
 
 /// One version of the model on the way up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -15,38 +15,40 @@
 //! marginal likelihood with the noise of [`NoiseModel`], a correlated model error among it, and for each effect a tolerance for
 //! its own form (`OWN_FORM` in `likelihood`).
 
-pub use super::decision::{
+pub use crate::learn::decision::{
     CandidateEvidence, Decision, DecisionRule, Evidence, RemainderEvidence, Verdict, decide,
 };
-pub use super::discrepancy::{
+pub use crate::learn::discrepancy::{
     BinMean, DRIVER_KINDS, DRIVERS, Driver, DriverBin, DriverKind, DriverRow, Explained, MapPoint,
     ResidualDriver, ResidualDrivers,
 };
-pub use super::experiment::{
-    AloneTest, Campaign, ChosenTest, Decided, ENOUGH, Leader, NextExperiment, NextTest, NextTests,
-    Plan, RankedTest, Separated, Shown, plan_after, plan_first,
+pub use crate::learn::experiment::{
+    AloneTest, Campaign, ChosenTest, Decided, ENOUGH, EffectVisibility, Leader, NextExperiment,
+    NextTest, NextTests, Plan, RankedTest, Separated, plan_after, plan_first,
 };
-pub use super::explanation::{Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened};
-pub use super::fidelity::Fidelity;
-pub use super::hypothesis::candidate::NotJudged;
-pub use super::hypothesis::{EffectSet, Hypothesis};
-pub use super::model_search::context::{DiagnoseError, Watch};
-pub use super::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
+pub use crate::learn::explanation::{
+    Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened,
+};
+pub use crate::learn::hypothesis::candidate::NotJudged;
+pub use crate::learn::hypothesis::{EffectSet, Hypothesis};
+pub use crate::learn::model_search::context::{DiagnoseError, Watch};
+pub use crate::learn::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
+pub use crate::learn::prediction::fidelity::Fidelity;
 
-use super::bench::Workshop;
-use super::checks::noise_level;
-use super::decision::posterior::Posterior;
-use super::discrepancy::gaussian_process;
-use super::discrepancy::smooth::SmoothDiscrepancy;
-use super::explanation::findings::Findings;
-use super::fitted_candidate::{BaseFit, FittedCandidate};
-use super::hypothesis::candidate::Candidate;
-use super::likelihood::Likelihood;
-use super::measured::Measured;
-use super::model_search::context::Context;
-use super::model_search::high_fidelity::decide_leaders;
-use super::model_search::{learned_drivers, matching_pursuit, nested_forms, pairs};
-use super::noise::{ModelError, NoiseModel};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::noise_level;
+use crate::learn::decision::judged_candidates::JudgedCandidates;
+use crate::learn::discrepancy::gaussian_process;
+use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
+use crate::learn::explanation::findings::Findings;
+use crate::learn::fitting::measured::Measured;
+use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::model_search::context::Context;
+use crate::learn::model_search::high_fidelity::decide_leaders;
+use crate::learn::model_search::{learned_drivers, matching_pursuit, nested_forms, pairs};
+use crate::learn::noise::{ModelError, NoiseModel};
+use crate::learn::prediction::bench::Workshop;
 use crate::simulate::forward::ContactKind;
 use crate::study::{ContactKind as StudiedContact, Role};
 
@@ -174,7 +176,7 @@ fn search(
     } else {
         Vec::new()
     };
-    let posterior = Posterior::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
+    let posterior = JudgedCandidates::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
     watch(0.95, "held-out tests and the next experiment".to_owned());
     let diagnosis = Diagnosis::new(Findings {
         context,

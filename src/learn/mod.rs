@@ -13,71 +13,44 @@
 //! ```
 //! Datums are marginalised in closed form, k_t and θ by a parabola about the most probable state, σ_k by quadrature.
 
-mod anchored;
-mod bench;
-mod candidate_model;
-mod cheaper;
+mod candidates;
 mod checks;
 pub mod climb;
-mod coefficient_trend;
-mod collinear;
 mod comparison;
 mod decision;
 pub mod diagnose;
 mod discrepancy;
-mod evaluate;
 mod experiment;
 mod explanation;
-mod fidelity;
-mod fit;
-mod fitted;
-mod fitted_candidate;
-mod gaussian;
-mod gear_model;
+mod fitting;
 mod hypothesis;
-mod learned_knots;
-mod learned_law;
-mod likelihood;
-mod measured;
+mod inference;
+mod learned;
 mod model_search;
 mod noise;
-mod observe;
-mod parameters;
-mod posterior;
-mod predictor;
-mod quadratic;
-mod quantity_misfit;
-mod region;
-mod scatter;
-mod search;
-mod selection;
-mod simulator;
-mod standard_test;
-mod starts;
-mod strength_prior;
-mod synthesize;
-mod trajectory;
+mod prediction;
+mod sampling;
 
-pub use bench::{Bench, MeasuredTest, Workshop};
 pub use checks::noise_level::stated_sigma;
+pub use comparison::synthesize::{Synthetic, synthesize};
 pub use comparison::{
-    AddLearnedError, AddedForm, Addition, Cell, CompareError, Compared, Comparison, Curve,
-    CurvePoint, Doing, Group, Improvement, Item, LadderStep, LearnedAddition, LeftOut, Outlier,
-    ParameterRecord, Prospects, Ratio, Share, TestRecord, Tried, Validation, Version, Watch, add,
+    AddLearnedError, AddedForm, Addition, Cell, CompareError, CompareStage, Compared, Comparison,
+    Curve, CurvePoint, FormFit, Group, Improvement, Item, LadderStep, LearnedAddition, LeftOut,
+    Outlier, ParameterRecord, Prospects, Ratio, Share, TestRecord, Validation, Version, Watch, add,
     add_learned, compare, compare_all, contact_of, curves, data_warnings, differences, ladder,
     left_out, precursors, prospects,
 };
-pub use fit::{Coefficient, FitError, Problem};
-pub use fitted::{Fit, Jacobian, RowFit, TestFit};
-pub use gear_model::{EffectsOf, GearModel};
+pub use fitting::fit::{Coefficient, FitError, Problem};
+pub use fitting::fitted::{Fit, PredictionUncertainty, RowFit, TestFit};
+pub use fitting::measured::Measured;
+pub use fitting::quantity_misfit::misfit_of_one_quantity;
+pub use hypothesis::parameters::{COEFFICIENT, Estimate, Parameter};
 pub use hypothesis::version::ModelVersion;
-pub use learned_law::{LearnError, LearnedFit, TriedProcess, WantedLaw};
-pub use measured::Measured;
+pub use inference::search::Effort;
+pub use learned::law::{LearnError, LearnedFit, TriedProcess, WantedLaw};
 pub use noise::{Datum, ModelError, NoiseModel, SigmaModel};
-pub use parameters::{COEFFICIENT, Estimate, Parameter};
-pub use posterior::{Density, Posterior, Scale};
-pub use predictor::{Linearised, Move, PredictError, Predictor};
-pub use quantity_misfit::misfit_of_one_quantity;
-pub use search::Effort;
-pub use simulator::{Place, Simulator};
-pub use synthesize::{Synthetic, synthesize};
+pub use prediction::bench::{Bench, MeasuredTest, Workshop};
+pub use prediction::gear_model::{EffectsOf, GearModel};
+pub use prediction::predictor::{Linearised, Move, PredictError, Predictor};
+pub use sampling::posterior::{Density, Posterior, Scale};
+pub use sampling::simulator::{Place, Simulator};

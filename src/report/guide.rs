@@ -14,13 +14,13 @@ const EFFECTS: &str = "# The catalogue of effects
 Written from the code by `cargo run --example write_guide`; do not edit. `gearwear effects EFFECT` prints the same on the terminal.
 
 An effect changes the base model (constant wear coefficient, perfect flanks, frictionless contact at the nominal centre distance)
-through one hook. Any number of them can stand in a study as `[[effect]]`. Sources say what of them could be checked and what not.
+through one hook. A study can hold any number of them, each as an `[[effect]]` table. Sources say what could be checked and what could not.
 ";
 
 const VARIABLES_HEAD: &str = "## Variables of formulas
 
-A formula of the catalogue and one of your own (`kind = \"formula\"`) know these. W: `wear_factor`, A: `added_depth`, L: `load_factor`
-(asked before the contact is solved, so it knows no pressure), P: `profile`.
+Formulas of the catalogue and your own (`kind = \"formula\"`) can use these. W: `wear_factor`, A: `added_depth`, L: `load_factor`
+(evaluated before the contact is solved, so without pressure), P: `profile`.
 
 | variable | unit | in | meaning | needs |
 |---|---|---|---|---|
@@ -31,7 +31,7 @@ const STUDY: &str = "# The study file
 Written from the code by `cargo run --example write_guide`; do not edit.
 
 A study is one TOML file. Inside it lengths are mm, torques N m, speeds rpm, angles degrees, wear and relief um, temperatures degC; what
-is *in modules* is a length divided by the module. `gearwear init` writes a commented one to start from. A mistake is one message with
+is *in modules* is a length divided by the module. `gearwear init` writes a commented one to start from. A mistake gives one message with
 its place, what was found and what is allowed, and nothing is written. **needed** means: without it the study is refused.
 ";
 
@@ -56,12 +56,12 @@ const TABLES: &[(&str, &str, &str)] = &[
     (
         "lubricant",
         "`[lubricant]`",
-        "May be absent. Effects that need a key, and friction in the contact, say so.",
+        "May be absent. Effects that need a key, and friction in the contact, report it if it is missing.",
     ),
     (
         "thermal",
         "`[thermal]`",
-        "May be absent. Effects that need a key say so.",
+        "May be absent. Effects that need a key report it if it is missing.",
     ),
     (
         "operation",
@@ -76,7 +76,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     (
         "wear.pinion",
         "`[wear.pinion]` and `[wear.gear]`",
-        "May be absent, each by itself: a steel pinion against a plastic gear does not wear like it. A fit keeps the proportion of the coefficients; the effect `member_hardness` has it fitted.",
+        "Each may be absent. For pairs of unlike materials: a steel pinion does not wear like the plastic gear it meets. A fit keeps the ratio of the coefficients; the effect `member_hardness` makes it a fitted parameter.",
     ),
     ("model", "`[model]`", "May be absent."),
     ("fit", "`[fit]`", "May be absent."),
@@ -103,7 +103,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     (
         "face",
         "`[face]`",
-        "May be absent. What it does stands in [Across the face](face.md).",
+        "May be absent. Described in [Across the face](face.md).",
     ),
     (
         "face.pinion",
@@ -113,7 +113,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     (
         "teeth",
         "`[teeth]`",
-        "May be absent. What it does stands in [Tooth by tooth](teeth.md).",
+        "May be absent. Described in [Tooth by tooth](teeth.md).",
     ),
     (
         "teeth.pinion",
@@ -220,7 +220,7 @@ fn parameter(text: &mut String, param: &Param) {
         let _ = write!(meaning, "; does nothing at {neutral}");
     }
     if !param.fitted {
-        meaning.push_str("; fits leave it alone");
+        meaning.push_str("; not fitted by default");
     }
     let _ = writeln!(
         text,

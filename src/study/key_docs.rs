@@ -130,7 +130,7 @@ const CONTACTS: &[&str] = &[
     ContactKind::Hertz.name(),
     ContactKind::Paper.name(),
 ];
-const NOT_STATED: Without = Words("not stated: what needs it says so");
+const NOT_STATED: Without = Words("none; reported if needed");
 const OPERATION: Without = Words("that of `[operation]`");
 
 /// Every key there is, in the order of the tables.
@@ -199,7 +199,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("noise", "datum", &q::DATUM, Default("0.5"), "prior standard deviation of a trace's unknown constant datum"),
     number("noise", "trace_tilt", &q::TILT, Default("0.0"), "prior standard deviation of a wear trace's unknown tilt, from end to end"),
     number("noise", "trace_shift", &q::SHIFT, Default("0.0"), "prior standard deviation of the unknown shift of a wear trace's radii on the measuring machine"),
-    doc("noise", "outliers", Value::Word(OUTLIERS), Default("\"report\""), "rows that stand apart from their neighbours: reported as they count, or counted with a sigma as large as they stand apart"),
+    doc("noise", "outliers", Value::Word(OUTLIERS), Default("\"report\""), "rows far from their neighbours: `report` names them and counts them as they are, `robust` counts them with sigma enlarged by their deviation (root of the sum of squares)"),
 
     doc("effect", "kind", Value::Text, Refused, "an effect of the catalogue, whose parameters are then keys of this table, `\"formula\"` or `\"learned\"`"),
     doc("effect", "name", Value::Text, Refused, "a formula: what results call it; a learned law: a title of your own"),
@@ -214,8 +214,8 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("effect", "member", Value::Word(&["both", "pinion", "gear"]), Default("\"both\""), "learned law only: whose flanks it acts on"),
     doc("effect", "knots", Value::Numbers, Refused, "learned law only: values of the driver, ascending, in its unit"),
     doc("effect", "values", Value::Numbers, Refused, "learned law only, one for each knot: natural logarithm of the factor, um for a profile, um per contact for added depth; linear between knots, constant beyond"),
-    doc("effect", "size", Value::Number(&q::ANY), Words("1, a profile 5"), "learned law only: what its values are thought to be before any measurement, one standard deviation, in their unit; used when it is fitted"),
-    doc("effect", "length", Value::Number(&q::ANY), Words("a quarter of the knots' span"), "learned law only: over which distance of the driver it changes; used when it is fitted"),
+    doc("effect", "size", Value::Number(&q::ANY), Words("1, a profile 5"), "learned law only: prior standard deviation of its values, in their unit; used when it is fitted"),
+    doc("effect", "length", Value::Number(&q::ANY), Words("a quarter of the knots' span"), "learned law only: distance of the driver over which it changes; used when it is fitted"),
 
     doc("test", "id", Value::Text, Refused, "its name in the measurement file, different in each test"),
     doc("test", "role", Value::Word(&["fit", "holdout"]), Default("\"fit\""), "a held-out test is never fitted, only judged"),
@@ -230,8 +230,8 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
     doc("measurements", "tests", Value::Text, Words("`[[test]]` alone"), "a CSV file with a row for each test and the keys of `[[test]]` as columns, relative to the study; its tests come after those of `[[test]]`"),
 
-    doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face"), "sections across the face that turn together, each with its own wear; 1: one section stands for all of the face, and effects across it are a factor on the load there"),
-    doc("face", "coupling", Value::Word(super::face::COUPLINGS), Words("`\"teeth\"` for stated slices of spur gears, else `\"none\"`"), "what ties slices besides the common turn: the teeth that they are cut from, or nothing"),
+    doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face"), "sections across the face that turn together, each with its own wear; 1: one section represents the whole face, and effects across it are a factor on the load there"),
+    doc("face", "coupling", Value::Word(super::face::COUPLINGS), Words("`\"teeth\"` for stated slices of spur gears, else `\"none\"`"), "what couples slices besides the common rotation: the teeth that they are cut from, or nothing"),
     number("face", "helix_angle", &q::HELIX_ANGLE, Default("0.0"), "of helical gears at the reference circle, positive: the pinion is right-handed, and its end +face_width/2 comes into mesh first; needs slices. `[gears]` then states the normal section"),
     number("face.pinion", "lead_slope", &q::LEAD, Default("0.0"), "from end to end of the face, positive: material missing at the end +face_width/2, standing proud at the other"),
     number("face.pinion", "crowning", &q::LEAD, Default("0.0"), "material missing at both ends, a parabola from mid-face"),
@@ -243,13 +243,13 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("teeth.pinion", "pitch_file", Value::Text, Words("all in their places"), "a CSV file (tooth,deviation: a row for each tooth from 1 on, µm) of the measured pitch deviations, relative to the study"),
     doc("teeth.pinion", "pitch_deviations", Value::Numbers, Words("all in their places"), "how far each tooth stands back, µm along the path of contact, negative where it stands proud; in the order of coming into mesh, tooth 1 first"),
     doc("teeth.pinion", "pitch_pattern", Value::Numbers, Words("all in their places"), "the same for the first teeth, repeated around the member: [-5, 0] for every second tooth proud; cut short where it does not fit into the number of teeth"),
-    number("teeth.pinion", "eccentricity", &q::ECCENTRICITY, Default("0.0"), "of the member's axis: all pairs in mesh stand back by its cosine over the turn, and the lag swings; loads are shared as before"),
+    number("teeth.pinion", "eccentricity", &q::ECCENTRICITY, Default("0.0"), "of the member's axis: all pairs in mesh stand back by its cosine over the turn, so the lag varies; load sharing is unchanged"),
     number("teeth.pinion", "eccentricity_phase", &q::ECCENTRICITY_PHASE, Default("0.0"), "0: the pairs stand back most as tooth 1 passes the pitch point"),
-    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("64"), "the most classes of teeth whose wear is computed for itself; teeth that stand alike among neighbours that do are one, and where there are more classes those nearest are taken together: faster, and wrong by what they differ"),
+    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("64"), "largest number of classes of teeth, each with wear of its own; teeth with equal deviation, equal neighbours and equal mates form a class, and beyond this number the most similar classes are merged: faster, and wrong by as much as they differ"),
 
     doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
-    doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if it is not stated, as few as 1 are taken where 5 would ask for more than 3000 unknowns on the parts of a member's flanks that touch"),
-    doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions on one base pitch"),
+    doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if not stated, fewer are used (down to 1) where 5 would need more than 3000 unknowns on the parts of a member's flanks that touch"),
+    doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions per base pitch"),
     number("numerics", "step_tolerance", &q::STEP_TOLERANCE, Default("2e-3"), "relative error of one wear step"),
     doc("numerics", "fields", Value::Count(0, 500), Default("4"), "mesh positions whose stress fields are written"),
     doc("numerics", "friction", Value::Flag, Default("false"), "Coulomb friction (full slip) with `lubricant.friction_coefficient`"),

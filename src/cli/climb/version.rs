@@ -10,7 +10,7 @@ use crate::cli::add::drafts::{forms, with_form};
 use crate::cli::fitting;
 use crate::effects::find;
 use crate::learn::climb::{Answer, Standing};
-use crate::learn::{AddedForm, Comparison, Doing, ModelVersion, compare, left_out};
+use crate::learn::{AddedForm, CompareStage, Comparison, ModelVersion, compare, left_out};
 use crate::measure::Dataset;
 use crate::study::{Study, rounded};
 
@@ -179,6 +179,6 @@ impl Fitter<'_> {
     }
 }
 
-fn said(doing: Doing) -> String {
+fn said(doing: CompareStage) -> String {
     fitting::state(doing).1
 }

@@ -15,7 +15,7 @@ pub(super) const CARD: Card = Card {
     signature: "pinion dedendum and gear addendum up together; a step between the halves of both flanks",
     confounded_with: &["friction_load", "film_thickness", "radial_misalignment"],
     separated_by: "reversing the drive: it follows the approach, geometry does not",
-    left_out: "the cause of the difference: the factor stands for friction, debris and oil supply without computing them",
+    left_out: "the cause of the difference: the factor represents friction, debris and oil supply without computing them",
     needs: &[],
     params: &[
         Param::new(

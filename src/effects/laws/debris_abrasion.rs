@@ -14,7 +14,7 @@ pub(super) const CARD: Card = Card {
     name: "debris_abrasion",
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + amplitude*worn_volume/reference_volume/(1 + worn_volume/saturation_volume)",
-    source: "wear by loose particles: E. Rabinowicz, L.A. Dunn, P.G. Russell, Wear 4 (1961) 345-355; growth with the concentration of particles: J.J. Fitzsimmons, H.D. Clevenger, Contaminated lubricants and tapered roller bearing wear, ASLE Trans. 20 (1977) 97-107 (abstract read). Proportional to the concentration is the simplest such law; saturation stands for settling or a filter.",
+    source: "wear by loose particles: E. Rabinowicz, L.A. Dunn, P.G. Russell, Wear 4 (1961) 345-355; growth with the concentration of particles: J.J. Fitzsimmons, H.D. Clevenger, Contaminated lubricants and tapered roller bearing wear, ASLE Trans. 20 (1977) 97-107 (abstract read). Proportional to the concentration is the simplest such law; saturation represents settling or a filter.",
     signature: "depth over cycles bends upwards on both members alike; in an unchanged shape; falls back after an oil change",
     confounded_with: &["lubricant_ageing", "surface_layer", "running_in"],
     separated_by: "an oil change or a filter: a break in the slope; a particle count",
@@ -36,7 +36,7 @@ pub(super) const CARD: Card = Card {
         Param::new(
             "reference_volume",
             "mm3",
-            "worn volume that stands for the amplitude",
+            "worn volume to which the amplitude refers",
             100.0,
             (1e-3, 1e6),
             Prior::LogNormal {

@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     name: "film_thickness",
     hook: Hook::WearFactor,
     formula: "wear_factor = floor + (1 - floor)/(1 + (film_ratio/lambda0)^exponent)",
-    source: "film: D. Dowson, G.R. Higginson, Elasto-hydrodynamic Lubrication (1966), h_min = 2.65 R U^0.70 G^0.54 W^-0.13; the smooth factor stands for the piecewise linear one of M. Priest, C.M. Taylor, Wear 241 (2000) 193-203 (1 below 0.5, none above 4), whose coefficients could not be checked.",
+    source: "film: D. Dowson, G.R. Higginson, Elasto-hydrodynamic Lubrication (1966), h_min = 2.65 R U^0.70 G^0.54 W^-0.13; the smooth factor replaces the piecewise linear one of M. Priest, C.M. Taylor, Wear 241 (2000) 193-203 (1 below 0.5, none above 4), whose coefficients could not be checked.",
     signature: "wear falls with speed and viscosity, more at the pinion's tip than its root; hardly any dependence on torque",
     confounded_with: &["sliding_speed_exponent", "oxidative", "running_in"],
     separated_by: "speeds five times apart, or another viscosity at equal speed; not identifiable where the film ratio stays far below lambda0",

@@ -46,7 +46,7 @@ pub(super) const CARD: Card = Card {
     signature: "waves printed into the wear of both members, mirrored, then worn off",
     confounded_with: &["plastic_deformation", "dynamic_load", "profile_slope"],
     separated_by: "the profile as made",
-    left_out: "nothing of the contact: the waves stand in the gap and wear away; both flanks' waves as one",
+    left_out: "nothing of the contact: the waves are part of the gap and wear away; both flanks' waves as one",
     needs: &[],
     params: &[
         Param::new(

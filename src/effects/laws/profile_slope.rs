@@ -16,7 +16,7 @@ pub(super) const CARD: Card = Card {
     signature: "one end of the path carries more until it has worn off; then the base shape returns; crowning relieves both ends",
     confounded_with: &["tip_relief", "profile_form", "pitch_error"],
     separated_by: "the profile as made. A tilt of the measuring machine does not wear off",
-    left_out: "nothing of the contact: the deviation stands in the gap and wears away; both flanks' as one",
+    left_out: "nothing of the contact: the deviation is part of the gap and wears away; both flanks' as one",
     needs: &[],
     params: &[
         Param::new("slope", "um", "deviation from the start to the end of the path, positive with material missing at the end", 5.0, (-100.0, 100.0), Prior::Normal { mean: 0.0, sd: 8.0 }).neutral(0.0),

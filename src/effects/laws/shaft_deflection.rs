@@ -27,13 +27,13 @@ pub(super) const CARD: Card = Card {
     left_out: "the curvature of the shaft over the face, its torsion and its shear; bearings are rigid; in the analytic model the gap that wear closes",
     needs: &[],
     params: &[
-        Param::new("offset", "mm", "how far the gear stands from mid-span, up to half the span, or overhangs the bearing; positive: the end at +face/2 is the loaded one", 10.0, (-500.0, 500.0), Prior::Normal { mean: 0.0, sd: 15.0 }).neutral(0.0),
+        Param::new("offset", "mm", "how far the gear is from mid-span, up to half the span, or overhangs the bearing; positive: the end at +face/2 is the loaded one", 10.0, (-500.0, 500.0), Prior::Normal { mean: 0.0, sd: 15.0 }).neutral(0.0),
         Param::new("span", "mm", "from bearing to bearing", 100.0, (1.0, 5000.0), Prior::LogNormal { median: 100.0, spread: 2.0 }).fixed(),
         Param::new("diameter", "mm", "of the steel shaft", 25.0, (0.5, 2000.0), Prior::LogNormal { median: 25.0, spread: 2.0 }).fixed(),
         Param::new("mesh_stiffness", "N/(mm um)", "mesh stiffness, of the analytic model: by finite elements it follows from the teeth", 20.0, (0.1, 100.0), Prior::LogNormal { median: 20.0, spread: 1.2 }).fixed(),
         Param::new("face_position", "-", "place of traces whose row states no `face`, from the middle of the face, in half face widths", 1.0, (-1.0, 1.0), Prior::Uniform { low: -1.0, high: 1.0 }).fixed(),
         Param::either("face_mean", "1: traces whose row states no `face` are means over the face; 0: they are taken at `face_position`"),
-        Param::either("overhung", "1: the gear overhangs a bearing; 0: it stands between two"),
+        Param::either("overhung", "1: the gear overhangs a bearing; 0: it is between two"),
     ],
     forms: &[Form {
         name: "mid-face",

@@ -14,7 +14,7 @@ pub(super) const CARD: Card = Card {
     signature: "less load and wear at both ends of the path, more in single contact; fades with torque and as it wears off",
     confounded_with: &["extra_flexibility", "profile_slope", "severe_transition"],
     separated_by: "the profile as made; several torques",
-    left_out: "nothing of the contact: the relief stands in the gap and wears away",
+    left_out: "nothing of the contact: the relief is part of the gap and wears away",
     needs: &[],
     params: &[
         Param::new(

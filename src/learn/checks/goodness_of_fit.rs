@@ -15,7 +15,7 @@
 use serde::Serialize;
 
 use super::noise_level;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::noise::SigmaModel;
 use crate::measure::Observation;
 

@@ -5,8 +5,8 @@
 //! with a resonance at 16 000 ± 19 000 rpm. At one speed the amplitude's prior alone puts the resonance somewhere, however narrowly.
 
 use crate::effects::{Card, Param, ParamRole};
-use crate::learn::fitted_candidate::FittedCandidate;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
+use crate::learn::candidates::likelihood::Likelihood;
 
 /// Standard deviation of a parameter, as a share of its prior's, above which the data say nothing of it. A resonance acts by the square
 /// of its inverse, which is then known to no better than its own size; a lower bound alone already takes the share from 1 to 0.6 where the ripple is

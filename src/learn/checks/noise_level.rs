@@ -12,8 +12,8 @@
 //! taken where the differences speak for it by L. Laplace's law, since outliers shall not decide; neighbouring differences share two points
 //! of three, and the sizes of normal ones are correlated by 4/9, so that L/2 is what independent ones would have.
 
-use crate::learn::fitted::Fit;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::fitting::fitted::Fit;
 use crate::learn::noise::SigmaModel;
 use crate::measure::neighbours::curves;
 use crate::measure::{Dataset, Observation, Quantity};

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use nalgebra::DVector;
 
-use crate::learn::fitted_candidate::BaseFit;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::candidates::fitted_candidate::BaseFit;
+use crate::learn::candidates::likelihood::Likelihood;
 
 /// Misfit beyond the noise, in its standard deviations, from which curves are looked at.
 const REAL: f64 = 5.0;

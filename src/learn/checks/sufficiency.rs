@@ -1,7 +1,7 @@
 //! Whether there is enough to conclude anything from.
 
-use crate::learn::fitted_candidate::BaseFit;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::candidates::fitted_candidate::BaseFit;
+use crate::learn::candidates::likelihood::Likelihood;
 
 /// Ids of the tests that were measured at one number of cycles only.
 pub(in crate::learn) fn measured_once<'a>(likelihood: &'a Likelihood<'_>) -> Vec<&'a str> {

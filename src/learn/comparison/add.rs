@@ -5,11 +5,11 @@
 
 use std::cell::OnceCell;
 
-use super::compare::{CompareError, Compared, Doing, FAR_SHARE, contact_of};
-use super::missed::Missed;
-use crate::learn::fitted::Fit;
+use super::compare::{CompareError, CompareStage, Compared, FAR_SHARE, contact_of};
+use super::missed::BaselineMisfit;
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::measured::{Measured, Misfit};
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::{Measured, Misfit};
 use crate::measure::Dataset;
 use crate::study::{EffectModel, Study, WEAR_COEFFICIENT};
 
@@ -47,7 +47,7 @@ pub struct Addition {
     /// The same of the held-out tests.
     pub without_holdout_chi2_per_point: Option<f64>,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
-    pub tried: Vec<Option<Tried>>,
+    pub tried: Vec<Option<FormFit>>,
     /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
     pub passed_over: Vec<usize>,
 }
@@ -63,7 +63,7 @@ impl Addition {
 
 /// One form's fit in short.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tried {
+pub struct FormFit {
     /// Logarithm of its marginal likelihood.
     pub log_evidence: f64,
     /// χ² per point of the fit tests.
@@ -79,19 +79,19 @@ pub fn add(
     study: &Study,
     data: &Dataset,
     forms: &[AddedForm],
-    watch: &(dyn Fn(Doing, usize) + Sync),
+    watch: &(dyn Fn(CompareStage, usize) + Sync),
 ) -> Result<Addition, CompareError> {
     let kind = contact_of(study)?;
     let measured = Measured::new(study, data.clone());
-    watch(Doing::Members, 0);
+    watch(CompareStage::Members, 0);
     let workshop = measured.workshop(kind)?;
-    watch(Doing::Tests, 0);
+    watch(CompareStage::Tests, 0);
     let bench = measured.bench(&workshop)?;
     let (own, others) = forms
         .split_first()
         .expect("an effect has a form of its own");
     let without = without_last(&forms[0].version);
-    let without = (without.as_ref()).map(|without| Missed::by(without, &bench));
+    let without = (without.as_ref()).map(|without| BaselineMisfit::by(without, &bench));
     // where others are fitted along, how much of them the effect takes over shows at the end of the fit only
     let alone = is_free_alone(&forms[0].version);
     let missed = without.as_ref().filter(|_| alone);
@@ -160,7 +160,7 @@ pub fn add(
 /// Which forms are worth the price of fine elements where all so far leave far more than noise.
 struct Promising<'p> {
     measured: &'p Measured<'p>,
-    missed: Option<&'p Missed<'p>>,
+    missed: Option<&'p BaselineMisfit<'p>>,
     /// The effect's own form, and χ² that a cheaper model promises of it.
     version: &'p ModelVersion,
     own: OnceCell<Option<f64>>,
@@ -210,8 +210,8 @@ fn leaves_something(own: &Compared) -> bool {
         .is_some_and(|chi2| chi2 > 1.0 + LEFT * noise)
 }
 
-fn in_short(compared: &Compared) -> Tried {
-    Tried {
+fn in_short(compared: &Compared) -> FormFit {
+    FormFit {
         log_evidence: compared.fit.log_evidence,
         chi2_per_point: compared.comparison.fit.chi2_per_point,
     }

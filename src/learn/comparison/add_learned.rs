@@ -1,13 +1,13 @@
 //! Adds a learned law: its size and length by the analytic model, then fitted by the study's own.
 
-use super::compare::{CompareError, Compared, Doing, contact_of};
-use crate::learn::bench::{Workshop, for_looks};
-use crate::learn::fidelity::Fidelity;
+use super::compare::{CompareError, CompareStage, Compared, contact_of};
+use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::learned_law::{LearnError, TriedProcess, WantedLaw, deviations, fitted_law};
-use crate::learn::measured::Measured;
+use crate::learn::inference::search::Effort;
+use crate::learn::learned::law::{LearnError, TriedProcess, WantedLaw, deviations, fitted_law};
 use crate::learn::noise::NoiseModel;
-use crate::learn::search::Effort;
+use crate::learn::prediction::bench::{Workshop, for_looks};
+use crate::learn::prediction::fidelity::Fidelity;
 use crate::measure::Dataset;
 use crate::simulate::forward::ContactKind;
 use crate::study::{LearnedLaw, Study, WEAR_COEFFICIENT};
@@ -49,19 +49,19 @@ pub fn add_learned(
     study: &Study,
     data: &Dataset,
     wanted: &WantedLaw,
-    watch: &(dyn Fn(Doing) + Sync),
+    watch: &(dyn Fn(CompareStage) + Sync),
 ) -> Result<LearnedAddition, AddLearnedError> {
     let kind = contact_of(study).map_err(CompareError::from)?;
     let measured = Measured::new(study, data.clone());
     let version = ModelVersion::of(study);
     let expected = HISTORIES * measured.roles.len();
     let told = |histories| {
-        watch(Doing::Fitting {
+        watch(CompareStage::Fitting {
             histories,
             expected,
         });
     };
-    watch(Doing::Tests);
+    watch(CompareStage::Tests);
     let own = NoiseModel::of(&study.noise);
     let (numerics, noise) = match kind {
         ContactKind::Hertz => (study.resolution(), own),
@@ -88,7 +88,7 @@ pub fn add_learned(
         .fit(&bench, &version, noise, &[start], &effort, &told)
         .map_err(CompareError::from)?;
     let found = measured.learn(&bench, &version, &without, wanted, noise, &told)?;
-    watch(Doing::Members);
+    watch(CompareStage::Members);
     let workshop = measured.workshop(kind).map_err(failed)?;
     let bench = measured.bench(&workshop).map_err(failed)?;
     let without = measured

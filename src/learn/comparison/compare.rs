@@ -4,18 +4,18 @@
 //! study, measurements -> members -> tests on the bench -> fit of what is free -> Comparison
 //! ```
 
-use super::missed::Missed;
+use super::missed::BaselineMisfit;
 use super::record::Comparison;
 use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
-use crate::learn::bench::Bench;
-use crate::learn::fit::{FitError, Problem, Scaled};
-use crate::learn::fitted::Fit;
+use crate::learn::fitting::fit::{FitError, Problem, ScaledPrediction};
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::measured::Measured;
+use crate::learn::fitting::starts::Start;
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::Measured;
+use crate::learn::inference::search::Effort;
 use crate::learn::noise::NoiseModel;
-use crate::learn::search::Effort;
-use crate::learn::starts::Start;
+use crate::learn::prediction::bench::Bench;
 use crate::measure::Dataset;
 use crate::simulate::forward::{self, ForwardError};
 use crate::study::{ContactKind, EffectSpec, FreeParameter, Study, StudyError, WEAR_COEFFICIENT};
@@ -46,7 +46,7 @@ impl Compared {
 
 /// What a comparison is at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Doing {
+pub enum CompareStage {
     /// Meshing and condensing the members.
     Members,
     /// Preparing the tests' mesh cycles.
@@ -61,7 +61,7 @@ pub enum Doing {
 }
 
 /// Whom a comparison tells what it is at; from any thread.
-pub type Watch<'w> = &'w (dyn Fn(Doing) + Sync);
+pub type Watch<'w> = &'w (dyn Fn(CompareStage) + Sync);
 
 /// Why there is no comparison.
 #[derive(Debug, thiserror::Error)]
@@ -119,9 +119,9 @@ pub fn compare(
 ) -> Result<Compared, CompareError> {
     let kind = contact_of(study)?;
     let measured = Measured::new(study, data.clone());
-    watch(Doing::Members);
+    watch(CompareStage::Members);
     let workshop = measured.workshop(kind)?;
-    watch(Doing::Tests);
+    watch(CompareStage::Tests);
     let bench = measured.bench(&workshop)?;
     Ok(measured.compare(&bench, version, watch)?)
 }
@@ -155,7 +155,7 @@ impl Measured<'_> {
         bench: &Bench<'_>,
         version: &ModelVersion,
         places: Vec<Vec<f64>>,
-        missed: Option<&Missed<'_>>,
+        missed: Option<&BaselineMisfit<'_>>,
         watch: Watch<'_>,
     ) -> Result<Compared, FitError> {
         let noise = NoiseModel::of(&self.study().noise);
@@ -175,7 +175,7 @@ impl Measured<'_> {
         };
         let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
         let told = |histories| {
-            watch(Doing::Fitting {
+            watch(CompareStage::Fitting {
                 histories,
                 expected,
             });
@@ -262,7 +262,7 @@ impl Measured<'_> {
         &self,
         problem: &Problem<'_>,
         version: &ModelVersion,
-        missed: &Missed<'_>,
+        missed: &BaselineMisfit<'_>,
         start: &Start,
         little: bool,
         look: &Effort,
@@ -290,7 +290,7 @@ impl Measured<'_> {
         problem: &Problem<'_>,
         version: &ModelVersion,
         places: Vec<Vec<f64>>,
-        without: Option<&Scaled>,
+        without: Option<&ScaledPrediction>,
     ) -> Start {
         let own = version.own_values();
         if version.is_chosen() && own != version.medians() && problem.is_within_noise(&own) {

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::residual_statistics::fitted;
-use crate::learn::fitted::Fit;
-use crate::learn::region::Map;
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::region::FlankRegions;
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::{Role, Study};
 
@@ -54,7 +54,7 @@ fn datum(fit: &Fit, trace: usize) -> f64 {
 
 /// All curves, by test, member, quantity, cycles and trace.
 pub fn curves(study: &Study, data: &Dataset, fit: &Fit) -> Vec<Curve> {
-    let map = Map::new(study, data);
+    let map = FlankRegions::new(study, data);
     let mut curves: BTreeMap<_, Curve> = BTreeMap::new();
     for (o, row) in fitted(data, fit) {
         let key = (o.test, o.member, o.quantity, o.cycles.to_bits(), o.trace);

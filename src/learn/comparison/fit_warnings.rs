@@ -3,9 +3,9 @@
 
 use std::collections::HashSet;
 
-use crate::learn::collinear::act_together;
-use crate::learn::fitted::Fit;
-use crate::learn::parameters::short;
+use crate::learn::fitting::collinear::act_together;
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::hypothesis::parameters::short;
 use crate::measure::{Dataset, FacePlace, Observation};
 
 /// All that there is to say.

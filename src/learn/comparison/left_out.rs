@@ -1,8 +1,8 @@
 //! How well a model predicts each test that it is not fitted to: one after the other left out of the fit.
 
-use super::compare::{CompareError, Doing, contact_of};
+use super::compare::{CompareError, CompareStage, contact_of};
+use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::Measured;
 use crate::measure::Dataset;
 use crate::study::{Role, Study};
 
@@ -23,7 +23,7 @@ pub struct LeftOut {
 pub fn left_out(
     study: &Study,
     data: &Dataset,
-    watch: &(dyn Fn(Doing) + Sync),
+    watch: &(dyn Fn(CompareStage) + Sync),
 ) -> Result<Option<LeftOut>, CompareError> {
     let kind = contact_of(study)?;
     let mut measured = Measured::new(study, data.clone());

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
-use crate::learn::region::{Map, words};
+use crate::learn::fitting::region::{FlankRegions, words};
 use crate::measure::{Quantity, Subject};
 
 /// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
@@ -42,7 +42,7 @@ pub(in crate::learn) fn worst_first(cells: BTreeMap<CellKey, Cell>) -> Vec<Cell>
 pub(in crate::learn) fn sentence(
     cells: &BTreeMap<CellKey, Cell>,
     ratios: &BTreeMap<(usize, Subject), Vec<Ratio>>,
-    map: &Map,
+    map: &FlankRegions,
     chi2: Option<f64>,
 ) -> String {
     let fails = |cell: &Cell| significance(cell) > SIGNIFICANT;
@@ -114,7 +114,7 @@ fn subject(quantity: Quantity) -> &'static str {
     }
 }
 
-fn when(key: &CellKey, cell: &Cell, map: &Map) -> String {
+fn when(key: &CellKey, cell: &Cell, map: &FlankRegions) -> String {
     let count = map.intervals(key.0);
     if count < 2 {
         return String::new();
@@ -266,7 +266,12 @@ fn mate(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>) -> String {
 }
 
 /// The tests that show the same sign, or an error of either sign too, at the same place and stage of life.
-fn others(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>, map: &Map) -> String {
+fn others(
+    key: &CellKey,
+    cell: &Cell,
+    cells: &BTreeMap<CellKey, Cell>,
+    map: &FlankRegions,
+) -> String {
     let stage = |k: &CellKey| 3 * k.4 / map.intervals(k.0).max(1);
     let mut like = Vec::new();
     for (k, found) in cells {
@@ -355,7 +360,7 @@ mod tests {
             ..cell(Quantity::MassLoss, 9, chi2)
         };
         let key = |test| (test, Subject::Pinion, Quantity::MassLoss, None, 0);
-        let map = Map::of_ends(vec![vec![1e5], vec![1e5]]);
+        let map = FlankRegions::of_ends(vec![vec![1e5], vec![1e5]]);
         let told = |of_a: f64| {
             let cells = BTreeMap::from([
                 (key(0), cell(Quantity::MassLoss, 9, of_a)),

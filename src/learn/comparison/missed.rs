@@ -2,13 +2,13 @@
 
 use std::cell::OnceCell;
 
-use crate::learn::bench::Bench;
-use crate::learn::fit::Scaled;
-use crate::learn::fitted::Fit;
+use crate::learn::fitting::fit::ScaledPrediction;
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::measured::{Measured, Misfit};
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::{Measured, Misfit};
+use crate::learn::inference::search::Effort;
 use crate::learn::noise::NoiseModel;
-use crate::learn::search::Effort;
+use crate::learn::prediction::bench::Bench;
 use crate::study::Role;
 
 /// Share of what is missed below which a fit is hopeless after a look.
@@ -18,7 +18,7 @@ const HOPELESS: f64 = 0.1;
 const LEAST_MISSED: f64 = 0.5;
 
 /// What a model without an effect misses, asked for only where a fit of the effect does not come to an end soon, or leaves far more than noise.
-pub(super) struct Missed<'m> {
+pub(super) struct BaselineMisfit<'m> {
     version: &'m ModelVersion,
     bench: &'m Bench<'m>,
     base: OnceCell<Option<Base>>,
@@ -26,12 +26,12 @@ pub(super) struct Missed<'m> {
 
 /// The model without the effect where it fits best.
 struct Base {
-    scaled: Scaled,
+    scaled: ScaledPrediction,
     /// Of the held-out tests; None where it cannot be computed.
     held_out: Option<Misfit>,
 }
 
-impl<'m> Missed<'m> {
+impl<'m> BaselineMisfit<'m> {
     /// By the model without the effect, what else is free fitted anew.
     pub(super) fn by(version: &'m ModelVersion, bench: &'m Bench<'m>) -> Self {
         Self {
@@ -43,7 +43,7 @@ impl<'m> Missed<'m> {
 
     /// The misfit of the model without the effect where it fits best, and its predictions at the study's own values; None where it cannot be
     /// computed.
-    pub(super) fn base(&self, measured: &Measured<'_>) -> Option<&Scaled> {
+    pub(super) fn base(&self, measured: &Measured<'_>) -> Option<&ScaledPrediction> {
         self.fitted(measured).map(|base| &base.scaled)
     }
 
@@ -66,7 +66,7 @@ impl<'m> Missed<'m> {
                 let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
                 let judged = problem.judged(fit.clone(), &effort).ok();
                 Some(Base {
-                    scaled: Scaled {
+                    scaled: ScaledPrediction {
                         square: measured.misfit(&fit).square,
                         ..problem.scaled(&own)?
                     },

@@ -6,6 +6,7 @@
 
 mod add;
 mod add_learned;
+pub(in crate::learn) mod coefficient_trend;
 mod compare;
 mod curves;
 mod fit_warnings;
@@ -18,12 +19,13 @@ mod ratio;
 mod record;
 mod residual_statistics;
 mod sanity;
+pub(in crate::learn) mod synthesize;
 mod uncertainty;
 mod versions;
 
-pub use add::{AddedForm, Addition, Tried, add};
+pub use add::{AddedForm, Addition, FormFit, add};
 pub use add_learned::{AddLearnedError, LearnedAddition, add_learned};
-pub use compare::{CompareError, Compared, Doing, Watch, compare, contact_of};
+pub use compare::{CompareError, CompareStage, Compared, Watch, compare, contact_of};
 pub use curves::{Curve, CurvePoint, curves};
 pub use fit_warnings::data_warnings;
 pub use ladder::{Improvement, LadderStep, Version, ladder, precursors};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::residual_statistics::{Fitted, role_name};
+use super::residual_statistics::{FittedRow, role_name};
 use crate::measure::{Quantity, Subject};
 use crate::study::Study;
 
@@ -55,9 +55,9 @@ type Key = (usize, Subject, u64);
 /// Of every test, member and checkpoint with wear depths, where the computed wear varies along the flank.
 pub(in crate::learn) fn ratios(
     study: &Study,
-    rows: &[Fitted<'_>],
+    rows: &[FittedRow<'_>],
 ) -> BTreeMap<(usize, Subject), Vec<Ratio>> {
-    let mut groups: BTreeMap<Key, Vec<Fitted<'_>>> = BTreeMap::new();
+    let mut groups: BTreeMap<Key, Vec<FittedRow<'_>>> = BTreeMap::new();
     for &(o, row) in rows
         .iter()
         .filter(|(o, _)| o.quantity == Quantity::WearDepth)
@@ -87,7 +87,7 @@ pub(in crate::learn) fn ratios(
 }
 
 /// s, its standard deviation and χ² per point with it.
-fn scaled(rows: &[Fitted<'_>]) -> Option<(f64, f64, f64)> {
+fn scaled(rows: &[FittedRow<'_>]) -> Option<(f64, f64, f64)> {
     let mut means: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
     for (o, row) in rows {
         let Some(trace) = o.trace else { continue };

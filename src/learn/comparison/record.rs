@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 use super::fit_warnings::{correlation, fit_warnings};
 use super::misfit_location::{sentence, worst_first};
 use super::ratio::{Ratio, ratios};
-use super::residual_statistics::{Cell, Fitted, Group, Share, cells, fitted, role_name, wear};
+use super::residual_statistics::{Cell, FittedRow, Group, Share, cells, fitted, role_name, wear};
 use super::sanity::sanity;
 use super::uncertainty::{Validation, validate};
-use crate::learn::coefficient_trend::trend_of_coefficients;
-use crate::learn::fitted::Fit;
-use crate::learn::parameters::Estimate;
-use crate::learn::quantity_misfit::misfit_of_one_quantity;
-use crate::learn::region::Map;
+use crate::learn::comparison::coefficient_trend::trend_of_coefficients;
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::quantity_misfit::misfit_of_one_quantity;
+use crate::learn::fitting::region::FlankRegions;
+use crate::learn::hypothesis::parameters::Estimate;
 use crate::measure::{Dataset, Quantity};
 use crate::study::{Role, Study};
 
@@ -150,7 +150,7 @@ fn coefficient_prior(study: &Study) -> String {
 impl Comparison {
     /// Of a fit to a study's measurements.
     pub fn new(study: &Study, data: &Dataset, fit: &Fit) -> Self {
-        let map = Map::new(study, data);
+        let map = FlankRegions::new(study, data);
         let rows = fitted(data, fit);
         let roles: Vec<Role> = study.tests.iter().map(|test| test.role).collect();
         let with = |role: Role| {
@@ -221,7 +221,7 @@ impl ParameterRecord {
     }
 }
 
-fn noise_rms(rows: &[Fitted<'_>]) -> Option<f64> {
+fn noise_rms(rows: &[FittedRow<'_>]) -> Option<f64> {
     let depths: Vec<f64> = rows
         .iter()
         .filter(|(o, _)| o.quantity == Quantity::WearDepth)
@@ -230,9 +230,9 @@ fn noise_rms(rows: &[Fitted<'_>]) -> Option<f64> {
     (!depths.is_empty()).then(|| (depths.iter().sum::<f64>() / depths.len() as f64).sqrt())
 }
 
-fn test_records(study: &Study, fit: &Fit, rows: &[Fitted<'_>]) -> Vec<TestRecord> {
-    let record = |fitted: &crate::learn::fitted::TestFit| {
-        let own: Vec<Fitted<'_>> = rows
+fn test_records(study: &Study, fit: &Fit, rows: &[FittedRow<'_>]) -> Vec<TestRecord> {
+    let record = |fitted: &crate::learn::fitting::fitted::TestFit| {
+        let own: Vec<FittedRow<'_>> = rows
             .iter()
             .copied()
             .filter(|(o, _)| o.test == fitted.test)
@@ -252,7 +252,7 @@ fn test_records(study: &Study, fit: &Fit, rows: &[Fitted<'_>]) -> Vec<TestRecord
     fit.tests.iter().map(record).collect()
 }
 
-fn outliers(data: &Dataset, rows: &[Fitted<'_>]) -> Vec<Outlier> {
+fn outliers(data: &Dataset, rows: &[FittedRow<'_>]) -> Vec<Outlier> {
     let far = rows
         .iter()
         .filter(|(_, row)| row.standardised.abs() > OUTLIER);

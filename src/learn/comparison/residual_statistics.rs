@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Region;
-use crate::learn::fit::is_within_noise;
-use crate::learn::fitted::{Fit, RowFit};
-use crate::learn::measured::Misfit;
-use crate::learn::region::Map;
+use crate::learn::fitting::fit::is_within_noise;
+use crate::learn::fitting::fitted::{Fit, RowFit};
+use crate::learn::fitting::measured::Misfit;
+use crate::learn::fitting::region::FlankRegions;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::{Role, Study};
 
@@ -89,12 +89,12 @@ pub struct Group {
 }
 
 /// One row with its fit.
-pub(in crate::learn) type Fitted<'a> = (&'a Observation, &'a RowFit);
+pub(in crate::learn) type FittedRow<'a> = (&'a Observation, &'a RowFit);
 /// What rows of one cell share: test, member, quantity, region, cycle interval.
 pub(in crate::learn) type CellKey = (usize, Subject, Quantity, Option<Region>, usize);
 
 /// Every observation with its fit, in order.
-pub(in crate::learn) fn fitted<'a>(data: &'a Dataset, fit: &'a Fit) -> Vec<Fitted<'a>> {
+pub(in crate::learn) fn fitted<'a>(data: &'a Dataset, fit: &'a Fit) -> Vec<FittedRow<'a>> {
     let rows = data.observations.iter().zip(&fit.rows);
     rows.filter(|(o, _)| fit.judges(o.test)).collect()
 }
@@ -108,8 +108,8 @@ pub(in crate::learn) fn role_name(role: Role) -> &'static str {
 }
 
 impl Share {
-    pub(in crate::learn) fn of<'a>(rows: impl Iterator<Item = Fitted<'a>>) -> Self {
-        let rows: Vec<Fitted<'_>> = rows.collect();
+    pub(in crate::learn) fn of<'a>(rows: impl Iterator<Item = FittedRow<'a>>) -> Self {
+        let rows: Vec<FittedRow<'_>> = rows.collect();
         Self {
             points: rows.len(),
             chi2_per_point: chi2(&rows),
@@ -121,17 +121,17 @@ impl Share {
 impl Group {
     /// Groups of rows with equal keys, in the keys' order.
     pub(in crate::learn) fn by<'a, K: Ord>(
-        rows: &[Fitted<'a>],
+        rows: &[FittedRow<'a>],
         key: impl Fn(&'a Observation) -> Option<K>,
         name: impl Fn(&K) -> String,
     ) -> Vec<Self> {
-        let mut groups: BTreeMap<K, Vec<Fitted<'a>>> = BTreeMap::new();
+        let mut groups: BTreeMap<K, Vec<FittedRow<'a>>> = BTreeMap::new();
         for &(o, row) in rows {
             if let Some(key) = key(o) {
                 groups.entry(key).or_default().push((o, row));
             }
         }
-        let group = |(key, rows): (K, Vec<Fitted<'a>>)| Self {
+        let group = |(key, rows): (K, Vec<FittedRow<'a>>)| Self {
             name: name(&key),
             points: rows.len(),
             chi2_per_point: chi2(&rows).unwrap_or_default(),
@@ -145,15 +145,15 @@ impl Group {
 /// All cells by key.
 pub(in crate::learn) fn cells(
     study: &Study,
-    rows: &[Fitted<'_>],
-    map: &Map,
+    rows: &[FittedRow<'_>],
+    map: &FlankRegions,
 ) -> BTreeMap<CellKey, Cell> {
-    let mut parts: BTreeMap<CellKey, Vec<Fitted<'_>>> = BTreeMap::new();
+    let mut parts: BTreeMap<CellKey, Vec<FittedRow<'_>>> = BTreeMap::new();
     for &(o, row) in rows {
         let key = (o.test, o.member, o.quantity, map.region(o), map.interval(o));
         parts.entry(key).or_default().push((o, row));
     }
-    let cell = |key: CellKey, rows: &[Fitted<'_>]| {
+    let cell = |key: CellKey, rows: &[FittedRow<'_>]| {
         let (test, member, quantity, region, interval) = key;
         let n = rows.len() as f64;
         let bias = rows.iter().map(|r| r.1.residual).sum::<f64>() / n;
@@ -184,13 +184,13 @@ pub(in crate::learn) fn cells(
 }
 
 /// Mean of the squared standardised residuals.
-pub(in crate::learn) fn chi2(rows: &[Fitted<'_>]) -> Option<f64> {
+pub(in crate::learn) fn chi2(rows: &[FittedRow<'_>]) -> Option<f64> {
     let sum: f64 = rows.iter().map(|(_, row)| row.standardised.powi(2)).sum();
     (!rows.is_empty()).then(|| sum / rows.len() as f64)
 }
 
 /// Mean of a function of the residuals of wear depths.
-pub(in crate::learn) fn wear(rows: &[Fitted<'_>], f: impl Fn(f64) -> f64) -> Option<f64> {
+pub(in crate::learn) fn wear(rows: &[FittedRow<'_>], f: impl Fn(f64) -> f64) -> Option<f64> {
     let depths = rows
         .iter()
         .filter(|(o, _)| o.quantity == Quantity::WearDepth);

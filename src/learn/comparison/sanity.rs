@@ -13,8 +13,8 @@ mod single_tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::residual_statistics::{Fitted, fitted};
-use crate::learn::fitted::{Fit, RowFit};
+use super::residual_statistics::{FittedRow, fitted};
+use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Study;
 
@@ -48,8 +48,8 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         return vec![other];
     }
     let of_one_k = of_one_k(data, fit);
-    let judged = |(o, _): &Fitted<'_>| fit.judges(o.test);
-    let rows: Vec<Fitted<'_>> = (data.observations.iter().zip(&of_one_k))
+    let judged = |(o, _): &FittedRow<'_>| fit.judges(o.test);
+    let rows: Vec<FittedRow<'_>> = (data.observations.iter().zip(&of_one_k))
         .filter(judged)
         .collect();
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
@@ -143,8 +143,8 @@ struct Scale {
 }
 
 /// s of the rows of one quantity, of one member or of all.
-fn scale(rows: &[Fitted<'_>], quantity: Quantity, member: Option<Subject>) -> Option<Scale> {
-    let own: Vec<&Fitted<'_>> = rows
+fn scale(rows: &[FittedRow<'_>], quantity: Quantity, member: Option<Subject>) -> Option<Scale> {
+    let own: Vec<&FittedRow<'_>> = rows
         .iter()
         .filter(|(o, _)| o.quantity == quantity && member.is_none_or(|m| o.member == m))
         .collect();
@@ -175,7 +175,7 @@ fn scale(rows: &[Fitted<'_>], quantity: Quantity, member: Option<Subject>) -> Op
 }
 
 /// Sum of a quantity of a member over that of the model.
-fn total(rows: &[Fitted<'_>], quantity: Quantity, member: Subject) -> Option<f64> {
+fn total(rows: &[FittedRow<'_>], quantity: Quantity, member: Subject) -> Option<f64> {
     let own = rows
         .iter()
         .filter(|(o, _)| o.quantity == quantity && o.member == member);
@@ -186,7 +186,7 @@ fn total(rows: &[Fitted<'_>], quantity: Quantity, member: Subject) -> Option<f64
 }
 
 /// Quantities that run against the computed ones.
-fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
+fn signs(rows: &[FittedRow<'_>]) -> Vec<String> {
     let turned = |quantity, member, explains: f64| {
         scale(rows, quantity, member).is_some_and(|s| s.factor < 0.0 && s.explains > explains)
     };
@@ -221,7 +221,7 @@ fn signs(rows: &[Fitted<'_>]) -> Vec<String> {
 }
 
 /// Depths and masses of a member that call for different coefficients; `k`: the fitted one.
-fn depths_and_masses(study: &Study, rows: &[Fitted<'_>], k: f64) -> Option<String> {
+fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -> Option<String> {
     let of = |member: Subject| {
         let depth = scale(rows, Quantity::WearDepth, Some(member))?;
         let mass = scale(rows, Quantity::MassLoss, Some(member))?;
@@ -302,7 +302,7 @@ fn depths_and_masses(study: &Study, rows: &[Fitted<'_>], k: f64) -> Option<Strin
 }
 
 /// Quantities that k hardly changes and that are off by a factor.
-fn other_units(study: &Study, rows: &[Fitted<'_>]) -> Vec<String> {
+fn other_units(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     let face_width = study.gears.face_width;
     let radius = study.gears.gear.base_radius;
     let known: [(Quantity, &[(f64, &str)]); 4] = [
@@ -393,7 +393,7 @@ fn far_from_stated(k: f64, stated: f64) -> Option<String> {
 }
 
 /// Curves without a named trace that a constant each would bring to the model.
-fn constants(rows: &[Fitted<'_>]) -> Option<String> {
+fn constants(rows: &[FittedRow<'_>]) -> Option<String> {
     let mut curves: BTreeMap<_, Vec<(f64, f64, f64)>> = BTreeMap::new();
     for (o, row) in rows {
         if o.trace.is_none() && o.quantity == Quantity::WearDepth {

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::residual_statistics::role_name;
-use crate::learn::fitted::Fit;
+use crate::learn::fitting::fitted::Fit;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Role;
 

@@ -1,8 +1,8 @@
 //! Several versions of a model, each its own study, compared one after the other on as few benches as possible.
 
-use super::compare::{CompareError, Compared, Doing, contact_of};
+use super::compare::{CompareError, CompareStage, Compared, contact_of};
+use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::version::ModelVersion;
-use crate::learn::measured::Measured;
 use crate::measure::{Dataset, Observation};
 use crate::study::Study;
 
@@ -17,7 +17,7 @@ pub type Item<'a> = (&'a Study, &'a Dataset);
 /// [`CompareError`] of the first that cannot be compared.
 pub fn compare_all(
     items: &[Item<'_>],
-    watch: &(dyn Fn(usize, Doing) + Sync),
+    watch: &(dyn Fn(usize, CompareStage) + Sync),
 ) -> Result<Vec<Compared>, CompareError> {
     let mut found: Vec<Option<Compared>> = vec![None; items.len()];
     for first in 0..items.len() {
@@ -26,9 +26,9 @@ pub fn compare_all(
         }
         let kind = contact_of(items[first].0)?;
         let measured = Measured::new(items[first].0, items[first].1.clone());
-        watch(first, Doing::Members);
+        watch(first, CompareStage::Members);
         let workshop = measured.workshop(kind)?;
-        watch(first, Doing::Tests);
+        watch(first, CompareStage::Tests);
         let bench = measured.bench(&workshop)?;
         for number in first..items.len() {
             if number > first && (found[number].is_some() || !share(items[first], items[number])) {

@@ -1,7 +1,7 @@
 //! Stage 6, decision: what the evidence of all fits says together, by one rule.
 
 mod evidence;
-pub(in crate::learn) mod posterior;
+pub(in crate::learn) mod judged_candidates;
 mod rule;
 mod verdict;
 

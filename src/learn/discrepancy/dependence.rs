@@ -15,8 +15,8 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::basis::{Functions, numbered, polynomials, waves};
-use crate::learn::likelihood::Likelihood;
-use crate::learn::region::Map;
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::fitting::region::FlankRegions;
 use crate::measure::{Observation, Quantity};
 
 /// Most functions of the position, of the cycles, of the depth, and of a condition of the tests.
@@ -63,7 +63,7 @@ pub(in crate::learn) fn drivers(
     let members: Vec<usize> = (0..rows)
         .map(|i| likelihood.observation(i).member as usize)
         .collect();
-    let map = Map::new(likelihood.measured.study(), &likelihood.measured.data);
+    let map = FlankRegions::new(likelihood.measured.study(), &likelihood.measured.data);
     let tests = &likelihood.measured.study().tests;
     let by = |of: &dyn Fn(&Observation) -> f64| -> Vec<f64> {
         (0..rows).map(|i| of(likelihood.observation(i))).collect()

@@ -17,12 +17,12 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::basis::{self, mean_waves, numbered, polynomials, waves};
-use crate::learn::fitted_candidate::orthonormalise;
-use crate::learn::likelihood::{Likelihood, OWN_FORM};
+use crate::learn::candidates::fitted_candidate::orthonormalise;
+use crate::learn::candidates::likelihood::{Likelihood, OWN_FORM};
+use crate::learn::fitting::region::FlankRegions;
+use crate::learn::hypothesis::parameters::Parameter;
+use crate::learn::inference::search::SearchEnd;
 use crate::learn::noise::{Covariance, Discrepancy, ModelError, amplitudes};
-use crate::learn::parameters::Parameter;
-use crate::learn::region::Map;
-use crate::learn::search::Found;
 use crate::measure::{Observation, Quantity, Subject};
 use crate::numeric::logarithm::log_mean_exp;
 
@@ -41,7 +41,7 @@ const RATIOS: [f64; 2] = [0.3, 0.7];
 /// form is uncertain ([`Likelihood::evidence`]); None of the base model.
 pub(in crate::learn) fn log_evidence(
     likelihood: &Likelihood<'_>,
-    fit: &Found,
+    fit: &SearchEnd,
     parameters: &[Parameter],
     change: Option<&[f64]>,
 ) -> f64 {
@@ -135,7 +135,7 @@ fn even_sizes(observations: &[&Observation], size: &[f64]) -> Vec<f64> {
 /// The most probable discrepancy beside a model, of each curve's own or common to all tests.
 pub(in crate::learn) fn most_probable(
     likelihood: &Likelihood<'_>,
-    fit: &Found,
+    fit: &SearchEnd,
     parameters: &[Parameter],
 ) -> Discrepancy {
     let observations: Vec<&Observation> = (0..likelihood.len())
@@ -151,7 +151,7 @@ pub(in crate::learn) fn most_probable(
     let mut all: Vec<(f64, Discrepancy)> = each.collect();
     let covariance = likelihood.covariance_with(&[]);
     let before = likelihood.evidence_in(&covariance, fit, parameters).0;
-    let left = Left::new(likelihood, fit, &covariance);
+    let left = ProjectedResidual::new(likelihood, fit, &covariance);
     for (functions, weights) in shared(likelihood, &fit.model, &observations, &size) {
         let seen = SharedFunctions::new(&left, &functions);
         for weight in &weights {
@@ -217,7 +217,7 @@ fn shared<'a>(
     size: &'a [f64],
 ) -> Vec<(Functions<'a>, Vec<Weight>)> {
     let observations = || observations.iter().copied();
-    let map = Map::new(likelihood.measured.study(), &likelihood.measured.data);
+    let map = FlankRegions::new(likelihood.measured.study(), &likelihood.measured.data);
     let kinds = numbered(observations().map(|o| o.quantity));
     let places: Vec<f64> = observations()
         .map(|o| map.path(o).or(o.position).unwrap_or(0.0))
@@ -270,12 +270,12 @@ fn shared<'a>(
 /// Gains of log evidence by functions common to all tests.
 fn common(
     likelihood: &Likelihood<'_>,
-    fit: &Found,
+    fit: &SearchEnd,
     covariance: &Covariance,
     observations: &[&Observation],
     size: &[f64],
 ) -> Vec<f64> {
-    let left = Left::new(likelihood, fit, covariance);
+    let left = ProjectedResidual::new(likelihood, fit, covariance);
     let kinds = shared(likelihood, &fit.model, observations, size);
     let of = |(functions, weights): &(Functions<'_>, Vec<Weight>)| {
         let seen = SharedFunctions::new(&left, functions);
@@ -288,7 +288,7 @@ fn common(
 }
 
 /// What a fit leaves, whitened, with what its own parameters could still change taken out.
-struct Left<'a> {
+struct ProjectedResidual<'a> {
     covariance: &'a Covariance,
     /// The model's own error, relative.
     error: f64,
@@ -296,8 +296,8 @@ struct Left<'a> {
     residual: DVector<f64>,
 }
 
-impl<'a> Left<'a> {
-    fn new(likelihood: &Likelihood<'_>, fit: &Found, covariance: &'a Covariance) -> Self {
+impl<'a> ProjectedResidual<'a> {
+    fn new(likelihood: &Likelihood<'_>, fit: &SearchEnd, covariance: &'a Covariance) -> Self {
         let mut adjustable = covariance.whiten_all(&fit.jacobian);
         orthonormalise(&mut adjustable);
         let residual = covariance.whiten(&likelihood.residual(&fit.model));
@@ -331,7 +331,7 @@ struct SharedFunctions {
 
 impl SharedFunctions {
     /// g φ_j at the rows of each group.
-    fn new(left: &Left<'_>, functions: &Functions<'_>) -> Self {
+    fn new(left: &ProjectedResidual<'_>, functions: &Functions<'_>) -> Self {
         let wanted = functions.wanted();
         let columns: Vec<DVector<f64>> = (wanted.iter())
             .map(|&at| DVector::from_vec(functions.column(at)))

@@ -12,11 +12,11 @@ use serde::{Deserialize, Serialize};
 
 use super::binned::{BinMean, Explained, bin_mean, bins, explained, mean};
 use crate::effects::Local;
-use crate::learn::bench::Bench;
-use crate::learn::candidate_model::model;
-use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::candidates::candidate_model::model;
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::hypothesis::Hypothesis;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::prediction::bench::Bench;
 use crate::measure::Observation;
 use crate::study::Operation;
 

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::learn::likelihood::Likelihood;
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::measure::{Observation, surfaces};
 use crate::numeric::chebyshev;
 

@@ -14,14 +14,14 @@ use super::discrimination::{
     Discrimination, LEAST_SCATTER, PlannedResponse, Whitening, noise_ahead,
 };
 use super::measurement_design::MeasurementDesign;
-use super::plan::{AloneTest, Campaign, ChosenTest, Plan, Shown};
-use crate::learn::bench::Workshop;
-use crate::learn::fidelity::Fidelity;
+use super::plan::{AloneTest, Campaign, ChosenTest, EffectVisibility, Plan};
 use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::inference::quadratic::State;
 use crate::learn::model_search::context::{DiagnoseError, Watch};
 use crate::learn::noise::SigmaModel;
-use crate::learn::predictor::PredictError;
-use crate::learn::quadratic::State;
+use crate::learn::prediction::bench::Workshop;
+use crate::learn::prediction::fidelity::Fidelity;
+use crate::learn::prediction::predictor::PredictError;
 use crate::measure::Quantity;
 use crate::simulate::forward::ContactKind;
 use crate::study::{Operation, Scatter, Study};
@@ -123,8 +123,8 @@ pub fn plan_first(
         before = now;
     }
     let score = joint.score();
-    let effects: Vec<Shown> = (0..kept.len())
-        .map(|a| Shown {
+    let effects: Vec<EffectVisibility> = (0..kept.len())
+        .map(|a| EffectVisibility {
             effect: names[kept[a]].clone(),
             detection_chi2: score.shown[a],
             nearest: score.nearest[a].map_or(String::new(), |b| names[kept[b]].clone()),

@@ -7,14 +7,14 @@ use serde::Deserialize;
 
 use super::next::NextExperiment;
 use super::plan::{LEADERS, Leader};
-use crate::learn::candidate_model::{Anchored, model};
+use crate::learn::candidates::candidate_model::{Anchored, model};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::decision::Verdict;
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
+use crate::learn::inference::search::Effort;
 use crate::learn::model_search::context::Context;
-use crate::learn::search::Effort;
+use crate::learn::prediction::fidelity::Fidelity;
 
 /// Log probability behind the first from which a candidate of a diagnosis leads no longer: a hundredth of its probability.
 const DECIDED_LEADING: f64 = 4.6;

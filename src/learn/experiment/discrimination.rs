@@ -9,13 +9,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::learn::bench::Bench;
-use crate::learn::candidate_model::model;
-use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::candidates::candidate_model::model;
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::inference::quadratic::State;
 use crate::learn::noise::{Covariance, ModelError, NoiseModel, SigmaModel};
-use crate::learn::predictor::{PredictError, Predictor};
-use crate::learn::quadratic::State;
+use crate::learn::prediction::bench::Bench;
+use crate::learn::prediction::predictor::{PredictError, Predictor};
 use crate::measure::{Dataset, Quantity};
 use crate::study::Study;
 

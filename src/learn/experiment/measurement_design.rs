@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::learn::bench::MeasuredTest;
 use crate::learn::model_search::context::Context;
-use crate::learn::standard_test;
+use crate::learn::prediction::bench::MeasuredTest;
+use crate::learn::prediction::standard_test;
 use crate::measure::{Dataset, Observation, Quantity, Subject, Trace};
 use crate::study::{Operation, Study};
 

@@ -15,6 +15,7 @@ pub use candidate_tests::{ENOUGH, NextTest};
 pub use decided::Decided;
 pub use next::NextExperiment;
 pub use plan::{
-    AloneTest, Campaign, ChosenTest, Leader, NextTests, Plan, RankedTest, Separated, Shown,
+    AloneTest, Campaign, ChosenTest, EffectVisibility, Leader, NextTests, Plan, RankedTest,
+    Separated,
 };
 pub use table::plan_after;

@@ -8,13 +8,13 @@ use super::candidate_tests::{
 };
 use super::discrimination::{Discrimination, PlannedResponse, Whitening};
 use super::measurement_design::MeasurementDesign;
-use crate::learn::bench::Workshop;
+use crate::learn::candidates::fitted_candidate::BaseFit;
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::decision::Verdict;
-use crate::learn::decision::posterior::Posterior;
-use crate::learn::fitted_candidate::BaseFit;
-use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::hypothesis::Hypothesis;
 use crate::learn::model_search::context::Context;
+use crate::learn::prediction::bench::Workshop;
 use crate::measure::{Dataset, Quantity};
 use crate::study::Operation;
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ pub(in crate::learn) fn separating(
     context: &Context<'_>,
     shop: &Workshop,
     base: &BaseFit,
-    posterior: &Posterior,
+    posterior: &JudgedCandidates,
 ) -> Option<NextExperiment> {
     let decision = &posterior.decision;
     let effects = || decision.effects.iter().cloned().map(Hypothesis::Effects);

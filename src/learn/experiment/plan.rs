@@ -98,7 +98,7 @@ pub struct Campaign {
     /// The chosen tests in the order of their choice.
     pub tests: Vec<ChosenTest>,
     /// Every effect with all chosen tests.
-    pub effects: Vec<Shown>,
+    pub effects: Vec<EffectVisibility>,
     /// Effects told apart by the same tests with wear depths and mass losses, and with a transmission error too.
     pub told_apart_with: [(String, usize); 2],
     /// All feasible tests, each alone, by what it shows.
@@ -126,7 +126,7 @@ pub struct ChosenTest {
 
 /// How well an effect at its median strength shows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Shown {
+pub struct EffectVisibility {
     /// Its name.
     pub effect: String,
     /// Expected χ² against nothing missing, k refitted.

@@ -12,7 +12,7 @@ use super::warnings::warnings;
 use super::wording::Explanation;
 use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
 use crate::learn::checks::sufficiency::few;
-use crate::learn::decision::posterior::Posterior;
+use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{DecisionRule, RemainderEvidence, Verdict};
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
@@ -216,7 +216,7 @@ fn named(findings: &Findings<'_>) -> Option<Named> {
     }
 }
 
-fn screened(context: &Context<'_>, posterior: &Posterior) -> Vec<Screened> {
+fn screened(context: &Context<'_>, posterior: &JudgedCandidates) -> Vec<Screened> {
     let all = posterior
         .candidates
         .iter()

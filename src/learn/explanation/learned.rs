@@ -2,8 +2,8 @@
 
 use super::diagnosis::Diagnosis;
 use crate::effects::variables;
-use crate::learn::fidelity::Fidelity;
 use crate::learn::model_search::learned_drivers::LearnedAnswer;
+use crate::learn::prediction::fidelity::Fidelity;
 
 impl Diagnosis {
     /// With a law learned from the measurements, said beside what else there is to say.

@@ -3,15 +3,15 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::learn::candidate_model::{Anchored, model, predictions};
-use crate::learn::decision::posterior::Posterior;
+use crate::learn::candidates::candidate_model::{Anchored, model, predictions};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::experiment::decided::{DecidedCandidate, DecidedValue};
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::Hypothesis;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::inference::search::Effort;
 use crate::learn::model_search::context::Context;
-use crate::learn::search::Effort;
+use crate::learn::prediction::fidelity::Fidelity;
 use crate::study::{Role, Scatter};
 
 /// Entries of the ranking.
@@ -101,7 +101,7 @@ impl ParameterValue {
 pub(in crate::learn) fn ranked(
     context: &Context<'_>,
     base: &BaseFit,
-    posterior: &Posterior,
+    posterior: &JudgedCandidates,
 ) -> Vec<Ranked> {
     let likelihood = &context.likelihood;
     let decision = &posterior.decision;
@@ -197,7 +197,7 @@ fn held_out(context: &Context<'_>, held: &Likelihood<'_>, fitted: &FittedCandida
     let candidate = &fitted.candidate;
     let bench = context.exact;
     let predictor = Anchored::new(model(bench, candidate), Vec::new());
-    let state = crate::learn::quadratic::State {
+    let state = crate::learn::inference::quadratic::State {
         epsilon: vec![0.0; held.tests.len()],
         ..fitted.found.state.clone()
     };

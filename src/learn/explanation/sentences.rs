@@ -4,13 +4,13 @@ use super::findings::Findings;
 use super::remainder::partial;
 use super::wording::{Explanation, added, before, chi2, percent, values};
 use crate::effects::{Card, Form};
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::checks::sufficiency::{few, measured_once};
-use crate::learn::decision::posterior::Posterior;
+use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{Decision, Verdict};
 use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::experiment::next::NextExperiment;
-use crate::learn::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::context::Context;
 
@@ -126,7 +126,7 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
 
 /// Whether the analytic model stands in for finite elements and finds an outer cause: its own error looks like one. The hidden running-in of the
 /// example accounts for 87 % of the attainable by that model, and for all of it by finite elements.
-pub(super) fn undecided(context: &Context<'_>, posterior: &Posterior) -> bool {
+pub(super) fn undecided(context: &Context<'_>, posterior: &JudgedCandidates) -> bool {
     context.approximate && posterior.decision.verdict == Verdict::Unknown
 }
 

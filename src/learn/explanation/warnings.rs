@@ -1,18 +1,18 @@
 //! What keeps an answer from being trusted.
 
 use super::ranked::parameters;
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
-use crate::learn::collinear::act_together;
 use crate::learn::decision::Verdict;
-use crate::learn::decision::posterior::Posterior;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::decision::judged_candidates::JudgedCandidates;
+use crate::learn::fitting::collinear::act_together;
+use crate::learn::fitting::quantity_misfit::carried_by;
 use crate::learn::hypothesis::Hypothesis;
+use crate::learn::hypothesis::parameters::{Estimate, short};
 use crate::learn::model_search::context::Context;
 use crate::learn::noise::SigmaModel;
-use crate::learn::parameters::{Estimate, short};
-use crate::learn::quantity_misfit::carried_by;
 
 /// Share of a parameter's prior outside of which a value is told.
 const UNHEARD_OF: f64 = 1e-3;
@@ -21,7 +21,7 @@ const UNHEARD_OF: f64 = 1e-3;
 pub(in crate::learn) fn warnings(
     context: &Context<'_>,
     base: &BaseFit,
-    posterior: &Posterior,
+    posterior: &JudgedCandidates,
     not_fitted: &[Hypothesis],
 ) -> Vec<String> {
     let likelihood = &context.likelihood;

@@ -2,7 +2,7 @@
 
 use super::findings::Findings;
 use super::ranked::parameters;
-use crate::learn::fitted_candidate::FittedCandidate;
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
 
 /// The verdict in words.

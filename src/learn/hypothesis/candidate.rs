@@ -4,7 +4,7 @@ use super::starting_values::{SPREAD, median, phase, quarters, spread, starts};
 use super::version::{ModelVersion, parameter};
 use super::{EffectSet, Hypothesis};
 use crate::effects::{CATALOGUE, Card, Form, Hook, ParamRole};
-use crate::learn::parameters::Parameter;
+use crate::learn::hypothesis::parameters::Parameter;
 use crate::measure::Dataset;
 use crate::study::{EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
 

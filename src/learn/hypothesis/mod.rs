@@ -1,6 +1,7 @@
 //! Stage 1, hypothesis: what may be missing from a model.
 
 pub(in crate::learn) mod candidate;
+pub(in crate::learn) mod parameters;
 mod starting_values;
 pub(in crate::learn) mod version;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::effects::{ParamRole, Prior};
-use crate::learn::parameters::Parameter;
+use crate::learn::hypothesis::parameters::Parameter;
 use crate::numeric::halton::halton;
 use crate::study::FreeParameter;
 

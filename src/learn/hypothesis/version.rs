@@ -1,6 +1,6 @@
 //! A model as a fit takes it: its effects, and what is free in them.
 
-use crate::learn::parameters::Parameter;
+use crate::learn::hypothesis::parameters::Parameter;
 use crate::study::{EffectModel, EffectSpec, FreeParameter, Study, WEAR_COEFFICIENT};
 
 /// One version of a model: its effects, and what of it a fit may adjust.

@@ -2,10 +2,10 @@
 
 use super::context::Context;
 use super::high_fidelity::DECIDE;
-use crate::learn::candidate_model::{model, offset, predictions};
-use crate::learn::fitted_candidate::BaseFit;
+use crate::learn::candidates::candidate_model::{model, offset, predictions};
+use crate::learn::candidates::fitted_candidate::BaseFit;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::predictor::PredictError;
+use crate::learn::prediction::predictor::PredictError;
 
 impl Context<'_> {
     /// Fits the base model.

@@ -11,14 +11,14 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::screening::SCREEN;
-use crate::learn::candidate_model::{Anchored, model};
+use crate::learn::candidates::candidate_model::{Anchored, model};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::discrepancy::gaussian_process;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::EffectSet;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::likelihood::Likelihood;
+use crate::learn::prediction::fidelity::Fidelity;
 
 /// Effects whose evidence is taken with every kind of discrepancy.
 const JUDGED: usize = 6;

@@ -1,9 +1,9 @@
 //! What a search works with: the likelihood, and the model at three fidelities.
 
-use crate::learn::bench::Bench;
-use crate::learn::fidelity::Fidelity;
-use crate::learn::likelihood::Likelihood;
-use crate::learn::predictor::PredictError;
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::prediction::bench::Bench;
+use crate::learn::prediction::fidelity::Fidelity;
+use crate::learn::prediction::predictor::PredictError;
 use crate::simulate::forward::ForwardError;
 
 /// Why there is no diagnosis.

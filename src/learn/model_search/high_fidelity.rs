@@ -2,13 +2,13 @@
 
 use super::context::Context;
 use super::medium_fidelity::look_alikes_left;
-use crate::learn::candidate_model::{AnchoredOn, model, offset, predictions};
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::candidate_model::{AnchoredOn, model, offset, predictions};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::predictor::PredictError;
-use crate::learn::quadratic::State;
-use crate::learn::search::{Effort, Found};
+use crate::learn::inference::quadratic::State;
+use crate::learn::inference::search::{Effort, SearchEnd};
+use crate::learn::prediction::fidelity::Fidelity;
+use crate::learn::prediction::predictor::PredictError;
 
 /// A deciding fit between two anchors.
 pub(in crate::learn) const DECIDE: Effort = Effort {
@@ -61,7 +61,7 @@ impl Context<'_> {
         let exact = model(self.exact, candidate);
         let cheap = model(self.middle, candidate);
         let mut state = start;
-        let mut best: Option<(Found, Vec<Vec<f64>>)> = None;
+        let mut best: Option<(SearchEnd, Vec<Vec<f64>>)> = None;
         let mut converged = false;
         for _ in 0..ANCHORS {
             let (at, near) = rayon::join(

@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 
 use super::context::Context;
 use crate::effects::Hook;
-use crate::learn::bench::Bench;
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted::Fit;
-use crate::learn::fitted_candidate::FittedCandidate;
-use crate::learn::learned_law::{LearnedFit, WantedLaw, deviations};
-use crate::learn::measured::Measured;
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
+use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::measured::Measured;
+use crate::learn::inference::search::Effort;
+use crate::learn::learned::law::{LearnedFit, WantedLaw, deviations};
 use crate::learn::noise::NoiseModel;
-use crate::learn::search::Effort;
+use crate::learn::prediction::bench::Bench;
+use crate::learn::prediction::fidelity::Fidelity;
 use crate::study::Role;
 
 /// Laws that are looked at. Pressure and what follows from it stand behind what measurements tell directly.
@@ -95,13 +95,13 @@ fn analytic() -> Fidelity {
 }
 
 /// The laws that one model fitted, the greatest evidence first; those fitted closely before those that had a glance.
-struct Ranked {
+struct FittedLaws {
     without: Fit,
     laws: Vec<(WantedLaw, LearnedFit)>,
     by: Fidelity,
 }
 
-impl Ranked {
+impl FittedLaws {
     fn new(without: Fit, mut laws: Vec<(WantedLaw, LearnedFit)>, by: Fidelity) -> Self {
         laws.sort_by(|a, b| b.1.log_evidence.total_cmp(&a.1.log_evidence));
         Self { without, laws, by }
@@ -140,7 +140,7 @@ pub(in crate::learn) fn learned_driver(
 }
 
 /// Every driver by the analytic model, the best few with every size and length of the process.
-fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<Ranked> {
+fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<FittedLaws> {
     let likelihood = &context.likelihood;
     let (measured, version) = (likelihood.measured, &known.candidate.version);
     let own = context.fidelity == Fidelity::Screening;
@@ -166,21 +166,25 @@ fn screened(context: &Context<'_>, known: &FittedCandidate) -> Option<Ranked> {
         Some((*law, found))
     };
     let glances = wanted.par_iter().filter_map(look).collect();
-    let mut laws = Ranked::new(without.clone(), glances, Fidelity::Screening).laws;
+    let mut laws = FittedLaws::new(without.clone(), glances, Fidelity::Screening).laws;
     let count = laws.len().min(CLOSELY);
     let close = |(law, glance): &(WantedLaw, LearnedFit)| {
         let learned = measured.learn(bench, version, &without, law, noise, &|_| {});
         (*law, learned.unwrap_or_else(|_| glance.clone()))
     };
     let closer = laws[..count].par_iter().map(close).collect();
-    let closer = Ranked::new(without, closer, Fidelity::Screening);
+    let closer = FittedLaws::new(without, closer, Fidelity::Screening);
     // behind these stay those that had a glance only: theirs is the evidence at one size and length, not the mean over all
     laws.splice(..count, closer.laws);
-    Some(Ranked { laws, ..closer })
+    Some(FittedLaws { laws, ..closer })
 }
 
 /// The best few by the model that decides; None where none of them can be fitted by it.
-fn decided(context: &Context<'_>, known: &FittedCandidate, screened: &Ranked) -> Option<Ranked> {
+fn decided(
+    context: &Context<'_>,
+    known: &FittedCandidate,
+    screened: &FittedLaws,
+) -> Option<FittedLaws> {
     let (bench, noise) = (context.exact, context.likelihood.noise);
     let (measured, version) = (context.likelihood.measured, &known.candidate.version);
     let without = without(context, known, bench, noise)?;
@@ -190,7 +194,7 @@ fn decided(context: &Context<'_>, known: &FittedCandidate, screened: &Ranked) ->
     };
     let best = screened.laws.par_iter().take(CLOSELY);
     let laws = best.filter_map(again).collect();
-    Some(Ranked::new(without, laws, Fidelity::Full))
+    Some(FittedLaws::new(without, laws, Fidelity::Full))
 }
 
 /// The model without a law, fitted from where it is known to stand.
@@ -214,7 +218,7 @@ fn without(
 /// The best law, if it is worth its freedom.
 fn answer(
     context: &Context<'_>,
-    ranked: &Ranked,
+    ranked: &FittedLaws,
     others: Vec<OtherDriver>,
 ) -> Option<LearnedAnswer> {
     let (law, best) = ranked.laws.first()?;

@@ -8,7 +8,7 @@
 use nalgebra::DVector;
 
 use super::context::Context;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::Hypothesis;
 
 /// Most effects that are chosen.

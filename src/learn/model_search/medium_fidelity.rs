@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::screening::{LOOK, SCREEN, in_play};
-use crate::learn::candidate_model::{AnchoredOn, model};
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
-use crate::learn::gear_model::GearModel;
+use crate::learn::candidates::candidate_model::{AnchoredOn, model};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::quadratic::State;
-use crate::learn::search::{Effort, Found};
+use crate::learn::inference::quadratic::State;
+use crate::learn::inference::search::{Effort, SearchEnd};
+use crate::learn::prediction::fidelity::Fidelity;
+use crate::learn::prediction::gear_model::GearModel;
 
 /// Candidates fitted by coarse finite elements: this many, and all with this share of the leader's gain of log evidence, if they
 /// gain as much as this at all.
@@ -114,7 +114,7 @@ impl Context<'_> {
         let models: Vec<Option<GearModel<'_>>> = (screened.iter().zip(wanted))
             .map(|(judged, wanted)| wanted.then(|| model(self.middle, &judged.candidate)))
             .collect();
-        let fit = |place: usize, start: State, effort: &Effort| -> Option<Found> {
+        let fit = |place: usize, start: State, effort: &Effort| -> Option<SearchEnd> {
             let predictor = AnchoredOn::new(models[place].as_ref()?, base.fitted.offset.clone());
             let parameters = &screened[place].candidate.parameters;
             self.likelihood
@@ -122,12 +122,12 @@ impl Context<'_> {
                 .ok()
         };
         let places = || (0..screened.len()).into_par_iter();
-        let looks: Vec<Option<Found>> = places()
+        let looks: Vec<Option<SearchEnd>> = places()
             .map(|place| fit(place, screened[place].found.state.clone(), &LOOK))
             .collect();
         let least = (looks.iter().flatten()).map(|found| found.objective);
         let bar = in_play(base.fitted.found.objective, least, IN_PLAY);
-        let refined: Vec<Option<Found>> = (places().zip(looks))
+        let refined: Vec<Option<SearchEnd>> = (places().zip(looks))
             .map(|(place, look)| {
                 Some(fitted_on(look?, bar, |start, effort| {
                     fit(place, start, effort)
@@ -135,7 +135,7 @@ impl Context<'_> {
             })
             .collect();
         // each fitted once more from where the best form of its effect ended, if it is far behind that
-        let again: Vec<Option<Found>> = places()
+        let again: Vec<Option<SearchEnd>> = places()
             .map(|place| {
                 let start = from_sibling(place, &screened, &refined, base, bar)?;
                 let own = refined[place].as_ref()?;
@@ -166,7 +166,7 @@ impl Context<'_> {
         &self,
         base: &BaseFit,
         candidate: Candidate,
-        found: Found,
+        found: SearchEnd,
     ) -> FittedCandidate {
         let offset = base.fitted.offset.clone();
         FittedCandidate::new(
@@ -217,11 +217,15 @@ fn worth_its_teeth(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
 }
 
 /// A look at a candidate fitted on if it is in play.
-fn fitted_on(look: Found, bar: f64, fit: impl Fn(State, &Effort) -> Option<Found>) -> Found {
+fn fitted_on(
+    look: SearchEnd,
+    bar: f64,
+    fit: impl Fn(State, &Effort) -> Option<SearchEnd>,
+) -> SearchEnd {
     if look.objective > bar || look.converged {
         return look;
     }
-    let on = |found: Found, effort| {
+    let on = |found: SearchEnd, effort| {
         fit(found.state.clone(), effort)
             .filter(|further| further.objective <= found.objective)
             .unwrap_or(found)
@@ -238,7 +242,7 @@ fn fitted_on(look: Found, bar: f64, fit: impl Fn(State, &Effort) -> Option<Found
 fn from_sibling(
     place: usize,
     candidates: &[FittedCandidate],
-    refined: &[Option<Found>],
+    refined: &[Option<SearchEnd>],
     base: &BaseFit,
     bar: f64,
 ) -> Option<State> {

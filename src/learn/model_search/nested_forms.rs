@@ -1,8 +1,8 @@
 //! Richer forms of effects whose own form explains much, but not all: they are tried from where that one was fitted.
 
 use super::context::Context;
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 
 /// Share of the attainable fall of χ² with which a form needs no richer one.
 const ENOUGH: f64 = 0.97;

@@ -8,11 +8,11 @@ use super::pair_fit::PROMISE;
 use super::pair_fit::{self, PairStart};
 use super::screening::scaled_starts;
 use crate::effects::{Card, Form};
-use crate::learn::candidate_model::{Anchored, model, offset, predictions};
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::quadratic::State;
-use crate::learn::search::Effort;
+use crate::learn::inference::quadratic::State;
+use crate::learn::inference::search::Effort;
 
 /// Other partners tried for each effect of the best pair, and the χ² per degree of freedom above 1, in standard deviations, that a
 /// pair which does not lead must leave for that.

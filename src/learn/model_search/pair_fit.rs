@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 
 use super::context::Context;
-use crate::learn::candidate_model::{AnchoredOn, model};
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
-use crate::learn::gear_model::GearModel;
+use crate::learn::candidates::candidate_model::{AnchoredOn, model};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::quadratic::State;
-use crate::learn::search::{Effort, Found};
+use crate::learn::inference::quadratic::State;
+use crate::learn::inference::search::{Effort, SearchEnd};
+use crate::learn::prediction::fidelity::Fidelity;
+use crate::learn::prediction::gear_model::GearModel;
 
 /// Log evidence by which a pair must promise to beat the best single effect to be looked at.
 pub(in crate::learn) const PROMISE: f64 = 6.0;
@@ -71,7 +71,7 @@ pub(in crate::learn) fn fit(
         .iter()
         .map(|pair| model(context.middle, &pair.candidate))
         .collect();
-    let searched = |place: usize, state: State, effort: &Effort| -> Option<Found> {
+    let searched = |place: usize, state: State, effort: &Effort| -> Option<SearchEnd> {
         let pair = &starts[place];
         let predictor = AnchoredOn::new(&models[place], pair.offset.clone());
         let parameters = &pair.candidate.parameters;
@@ -80,7 +80,7 @@ pub(in crate::learn) fn fit(
             .fit(&predictor, parameters, state, effort)
             .ok()
     };
-    let mut looks: Vec<(usize, Found)> = (0..starts.len())
+    let mut looks: Vec<(usize, SearchEnd)> = (0..starts.len())
         .into_par_iter()
         .filter_map(|place| Some((place, searched(place, starts[place].state.clone(), &LOOK)?)))
         .collect();

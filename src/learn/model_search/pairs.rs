@@ -13,8 +13,8 @@ use rayon::prelude::*;
 use super::context::Context;
 use super::pair_exchange;
 use super::pair_fit::{self, PROMISE, PairStart};
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::prediction::fidelity::Fidelity;
 
 /// [`PROMISE`] as a share of the best one's own gain: what adds less is taken for a mending of its form (`second_share` of the decision rule).
 const PROMISE_SHARE: f64 = 0.06;

@@ -4,12 +4,12 @@ use nalgebra::{DVector, Matrix2, Vector2};
 use rayon::prelude::*;
 
 use super::context::Context;
-use crate::learn::candidate_model::{Anchored, model, predictions};
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::candidate_model::{Anchored, model, predictions};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::{Candidate, LEAST_AMPLITUDE};
-use crate::learn::quadratic::State;
-use crate::learn::search::{Effort, Found};
+use crate::learn::inference::quadratic::State;
+use crate::learn::inference::search::{Effort, SearchEnd};
+use crate::learn::prediction::fidelity::Fidelity;
 
 /// The first look at a candidate: two steps with the derivatives of its start.
 pub(in crate::learn) const LOOK: Effort = Effort {
@@ -61,7 +61,7 @@ impl Context<'_> {
             .collect();
         let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
         let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
-        let looks: Vec<Option<Found>> = (candidates.par_iter().zip(&predictors).zip(starts))
+        let looks: Vec<Option<SearchEnd>> = (candidates.par_iter().zip(&predictors).zip(starts))
             .map(|((candidate, predictor), starts)| {
                 let behind = leader - best(&starts);
                 let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
@@ -162,7 +162,7 @@ impl Context<'_> {
         predictor: &Anchored<'_>,
         starts: Vec<(f64, State)>,
         effort: &Effort,
-    ) -> Option<Found> {
+    ) -> Option<SearchEnd> {
         let best = starts.first()?.0;
         let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
         let differs = |gain: f64| (best - gain).abs() > MIRRORED * best.abs();

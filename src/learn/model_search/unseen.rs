@@ -8,13 +8,13 @@ use rayon::prelude::*;
 
 use super::context::Context;
 use super::screening::{SCREEN, amplitudes, linear_gain, plane_gain};
-use crate::learn::bench::Bench;
-use crate::learn::candidate_model::{Anchored, model, offset, predictions};
+use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
-use crate::learn::fidelity::Fidelity;
-use crate::learn::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::quadratic::State;
+use crate::learn::inference::quadratic::State;
+use crate::learn::prediction::bench::Bench;
+use crate::learn::prediction::fidelity::Fidelity;
 
 /// Share of the attainable fall of χ² below which nothing explains what is there, and standard deviations of the attainable that count in an
 /// explanation's favour: of a weak discrepancy noise alone moves the share by more than a tenth.

@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::residual_statistics::Fitted;
+use super::super::residual_statistics::FittedRow;
 use crate::measure::{FacePlace, Quantity, Subject};
 use crate::study::Study;
 
@@ -28,7 +28,7 @@ struct Worn {
 }
 
 /// Tests whose wear falls from one checkpoint to the next.
-pub(super) fn falling(study: &Study, rows: &[Fitted<'_>]) -> Vec<String> {
+pub(super) fn falling(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     let mut said = Vec::new();
     for quantity in [Quantity::WearDepth, Quantity::MassLoss] {
         for ((test, member), series) in series(rows, quantity) {
@@ -61,8 +61,8 @@ fn fall(worn: &[Worn]) -> Option<(f64, f64)> {
 type Series = BTreeMap<(usize, Subject), Vec<Vec<Worn>>>;
 
 /// What was worn at the checkpoints of each test and member, by rising cycles; a series for each place across the face and tooth.
-fn series(rows: &[Fitted<'_>], quantity: Quantity) -> Series {
-    let mut curves: BTreeMap<_, Vec<&Fitted<'_>>> = BTreeMap::new();
+fn series(rows: &[FittedRow<'_>], quantity: Quantity) -> Series {
+    let mut curves: BTreeMap<_, Vec<&FittedRow<'_>>> = BTreeMap::new();
     for row in rows
         .iter()
         .filter(|(o, _)| o.quantity == quantity && o.cycles > 0.0)
@@ -90,7 +90,7 @@ fn series(rows: &[Fitted<'_>], quantity: Quantity) -> Series {
     series
 }
 
-fn mass(own: &[&Fitted<'_>]) -> Option<Worn> {
+fn mass(own: &[&FittedRow<'_>]) -> Option<Worn> {
     let (o, _) = own.first()?;
     Some(Worn {
         cycles: o.cycles,
@@ -99,9 +99,9 @@ fn mass(own: &[&Fitted<'_>]) -> Option<Worn> {
     })
 }
 
-fn depth(own: &[&Fitted<'_>]) -> Option<Worn> {
+fn depth(own: &[&FittedRow<'_>]) -> Option<Worn> {
     let sum = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        let term = |(o, row): &&Fitted<'_>| o.sigma.powi(-2) * f(row.model, o.value);
+        let term = |(o, row): &&FittedRow<'_>| o.sigma.powi(-2) * f(row.model, o.value);
         own.iter().map(term).sum()
     };
     let weight = sum(&|_, _| 1.0);

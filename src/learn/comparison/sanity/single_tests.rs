@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::super::residual_statistics::Fitted;
+use super::super::residual_statistics::FittedRow;
 use super::{EXPLAINS, FAR_FROM_STATED, SAME_CYCLES, rounded, scale};
-use crate::learn::coefficient_trend::own_coefficients;
-use crate::learn::fitted::Fit;
+use crate::learn::comparison::coefficient_trend::own_coefficients;
+use crate::learn::fitting::fitted::Fit;
 use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Study;
 
@@ -13,6 +13,8 @@ use crate::study::Study;
 const SURE: f64 = 6.0;
 /// Mean square of what a trace from before the first cycle shows beyond its datum, in noise, from which it is no noise.
 const WORN: f64 = 4.0;
+/// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
+const DATUMS: f64 = 3.0;
 /// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
 const CLEAR_RATIO: f64 = 1.5;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
@@ -30,10 +32,10 @@ const USUAL_PARTS: [u32; 6] = [2, 3, 4, 5, 8, 10];
 /// Each test that has rows, with these.
 fn by_test<'r, 'd>(
     study: &'r Study,
-    rows: &'r [Fitted<'d>],
-) -> impl Iterator<Item = (&'r str, Vec<Fitted<'d>>)> {
+    rows: &'r [FittedRow<'d>],
+) -> impl Iterator<Item = (&'r str, Vec<FittedRow<'d>>)> {
     let of = move |test: usize| {
-        let own: Vec<Fitted<'d>> = rows
+        let own: Vec<FittedRow<'d>> = rows
             .iter()
             .filter(|(o, _)| o.test == test)
             .copied()
@@ -46,7 +48,7 @@ fn by_test<'r, 'd>(
 }
 
 /// Quantities of some tests that run against the computed ones; None where that is so of none or of all.
-pub(super) fn signs(study: &Study, rows: &[Fitted<'_>]) -> Option<Vec<String>> {
+pub(super) fn signs(study: &Study, rows: &[FittedRow<'_>]) -> Option<Vec<String>> {
     let turned = |quantity, member| {
         let scales: Vec<_> = by_test(study, rows)
             .filter_map(|(id, own)| Some((id, scale(&own, quantity, member)?)))
@@ -88,8 +90,12 @@ pub(super) fn signs(study: &Study, rows: &[Fitted<'_>]) -> Option<Vec<String>> {
 }
 
 /// Depths and masses of some tests that call for different coefficients; None where that is so of none, or of all that have both.
-pub(super) fn depths_and_masses(study: &Study, rows: &[Fitted<'_>], k: f64) -> Option<Vec<String>> {
-    let both = |own: &[Fitted<'_>]| {
+pub(super) fn depths_and_masses(
+    study: &Study,
+    rows: &[FittedRow<'_>],
+    k: f64,
+) -> Option<Vec<String>> {
+    let both = |own: &[FittedRow<'_>]| {
         let has = |quantity| own.iter().any(|(o, _)| o.quantity == quantity);
         has(Quantity::WearDepth) && has(Quantity::MassLoss)
     };
@@ -212,20 +218,31 @@ fn two_digits(factor: f64) -> String {
     }
 }
 
-/// Traces from before the first cycle that are not flat.
-pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[Fitted<'_>]) -> Vec<String> {
-    let first = |(o, _): &&Fitted<'_>| o.quantity == Quantity::WearDepth && o.cycles == 0.0;
-    let before: Vec<Fitted<'_>> = rows.iter().filter(first).copied().collect();
-    let worn = |(id, own): (&str, Vec<Fitted<'_>>)| {
+/// Traces from before the first cycle that are not flat, or farther from zero than the stated datum has it.
+pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
+    let first = |(o, _): &&FittedRow<'_>| o.quantity == Quantity::WearDepth && o.cycles == 0.0;
+    let before: Vec<FittedRow<'_>> = rows.iter().filter(first).copied().collect();
+    let worn = |(id, own): (&str, Vec<FittedRow<'_>>)| {
         let square: f64 = own.iter().map(|(_, row)| row.standardised.powi(2)).sum();
         let largest = own
             .iter()
             .map(|(_, row)| row.residual.abs())
             .fold(0.0, f64::max);
-        (square > WORN * own.len() as f64).then(|| {
-            format!(
+        if square > WORN * own.len() as f64 {
+            return Some(format!(
                 "a trace of test {id} at 0 cycles is up to {} µm off, though nothing is worn there: look at its cycles, or leave it out",
                 rounded(largest)
+            ));
+        }
+        let count = own.len() as f64;
+        let mean = own.iter().map(|(o, row)| o.value - row.model).sum::<f64>() / count;
+        let noise = own.iter().map(|(o, _)| o.sigma.powi(2)).sum::<f64>().sqrt() / count;
+        let usual = study.noise.datum_um;
+        (mean.abs() > DATUMS * usual.max(noise)).then(|| {
+            format!(
+                "the traces of test {id} at 0 cycles are {} µm off as a whole, where [noise] datum = {usual} is usual: if all traces of the test are, \
+                 take it off them; else state a datum that allows for it",
+                rounded(mean)
             )
         })
     };

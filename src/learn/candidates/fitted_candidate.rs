@@ -1,0 +1,153 @@
+//! A candidate as fitted with its evidence, and what it is compared with: the base model's fit.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::candidates::strength_prior;
+use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::inference::quadratic::State;
+use crate::learn::inference::search::SearchEnd;
+use crate::learn::prediction::fidelity::Fidelity;
+
+/// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond.
+const EXCUSED: f64 = 1.2;
+const EXCUSED_AT_LEAST: f64 = 5.0;
+
+/// A fitted candidate.
+#[derive(Clone)]
+pub(in crate::learn) struct FittedCandidate {
+    pub(in crate::learn) candidate: Candidate,
+    pub(in crate::learn) found: SearchEnd,
+    /// Finite elements minus the cheaper model at the fit, per test of the data set; empty without finite elements.
+    pub(in crate::learn) offset: Vec<Vec<f64>>,
+    /// Log evidence, the effect's form taken as uncertain.
+    pub(in crate::learn) log_evidence: f64,
+    /// Covariance of (ln k, θ).
+    pub(in crate::learn) covariance: DMatrix<f64>,
+    /// What the added effects change of the fitted base model, per row.
+    pub(in crate::learn) change: Vec<f64>,
+    /// χ² with the whole covariance.
+    pub(in crate::learn) square: f64,
+    /// By what it was fitted.
+    pub(in crate::learn) fidelity: Fidelity,
+    pub(in crate::learn) converged: bool,
+}
+
+/// The base model's fit with what the screening projects out.
+pub(in crate::learn) struct BaseFit {
+    pub(in crate::learn) fitted: FittedCandidate,
+    /// Orthonormal columns: whitened changes by which k and the base model's own parameters adjust.
+    pub(in crate::learn) adjustable: DMatrix<f64>,
+    /// Whitened residual.
+    pub(in crate::learn) residual: DVector<f64>,
+    /// Exact minus analytic model at the fit, per test of the data set.
+    pub(in crate::learn) hertz_offset: Vec<Vec<f64>>,
+}
+
+impl FittedCandidate {
+    /// Its evidence; over that of `base`, unless it is the base model itself.
+    pub(in crate::learn) fn new(
+        likelihood: &Likelihood<'_>,
+        candidate: Candidate,
+        found: SearchEnd,
+        offset: Vec<Vec<f64>>,
+        base: Option<&BaseFit>,
+        fidelity: Fidelity,
+    ) -> Self {
+        let change: Vec<f64> = match base {
+            Some(base) => (found.model.iter().zip(&base.fitted.found.model))
+                .map(|(f, b)| f - b)
+                .collect(),
+            None => Vec::new(),
+        };
+        let own = (!change.is_empty()).then_some(change.as_slice());
+        let (mut log_evidence, covariance) =
+            likelihood.evidence(&found, &candidate.parameters, own);
+        let square = likelihood.square(&found.model);
+        // the tolerance of a large change may excuse some of what a fit leaves, but not stand for what it does not explain
+        if let Some(before) = base.map(|base| &base.fitted) {
+            let explained = 0.5 * (before.square - square);
+            let most = if explained > 0.0 {
+                EXCUSED * explained + EXCUSED_AT_LEAST
+            } else {
+                explained
+            };
+            let gain = (log_evidence - before.log_evidence).min(most);
+            let more = strength_prior::regained(&candidate, &found.state, gain, 2.0 * explained);
+            log_evidence = before.log_evidence + gain + more;
+        }
+        Self {
+            square,
+            converged: found.converged,
+            candidate,
+            offset,
+            log_evidence,
+            covariance,
+            change,
+            found,
+            fidelity,
+        }
+    }
+}
+
+impl BaseFit {
+    /// `hertz_offset`: exact minus analytic model at the fit, per test of the data set.
+    pub(in crate::learn) fn new(
+        likelihood: &Likelihood<'_>,
+        fitted: FittedCandidate,
+        hertz_offset: Vec<Vec<f64>>,
+    ) -> Self {
+        let mut adjustable = (likelihood.covariance).whiten_all(&fitted.found.jacobian);
+        orthonormalise(&mut adjustable);
+        let residual = likelihood.residual(&fitted.found.model);
+        Self {
+            hertz_offset,
+            residual: DVector::from_vec(likelihood.covariance.whiten(&residual)),
+            adjustable,
+            fitted,
+        }
+    }
+
+    /// The part of a whitened change that k and the base model's own parameters cannot make, by row values.
+    pub(in crate::learn) fn visible(
+        &self,
+        likelihood: &Likelihood<'_>,
+        change: &[f64],
+    ) -> DVector<f64> {
+        let v = DVector::from_vec(likelihood.covariance.whiten(change));
+        let along = self.adjustable.tr_mul(&v);
+        v - &self.adjustable * along
+    }
+
+    /// The state of the fit with an added effect's values.
+    pub(in crate::learn) fn added(&self, candidate: &Candidate, values: &[f64]) -> State {
+        let known = &self.fitted.found.state;
+        let own = &candidate.parameters[candidate.inherited..];
+        let added = own.iter().zip(values).map(|(p, &x)| p.natural_start(x));
+        State {
+            theta: known.theta.iter().copied().chain(added).collect(),
+            ..known.clone()
+        }
+    }
+}
+
+/// Gram and Schmidt's columns of length 1, twice for rounding; dependent ones become 0.
+pub(in crate::learn) fn orthonormalise(columns: &mut DMatrix<f64>) {
+    for i in 0..columns.ncols() {
+        let before = columns.column(i).norm();
+        for _ in 0..2 {
+            for j in 0..i {
+                let share = columns.column(i).dot(&columns.column(j));
+                let other = columns.column(j).into_owned();
+                columns.column_mut(i).axpy(-share, &other, 1.0);
+            }
+        }
+        let length = columns.column(i).norm();
+        let scale = if length > 1e-9 * before {
+            length.recip()
+        } else {
+            0.0
+        };
+        columns.column_mut(i).scale_mut(scale);
+    }
+}

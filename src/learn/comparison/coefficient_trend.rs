@@ -1,0 +1,134 @@
+//! Whether the tests' own k follow a condition: what is taken for scatter between tests is then a law that the model lacks.
+//!
+//! ```text
+//! ln k_i = a + b ln c_i + e_i        least squares over all tests; told where |b| > t_{0.995}(n − 2) s_b
+//! ```
+//! Quantiles of Student's t distribution: ISO 2602 and any table of it.
+
+use crate::learn::fitting::fitted::Fit;
+use crate::measure::Dataset;
+use crate::study::{Operation, Study};
+
+/// t_{0.995} for 2, 3, … degrees of freedom; the last one from there on.
+const STUDENT: [f64; 9] = [
+    9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250, 3.169,
+];
+/// Factor of k over the range of the condition from which it is worth telling.
+const FACTOR: f64 = 1.25;
+/// Range of a condition, as a factor, over which a law can show.
+const RANGE: f64 = 1.2;
+
+/// A condition of tests, with its name.
+type Condition = (&'static str, fn(&Operation) -> f64);
+const CONDITIONS: [Condition; 2] = [
+    ("torque", |operation| operation.torque_nmm),
+    ("speed", |operation| operation.speed_rpm),
+];
+
+/// The tests with rows, and ln of their own k.
+pub(in crate::learn) fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usize, f64)> {
+    let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
+    let known = fit.tests.iter();
+    let known = known.filter(|test| test.coefficient > 0.0 && measured(test.test));
+    known
+        .map(|test| (test.test, test.coefficient.ln()))
+        .collect()
+}
+
+/// The conditions that the tests' own k follow, the surest first, in words; None if they follow none.
+pub(in crate::learn) fn trend_of_coefficients(
+    study: &Study,
+    data: &Dataset,
+    fit: &Fit,
+) -> Option<String> {
+    let tests: Vec<(&Operation, f64)> = (own_coefficients(data, fit).into_iter())
+        .map(|(test, k)| (&study.tests[test].conditions, k))
+        .collect();
+    let mut found: Vec<(&str, f64, f64)> = CONDITIONS
+        .iter()
+        .filter_map(|(name, of)| {
+            let points: Vec<(f64, f64)> = tests.iter().map(|(o, k)| (of(o).ln(), *k)).collect();
+            let (slope, error) = line(&points)?;
+            Some((*name, slope, error))
+        })
+        .collect();
+    found.sort_by(|a, b| (b.1 / b.2).abs().total_cmp(&(a.1 / a.2).abs()));
+    in_words(&found)
+}
+
+/// The sentence on conditions with slope and standard error; None without any.
+fn in_words(found: &[(&str, f64, f64)]) -> Option<String> {
+    let each = found.iter().map(|(name, slope, error)| {
+        let turn = if *slope > 0.0 { "rises" } else { "falls" };
+        format!("{turn} with their {name} (as {name} to the power of {slope:.2} ± {error:.2})")
+    });
+    let each: Vec<String> = each.collect();
+    let which = match found {
+        [] => return None,
+        [_] => "",
+        _ => "; these tests change them together, so it may be either",
+    };
+    Some(format!(
+        "k of the tests {}{which}: what is taken for scatter between tests may be a law that the model lacks",
+        each.join(" and ")
+    ))
+}
+
+/// Slope and its standard error, where it is beyond chance and makes a difference.
+fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    let n = points.len() as f64;
+    let student = STUDENT
+        .get(points.len().checked_sub(4)?)
+        .unwrap_or(&STUDENT[STUDENT.len() - 1]);
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let sum =
+        |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|p| of(p.0 - x, p.1 - y)).sum::<f64>();
+    let (xx, xy) = (sum(&|x, _| x * x), sum(&|x, y| x * y));
+    let lowest = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
+    let highest = points.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+    let range = highest - lowest;
+    if range < RANGE.ln() {
+        return None;
+    }
+    let slope = xy / xx;
+    let left = sum(&|x, y| (y - slope * x).powi(2));
+    let error = (left / (n - 2.0) / xx).sqrt();
+    (slope.abs() > student * error && slope.abs() * range > FACTOR.ln()).then_some((slope, error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand, five points: Σxx = 10, Σxy = 4.99, residual square 7.9e-4 on 3 degrees of freedom.
+    #[test]
+    fn a_slope_is_told_with_its_error_where_it_is_beyond_chance() {
+        let scattered = [(-1.0, 0.1), (0.0, 0.0), (1.0, 1.1), (2.0, 2.0)];
+        assert_eq!(line(&scattered), None);
+        let five = [
+            (-1.0, -0.51),
+            (0.0, 0.02),
+            (1.0, 0.49),
+            (2.0, 1.01),
+            (3.0, 1.49),
+        ];
+        let (slope, error) = line(&five).unwrap();
+        assert!((slope - 0.499).abs() < 1e-12, "{slope}");
+        assert!((error - 0.005_131_601).abs() < 1e-8, "{error}");
+        // two conditions at once are both named
+        assert_eq!(in_words(&[]), None);
+        let both = in_words(&[("speed", 0.5, 0.01), ("torque", -0.3, 0.02)]).unwrap();
+        assert!(
+            both.starts_with("k of the tests rises with their speed (as speed to the power of 0.50 ± 0.01) and falls with their torque"),
+            "{both}"
+        );
+        assert!(both.contains("it may be either"), "{both}");
+        // too few, or one condition for all
+        assert_eq!(line(&five[..3]), None);
+        assert_eq!(
+            line(&[(1.0, 0.0), (1.0, 1.0), (1.0, 2.0), (1.0, 3.0)]),
+            None
+        );
+    }
+}

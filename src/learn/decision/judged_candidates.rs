@@ -1,0 +1,123 @@
+//! All fitted candidates with what the decision says of them.
+
+use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
+use super::rule::DecisionRule;
+use super::verdict::{Decision, decide};
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::identifiability::unidentified;
+use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
+use crate::learn::hypothesis::{EffectSet, Hypothesis};
+use crate::learn::model_search::beside_unknown::BesideUnknown;
+
+/// Everything fitted, and the decision on it.
+pub(in crate::learn) struct JudgedCandidates {
+    /// All fitted candidates that are not the base, by falling evidence.
+    pub(in crate::learn) candidates: Vec<FittedCandidate>,
+    /// The effects fitted beside something unknown.
+    pub(in crate::learn) beside_unknown: Vec<BesideUnknown>,
+    /// The figures of the same, in the same order.
+    pub(in crate::learn) evidence: Evidence,
+    /// By this rule.
+    pub(in crate::learn) rule: DecisionRule,
+    pub(in crate::learn) decision: Decision,
+}
+
+impl JudgedCandidates {
+    /// `candidates` by falling evidence; `log_evidence_of_unknown`: that of a Gaussian-process discrepancy beside the base model.
+    pub(in crate::learn) fn new(
+        likelihood: &Likelihood<'_>,
+        base: &BaseFit,
+        candidates: Vec<FittedCandidate>,
+        beside_unknown: Vec<BesideUnknown>,
+        smooth: &SmoothDiscrepancy,
+        log_evidence_of_unknown: f64,
+        rule: DecisionRule,
+    ) -> Self {
+        let base = &base.fitted;
+        let figures = |fitted: &FittedCandidate| CandidateEvidence {
+            effects: fitted.candidate.effects.clone(),
+            accepted_forms: fitted.candidate.siblings,
+            identified: unidentified(likelihood, fitted).is_none(),
+            evidence_gain: fitted.log_evidence - base.log_evidence,
+            chi2_drop: base.square - fitted.square,
+        };
+        let evidence = Evidence {
+            candidates: candidates.iter().map(figures).collect(),
+            attainable_drop: smooth.drop,
+            attainable_spread: smooth.spread(),
+            unknown_evidence_gain: log_evidence_of_unknown - base.log_evidence,
+            beside_unknown: (beside_unknown.iter())
+                .map(|beside| remainder(likelihood, beside))
+                .collect(),
+        };
+        Self {
+            decision: decide(&evidence, &rule),
+            candidates,
+            beside_unknown,
+            evidence,
+            rule,
+        }
+    }
+
+    /// The form of effects with the largest evidence.
+    pub(in crate::learn) fn best_form(&self, effects: &EffectSet) -> Option<&FittedCandidate> {
+        let mut all = self.candidates.iter();
+        all.find(|fitted| fitted.candidate.effects == *effects)
+    }
+
+    /// The same of a hypothesis; the base model of nothing missing.
+    pub(in crate::learn) fn fitted<'p>(
+        &'p self,
+        base: &'p BaseFit,
+        hypothesis: &Hypothesis,
+    ) -> Option<&'p FittedCandidate> {
+        match hypothesis {
+            Hypothesis::NothingMissing => Some(&base.fitted),
+            Hypothesis::Effects(effects) => self.best_form(effects),
+            Hypothesis::EffectsAndUnknown(effects) => {
+                let mut all = self.beside_unknown.iter().map(|beside| &beside.fitted);
+                all.find(|fitted| fitted.candidate.effects == *effects)
+            }
+            Hypothesis::Unknown => None,
+        }
+    }
+
+    /// The leading effects by themselves, in their best form.
+    pub(in crate::learn) fn leader(&self) -> Option<&FittedCandidate> {
+        self.best_form(self.decision.leading_effects()?)
+    }
+
+    /// The fit of what leads, beside something unknown where that is what leads.
+    pub(in crate::learn) fn leading_fit<'p>(
+        &'p self,
+        base: &'p BaseFit,
+    ) -> Option<&'p FittedCandidate> {
+        match self.decision.group.first() {
+            Some(first @ Hypothesis::EffectsAndUnknown(_)) => self.fitted(base, first),
+            _ => self.leader(),
+        }
+    }
+
+    /// Share of the attainable fall of χ² that the leading effects account for, in their best form; None without a discrepancy.
+    pub(in crate::learn) fn share_of_leader(&self) -> Option<f64> {
+        let leader = self.decision.leading_effects()?;
+        let mut all = self.evidence.candidates.iter();
+        let best = all.find(|c| c.effects == *leader)?;
+        self.evidence
+            .is_discrepant()
+            .then(|| self.evidence.share(best))
+    }
+}
+
+fn remainder(likelihood: &Likelihood<'_>, beside: &BesideUnknown) -> RemainderEvidence {
+    RemainderEvidence {
+        effects: beside.fitted.candidate.effects.clone(),
+        identified: unidentified(likelihood, &beside.fitted).is_none(),
+        gain_over_unknown: beside.gain_over_unknown,
+        remainder_gain: beside.remainder_gain,
+        chi2_drop: beside.chi2_drop,
+        remaining_drop: beside.remaining.drop,
+        remaining_spread: beside.remaining.spread(),
+    }
+}

@@ -1,0 +1,10 @@
+//! Fits of what is free in a study to its measurements.
+
+pub(super) mod cheaper;
+pub(super) mod collinear;
+pub(super) mod fit;
+pub(super) mod fitted;
+pub(super) mod measured;
+pub(super) mod quantity_misfit;
+pub(super) mod region;
+pub(super) mod starts;

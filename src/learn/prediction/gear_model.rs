@@ -1,0 +1,321 @@
+//! The gear pair as a fit sees it: a wear history of each test, read at the measured places and times.
+//!
+//! Histories are kept, so that a wear coefficient more costs nothing where it only stretches time ([`crate::learn::trajectory`]).
+
+mod derivatives;
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::effects::{Combined, Hook, Local};
+use crate::learn::prediction::bench::Bench;
+use crate::learn::prediction::observe::Reading;
+use crate::learn::prediction::predictor::{Linearised, Move, PredictError, Predictor};
+use crate::learn::prediction::trajectory::Trajectory;
+use crate::measure::{Observation, Quantity};
+use crate::simulate::forward::{Forward, ForwardError, Mounting, Variation};
+use crate::wear::acting::Acting;
+
+/// Builds the effects of a model from the values of its free parameters.
+pub type EffectsOf<'a> = Box<dyn Fn(&[f64]) -> Combined + Send + Sync + 'a>;
+
+/// A model of the gears on a bench: base model and effects, with some of the effects' parameters free.
+pub struct GearModel<'a> {
+    bench: &'a Bench<'a>,
+    effects: EffectsOf<'a>,
+    stretches: bool,
+    /// Each with its derivatives, without, or both.
+    histories: Mutex<HashMap<Key, Vec<Arc<Trajectory>>>>,
+    /// Whether histories are given up that wear far deeper than was measured.
+    gives_up: bool,
+    /// Those that were, with the cycles at which they were.
+    given_up: Mutex<HashMap<Key, f64>>,
+    /// The largest depth of each test's first history, mm.
+    first: Mutex<HashMap<usize, f64>>,
+    mountings: Mutex<HashMap<usize, Vec<Mounted>>>,
+}
+
+/// What a history belongs to: test, bits of the parameters, bits of the wear coefficient it was worn with.
+type Key = (usize, Vec<u64>, u64);
+
+/// A mounting that effects make, and the bits of the parameters it belongs to.
+type Mounted = (Vec<u64>, Mounting);
+
+/// Mountings kept of each test, those used last: a derivative with respect to k comes after those with respect to parameters, and each
+/// mounting holds a mesh cycle and its compliance.
+const MOUNTINGS: usize = 3;
+
+/// How many times as deep as measured, or as its first history, a test is worn before that is given up.
+const TOO_DEEP: f64 = 4.0;
+
+fn locked<T>(kept: &Mutex<T>) -> MutexGuard<'_, T> {
+    kept.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl<'a> GearModel<'a> {
+    /// The model with `effects`, from parameter values in the order that callers of [`Predictor::predict`] use.
+    pub fn new(bench: &'a Bench<'a>, effects: EffectsOf<'a>) -> Self {
+        Self {
+            bench,
+            effects,
+            stretches: false,
+            histories: Mutex::default(),
+            gives_up: false,
+            given_up: Mutex::default(),
+            first: Mutex::default(),
+            mountings: Mutex::default(),
+        }
+    }
+
+    /// The same, where the wear coefficient only stretches time: every effect multiplies it and none has a clock.
+    pub fn stretching(mut self, stretches: bool) -> Self {
+        self.stretches = stretches;
+        self
+    }
+
+    /// The same, but histories that wear far deeper than was measured (and than the test's first history) are given up: trial steps of a fit lead
+    /// there, no fit ends there, and following them would cost more than the rest of the fit. The first history of a test is always followed to
+    /// its end, so it must be asked for before the others of that test.
+    pub(in crate::learn) fn giving_up(mut self) -> Self {
+        self.gives_up = true;
+        self
+    }
+
+    /// How deep a history of a test is followed, mm.
+    fn deepest(&self, test: usize) -> f64 {
+        let first = locked(&self.first).get(&test).copied();
+        let Some(first) = first.filter(|_| self.gives_up) else {
+            return f64::INFINITY;
+        };
+        let depths = (self.bench.tests[test].observations.iter())
+            .filter(|o| o.quantity == Quantity::WearDepth)
+            .map(|o| 1e-3 * o.value);
+        let measured = depths.reduce(f64::max);
+        measured.map_or(f64::INFINITY, |depth| TOO_DEEP * depth.max(first))
+    }
+
+    /// The history of a test up to `cycles` at least, with its derivatives by `variations` if there are any.
+    ///
+    /// No lock is held while it wears: whoever else wants the same one meanwhile makes the same steps.
+    fn history(
+        &self,
+        forward: &mut Forward,
+        key: Key,
+        cycles: f64,
+        variations: &[Variation],
+    ) -> Result<Arc<Trajectory>, ForwardError> {
+        let kept = || locked(&self.histories);
+        let same = |history: &Arc<Trajectory>| history.parameters() == variations.len();
+        let serves = |history: &&Arc<Trajectory>| {
+            history.reaches(cycles) && (variations.is_empty() || same(history))
+        };
+        let known = {
+            let kept = kept();
+            let known = kept.get(&key).map_or(&[][..], Vec::as_slice);
+            if let Some(known) = known.iter().find(serves) {
+                return Ok(Arc::clone(known));
+            }
+            known.iter().find(|known| same(known)).cloned()
+        };
+        let deepest = self.deepest(key.0);
+        let too_deep_at = locked(&self.given_up).get(&key).copied();
+        if let Some(cycles) = too_deep_at.filter(|at| *at <= cycles) {
+            return Err(ForwardError::TooDeep { cycles, deepest });
+        }
+        let mut longer = known.map_or_else(Trajectory::default, |known| (*known).clone());
+        let reached = longer.reach(forward, cycles, variations, deepest);
+        if let Err(ForwardError::TooDeep { cycles, .. }) = &reached {
+            locked(&self.given_up).insert(key.clone(), *cycles);
+        }
+        reached?;
+        (locked(&self.first).entry(key.0)).or_insert_with(|| longer.deepest());
+        let longer = Arc::new(longer);
+        let mut kept = kept();
+        let all = kept.entry(key).or_default();
+        all.retain(|known| !same(known));
+        all.push(Arc::clone(&longer));
+        Ok(longer)
+    }
+
+    /// A fresh run of a test, on the mounting that one with the same parameters (by their bits) has made if effects change it.
+    pub(in crate::learn) fn forward<'b>(
+        &'b self,
+        test: usize,
+        coefficient: f64,
+        bits: &[u64],
+        acting: Option<&'b Acting>,
+    ) -> Result<Forward<'b>, ForwardError> {
+        let template = &self.bench.templates[test];
+        let (_, members) = self.bench.tests[test].wear;
+        let coefficients = members.map(|factor| factor * coefficient);
+        if !acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
+            return template.again(coefficients, acting);
+        }
+        let kept = || locked(&self.mountings);
+        let known = kept().get_mut(&test).and_then(|mountings| {
+            let at = mountings.iter().position(|(own, _)| own == bits)?;
+            mountings[at..].rotate_left(1);
+            mountings.last().map(|(_, mounting)| mounting.clone())
+        });
+        if let Some(mounting) = known {
+            return template.again_at(&mounting, coefficients, acting);
+        }
+        let forward = template.again(coefficients, acting)?;
+        let mut all = kept();
+        let mountings = all.entry(test).or_default();
+        if mountings.len() == MOUNTINGS {
+            mountings.remove(0);
+        }
+        mountings.push((bits.to_vec(), forward.mounting()));
+        Ok(forward)
+    }
+
+    /// A test at some parameters, ready to be worn.
+    fn run(&self, test: usize, coefficient: f64, parameters: &[f64]) -> Run {
+        let measured = &self.bench.tests[test];
+        let effects = (self.effects)(parameters);
+        // one history in a coefficient of the test's own serves all others
+        let worn_with = if self.stretches {
+            measured.wear.0
+        } else {
+            coefficient
+        };
+        let stretch = coefficient / worn_with;
+        let observed = |row: &usize| stretch * measured.observations[*row].cycles;
+        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
+        order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
+        Run {
+            test,
+            acting: (!effects.is_empty()).then(|| self.bench.acting(test, effects)),
+            worn_with,
+            stretch,
+            bits: parameters.iter().map(|p| p.to_bits()).collect(),
+            order,
+        }
+    }
+
+    /// What `of` reads of every observation of a test in a history of it.
+    fn read_off<T>(
+        &self,
+        run: &Run,
+        forward: &mut Forward<'_>,
+        history: &Trajectory,
+        variations: &[Variation],
+        of: &dyn Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
+    ) -> Result<Vec<T>, ForwardError> {
+        let measured = &self.bench.tests[run.test];
+        let observed = |row: &usize| run.stretch * measured.observations[*row].cycles;
+        let mut values: Vec<(usize, T)> = Vec::with_capacity(run.order.len());
+        for rows in run.order.chunk_by(|a, b| observed(a) == observed(b)) {
+            let mut state = history.at(observed(&rows[0]));
+            if self.stretches && !variations.is_empty() {
+                self.stretched(history, &mut state);
+            }
+            let mut reading = Reading::new(forward, &state, self.bench.set(), variations);
+            for &row in rows {
+                values.push((row, of(&mut reading, &measured.observations[row])?));
+            }
+        }
+        values.sort_by_key(|(row, _)| *row);
+        Ok(values.into_iter().map(|(_, value)| value).collect())
+    }
+
+    /// What `of` reads of every observation of a test.
+    fn read<T>(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        of: impl Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
+    ) -> Result<Vec<T>, ForwardError> {
+        let run = self.run(test, coefficient, parameters);
+        let Some(last) = self.last(&run) else {
+            return Ok(Vec::new());
+        };
+        let mut forward = self.forward(test, run.worn_with, &run.bits, run.acting.as_ref())?;
+        let history = self.history(&mut forward, run.key(), last, &[])?;
+        self.read_off(&run, &mut forward, &history, &[], &of)
+    }
+
+    /// Cycles of the history at the last observation; None without any.
+    fn last(&self, run: &Run) -> Option<f64> {
+        let observations = &self.bench.tests[run.test].observations;
+        run.order
+            .last()
+            .map(|&row| run.stretch * observations[row].cycles)
+    }
+
+    /// What every observation of a test feels where and when it was made; none for what stands nowhere on a flank.
+    ///
+    /// # Errors
+    /// As [`Predictor::predict`].
+    pub(in crate::learn) fn locals(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+    ) -> Result<Vec<Option<Local>>, PredictError> {
+        let acting = self.bench.acting(test, Combined::default());
+        self.read(test, coefficient, parameters, |reading, observation| {
+            reading.local(&acting, observation)
+        })
+        .map_err(|error| self.failed(test, &error))
+    }
+
+    fn failed(&self, test: usize, error: &ForwardError) -> PredictError {
+        PredictError {
+            test: self.bench.tests[test].id.clone(),
+            reason: error.to_string(),
+        }
+    }
+}
+
+impl Predictor for GearModel<'_> {
+    fn predict(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+    ) -> Result<Vec<f64>, PredictError> {
+        self.read(test, coefficient, parameters, |reading, observation| {
+            reading.of(observation)
+        })
+        .map_err(|error| self.failed(test, &error))
+    }
+
+    /// Contacts that are solved give their derivatives for little more; the analytic ones cost as much again for each.
+    fn has_derivatives(&self) -> bool {
+        self.bench.is_elastic()
+    }
+
+    fn linearise(
+        &self,
+        test: usize,
+        coefficient: f64,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Option<Result<Linearised, PredictError>> {
+        let found = self.linearised(test, coefficient, parameters, moves);
+        found.map_err(|error| self.failed(test, &error)).transpose()
+    }
+}
+
+/// One test at some parameters.
+struct Run {
+    test: usize,
+    acting: Option<Acting>,
+    /// Wear coefficient of the history, mm²/N.
+    worn_with: f64,
+    /// Cycles of the history per cycle of the test.
+    stretch: f64,
+    /// The parameters.
+    bits: Vec<u64>,
+    /// The observations by ascending cycles.
+    order: Vec<usize>,
+}
+
+impl Run {
+    fn key(&self) -> Key {
+        (self.test, self.bits.clone(), self.worn_with.to_bits())
+    }
+}
