@@ -92,23 +92,31 @@ impl Problem<'_> {
             return Err(FitError::NoObservations);
         }
         let mut evaluator = selection.evaluator(self.predictor);
-        let mut best: Option<SearchEnd> = None;
+        // by evidence: the density at a mode does not count what it costs to let the tests' own k take up a misfit
+        let evidence = |end: &SearchEnd| {
+            let found = marginal(self.noise.scatter, &fit.layout, &end.normal, &end.state);
+            found.log_integral
+        };
+        let mut best: Option<(f64, SearchEnd)> = None;
         let mut failure = None;
         for start in starts {
             let state = self.state(start, selection.tests.len());
             match fit.run(&mut evaluator, state, effort) {
                 // A later start must be better by more than the tolerance, so that equals keep their order.
                 Ok(found) => {
-                    let better = |b: &SearchEnd| found.objective < b.objective - effort.tolerance;
-                    if best.as_ref().is_none_or(better) {
-                        best = Some(found);
+                    let own = evidence(&found);
+                    if best
+                        .as_ref()
+                        .is_none_or(|(b, _)| own > b + effort.tolerance)
+                    {
+                        best = Some((own, found));
                     }
                 }
                 Err(error) => failure = failure.or(Some(error)),
             }
         }
         let found = match (best, failure) {
-            (Some(found), _) => found,
+            (Some((_, found)), _) => found,
             (None, Some(error)) => return Err(error.into()),
             (None, None) => return Err(FitError::NoObservations),
         };
