@@ -2,6 +2,7 @@
 
 use super::ranked::parameters;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
@@ -31,6 +32,25 @@ pub(in crate::learn) fn warnings(
             "decided by the analytic contact model, whose curves differ by 1 to 2 % from finite elements and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
         );
     }
+    let leading = posterior.leading_fit(base).unwrap_or(&base.fitted);
+    warnings.extend(of_sigma(likelihood, base, leading));
+    warnings.extend(likelihood.measured.data.places_not_used());
+    warnings.extend(of_scarcity(likelihood, base));
+    warnings.extend(of_curves(likelihood, base, posterior));
+    warnings.extend(of_fits(base, posterior));
+    if !not_fitted.is_empty() {
+        let names: Vec<String> = not_fitted.iter().map(Hypothesis::to_string).collect();
+        warnings.push(format!(
+            "not judged, since their fits failed: {}",
+            names.join(", ")
+        ));
+    }
+    warnings
+}
+
+/// Where the scatter is not as stated, or a few rows carry the misfit.
+fn of_sigma(likelihood: &Likelihood<'_>, base: &BaseFit, leading: &FittedCandidate) -> Vec<String> {
+    let mut warnings = Vec::new();
     let sigma = likelihood.noise.sigma;
     let estimated = likelihood.measured.data.estimates_sigmas();
     warnings.extend(noise_level::replaced_in_words(sigma, estimated));
@@ -39,16 +59,19 @@ pub(in crate::learn) fn warnings(
     {
         warnings.push(noise_level::smooth_in_words(smooth));
     }
-    let leading = posterior.leading_fit(base).unwrap_or(&base.fitted);
     let standardised = likelihood.standardised(&leading.found.model);
     let rows = (0..likelihood.len()).map(|row| likelihood.observation(row));
     warnings.extend(carried_by(rows.zip(standardised)));
-    let data = &likelihood.measured.data;
     // rows stand apart by so many stated sigmas
     if matches!(sigma, SigmaModel::Stated { .. }) {
-        warnings.extend(data.outliers_in_words());
+        warnings.extend(likelihood.measured.data.outliers_in_words());
     }
-    warnings.extend(data.places_not_used());
+    warnings
+}
+
+/// Where too little was measured to tell something.
+fn of_scarcity(likelihood: &Likelihood<'_>, base: &BaseFit) -> Vec<String> {
+    let mut warnings = Vec::new();
     let alone = measured_once(likelihood);
     if alone.len() == likelihood.tests.len() {
         warnings.push(
@@ -77,7 +100,15 @@ pub(in crate::learn) fn warnings(
             likelihood.len()
         ));
     }
-    let leader = posterior.leader();
+    warnings
+}
+
+/// Curves that are far from the others, or a test that carries the misfit.
+fn of_curves(
+    likelihood: &Likelihood<'_>,
+    base: &BaseFit,
+    posterior: &JudgedCandidates,
+) -> Vec<String> {
     let suspects = outlying_curves::suspects(likelihood, &base.fitted.found.model);
     let model = &base.fitted.found.model;
     let is_named = matches!(
@@ -88,21 +119,24 @@ pub(in crate::learn) fn warnings(
         .then(|| outlying_curves::one_test(likelihood, model))
         .flatten();
     if let Some(one_test) = one_test {
-        warnings.push(one_test);
+        vec![one_test]
     } else if suspects.is_empty() {
-        let models = std::iter::once(&base.fitted).chain(leader);
-        warnings.extend(
-            models
-                .filter_map(|j| outlying_curves::alone(likelihood, base, &j.found.model))
-                .next(),
-        );
+        let mut models = std::iter::once(&base.fitted).chain(posterior.leader());
+        let alone = models.find_map(|j| outlying_curves::alone(likelihood, base, &j.found.model));
+        alone.into_iter().collect()
+    } else {
+        suspects
     }
-    warnings.extend(suspects);
+}
+
+/// Fits that did not converge, and parameters of the leader that are on a bound, known only together or of an unheard-of size.
+fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
+    let mut warnings = Vec::new();
     if !base.fitted.converged {
         warnings
             .push("the fit of the base model did not converge: probabilities are rough".to_owned());
     }
-    if let Some(leader) = leader {
+    if let Some(leader) = posterior.leader() {
         if !leader.converged {
             warnings.push(format!(
                 "the fit with {} did not converge: its parameters are rough",
@@ -126,13 +160,6 @@ pub(in crate::learn) fn warnings(
         if probability > 0.5 {
             warnings.extend(unheard_of(leader));
         }
-    }
-    if !not_fitted.is_empty() {
-        let names: Vec<String> = not_fitted.iter().map(Hypothesis::to_string).collect();
-        warnings.push(format!(
-            "not judged, since their fits failed: {}",
-            names.join(", ")
-        ));
     }
     warnings
 }
