@@ -564,12 +564,13 @@ fn a_face_in_slices_is_checked_by_elements() {
     let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
     let of_one_test = BASE.split("[[test]]\nid = \"B\"").next().unwrap();
     write("truth.toml", of_one_test.to_owned());
-    succeed(&home, "synthesize truth.toml -o . --seed 5");
+    succeed(&home, "synthesize truth.toml -o data --seed 5");
+    let file = FILE.replace("measurements.csv", "data/measurements.csv");
     let coarse = "positions = 20\nelements_per_half_width = 2\n";
     let sliced = of_one_test
         .replace("contact = \"hertz\"", "contact = \"fem\"")
         .replace("positions = 40\n", coarse);
-    write("sliced.toml", format!("{sliced}[face]\nslices = 2\n{FILE}"));
+    write("sliced.toml", format!("{sliced}[face]\nslices = 2\n{file}"));
     let told = succeed(&home, "check sliced.toml");
     assert!(told.contains("signs, units and zeros look right"), "{told}");
 }
