@@ -441,7 +441,7 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
         .join("\n");
     let again = changed(&again, |cells| cells[6] = "0.3".to_owned());
     let said = told(&(good.clone() + &again));
-    assert!(said.contains("5 rows say again"), "{said}");
+    assert!(said.contains("5 rows repeat an earlier one"), "{said}");
     // each row's own depth for the largest of its curve
     let small = changed(&good, |cells| {
         if cells[3] == "wear_depth" {
