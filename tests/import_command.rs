@@ -1873,3 +1873,30 @@ fn a_sigma_in_another_unit_than_its_own_is_said_to_be_wrong() {
     // a few values may be lost in their noise
     rows(&home, &table(3), "--test A --sigma 70");
 }
+
+/// Source: `data/formulas.xlsx`, a workbook as programs write it that do not compute: C2 has a formula and no result.
+#[test]
+fn formulas_without_a_stored_result_are_refused() {
+    let home = home();
+    let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/formulas.xlsx");
+    fs::copy(tables, home.path().join("formulas.xlsx")).unwrap();
+    let options = "--study study.toml --test A --member pinion --sigma 0.1";
+    let (code, _, message) = line(
+        &home,
+        &format!("import formulas.xlsx --sheet bare {options}"),
+    );
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("sheet bare: C2: a formula without a stored result: open the table in the spreadsheet program and save it"),
+        "{message}"
+    );
+    // another sheet of it is read
+    let shown = succeed(
+        &home,
+        &format!("import formulas.xlsx --sheet computed {options}"),
+    );
+    assert!(
+        shown.contains("A,pinion,250000,wear_depth,26,3,"),
+        "{shown}"
+    );
+}

@@ -61,6 +61,11 @@ struct Read<'t> {
 /// # Errors
 /// [`ImportError`] where a column is missing or stands twice, or a cell says nothing that can be read.
 pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
+    if let Some(cell) = &sheet.without_result {
+        return Err(ImportError(format!(
+            "{cell}: a formula without a stored result: open the table in the spreadsheet program and save it, then its results stand in the file"
+        )));
+    }
     let Some(Arranged { head, sheets, said }) = arranged(sheet, wanted)? else {
         return Ok(None);
     };
