@@ -10,6 +10,7 @@ mod append;
 mod arrange;
 mod cells;
 mod columns;
+mod counts;
 mod coverage;
 mod decimal_commas;
 mod entry;
