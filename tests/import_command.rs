@@ -2293,6 +2293,31 @@ fn a_running_time_above_the_header_has_its_unit_where_it_may_stand() {
     }
 }
 
+#[test]
+fn checkpoints_within_a_thousandth_are_one() {
+    let home = home();
+    let table = "test,member,cycles,radius,depth\nA,pinion,99997,26,1\nA,pinion,99997,27,2\nA,gear,100000,52,1\nA,gear,100000,53,2\n\
+                 A,gear,100101,52,3\nA,gear,100101,53,4\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    assert!(
+        written.starts_with("A,pinion,100000,wear_depth,26,1,0.1,A-pinion-100000\n")
+            && written.contains("A,gear,100101,wear_depth,52,"),
+        "{written}"
+    );
+    assert!(
+        shown
+            .contains("layout   test A: 99997 read as the checkpoint 100000, within 0.1 % of it\n"),
+        "{shown}"
+    );
+    // what has no place may be a record of many times
+    let record = "test,member,cycles,mass loss [mg]\nA,pinion,99997,1\nA,pinion,100000,2\n";
+    assert!(
+        rows(&home, record, "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,99997,")
+    );
+}
+
 /// Source: `data/formulas.xlsx`, a workbook as programs write it that do not compute: C2 has a formula and no result.
 #[test]
 fn formulas_without_a_stored_result_are_refused() {

@@ -1,5 +1,6 @@
 //! Long tables: a row for each value, with columns that say of which test, member, time and place it is.
 
+mod checkpoints;
 mod flanks;
 mod line;
 mod traces;
@@ -91,7 +92,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
-        arranged: said,
+        arranged: [said, long.arranged].concat(),
         ..long
     }))
 }
@@ -139,6 +140,7 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
             head + 1
         )));
     }
+    let arranged = checkpoints::join(&mut entries);
     let flank = flanks::only(sheet, head, &columns, &entries)?;
     let traces = traces::name(&mut entries, &read, wanted)?;
     if let (Some(column), Some(_)) = (read.face, wanted.face) {
@@ -153,7 +155,7 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
     }
     Ok(Long {
         row: head + 1,
-        arranged: Vec::new(),
+        arranged,
         columns: read.in_words(&columns, single, &titles, wanted)?,
         passed_over: passed_over(sheet, head, &columns, read.value),
         titles,
@@ -177,6 +179,7 @@ impl Long {
         }
         self.passed_over
             .retain(|column| other.passed_over.contains(column));
+        self.arranged.extend(other.arranged);
         self.empty += other.empty;
         self.has_sigma |= other.has_sigma;
         self.entries.extend(other.entries);
