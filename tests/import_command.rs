@@ -441,7 +441,7 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
         .join("\n");
     let again = changed(&again, |cells| cells[6] = "0.3".to_owned());
     let said = told(&(good.clone() + &again));
-    assert!(said.contains("5 rows say again"), "{said}");
+    assert!(said.contains("5 rows repeat an earlier one"), "{said}");
     // each row's own depth for the largest of its curve
     let small = changed(&good, |cells| {
         if cells[3] == "wear_depth" {
@@ -743,7 +743,7 @@ fn a_long_table_is_read_by_the_names_of_its_columns() {
     let (_, written) = rows(
         &home,
         "cycles;peso [g];u (k=1) [mg]\n100000;0,0042;0,4\n",
-        "--test B --member gear",
+        "--test B --member gear --quantity mass_loss",
     );
     assert_eq!(written, "B,gear,100000,mass_loss,,4.2,0.4,\n");
     let (_, written) = rows(
@@ -810,7 +810,7 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
             "F1: `sigma`: write its unit in the header too: the values are in mm",
         ),
         (
-            "test,member,cycles,mass [mg],U (k=7) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
+            "test,member,cycles,mass loss [mg],U (k=7) [mg]\nA,pinion,1e5,26.5,1.5\n".to_owned(),
             "",
             "E1: `U (k=7) [mg]`: k = 7 is no coverage factor, which is 1 to 5; write `U (k=2)`",
         ),
@@ -865,7 +865,7 @@ fn rows_are_appended_to_a_file_with_other_columns() {
     // masses behind depths with traces
     let (code, _, message) = import(
         &home,
-        "test,member,cycles,mass [mg],sigma\nB,pinion,1e5,4,0.4\n",
+        "test,member,cycles,mass loss [mg],sigma\nB,pinion,1e5,4,0.4\n",
         "-o m.csv --append",
     );
     assert_eq!(code, Some(0), "{message}");
@@ -1069,7 +1069,7 @@ fn columns_tell_tests_and_members_by_what_stands_in_them() {
     assert!(
         refused(&home, masses, "--test B --member gear").contains("B2: `pignon` below `thing`")
     );
-    let which = "which,member,cycles,mass [mg]\nrun A,pinion,1e5,1\nB,pinion,1e5,2\n";
+    let which = "which,member,cycles,mass loss [mg]\nrun A,pinion,1e5,1\nB,pinion,1e5,2\n";
     let (shown, written) = rows(&home, which, "--sigma 0.1");
     assert_eq!(
         written,
@@ -1080,7 +1080,7 @@ fn columns_tell_tests_and_members_by_what_stands_in_them() {
         "{shown}"
     );
     // one cell that is none
-    let other = "which,member,cycles,mass [mg]\nA,pinion,1e5,1\nx,pinion,1e5,2\n";
+    let other = "which,member,cycles,mass loss [mg]\nA,pinion,1e5,1\nx,pinion,1e5,2\n";
     assert!(refused(&home, other, "").contains("missing: test"));
 }
 
@@ -1872,4 +1872,475 @@ fn a_sigma_in_another_unit_than_its_own_is_said_to_be_wrong() {
     );
     // a few values may be lost in their noise
     rows(&home, &table(3), "--test A --sigma 70");
+}
+
+/// Weighed before and after each interval, a part loses what all intervals took.
+#[test]
+fn weighings_at_each_stop_are_added_up() {
+    let home = home();
+    let head = "test,member,cycles,mass before [g],mass after [g]\n";
+    // the gear is weighed against its new mass each time; rows need not stand in the order of time
+    let rows_of = "A,pinion,250000,412.2671,412.2357\nA,pinion,100000,412.3000,412.2671\nA,pinion,500000,412.2358,412.2029\n\
+                   A,gear,100000,1630.1,1630.09\nA,gear,250000,1630.1,1630.07\n";
+    let (shown, written) = rows(&home, &format!("{head}{rows_of}"), "--sigma 1");
+    assert_eq!(
+        written,
+        "A,pinion,250000,mass_loss,,64.3,1,\nA,pinion,100000,mass_loss,,32.9,1,\nA,pinion,500000,mass_loss,,97.1,1,\n\
+         A,gear,100000,mass_loss,,10,1,\nA,gear,250000,mass_loss,,30,1,\n"
+    );
+    for part in [
+        "layout   mass loss: each `mass before [g]` is `mass after [g]` of the stop before it, so the losses are added up from the first",
+        "layout   mass loss: `mass before [g]` less `mass after [g]`\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    // another part, an interval that is left out, and a change of how it was weighed
+    for (third, says) in [
+        (
+            "A,pinion,500000,412.2300,412.2029",
+            "row 4: `mass before [g]` is 412.23, in row 2 it is 412.3 and `mass after [g]` in row 3 is 412.2357",
+        ),
+        (
+            "A,pinion,500000,412.3000,412.2029",
+            "row 4: `mass before [g]` is 412.3,",
+        ),
+    ] {
+        let table = format!(
+            "{head}A,pinion,100000,412.3000,412.2671\nA,pinion,250000,412.2671,412.2357\n{third}\n"
+        );
+        let message = refused(&home, &table, "--sigma 1");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+#[test]
+fn a_deviation_before_and_one_after_are_a_depth() {
+    let home = home();
+    let table = "test,member,cycles,radius_mm,deviation before [um],deviation after [um]\n\
+                 A,pinion,100000,26,3.635,0.553\nA,pinion,100000,27,-2.5,-2.75\nA,pinion,100000,28,1,\n";
+    let depths = "A,pinion,100000,wear_depth,26,3.082,0.1,A-pinion-100000\nA,pinion,100000,wear_depth,27,0.25,0.1,A-pinion-100000\n";
+    for options in ["--sigma 0.1", "--sigma 0.1 --turn-sign"] {
+        let (shown, written) = rows(&home, table, options);
+        assert_eq!(written, depths, "{options}");
+        assert!(
+            shown.contains(
+                "layout   wear depth: `deviation before [um]` less `deviation after [um]`"
+            ),
+            "{shown}"
+        );
+    }
+    let sides = "test,cycles,radius pinion [mm],Deviation pinion before [um],Deviation pinion after [um],radius gear [mm],\
+                 Deviation gear before [um],Deviation gear after [um]\nA,100000,26,3,1,52,2,1\n";
+    assert_eq!(
+        rows(&home, sides, "--sigma 0.1").1,
+        "A,pinion,100000,wear_depth,26,2,0.1,\nA,gear,100000,wear_depth,52,1,0.1,\n"
+    );
+    let otherwise = format!("positive = material lost\n{table}");
+    assert!(refused(&home, &otherwise, "--sigma 0.1").contains("lost material is positive"));
+    let units = table.replace("after [um]", "after [mm]");
+    assert!(refused(&home, &units, "--sigma 0.1").contains("in two units"));
+}
+
+#[test]
+fn two_flanks_are_no_one_curve() {
+    let home = home();
+    let table = |second: &str| {
+        format!(
+            "test,member,flank,cycles,radius,depth\nA,pinion,left,1e5,26,1\nA,pinion,{second},1e5,27,2\n"
+        )
+    };
+    let message = refused(&home, &table("right"), "--sigma 0.1");
+    assert!(
+        message.contains("C3: `flank` says `right`, C2 says `left`, both of the pinion in test A: wear is that of the loaded flank, so keep the rows of"),
+        "{message}"
+    );
+    let (shown, written) = rows(&home, &table("Left"), "--sigma 0.1");
+    assert_eq!(written.lines().count(), 2, "{written}");
+    assert!(
+        shown.contains("passed over the column `flank`: one flank"),
+        "{shown}"
+    );
+    // in files of one curve each, long or wide
+    for body in [
+        "radius [mm],depth [um]\n26,1\n27,2\n",
+        "radius [mm],40000,50000\n26,1,2\n27,2,3\n",
+    ] {
+        for flank in ["left", "right"] {
+            let cycles = if body.contains("depth") {
+                "Cycles: 40000\n"
+            } else {
+                ""
+            };
+            let text = format!("Test: A\nPart: pinion\n{cycles}Flank: {flank}\n\n{body}");
+            fs::write(home.path().join(format!("{flank}.csv")), text).unwrap();
+        }
+        let (code, _, message) = line(
+            &home,
+            "import left.csv right.csv --study study.toml --sigma 0.1",
+        );
+        assert_eq!(code, Some(2));
+        assert!(
+            message.contains("right.csv is of the flank `right`, left.csv of the flank `left`, both of the pinion in test A"),
+            "{message}"
+        );
+        succeed(&home, "import left.csv --study study.toml --sigma 0.1");
+    }
+}
+
+#[test]
+fn teeth_do_not_share_a_trace() {
+    let home = home();
+    for (tooth, first) in [("1", "1"), ("8", "2")] {
+        let text = format!(
+            "Test: A\nPart: pinion\nCycles: 40000\nTooth: {tooth}\nOperator of tooth {tooth}\n\nradius [mm],depth [um]\n26,{first}\n27,2.5\n"
+        );
+        fs::write(home.path().join(format!("t{tooth}.txt")), text).unwrap();
+    }
+    let shown = succeed(
+        &home,
+        "import t1.txt t8.txt --study study.toml --sigma 0.1 -o m.csv",
+    );
+    assert_eq!(
+        read(&home, "m.csv"),
+        "test,member,cycles,quantity,position,value,sigma,trace,tooth\n\
+         A,pinion,40000,wear_depth,26,1,0.1,A-pinion-40000-tooth1,1\nA,pinion,40000,wear_depth,27,2.5,0.1,A-pinion-40000-tooth1,1\n\
+         A,pinion,40000,wear_depth,26,2,0.1,A-pinion-40000-tooth8,8\nA,pinion,40000,wear_depth,27,2.5,0.1,A-pinion-40000-tooth8,8\n"
+    );
+    for part in [
+        "layout   row 4, `Tooth`: tooth 1\n",
+        "after 40000, tooth 8\n",
+        // what is passed over in each file, not in the first alone
+        "title    row 5 passed over: Operator of tooth 1\n",
+        "title    row 5 passed over: Operator of tooth 8\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    let wide = "Test: A\nTooth: 8\nradius [mm],40000\n26,1\n";
+    assert_eq!(
+        rows(&home, wide, "--member pinion --sigma 0.1").1,
+        "A,pinion,40000,wear_depth,26,1,0.1,A-pinion-40000-tooth8,8\n"
+    );
+}
+
+/// Hours become revolutions by the speed of the study's test, 2000 rpm, so no other one may stand beside them.
+#[test]
+fn a_speed_beside_running_times_is_that_of_the_test() {
+    let home = home();
+    let column = |header: &str, speed: &str| {
+        format!(
+            "test,member,hours,{header},radius,depth\nA,pinion,1.5,{speed},26,1\nA,pinion,1.5,{speed},27,2\n"
+        )
+    };
+    let lines = |speed: &str| {
+        format!(
+            "Test: A\nPart: pinion\n{speed}\nRun time [h]: 1.5\n\nradius [mm],depth [um]\n26,1\n27,2\n"
+        )
+    };
+    for (table, says) in [
+        (
+            column("speed [rpm]", "1500"),
+            "D2: `1500` below `speed [rpm]` is another speed than that of test A in the study, 2000 rpm",
+        ),
+        (
+            lines("Speed: 1500 rpm"),
+            "row 3: `Speed: 1500 rpm` is another speed than that of test A in the study, 2000 rpm",
+        ),
+        (lines("Drehzahl [1/min]: 1500"), "2000 rpm"),
+        (lines("n = 1500 1/min"), "2000 rpm"),
+        (lines("Speed: 1500rpm"), "2000 rpm"),
+        (column("speed_rpm", "1500"), "2000 rpm"),
+        (column("n_rpm", "1500"), "2000 rpm"),
+        // 2000 of 27 teeth are 1018.9 of 53
+        (lines("Gear speed: 2000 rpm"), "1019 rpm"),
+    ] {
+        let message = refused(&home, &table, "--sigma 0.1");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    for table in [
+        column("speed [rpm]", "2000"),
+        column("Drehzahl", "1998"),
+        column("rpm", "2000 rpm"),
+        lines("Speed: 2000 rpm"),
+        lines("Speed: 2.000 rpm"),
+        lines("Gear speed: 1019 rpm"),
+    ] {
+        let (shown, written) = rows(&home, &table, "--sigma 0.1");
+        assert!(written.starts_with("A,pinion,180000,"), "{table}{written}");
+        assert!(!shown.contains("passed over"), "{shown}");
+    }
+    // beside revolutions it is passed over
+    let cycles = column("speed [rpm]", "1500").replace("hours", "cycles");
+    let (shown, _) = rows(&home, &cycles.replace("1.5,", "40000,"), "--sigma 0.1");
+    assert!(
+        shown.contains("passed over the column `speed [rpm]`"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn a_capital_u_without_a_k_is_no_sigma() {
+    let home = home();
+    for header in [
+        "U [um]",
+        "U",
+        "U (95%) [um]",
+        "U [um] (95 %)",
+        "u (95 %)",
+        "uncertainty 95 % [um]",
+    ] {
+        let table =
+            format!("test,member,cycles,radius,depth [um],{header}\nA,pinion,1e5,26,1.5,0.3\n");
+        let (shown, written) = rows(&home, &table, "--sigma 0.2");
+        assert_eq!(
+            written, "A,pinion,100000,wear_depth,26,1.5,0.2,\n",
+            "{header}"
+        );
+        let says = format!(
+            "passed over the column `{header}`: an expanded uncertainty that does not say its k"
+        );
+        assert!(shown.contains(&says), "no `{says}` in:\n{shown}");
+    }
+    let small = "test,member,cycles,radius,depth [um],u [um]\nA,pinion,1e5,26,1.5,0.3\n";
+    assert!(rows(&home, small, "").1.contains(",1.5,0.3,"));
+    let both = "test,member,cycles,radius,depth [um],U (k=2; 95 %) [um]\nA,pinion,1e5,26,1.5,0.3\n";
+    assert!(rows(&home, both, "").1.contains(",1.5,0.15,"));
+}
+
+#[test]
+fn what_counts_no_revolutions_is_no_checkpoint() {
+    let home = home();
+    let options = "--test A --member pinion --sigma 0.1";
+    for header in [
+        "70 hrs",
+        "2 wk",
+        "25 %",
+        "2000 rpm",
+        "100 T",
+        "20 °C",
+        "50 Nm",
+        "5 mm",
+        "1 tooth",
+        "100000 left",
+        "70 [hrs]",
+    ] {
+        let message = refused(
+            &home,
+            &format!("radius [mm],{header}\n26,300\n27,200\n"),
+            options,
+        );
+        assert!(
+            message.contains(&format!("B1: the header `{header}` has `"))
+                && message.contains("a checkpoint is a number of revolutions"),
+            "{header}: {message}"
+        );
+    }
+    for header in [
+        "100000 load cycles",
+        "100000 U",
+        "100000 [um]",
+        "100000 cycles, um",
+        "wear after 100000 rev",
+    ] {
+        let table = format!("radius [mm];{header}\n26;3\n27;2\n");
+        assert!(
+            rows(&home, &table, options)
+                .1
+                .starts_with("A,pinion,100000,"),
+            "{header}"
+        );
+    }
+    // a degree is no word before the name of a test
+    let study = STUDY.replace("id = \"B\"", "id = \"C\"");
+    fs::write(home.path().join("study.toml"), study).unwrap();
+    let message = refused(
+        &home,
+        "radius [mm],20 °C,40 °C\n26,3,2\n",
+        "--test A --sigma 0.1",
+    );
+    assert!(message.contains("`°C` behind its number"), "{message}");
+    // masses
+    let masses = "member,70 hrs\npinion,3\n";
+    let message = refused(&home, masses, "--test A --quantity mass_loss --sigma 1");
+    assert!(message.contains("`hrs` behind its number"), "{message}");
+    for (text, word) in [
+        (
+            "Wear depth in um after running hours\nradius [mm],0.83,2.08\n26,3,4\n",
+            "hours",
+        ),
+        (
+            "Wear depth [um], cycles in millions\nradius [mm],0.1,0.25\n26,3,4\n",
+            "millions",
+        ),
+        (
+            "Verschleiß [µm] nach Stunden\nradius [mm],0.83,2.08\n26,3,4\n",
+            "Stunden",
+        ),
+        (
+            "Cycles x 1e6\nradius [mm],0.1,0.25\n26,3,4\n",
+            "a power of ten",
+        ),
+        ("hours,26,27\n2,3,4\n4,5,6\n", "hours"),
+    ] {
+        let message = refused(&home, text, options);
+        let says = format!("row 1: `{}", text.split([',', '\n']).next().unwrap());
+        assert!(
+            message.contains(&says) && message.contains(&format!("speaks of `{word}`")),
+            "{message}"
+        );
+    }
+    let fact = "Operating hours of the rig: 1234\nradius [mm],100000\n26,3\n";
+    assert!(
+        rows(&home, fact, options)
+            .0
+            .contains("title    row 1 passed over")
+    );
+}
+
+#[test]
+fn a_mass_that_may_be_left_is_no_loss() {
+    let home = home();
+    for header in [
+        "mass [g]",
+        "weight [g]",
+        "Masse [mg]",
+        "mass pinion [g],mass gear [g]",
+    ] {
+        let two = header.contains(',');
+        let table = match two {
+            true => format!("test,cycles,{header}\nA,100000,412.2671,1630.0669\n"),
+            false => format!("test,member,cycles,{header}\nA,pinion,100000,412.2671\n"),
+        };
+        let message = refused(&home, &table, "--sigma 1");
+        assert!(
+            message.contains(
+                "may be the mass that is left: say --quantity mass_loss if it is what was lost"
+            ),
+            "{header}: {message}"
+        );
+    }
+    let small = "test,member,cycles,mass [g]\nA,pinion,100000,0.0042\n";
+    assert_eq!(
+        rows(&home, small, "--quantity mass_loss --sigma 1").1,
+        "A,pinion,100000,mass_loss,,4.2,1,\n"
+    );
+}
+
+/// 509 434 revolutions of 53 teeth are 1 000 000.07 of 27: the end of the test, rounded.
+#[test]
+fn rounded_revolutions_of_the_gear_may_be_the_end_of_the_test() {
+    let home = home();
+    for text in [
+        "Test: A\nPart: gear\nRevolutions of gear: 509434\n\nradius [mm],depth [um]\n52,1\n",
+        "test,member,gear revolutions,radius [mm],depth [um]\nA,gear,509434,52,1\n",
+        "Test: A\nPart: gear\nradius [mm],509434 gear rev\n52,1\n",
+    ] {
+        let written = rows(&home, text, "--sigma 0.1").1;
+        assert!(
+            written.starts_with("A,gear,1000000,wear_depth,52,"),
+            "{text}{written}"
+        );
+    }
+    let later = "test,member,gear revolutions,radius [mm],depth [um]\nA,gear,509435,52,1\n";
+    assert!(refused(&home, later, "--sigma 0.1").contains("ends before these cycles"));
+}
+
+#[test]
+fn a_running_time_above_the_header_has_its_unit_where_it_may_stand() {
+    let home = home();
+    let curve = |line: &str, separator: &str| {
+        format!(
+            "Test: A\nPart: pinion\n{line}\n\nradius [mm]{separator}depth [um]\n26{separator}1\n27{separator}2\n"
+        )
+    };
+    for (line, separator) in [
+        ("Run time: 8.333 h", ","),
+        ("Run time [h]: 8.333", ","),
+        ("Run time [h]: 8.333 h", ","),
+        ("Run time: 500 min", ","),
+        ("Run time (h);8,333", ";"),
+        ("Laufzeit;8,333;Std.", ";"),
+        ("Temps de marche [h]: 8.333", ","),
+        ("Running hours: 8.333", ","),
+    ] {
+        let (shown, written) = rows(&home, &curve(line, separator), "--sigma 0.1");
+        assert!(
+            written.starts_with("A,pinion,1000000,"),
+            "{line}: {written}"
+        );
+        assert!(shown.contains("layout   row 3, `"), "{shown}");
+    }
+    for line in ["Run time: 8.333", "Run time: 8 h 20 min", "Run time: long"] {
+        let message = refused(&home, &curve(line, ","), "--sigma 0.1");
+        assert!(
+            message.contains("row 3: `Run time` says `")
+                && message.contains("one number with a unit of h, min, s or d"),
+            "{line}: {message}"
+        );
+    }
+    let far = refused(&home, &curve("Run time: 70 h", ","), "--sigma 0.1");
+    assert!(
+        far.contains("found `8400000`")
+            && far.contains("the cycles are those of `Run time [h]`: running time"),
+        "{far}"
+    );
+    // beside cycles it says nothing more, and a time of day is none
+    for line in [
+        "Run time: 70 h\nCycles: 40000",
+        "Time: 12:30\nCycles: 40000",
+    ] {
+        let (_, written) = rows(&home, &curve(line, ","), "--sigma 0.1");
+        assert!(written.starts_with("A,pinion,40000,"), "{written}");
+    }
+}
+
+#[test]
+fn checkpoints_within_a_thousandth_are_one() {
+    let home = home();
+    let table = "test,member,cycles,radius,depth\nA,pinion,99997,26,1\nA,pinion,99997,27,2\nA,gear,100000,52,1\nA,gear,100000,53,2\n\
+                 A,gear,100101,52,3\nA,gear,100101,53,4\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    assert!(
+        written.starts_with("A,pinion,100000,wear_depth,26,1,0.1,A-pinion-100000\n")
+            && written.contains("A,gear,100101,wear_depth,52,"),
+        "{written}"
+    );
+    assert!(
+        shown
+            .contains("layout   test A: 99997 read as the checkpoint 100000, within 0.1 % of it\n"),
+        "{shown}"
+    );
+    // what has no place may be a record of many times
+    let record = "test,member,cycles,mass loss [mg]\nA,pinion,99997,1\nA,pinion,100000,2\n";
+    assert!(
+        rows(&home, record, "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,99997,")
+    );
+}
+
+/// Source: `data/formulas.xlsx`, a workbook as programs write it that do not compute: C2 has a formula and no result.
+#[test]
+fn formulas_without_a_stored_result_are_refused() {
+    let home = home();
+    let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/formulas.xlsx");
+    fs::copy(tables, home.path().join("formulas.xlsx")).unwrap();
+    let options = "--study study.toml --test A --member pinion --sigma 0.1";
+    let (code, _, message) = line(
+        &home,
+        &format!("import formulas.xlsx --sheet bare {options}"),
+    );
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("sheet bare: C2: a formula without a stored result: open the table in the spreadsheet program and save it"),
+        "{message}"
+    );
+    // another sheet of it is read
+    let shown = succeed(
+        &home,
+        &format!("import formulas.xlsx --sheet computed {options}"),
+    );
+    assert!(
+        shown.contains("A,pinion,250000,wear_depth,26,3,"),
+        "{shown}"
+    );
 }

@@ -1,6 +1,7 @@
 //! `gearwear import`: a table from a spreadsheet as rows of a measurement file, the mapping shown before anything is written.
 
 mod args;
+mod flanks;
 mod said;
 
 use std::fmt::Write as _;
@@ -11,10 +12,11 @@ use serde_json::json;
 
 pub(super) use args::ImportArgs;
 use args::{Across, On, PositionKind, ShareOf};
+use flanks::Flanks;
 
 use super::init::Example;
 use super::{CliError, Context, Outcome};
-use crate::measure::import::{self, Decimal, Entry, Long, Sheet, UnitFrom, Wanted, Wide};
+use crate::measure::import::{self, Decimal, Entry, Long, Sheet, Titles, UnitFrom, Wanted, Wide};
 use crate::measure::{Dataset, Subject};
 use crate::report::write_file;
 use crate::study::Study;
@@ -33,6 +35,20 @@ impl Understood {
         }
     }
 
+    fn titles(&self) -> &Titles {
+        match self {
+            Understood::Long(long) => &long.titles,
+            Understood::Wide(wide) => &wide.titles,
+        }
+    }
+
+    fn flank(&self) -> Option<&str> {
+        match self {
+            Understood::Long(long) => long.flank.as_deref(),
+            Understood::Wide(wide) => wide.flank.as_deref(),
+        }
+    }
+
     /// What was read as what, by which a table is like another.
     fn columns(&self) -> Vec<(String, String)> {
         let (mut columns, turned) = match self {
@@ -42,6 +58,12 @@ impl Understood {
         columns.push(("sign".to_owned(), turned.to_string()));
         columns
     }
+}
+
+/// The table that was shown in full, to which others are alike.
+struct Shown {
+    columns: Vec<(String, String)>,
+    titles: Titles,
 }
 
 /// Reads the tables, shows how, writes if asked.
@@ -58,7 +80,8 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
     let mut file = there(args)?;
     let mut text = String::new();
     let mut documents = Vec::new();
-    let mut shown: Option<Vec<(String, String)>> = None;
+    let mut shown: Option<Shown> = None;
+    let mut flanks = Flanks::default();
     let mut count = 0;
     for table in &args.tables {
         let sheets = import::sheets(table).map_err(|error| unusable(error.to_string()))?;
@@ -71,6 +94,7 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             let name = named(table, sheet);
             let understood =
                 understood(sheet, &wanted).map_err(|error| unusable(format!("{name}: {error}")))?;
+            flanks.agree(&name, &understood)?;
             let (header, rows) = import::lines(understood.entries());
             let source = source(args, file.is_some(), &name);
             let whole = with_rows(args, &name, file.as_deref(), &header, &rows)?;
@@ -85,15 +109,19 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
                     .fold(error, |error, said| error.with_hint(&said))
             })?;
             let columns = understood.columns();
-            if shown.as_ref() == Some(&columns) {
-                text += &said::like_the_first(&name, understood.entries());
+            let titles = understood.titles();
+            if let Some(first) = shown.as_ref().filter(|first| first.columns == columns) {
+                text += &said::like_the_first(&name, understood.entries(), titles, &first.titles);
             } else {
                 text += &match &understood {
                     Understood::Long(long) => said::long(args, &name, long),
                     Understood::Wide(wide) => said::wide(args, &name, wide),
                 };
                 text += &said::rows(&header, &rows);
-                shown = Some(columns);
+                shown = Some(Shown {
+                    columns,
+                    titles: titles.clone(),
+                });
             }
             count += rows.len();
             documents.push(document(&understood));
@@ -178,8 +206,17 @@ fn source(args: &ImportArgs, has_others: bool, table: &str) -> String {
 
 /// How the numbers were read, for messages about the rows.
 fn reading(understood: &Understood) -> Vec<String> {
-    let Understood::Wide(wide) = understood else {
-        return Vec::new();
+    let wide = match understood {
+        Understood::Wide(wide) => wide,
+        Understood::Long(long) => {
+            let times = long
+                .columns
+                .iter()
+                .filter(|(_, what)| what.starts_with("running time"));
+            return times
+                .map(|(written, what)| format!("the cycles are those of `{written}`: {what}"))
+                .collect();
+        }
     };
     let mut said = Vec::new();
     if wide.of_gear {
@@ -309,6 +346,7 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
             On::Pair => Subject::Pair,
         }),
         quantity: args.quantity,
+        tooth: None,
         cycles: args.cycles,
         position: args.position.map(|kind| match kind {
             PositionKind::Radius => import::PositionKind::Radius,

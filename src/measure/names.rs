@@ -6,13 +6,14 @@ mod vocabulary;
 use super::quantity::{Quantity, Subject};
 
 use vocabulary::{
-    AFTER, BEFORE, COLUMNS, CYCLES, DEVIATIONS, EXPANDED, FILLERS, FOR_PEOPLE, HINTS, HOURS,
-    LOSSES, MASSES, MEMBERS, QUANTITIES, TIMES,
+    AFTER, AROUND_POWER, BEFORE, COLUMNS, CYCLES, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
+    FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES, MEMBERS, MULTIPLES, PER_MINUTE, POWERS, QUANTITIES,
+    SPEEDS, TIMES,
 };
 
-/// Which of two weighings.
+/// Which of two measurements of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Weighed {
+pub(super) enum When {
     /// Of the new part.
     Before,
     /// Of the worn part.
@@ -138,9 +139,82 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
     found.map(|(_, hours)| *hours)
 }
 
-/// Whether a name means several standard deviations, without saying how many.
+/// Whether a name means several standard deviations, without saying how many. By the GUM a capital `U` alone does, a small one is one
+/// standard deviation.
 pub(super) fn is_expanded_uncertainty(name: &str) -> bool {
-    EXPANDED.contains(&telling(name).concat().as_str())
+    name.trim() == "U" || EXPANDED.contains(&telling(name).concat().as_str())
+}
+
+/// Whether a name means a running time: its unit stands elsewhere.
+pub(super) fn is_time(name: &str) -> bool {
+    TIMES.contains(&telling(name).concat().as_str())
+}
+
+/// Hours of a unit of time.
+pub(super) fn hours_of_unit(unit: &str) -> Option<f64> {
+    let unit = folded(unit);
+    let found = HOURS.iter().find(|(known, _)| *known == unit);
+    found.map(|(_, hours)| *hours)
+}
+
+/// Whose speed of rotation in revolutions per minute a name and its unit mean, `None` inside if they do not say; none if they mean none.
+pub(super) fn speed(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
+    let (of, mut rest): (Vec<String>, Vec<String>) = words(name)
+        .into_iter()
+        .partition(|word| member(word).is_some());
+    let count = rest.len();
+    rest.retain(|word| !is_per_minute(word) && (word == "n" || !is_filler(word)));
+    let has_unit = match unit {
+        Some(unit) => is_per_minute(unit),
+        None => count > rest.len() && rest.len() < 2,
+    };
+    let rest = rest.concat();
+    let is_named = SPEEDS.contains(&rest.as_str());
+    let is_it = match unit {
+        Some(_) => has_unit && (is_named || rest == "n" || rest.is_empty()),
+        None => is_named || has_unit && (rest == "n" || rest.is_empty()),
+    };
+    is_it.then(|| one_member(&of.join(" ")))
+}
+
+/// Whether a unit is that of revolutions per minute.
+pub(super) fn is_per_minute(unit: &str) -> bool {
+    let unit: String = unit.to_lowercase().split_whitespace().collect();
+    PER_MINUTE.contains(&unit.as_str())
+}
+
+/// Whether a name means the flank of a tooth.
+pub(super) fn is_flank(name: &str) -> bool {
+    FLANKS.contains(&telling(name).concat().as_str())
+}
+
+/// Whether a word stands for a multiple of a count, such as `Mio`.
+pub(super) fn is_multiple(word: &str) -> bool {
+    MULTIPLES.contains(&folded(word).as_str())
+}
+
+/// Whether a text says that what it counts is to be multiplied by a power of ten: `cycles x 1e6`, `Lastspiele [10^6]`.
+pub(super) fn is_times_a_power(text: &str) -> bool {
+    let text: String = text.to_lowercase().split_whitespace().collect();
+    let says = |power: &str| {
+        AROUND_POWER.iter().any(|(before, behind)| {
+            let word = format!("{before}{power}{behind}");
+            let ends =
+                |at: usize| !text[at + word.len()..].starts_with(|c: char| c.is_ascii_digit());
+            text.match_indices(&word).any(|(at, _)| ends(at))
+        })
+    };
+    POWERS.iter().any(|power| says(power))
+}
+
+/// Whether a word says nothing in a name.
+pub(super) fn is_filler(word: &str) -> bool {
+    FILLERS.contains(&folded(word).as_str())
+}
+
+/// Whether a name means a mass, and says nothing of a loss.
+pub(super) fn is_mass(name: &str) -> bool {
+    MASSES.contains(&telling(name).concat().as_str())
 }
 
 /// Whether a name means the deviation from the new profile.
@@ -149,12 +223,23 @@ pub(super) fn is_deviation(name: &str) -> bool {
 }
 
 /// Which weighing of a part a name means.
-pub(super) fn weighed(name: &str) -> Option<Weighed> {
+pub(super) fn weighed(name: &str) -> Option<When> {
+    // a loss is no weighing
+    named_when(name, &MASSES)
+}
+
+/// Of which of two measurements a name means the deviation from the new profile.
+pub(super) fn profiled(name: &str) -> Option<When> {
+    named_when(name, &DEVIATIONS)
+}
+
+/// When what a name means was measured, if it is one of `known`.
+fn named_when(name: &str, known: &[&str]) -> Option<When> {
     let words = words(name);
     let any = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
     let when = match (any(&BEFORE), any(&AFTER)) {
-        (true, false) => Weighed::Before,
-        (false, true) => Weighed::After,
+        (true, false) => When::Before,
+        (false, true) => When::After,
         _ => return None,
     };
     let is_time = |word: &str| BEFORE.contains(&word) || AFTER.contains(&word);
@@ -163,10 +248,8 @@ pub(super) fn weighed(name: &str) -> Option<Weighed> {
         .map(String::as_str)
         .filter(|word| !is_time(word))
         .collect();
-    let rest = telling(&rest.join(" "));
-    // a loss is no weighing
-    let [mass] = &rest[..] else { return None };
-    MASSES.contains(&mass.as_str()).then_some(when)
+    let rest = telling(&rest.join(" ")).concat();
+    known.contains(&rest.as_str()).then_some(when)
 }
 
 /// The quantity that a name means, and whether its unit may say otherwise.

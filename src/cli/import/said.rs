@@ -174,7 +174,14 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
 }
 
 /// A table that is read as the one before it.
-pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
+///
+/// Of the rows above its header those are named that `first` does not have.
+pub(super) fn like_the_first(
+    table: &str,
+    entries: &[Entry],
+    own: &Titles,
+    first: &Titles,
+) -> String {
     let of = |name: fn(&Entry) -> &str| {
         let names: BTreeSet<&str> = entries.iter().map(name).collect();
         names.into_iter().collect::<Vec<_>>().join(", ")
@@ -184,8 +191,13 @@ pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
     times.dedup();
     let times: Vec<String> = times.iter().map(f64::to_string).collect();
     let mut text = String::new();
+    let teeth = of(|entry| &entry.tooth);
+    let teeth = match teeth.as_str() {
+        "" => String::new(),
+        teeth => format!(", tooth {teeth}"),
+    };
     let words = format!(
-        "{table}, read alike: {}, {} of {} in {} after {}",
+        "{table}, read alike: {}, {} of {} in {} after {}{teeth}",
         match entries.len() {
             1 => "1 row".to_owned(),
             n => format!("{n} rows"),
@@ -196,6 +208,17 @@ pub(super) fn like_the_first(table: &str, entries: &[Entry]) -> String {
         times.join(", "),
     );
     line(&mut text, "table", &words);
+    let new = own
+        .passed_over
+        .iter()
+        .filter(|row| !first.passed_over.contains(row));
+    titles(
+        &mut text,
+        &Titles {
+            passed_over: new.cloned().collect(),
+            ..Titles::default()
+        },
+    );
     text
 }
 

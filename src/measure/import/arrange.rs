@@ -1,10 +1,14 @@
 //! Long tables as people lay them out, as tables with a column for everything: what stands above the header (`Run: A`) as columns
 //! below it, both members' columns side by side one member after the other, columns named after members alone as what the user states, a
-//! mass before and one after as a loss. Cells keep their places, so messages name them as they stand in the table.
+//! mass before and one after as a loss, a deviation before and one after as a depth. Cells keep their places, so messages name them as they stand in the table.
 
 mod alone;
+mod intervals;
 mod labels;
+mod pairs;
+mod profiles;
 mod sides;
+mod speeds;
 mod weighings;
 
 use std::collections::BTreeSet;
@@ -12,7 +16,7 @@ use std::collections::BTreeSet;
 use super::columns::{Column, What, columns};
 use super::{ImportError, Sheet, Wanted};
 
-pub(super) use labels::stated_above;
+pub(super) use labels::{flank_above, stated_above};
 
 /// A table with a column for everything, or one for each member.
 #[derive(Debug)]
@@ -23,6 +27,8 @@ pub(super) struct Arranged {
     pub(super) sheets: Vec<Sheet>,
     /// What was made of the table, in words.
     pub(super) said: Vec<String>,
+    /// Whether the values are what deviations lost, whatever the sign of these.
+    pub(super) differences: bool,
 }
 
 /// The table so arranged; none if it is no long table.
@@ -74,10 +80,13 @@ fn completed(
     if sheets.len() > 1 {
         said.push("the columns of the pinion and of the gear side by side".to_owned());
     }
+    let mut differences = false;
     for table in &mut sheets {
-        if weighings::could_be(&columns(&table.rows[head])) {
-            weighings::as_losses(table, head, wanted.decimal, &mut said)?;
+        let header = columns(&table.rows[head]);
+        if weighings::could_be(&header) {
+            weighings::as_losses(table, head, &header, wanted, &mut said)?;
         }
+        differences |= profiles::as_depths(table, head, &header, wanted, &mut said)?;
     }
     if sheets.len() > 1 && !sheets.iter().all(|own| sides::is_table(own, whole, head)) {
         return Ok(None);
@@ -90,7 +99,12 @@ fn completed(
     }
     let mut met = BTreeSet::new();
     said.retain(|words| met.insert(words.clone()));
-    Ok(Some(Arranged { head, sheets, said }))
+    Ok(Some(Arranged {
+        head,
+        sheets,
+        said,
+        differences,
+    }))
 }
 
 fn has(columns: &[Column], name: &str) -> bool {

@@ -12,6 +12,8 @@ pub struct Sheet {
     pub name: String,
     /// Its rows from the first on, empty cells as empty texts.
     pub rows: Vec<Vec<String>>,
+    /// The first cell with a formula of which the file holds no result.
+    pub without_result: Option<String>,
     /// Whether `1.234` can only be one and a bit: numbers of a spreadsheet, and texts with commas between columns.
     pub plain_decimals: bool,
 }
@@ -88,6 +90,7 @@ fn of_text(text: &str) -> Sheet {
     Sheet {
         name: String::new(),
         rows: rows.collect(),
+        without_result: None,
         plain_decimals: separator == b',',
     }
 }

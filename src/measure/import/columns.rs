@@ -1,9 +1,9 @@
 //! The header of a long table: which column is what.
 
-use super::coverage::coverage;
+use super::coverage::{coverage, without_level};
 use super::wanted::Wanted;
 use super::{Sheet, cell_name, units};
-use crate::measure::names::Weighed;
+use crate::measure::names::When;
 use crate::measure::{Quantity, Subject, names};
 
 /// What a column is.
@@ -14,7 +14,16 @@ pub(super) enum What {
     /// Values of a quantity.
     Values(Quantity),
     /// Masses of one of two weighings.
-    Weighing(Weighed),
+    Weighing(When),
+    /// Deviations from the new profile, of one of two measurements.
+    Profile(When),
+    /// The speed of rotation in revolutions per minute, of the gear if so.
+    Speed {
+        /// Whether it is the gear's.
+        of_gear: bool,
+    },
+    /// The flank of the tooth.
+    Flank,
     /// An expanded uncertainty of which nothing says how many standard deviations it is.
     Expanded,
     /// For people.
@@ -64,10 +73,16 @@ impl Column {
     pub(super) fn of(at: usize, written: &str) -> Self {
         let stated = coverage(written).filter(|(_, rest)| {
             let (name, _) = units::name_and_unit(rest);
-            names::column(&name) == Some("sigma") || names::is_expanded_uncertainty(&name)
+            is_uncertainty(&name)
         });
         let (coverage, plain) = stated.unzip();
-        let (name, unit) = units::name_and_unit(plain.as_deref().unwrap_or(written));
+        let plain = plain.unwrap_or_else(|| written.to_owned());
+        let without_level = without_level(&plain).filter(|rest| {
+            let (name, _) = units::name_and_unit(rest);
+            is_uncertainty(&name)
+        });
+        let at_a_level = without_level.is_some();
+        let (name, unit) = units::name_and_unit(&without_level.unwrap_or(plain));
         let revolutions = names::revolutions(&name);
         let hours = names::hours(&name, unit.as_deref());
         let what = if written.is_empty() {
@@ -78,7 +93,15 @@ impl Column {
             What::Own("cycles")
         } else if let Some(when) = names::weighed(&name) {
             What::Weighing(when)
-        } else if names::is_expanded_uncertainty(&name) {
+        } else if let Some(when) = names::profiled(&name) {
+            What::Profile(when)
+        } else if let Some(whose) = names::speed(&name, unit.as_deref()) {
+            What::Speed {
+                of_gear: whose == Some(Subject::Gear),
+            }
+        } else if names::is_flank(&name) {
+            What::Flank
+        } else if at_a_level || names::is_expanded_uncertainty(&name) {
             coverage.map_or(What::Expanded, |_| What::Own("sigma"))
         } else {
             match (names::column(&name), names::quantity(&name)) {
@@ -107,6 +130,11 @@ impl Column {
         }
     }
 
+    /// Its name without its unit.
+    pub(super) fn name(&self) -> String {
+        units::name_and_unit(&self.written).0
+    }
+
     fn is(&self, name: &str) -> bool {
         self.what.own() == Some(name)
     }
@@ -115,6 +143,11 @@ impl Column {
     pub(super) fn cell(&self, head: usize) -> String {
         format!("{}: `{}`", cell_name(head, self.at), self.written)
     }
+}
+
+/// Whether a name means one standard deviation or several.
+fn is_uncertainty(name: &str) -> bool {
+    names::column(name) == Some("sigma") || names::is_expanded_uncertainty(name)
 }
 
 /// `loss [um]` is a depth, `wear [mg]` a mass.
@@ -135,11 +168,12 @@ pub(super) fn columns(row: &[String]) -> Vec<Column> {
         .map_or(0, |at| at + 1);
     let cells = row[..named].iter().enumerate();
     let mut columns: Vec<Column> = cells.map(|(at, cell)| Column::of(at, cell)).collect();
-    // a deviation is a depth where nothing else is
-    if !has(&columns, "value") {
+    // a deviation is a depth where nothing else is, and no other one is to be taken from it
+    let is_before = |column: &Column| column.what == What::Profile(When::Before);
+    if !has(&columns, "value") && !columns.iter().any(is_before) {
         let deviates = |column: &&mut Column| {
             let (name, _) = units::name_and_unit(&column.written);
-            column.what == What::Unknown && names::is_deviation(&name)
+            matches!(column.what, What::Unknown | What::Profile(_)) && names::is_deviation(&name)
         };
         for column in columns.iter_mut().filter(deviates) {
             column.what = What::Values(Quantity::WearDepth);

@@ -27,9 +27,48 @@ pub(super) fn coverage(header: &str) -> Option<(f64, String)> {
     Some((k, format!("{before} {after}").trim().to_owned()))
 }
 
+/// A header without the level of confidence that it states, in percent: `U (95 %) [um]` is `U [um]`; none if it states none.
+pub(super) fn without_level(header: &str) -> Option<String> {
+    let percent = header.find('%')?;
+    let before = header[..percent].trim_end();
+    let is_digit = |c: char| c.is_ascii_digit() || ['.', ','].contains(&c);
+    let number = before.trim_end_matches(is_digit);
+    if number.len() == before.len() {
+        return None;
+    }
+    let (before, after) = (number.trim_end(), &header[percent + 1..]);
+    let (before, after) = match (
+        before.strip_suffix(['(', '[']),
+        after.trim_start().strip_prefix([')', ']']),
+    ) {
+        (Some(before), Some(after)) => (before, after),
+        _ => (before, after),
+    };
+    Some(
+        format!("{} {}", before.trim(), after.trim())
+            .trim()
+            .to_owned(),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_level_of_confidence_is_found() {
+        for (header, rest) in [
+            ("U (95%) [um]", "U [um]"),
+            ("U [um] (95 %)", "U [um]"),
+            ("uncertainty 95 % [um]", "uncertainty [um]"),
+            ("u (99.7 %)", "u"),
+        ] {
+            assert_eq!(without_level(header).as_deref(), Some(rest), "{header}");
+        }
+        for header in ["sigma [%]", "U [um]", "share %"] {
+            assert_eq!(without_level(header), None, "{header}");
+        }
+    }
 
     #[test]
     fn a_factor_is_found_wherever_it_stands() {

@@ -41,12 +41,16 @@ impl Entry {
             Quantity::WearDepth => String::new(),
             other => format!("{}-", other.name()),
         };
+        let tooth = match self.tooth.as_str() {
+            "" => String::new(),
+            tooth => format!("-tooth{tooth}"),
+        };
         let place = match wanted.face {
             Some(face) if self.quantity.is_at_a_place_across_the_face() => format!("-face{face}"),
             _ => String::new(),
         };
         format!(
-            "{}-{}-{what}{}{place}",
+            "{}-{}-{what}{}{tooth}{place}",
             self.test,
             self.member.name(),
             self.cycles

@@ -1,5 +1,7 @@
 //! Long tables: a row for each value, with columns that say of which test, member, time and place it is.
 
+mod checkpoints;
+mod flanks;
 mod line;
 mod traces;
 
@@ -11,7 +13,7 @@ use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{ImportError, Sheet, cell_name, decimal_commas, units};
-use crate::measure::{Place, Quantity};
+use crate::measure::{Place, Quantity, names};
 use line::Line;
 
 /// What was understood of a long table, and its rows.
@@ -29,6 +31,8 @@ pub struct Long {
     pub titles: Titles,
     /// Whether the signs of losses are turned.
     pub turned: bool,
+    /// The flank on which the values were measured, if the table says it.
+    pub flank: Option<String>,
     /// Where the names of traces come from.
     pub traces: &'static str,
     /// Rows without a value.
@@ -61,7 +65,18 @@ struct Read<'t> {
 /// # Errors
 /// [`ImportError`] where a column is missing or stands twice, or a cell says nothing that can be read.
 pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
-    let Some(Arranged { head, sheets, said }) = arranged(sheet, wanted)? else {
+    if let Some(cell) = &sheet.without_result {
+        return Err(ImportError(format!(
+            "{cell}: a formula without a stored result: open the table in the spreadsheet program and save it, then its results stand in the file"
+        )));
+    }
+    let Some(Arranged {
+        head,
+        sheets,
+        said,
+        differences,
+    }) = arranged(sheet, wanted)?
+    else {
         return Ok(None);
     };
     if wanted.across.is_some() {
@@ -73,17 +88,17 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     decimal_commas::refuse(sheet, head)?;
     let tables: Vec<Long> = sheets
         .iter()
-        .map(|sheet| of_columns(sheet, head, wanted))
+        .map(|sheet| of_columns(sheet, head, differences, wanted))
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
-        arranged: said,
+        arranged: [said, long.arranged].concat(),
         ..long
     }))
 }
 
 /// The mapping of a table with a column for everything.
-fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
+fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>) -> Result<Long> {
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
     let columns = columns;
@@ -97,7 +112,9 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
         (None, what) => Some(single_quantity(&read, what, wanted)?),
     };
     let titles = Titles::of(sheet, head, single.unwrap_or(Quantity::WearDepth))?;
-    let turned = titles.turns_sign(wanted.turn_sign)?;
+    // what a deviation lost is positive whatever is said of the deviation's own sign, which has to be that of more material
+    let stated = wanted.turn_sign || differences;
+    let turned = titles.turns_sign(stated)? && !differences;
     read.nothing_missing(&columns, sheet, single, wanted)?;
     let mut empty = 0;
     let mut entries = Vec::new();
@@ -123,6 +140,8 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
             head + 1
         )));
     }
+    let arranged = checkpoints::join(&mut entries);
+    let flank = flanks::only(sheet, head, &columns, &entries)?;
     let traces = traces::name(&mut entries, &read, wanted)?;
     if let (Some(column), Some(_)) = (read.face, wanted.face) {
         return Err(ImportError(format!(
@@ -136,11 +155,12 @@ fn of_columns(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> Result<Long> {
     }
     Ok(Long {
         row: head + 1,
-        arranged: Vec::new(),
+        arranged,
         columns: read.in_words(&columns, single, &titles, wanted)?,
         passed_over: passed_over(sheet, head, &columns, read.value),
         titles,
         turned,
+        flank,
         traces,
         empty,
         has_sigma: read.sigma.is_some(),
@@ -159,6 +179,7 @@ impl Long {
         }
         self.passed_over
             .retain(|column| other.passed_over.contains(column));
+        self.arranged.extend(other.arranged);
         self.empty += other.empty;
         self.has_sigma |= other.has_sigma;
         self.entries.extend(other.entries);
@@ -314,6 +335,12 @@ fn single_quantity(read: &Read<'_>, what: What, wanted: &Wanted<'_>) -> Result<Q
             named.name(),
             stated.name()
         ))),
+        (What::Values(Quantity::MassLoss), None) if names::is_mass(&read.value.name()) => {
+            Err(ImportError(format!(
+                "{column} may be the mass that is left: say --quantity mass_loss if it is what was lost since the start of the test, or call it `mass \
+                 loss [mg]`; two weighings are understood as well, in columns `mass before [g]` and `mass after [g]`"
+            )))
+        }
         (What::Values(quantity), _) | (_, Some(quantity)) => Ok(quantity),
         (_, None) => {
             let unit = read.value.unit.as_deref().or(wanted.unit);
@@ -337,12 +364,18 @@ fn passed_over(
     columns: &[Column],
     value: &Column,
 ) -> Vec<(String, &'static str)> {
+    let uses_speeds = columns
+        .iter()
+        .any(|column| column.what.own() == Some("cycles") && column.hours.is_some());
     let mut passed_over: Vec<(String, &'static str)> = (columns.iter())
         .filter_map(|column| {
             let why = match column.what {
                 What::ForPeople => "for people",
                 What::Unknown => "not known",
                 What::Weighing(_) => "a weighing",
+                What::Profile(_) => "another profile",
+                What::Flank => "one flank of each member stands in it, taken for the loaded one",
+                What::Speed { .. } if !uses_speeds => "a speed, which is the study's",
                 What::Expanded => {
                     "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
                 }

@@ -2,7 +2,7 @@
 //! checkpoint or place.
 //!
 //! ```text
-//! .xlsx or text -> sheets of cells (cells) -> a row for each value (arrange, long, columns), or a column for each checkpoint or place (wide, whole, tests_in_headers)
+//! .xlsx or text -> sheets of cells (cells) -> a row for each value (arrange, long, columns), or a column for each checkpoint or place (wide, whole, tests_in_headers, counts)
 //!               -> entries (entry) -> measurements.csv
 //! ```
 
@@ -10,6 +10,7 @@ mod append;
 mod arrange;
 mod cells;
 mod columns;
+mod counts;
 mod coverage;
 mod decimal_commas;
 mod entry;

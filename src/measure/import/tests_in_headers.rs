@@ -13,10 +13,11 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
-    let (test, member) = stated_above(sheet, wanted)?;
+    let above = stated_above(sheet, wanted)?;
     let wanted = &Wanted {
-        test: wanted.test.or(test),
-        member: wanted.member.or(member),
+        test: wanted.test.or(above.test),
+        member: wanted.member.or(above.member),
+        tooth: above.tooth,
         ..wanted.clone()
     };
     let Some((head, columns)) = tests_of_columns(sheet, wanted)? else {

@@ -71,7 +71,9 @@ pub(super) fn of_values(header: &str, quantity: Quantity) -> Option<&'static str
     // `in` is a word of English too
     let words = header.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
     let words = words.map(plain).filter(|word| word != "in");
-    let mut stated = bracketed(header).map(plain).into_iter().chain(words);
+    let stated = bracketed(header).map(plain).into_iter().chain(words);
+    // nor is a torque a length
+    let mut stated = stated.filter(|word| word != "Nm");
     stated.find_map(|word| {
         known
             .clone()

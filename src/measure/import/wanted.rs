@@ -22,6 +22,8 @@ pub struct Wanted<'a> {
     pub member: Option<Subject>,
     /// What was measured; the table says it otherwise.
     pub quantity: Option<Quantity>,
+    /// Label of the tooth; what a column says otherwise.
+    pub tooth: Option<String>,
     /// After how many pinion revolutions a curve was measured; the table says it otherwise.
     pub cycles: Option<f64>,
     /// How places are told; the header says it otherwise.
@@ -84,18 +86,34 @@ impl Wanted<'_> {
         })
     }
 
-    /// Revolutions of the pinion while the gear makes so many.
-    pub(super) fn pinion_revolutions(&self, of_gear: f64) -> f64 {
+    /// Revolutions of the pinion while the gear makes so many in a test: the end of the test if they are it to within the rounding of a
+    /// revolution of the gear.
+    pub(super) fn pinion_revolutions(&self, test: &str, of_gear: f64) -> f64 {
+        let ratio = self.ratio();
+        let revolutions = rounded(of_gear * ratio);
+        match self.run(test) {
+            Some([_, end]) if (revolutions - end).abs() <= 0.5 * ratio => end,
+            _ => revolutions,
+        }
+    }
+
+    /// Revolutions of the pinion in one of the gear.
+    pub(super) fn ratio(&self) -> f64 {
         let [pinion, gear] = self.gears.map(|gear| f64::from(gear.spec.teeth));
-        rounded(of_gear * gear / pinion)
+        gear / pinion
+    }
+
+    /// Speed of the pinion, rpm, and cycles of a test.
+    pub(super) fn run(&self, test: &str) -> Option<[f64; 2]> {
+        let n = self.tests.iter().position(|id| *id == test)?;
+        Some(self.runs[n])
     }
 
     /// Revolutions of the pinion in so many hours of a test, known to within `rounding` hours: the end of the test if that is within.
     pub(super) fn revolutions_in(&self, test: &str, hours: f64, rounding: f64) -> f64 {
-        let Some(n) = self.tests.iter().position(|id| *id == test) else {
+        let Some([rpm, end]) = self.run(test) else {
             return hours;
         };
-        let [rpm, end] = self.runs[n];
         let revolutions = 60.0 * rpm * hours;
         if (revolutions - end).abs() <= 60.0 * rpm * rounding {
             end
@@ -250,7 +268,10 @@ fn may_mean(id: &str, other: &str) -> bool {
 
 /// Where an id stands in a text as a word of its own.
 fn places(id: &str, text: &str) -> impl Iterator<Item = usize> {
-    let outside = |c: Option<char>| c.is_none_or(|c| !c.is_alphanumeric());
+    // `20 °C` names no test C
+    let outside = |c: Option<char>| {
+        c.is_none_or(|c| !c.is_alphanumeric() && !['\u{b0}', '\u{ba}'].contains(&c))
+    };
     let found = text
         .match_indices(id)
         .map(|(at, found)| (at, at + found.len()));

@@ -5,10 +5,10 @@ use super::numbers::{number, plain_cycles, with_points, without_thousands};
 use super::titles::Titles;
 use super::wanted::Wanted;
 use super::wide::{
-    Across, Wide, across_numbers, counts_gear_revolutions, down_numbers, header, in_order,
-    leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
+    Across, Wide, across_numbers, checkpoint, counts_gear_revolutions, down_numbers, header,
+    in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
-use super::{ImportError, Sheet, cell_name, decimal_commas, units};
+use super::{ImportError, Sheet, cell_name, counts, decimal_commas, units};
 use crate::measure::{Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -61,6 +61,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         .map(String::as_str)
         .filter(|h| !h.is_empty())
         .collect();
+    counts::refuse_others_above(sheet, head)?;
     let titles = Titles::of(sheet, head, quantity)?;
     let all: Vec<&str> = headers.iter().copied().chain([corner]).collect();
     let unit = wanted.unit_of_values(quantity, unit_of(&all, quantity)?, titles.unit.as_deref())?;
@@ -88,7 +89,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
                 test: test.0.clone(),
                 member,
                 cycles: if of_gear {
-                    wanted.pinion_revolutions(cycles)
+                    wanted.pinion_revolutions(&test.0, cycles)
                 } else {
                     cycles
                 },
@@ -118,6 +119,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         unit,
         titles,
         turned,
+        flank: None,
         passed_over,
         empty,
         entries,
@@ -153,7 +155,7 @@ fn members_in_rows(
     let cycles = across_numbers(sheet, head)?;
     refuse_twice_in_a_line(&cycles, |column| cell_name(head, column))?;
     for &(column, _) in &cycles {
-        plain_cycles(&sheet.rows[head][column], head, column)?;
+        checkpoint(&sheet.rows[head][column], quantity, head, column)?;
     }
     let filled =
         (head + 1..sheet.rows.len()).filter(|&row| !sheet.rows[row].iter().all(String::is_empty));

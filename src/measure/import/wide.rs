@@ -1,6 +1,6 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
-use super::columns;
+use super::arrange::flank_above;
 use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
@@ -10,6 +10,7 @@ use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{ImportError, Sheet, cell_name, decimal_commas, units};
+use super::{columns, counts};
 use crate::gear::Gear;
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -47,6 +48,8 @@ pub struct Wide {
     pub titles: Titles,
     /// Whether the signs are turned.
     pub turned: bool,
+    /// The flank that a row above the header says.
+    pub flank: Option<String>,
     /// Headers of the columns that are passed over.
     pub passed_over: Vec<String>,
     /// Cells without a value.
@@ -98,11 +101,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
     match orientation {
         Across::Checkpoints => (across.iter())
-            .try_for_each(|&(column, _)| plain_cycles(cell(head, column), head, column))?,
+            .try_for_each(|&(column, _)| checkpoint(cell(head, column), quantity, head, column))?,
         Across::Positions => {
             (down.iter()).try_for_each(|&(row, _)| plain_cycles(cell(row, 0), row, 0))?
         }
     }
+    counts::refuse_others_above(sheet, head)?;
     // beside positions the headers' unit is that of the positions
     let headers: Vec<&str> = across
         .iter()
@@ -122,7 +126,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let factor = units::factor(&unit.0, quantity)?;
     let factor = if turned { -factor } else { factor };
     let revolutions = |cycles: f64| match of_gear {
-        true => wanted.pinion_revolutions(cycles),
+        true => wanted.pinion_revolutions(&test.0, cycles),
         false => cycles,
     };
     let mut entries = Vec::new();
@@ -149,7 +153,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
                 sigma: None,
                 trace: String::new(),
                 face: String::new(),
-                tooth: String::new(),
+                tooth: wanted.tooth.clone().unwrap_or_default(),
                 cell: (row, column),
             });
         }
@@ -173,6 +177,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         unit,
         titles,
         turned,
+        flank: flank_above(sheet, head)?,
         passed_over,
         empty,
         entries,
@@ -218,6 +223,15 @@ pub(super) fn across_numbers(sheet: &Sheet, head: usize) -> Result<Vec<(usize, f
         .filter(|(_, text)| !text.is_empty())
         .map(|(column, text)| Ok((column, header_number(text, head, column)?)))
         .collect()
+}
+
+/// Refuses the header of a checkpoint that is not a plain number of revolutions.
+pub(super) fn checkpoint(text: &str, quantity: Quantity, row: usize, column: usize) -> Result<()> {
+    plain_cycles(text, row, column)?;
+    match number_words(text)[..] {
+        [number] => counts::refuse_others(text, number, Some(quantity), row, column),
+        _ => Ok(()),
+    }
 }
 
 /// The rows with the number in the first cell of each.

@@ -46,9 +46,11 @@ pub(super) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>> {
             None => format!("xl/{target}"),
         };
         let text = archive.text(&path)?;
+        let cells = parsed(&text)?;
         Ok(Sheet {
             name: sheet.attribute("name").unwrap_or_default().to_owned(),
-            rows: rows(&parsed(&text)?, &shared)?,
+            rows: rows(&cells, &shared)?,
+            without_result: without_result(&cells),
             plain_decimals: true,
         })
     });
@@ -103,6 +105,22 @@ fn rows(sheet: &Document<'_>, shared: &[String]) -> Result<Vec<Vec<String>>> {
         rows[at] = cells;
     }
     Ok(rows)
+}
+
+/// The first cell with a formula whose result is not stored: programs that write workbooks without computing them leave it out. An empty
+/// text is a result.
+fn without_result(sheet: &Document<'_>) -> Option<String> {
+    let child = |cell: &Node<'_, '_>, name: &str| {
+        let found = cell.children().find(|n| n.tag_name().name() == name);
+        found.map(|n| n.text().unwrap_or_default().trim().to_owned())
+    };
+    let lacks_result = |cell: &Node<'_, '_>| {
+        cell.attribute("t") != Some("str")
+            && child(cell, "f").is_some()
+            && child(cell, "v").is_none_or(|result| result.is_empty())
+    };
+    let found = elements(sheet.root(), "c").find(lacks_result)?;
+    Some(found.attribute("r").unwrap_or("a cell").to_owned())
 }
 
 fn value(cell: Node<'_, '_>, shared: &[String]) -> Result<String> {
@@ -212,6 +230,25 @@ mod tests {
             [Some(0), Some(25), Some(27), Some(16_383)]
         );
         assert_eq!([column("12"), column("AAAA1"), column("")], [None; 3]);
+    }
+
+    #[test]
+    fn formulas_without_a_stored_result_are_found() {
+        let found = |cells: &str| {
+            let text =
+                format!("<worksheet><sheetData><row r='2'>{cells}</row></sheetData></worksheet>");
+            without_result(&parsed(&text).unwrap())
+        };
+        for none in ["<c r='C2'><f>B2*2</f><v/></c>", "<c r='C2'><f>B2*2</f></c>"] {
+            assert_eq!(found(none).as_deref(), Some("C2"), "{none}");
+        }
+        for stored in [
+            "<c r='C2'><f>B2*2</f><v>4</v></c>",
+            "<c r='C2' t='str'><f>\"\"</f><v/></c>",
+            "<c r='C2'><v>4</v></c>",
+        ] {
+            assert_eq!(found(stored), None, "{stored}");
+        }
     }
 
     #[test]

@@ -151,25 +151,105 @@ pub(super) const CYCLES: &[&str] = &[
 ];
 
 /// Names of running times.
-pub(super) const TIMES: [&str; 14] = [
+pub(super) const TIMES: [&str; 19] = [
     "time",
     "runningtime",
     "runtime",
     "testtime",
+    "operatingtime",
     "hours",
     "zeit",
     "laufzeit",
     "betriebszeit",
     "versuchszeit",
     "tempo",
+    "tempofunzionamento",
     "temps",
+    "tempsmarche",
+    "tempsfonctionnement",
     "duree",
     "tiempo",
+    "tiempofuncionamiento",
     "duracion",
 ];
 
+/// Names of speeds of rotation.
+pub(super) const SPEEDS: [&str; 11] = [
+    "speed",
+    "rotationalspeed",
+    "inputspeed",
+    "testspeed",
+    "drehzahl",
+    "antriebsdrehzahl",
+    "velocita",
+    "velocitarotazione",
+    "vitesse",
+    "vitesserotation",
+    "velocidad",
+];
+
+/// Units of speeds of rotation: revolutions per minute.
+pub(super) const PER_MINUTE: [&str; 9] = [
+    "rpm", "1/min", "/min", "min-1", "min^-1", "u/min", "r/min", "tr/min", "giri/min",
+];
+
+/// Names of one of the two flanks of a tooth, or of what it looks to.
+pub(super) const FLANKS: [&str; 9] = [
+    "flank",
+    "flankside",
+    "toothflank",
+    "flanke",
+    "zahnflanke",
+    "fianco",
+    "flanc",
+    "flanco",
+    "lato",
+];
+
+/// Multiples of counts.
+pub(super) const MULTIPLES: [&str; 17] = [
+    "million",
+    "millions",
+    "mio",
+    "mill",
+    "millionen",
+    "milioni",
+    "milione",
+    "millones",
+    "thousand",
+    "thousands",
+    "tausend",
+    "tsd",
+    "migliaia",
+    "mila",
+    "milliers",
+    "mille",
+    "miles",
+];
+
+/// Powers of ten behind counts, as people write them, without blanks.
+pub(super) const POWERS: [&str; 7] = [
+    "1e3",
+    "1e6",
+    "10^3",
+    "10^6",
+    "10\u{b3}",
+    "10\u{2076}",
+    "1000",
+];
+
+/// What stands before and behind a power of ten that multiplies.
+pub(super) const AROUND_POWER: [(&str, &str); 6] = [
+    ("x", ""),
+    ("\u{d7}", ""),
+    ("*", ""),
+    ("in", ""),
+    ("[", "]"),
+    ("(", ")"),
+];
+
 /// Hours of each unit of time.
-pub(super) const HOURS: [(&str, f64); 16] = [
+pub(super) const HOURS: [(&str, f64); 24] = [
     ("h", 1.0),
     ("hr", 1.0),
     ("hrs", 1.0),
@@ -185,7 +265,15 @@ pub(super) const HOURS: [(&str, f64); 16] = [
     ("s", 1.0 / 3600.0),
     ("sec", 1.0 / 3600.0),
     ("d", 24.0),
+    ("day", 24.0),
     ("days", 24.0),
+    ("tage", 24.0),
+    ("wk", 168.0),
+    ("week", 168.0),
+    ("weeks", 168.0),
+    ("runninghours", 1.0),
+    ("operatinghours", 1.0),
+    ("betriebsstunden", 1.0),
 ];
 
 /// Names of columns for people.
@@ -327,7 +415,7 @@ pub(super) const DEVIATIONS: [&str; 8] = [
     "dev",
 ];
 
-/// Names of the mass of a part.
+/// Names of the mass of a part: with `loss` they are no longer it.
 pub(super) const MASSES: [&str; 10] = [
     "mass", "weight", "masse", "gewicht", "massa", "peso", "poids", "masa", "massen", "weighing",
 ];

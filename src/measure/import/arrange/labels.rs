@@ -1,15 +1,15 @@
 //! What the rows above a header say of the whole table: `Run: A`, `Part | pinion`, `Revolutions of the pinion: 140000`.
 
-use super::{has, is_curve, put_column};
+use super::{has, is_curve, put_column, speeds};
 use crate::measure::import::columns::{Column, columns};
 use crate::measure::import::numbers::{header_number, number_words, plain_count};
-use crate::measure::import::{ImportError, Sheet, Wanted, cell_name};
+use crate::measure::import::{ImportError, Sheet, Wanted, cell_name, counts, units};
 use crate::measure::{Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
-/// What may be said of a whole table.
-const KEYS: [&str; 3] = ["test", "member", "cycles"];
+/// What may be said of a whole table; `time` is a running time in place of cycles.
+const KEYS: [&str; 5] = ["test", "member", "cycles", "time", "tooth"];
 
 /// One thing that a row says of the table.
 struct Label {
@@ -35,17 +35,28 @@ pub(super) fn as_columns(
     if !has(&header, "value") || !(has_cycles || may_lack_cycles) {
         return Ok(());
     }
-    let labels = labels(sheet, head, &KEYS, wanted)?;
+    let mut labels = labels(sheet, head, &KEYS, wanted)?;
+    let is_said = |key: &str| labels.iter().any(|label| label.key == key);
     if let Some(cycles) = wanted.cycles {
-        if has_cycles || labels.iter().any(|label| label.key == "cycles") {
+        if has_cycles || is_said("cycles") || is_said("time") {
             return Err(says_cycles());
         }
         put_column(sheet, head, "cycles", &cycles.to_string());
     }
+    let counts_cycles = has_cycles || wanted.cycles.is_some() || is_said("cycles");
+    if !counts_cycles && !is_said("time") {
+        refuse_unclear_time(sheet, head)?;
+    }
+    // beside cycles a running time says nothing more
+    labels.retain(|label| label.key != "time" || !counts_cycles);
+    let speeds: Vec<speeds::Stated> = (0..head).filter_map(|row| speed(sheet, row)).collect();
     for label in labels {
-        let own = header
-            .iter()
-            .find(|column| column.what.own() == Some(label.key));
+        let key = if label.key == "time" {
+            "cycles"
+        } else {
+            label.key
+        };
+        let own = header.iter().find(|column| column.what.own() == Some(key));
         match own {
             // a test may be said to last longer than until a checkpoint
             Some(_) if label.key == "cycles" => {}
@@ -64,6 +75,12 @@ pub(super) fn as_columns(
             }
         }
     }
+    speeds::agree(sheet, head, &speeds, wanted)?;
+    if speeds::are_needed(&columns(&sheet.rows[head])) {
+        for speed in speeds {
+            sheet.rows[speed.row].clear();
+        }
+    }
     Ok(())
 }
 
@@ -74,11 +91,19 @@ pub(super) fn says_cycles() -> ImportError {
     )
 }
 
-/// The test and the member that the rows above a wide table say, where nothing else does; refused where they contradict what is stated.
+/// What the rows above a wide table say of it.
+pub(in crate::measure::import) struct Above<'w> {
+    pub(in crate::measure::import) test: Option<&'w str>,
+    pub(in crate::measure::import) member: Option<Subject>,
+    pub(in crate::measure::import) tooth: Option<String>,
+}
+
+/// The test, the member and the tooth that the rows above a wide table say, where nothing else does; refused where they contradict what is
+/// stated.
 pub(in crate::measure::import) fn stated_above<'w>(
     sheet: &Sheet,
     wanted: &'w Wanted<'_>,
-) -> Result<(Option<&'w str>, Option<Subject>)> {
+) -> Result<Above<'w>> {
     if wanted.cycles.is_some() {
         return Err(says_cycles());
     }
@@ -88,11 +113,43 @@ pub(in crate::measure::import) fn stated_above<'w>(
     };
     let head = sheet.rows.iter().position(|cells| numbers(cells) > 1);
     // how long a whole test lasted may stand there too
-    let labels = labels(sheet, head.unwrap_or(0), &["test", "member"], wanted)?;
+    let keys = ["test", "member", "tooth"];
+    let labels = labels(sheet, head.unwrap_or(0), &keys, wanted)?;
     let of = |key: &str| labels.iter().find(|label| label.key == key);
     let test = of("test").and_then(|label| wanted.test_of(&label.text));
     let member = of("member").and_then(|label| names::member(&label.text));
-    Ok((test, member))
+    let tooth = of("tooth").map(|label| label.text.clone());
+    Ok(Above {
+        test,
+        member,
+        tooth,
+    })
+}
+
+/// The flank that a row above a header says.
+///
+/// # Errors
+/// [`ImportError`] where two rows say two.
+pub(in crate::measure::import) fn flank_above(
+    sheet: &Sheet,
+    head: usize,
+) -> Result<Option<String>> {
+    let said = (0..head).filter_map(|row| {
+        let (name, text) = name_and_text(&sheet.rows[row])?;
+        names::is_flank(&units::name_and_unit(&name).0).then_some((row, text))
+    });
+    let mut said = said.filter(|(_, text)| !text.is_empty());
+    let Some((row, flank)) = said.next() else {
+        return Ok(None);
+    };
+    match said.find(|(_, other)| names::folded(other) != names::folded(&flank)) {
+        Some((other_row, other)) => Err(ImportError(format!(
+            "row {} says flank {flank}, row {} {other}: take the wrong one out",
+            row + 1,
+            other_row + 1
+        ))),
+        None => Ok(Some(flank)),
+    }
 }
 
 /// All labels of some keys above a header, each key once.
@@ -144,25 +201,21 @@ fn labels(sheet: &Sheet, head: usize, keys: &[&str], wanted: &Wanted<'_>) -> Res
 
 /// What a row says of the table; none for other rows.
 fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Result<Option<Label>> {
-    let cells = &sheet.rows[row];
-    let filled: Vec<&str> = cells
-        .iter()
-        .map(|cell| cell.trim())
-        .filter(|cell| !cell.is_empty())
-        .collect();
-    let Some((first, rest)) = filled.split_first() else {
+    let Some((name, text)) = name_and_text(&sheet.rows[row]) else {
         return Ok(None);
     };
-    let (name, behind) = match first.split_once([':', '=']) {
-        Some((name, text)) => (name.trim(), text.trim()),
-        None => (*first, ""),
-    };
-    let parts: Vec<&str> = std::iter::once(behind)
-        .chain(rest.iter().copied())
-        .filter(|part| !part.is_empty())
-        .collect();
-    let text = parts.join(" ");
+    let name = name.as_str();
     let column = Column::of(0, name);
+    let is_time = column.hours.is_some() || names::is_time(&column.name());
+    if is_time && keys.contains(&"time") {
+        return Ok(time(name, &column, &text).map(|(column, text)| Label {
+            row,
+            written: name.to_owned(),
+            key: "time",
+            column,
+            text,
+        }));
+    }
     let key = column.what.own().filter(|own| keys.contains(own));
     let Some(key) = key.filter(|_| !text.is_empty()) else {
         return Ok(None);
@@ -180,7 +233,7 @@ fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Resul
         "test" => match wanted.test_of(&text).or_else(|| wanted.test_named(&text)) {
             Some(id) => label(name.to_owned(), id.to_owned()),
             // a title, where the test is stated
-            None if wanted.test.is_some() || parts.len() > 1 => Ok(None),
+            None if wanted.test.is_some() || filled(&sheet.rows[row]).len() > 2 => Ok(None),
             None => Err(ImportError(format!(
                 "{}: `{name}` says {text}: {}",
                 cell_name(row, 0),
@@ -191,9 +244,13 @@ fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Resul
             Some(member) => label(name.to_owned(), member.name().to_owned()),
             None => Ok(None),
         },
+        // `1, 8, 15` are the teeth of a mean
+        "tooth" if text.contains([' ', ',', ';', '-']) => Ok(None),
+        "tooth" => label(name.to_owned(), text),
         _ if number_words(&text).is_empty() => Ok(None),
         _ => {
             let count = header_number(&text, row, 0)?;
+            counts::refuse_others(&text, number_words(&text)[0], None, row, 0)?;
             if wanted.decimal.is_none() {
                 plain_count(&text, row, 0, sheet.plain_decimals)?;
             }
@@ -208,6 +265,72 @@ fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Resul
     }
 }
 
+/// The cells of a row that hold something.
+fn filled(cells: &[String]) -> Vec<&str> {
+    let cells = cells.iter().map(|cell| cell.trim());
+    cells.filter(|cell| !cell.is_empty()).collect()
+}
+
+/// A row's first words up to a colon or the end of their cell, and the text behind them.
+fn name_and_text(cells: &[String]) -> Option<(String, String)> {
+    let filled = filled(cells);
+    let (first, rest) = filled.split_first()?;
+    let (name, behind) = match first.split_once([':', '=']) {
+        Some((name, text)) => (name.trim(), text.trim()),
+        None => (*first, ""),
+    };
+    let parts = std::iter::once(behind).chain(rest.iter().copied());
+    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    Some((name.to_owned(), parts.join(" ")))
+}
+
+/// The name of a column of a running time and the number below it, of a line that states it with a unit, in its name or behind its one number.
+fn time(name: &str, column: &Column, text: &str) -> Option<(String, String)> {
+    let [number] = number_words(text)[..] else {
+        return None;
+    };
+    let (before, behind) = text.split_once(number)?;
+    let behind = behind.trim().trim_matches(['[', ']', '(', ')', '.']);
+    if !before.trim().is_empty() {
+        return None;
+    }
+    match (column.hours, names::hours_of_unit(behind)) {
+        (Some(_), None) if behind.is_empty() => Some((name.to_owned(), number.to_owned())),
+        (Some(hours), Some(stated)) if hours == stated => {
+            Some((name.to_owned(), number.to_owned()))
+        }
+        (None, Some(_)) => Some((format!("{name} [{behind}]"), number.to_owned())),
+        _ => None,
+    }
+}
+
+/// Names the line of a running time that is not understood, where nothing else says after how many revolutions a curve was measured.
+fn refuse_unclear_time(sheet: &Sheet, head: usize) -> Result<()> {
+    for row in 0..head {
+        let Some((name, text)) = name_and_text(&sheet.rows[row]) else {
+            continue;
+        };
+        let column = Column::of(0, &name);
+        let is_time = column.hours.is_some() || names::is_time(&column.name());
+        // a time of day is none
+        let is_clock = text.contains(':');
+        if is_time && !text.is_empty() && !is_clock && time(&name, &column, &text).is_none() {
+            return Err(ImportError(format!(
+                "row {}: `{name}` says `{text}`: write the running time as one number with a unit of h, min, s or d (`{name}: 8.333 h`), or the \
+                 revolutions (`cycles: 1000000`)",
+                row + 1
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// The speed that a row states.
+fn speed(sheet: &Sheet, row: usize) -> Option<speeds::Stated> {
+    let (name, text) = name_and_text(&sheet.rows[row])?;
+    speeds::stated(row, &name, &text)
+}
+
 /// Refuses a label that a cell of the column of the same contradicts.
 fn below_agrees(
     sheet: &Sheet,
@@ -220,6 +343,7 @@ fn below_agrees(
         let cell = cells.get(column.at).map_or("", String::as_str);
         let says = match label.key {
             "test" => wanted.test_of(cell),
+            "tooth" => Some(cell).filter(|cell| !cell.is_empty()),
             _ => names::member(cell).map(Subject::name),
         };
         if let Some(says) = says.filter(|says| *says != label.text) {

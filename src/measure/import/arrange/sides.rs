@@ -60,7 +60,7 @@ fn side(header: &str) -> Option<(Subject, String)> {
     let rest = rest.join(" ");
     let column = columns(std::slice::from_ref(&rest)).pop()?;
     let is_side = match column.what {
-        What::Weighing(_) | What::Values(_) => true,
+        What::Weighing(_) | What::Profile(_) | What::Values(_) => true,
         What::Own(own) => ["position", "value", "sigma", "trace"].contains(&own),
         _ => false,
     };

@@ -1,13 +1,11 @@
 //! A mass before and a mass after: their difference is what was lost.
 
 use super::has;
+use super::intervals::{self, Weighed};
+use super::pairs::{Pair, only};
 use crate::measure::import::columns::{Column, What};
-use crate::measure::import::numbers::{number, pointed, with_points};
-use crate::measure::import::{Decimal, ImportError, Sheet, cell_name};
-use crate::measure::names::Weighed;
-
-/// Decimals that are written at least: with three `1.234` could be a thousand.
-const DECIMALS: usize = 4;
+use crate::measure::import::{ImportError, Sheet, Wanted, cell_name};
+use crate::measure::names::When;
 
 /// Whether weighings are the values of a table: nothing else is.
 pub(super) fn could_be(columns: &[Column]) -> bool {
@@ -24,74 +22,41 @@ pub(super) fn could_be(columns: &[Column]) -> bool {
 pub(super) fn as_losses(
     sheet: &mut Sheet,
     head: usize,
-    decimal: Option<Decimal>,
+    columns: &[Column],
+    wanted: &Wanted<'_>,
     said: &mut Vec<String>,
 ) -> Result<(), ImportError> {
-    let header = sheet.rows[head].clone();
-    let columns = crate::measure::import::columns::columns(&header);
-    let of = |when: Weighed| {
-        let mut found = columns.iter().filter(|c| c.what == What::Weighing(when));
-        let first = found.next();
-        first.filter(|_| found.next().is_none())
-    };
-    let (before, after) = match (of(Weighed::Before), of(Weighed::After)) {
-        (Some(before), Some(after)) => (before, after),
-        (one, other) => {
-            let at = one.or(other).map_or(0, |column| column.at);
-            return Err(ImportError(format!(
-                "{}: `{}` is a mass and no loss: name the columns of the two weighings `mass before` and `mass after`, or write what was lost as \
-                 `mass loss [mg]`",
-                cell_name(head, at),
-                header[at]
-            )));
-        }
-    };
-    if before.unit != after.unit {
+    let Some(pair) = Pair::of(columns, What::Weighing) else {
+        let of = |when: When| only(columns, What::Weighing(when));
+        let one = of(When::Before).or(of(When::After));
+        let at = one.map_or(0, |column| column.at);
         return Err(ImportError(format!(
-            "{} and {} are in two units",
-            before.cell(head),
-            after.cell(head)
+            "{}: `{}` is a mass and no loss: name the columns of the two weighings `mass before` and `mass after`, or write what was lost as \
+             `mass loss [mg]`",
+            cell_name(head, at),
+            sheet.rows[head][at]
         )));
-    }
-    let (before_at, after_at) = (before.at, after.at);
-    let read = with_points(sheet, decimal, |row, column| {
-        row > head && (column == before_at || column == after_at)
-    })?;
-    for row in head + 1..sheet.rows.len() {
-        let text = |sheet: &Sheet, at: usize| sheet.rows[row].get(at).cloned().unwrap_or_default();
-        let written = [before_at, after_at].map(|at| text(sheet, at));
-        if written.iter().any(String::is_empty) {
-            if let Some(cell) = sheet.rows[row].get_mut(after_at) {
-                cell.clear();
+    };
+    pair.in_one_unit(head)?;
+    let readings = pair.readings(sheet, head, wanted)?;
+    let (before, after) = (&pair.before.written, &pair.after.written);
+    let mut lost: Vec<f64> = readings.iter().map(|r| r.before - r.after).collect();
+    for group in intervals::groups(sheet, head, &readings, wanted) {
+        said.push(match intervals::weighed(&group, &readings, &pair)? {
+            Weighed::SinceNew => format!("mass loss: `{before}` less `{after}`"),
+            Weighed::AtEachStop => {
+                let first = readings[group[0]].before;
+                for n in group {
+                    lost[n] = first - readings[n].after;
+                }
+                format!(
+                    "mass loss: each `{before}` is `{after}` of the stop before it, so the losses are added up from the first `{before}` of each \
+                     test and member"
+                )
             }
-            continue;
-        }
-        let [whole, left] = [before_at, after_at].map(|at| pointed(&text(&read, at)));
-        let digits = |text: &str| text.split_once('.').map_or(0, |(_, digits)| digits.len());
-        let digits = digits(&whole).max(digits(&left)).max(DECIMALS);
-        let lost = number(&whole, row, before_at)? - number(&left, row, after_at)?;
-        let lost = format!("{lost:.digits$}");
-        // with the mark of the others, by which all numbers of the table are read
-        let has_commas = match decimal {
-            Some(decimal) => decimal == Decimal::Comma,
-            None => written.iter().any(|text| text.contains(',')),
-        };
-        sheet.rows[row][after_at] = if has_commas {
-            lost.replace('.', ",")
-        } else {
-            lost
-        };
+        });
     }
-    said.push(format!(
-        "mass loss: `{}` less `{}`",
-        header[before_at], header[after_at]
-    ));
-    let unit = (after.unit.as_ref()).map_or_else(String::new, |unit| format!(" [{unit}]"));
-    sheet.rows[head][after_at] = format!("mass loss{unit}");
-    for row in sheet.rows.iter_mut().skip(head) {
-        if let Some(cell) = row.get_mut(before_at) {
-            cell.clear();
-        }
-    }
+    let lost: Vec<_> = readings.into_iter().zip(lost).collect();
+    pair.put_losses(sheet, head, "mass loss", &lost);
     Ok(())
 }

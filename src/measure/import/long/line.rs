@@ -210,7 +210,7 @@ impl Line<'_> {
                 self.wanted
                     .revolutions_in(test, hours * cycles, hours * rounding)
             }
-            None if column.of_gear => self.wanted.pinion_revolutions(cycles),
+            None if column.of_gear => self.wanted.pinion_revolutions(test, cycles),
             None => cycles,
         })
     }
