@@ -114,7 +114,7 @@ refusals! {
     duplicate_column: with("value,sigma", "value,value")
         => Syntax "value" at 2:44, "`value`", "each column once", "stands twice";
     bars: GOOD.replace(',', "|")
-        => UnknownKey "test|member|cycles|quantity|position|value|sigma|trace" at 2:1, "`test|member", "test, member", "commas, semicolons or tabulators";
+        => UnknownKey "test|member|cycles|quantity|position|value|sigma|trace" at 2:1, "`test|member", "test, member", "commas, semicolons or tabs";
     points_and_commas: GOOD.replace(',', ";").replace("2.1;", "2,1;")
         => Inconsistent "" at 4:31, "`2,1`", "one of the two in all numbers", "marks between thousands";
     thousands: european().replace("A;pinion;250000", "A;pinion;250.000")
@@ -316,7 +316,7 @@ fn the_forms_that_spreadsheets_write_are_read_and_told() {
     );
     assert_eq!(
         read(&european().replace(';', "\t")),
-        "tabulators between columns, decimal commas"
+        "tabs between columns, decimal commas"
     );
     let header = "test,member,cycles,quantity,position,value,sigma,trace\n";
     let upper = with(

@@ -127,7 +127,7 @@ impl Dialect {
     pub(super) fn said(self) -> Option<String> {
         let between = match self.separator {
             b',' => return None,
-            b'\t' => "tabulators between columns".to_owned(),
+            b'\t' => "tabs between columns".to_owned(),
             other => format!(
                 "{} between columns",
                 match other {

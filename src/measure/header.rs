@@ -156,7 +156,7 @@ fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
     let near = names::near_column(&plain)
         .unwrap_or_else(|| nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default());
     let hint = if row.len() == 1 && name.contains([';', '\t', '|']) {
-        "columns are separated by commas, semicolons or tabulators".to_owned()
+        "columns are separated by commas, semicolons or tabs".to_owned()
     } else if name.parse::<f64>().is_ok() || row.record.iter().all(|f| !is_column(f)) {
         "the first line that is no comment names the columns".to_owned()
     } else if name.is_empty() {

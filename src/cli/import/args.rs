@@ -14,7 +14,7 @@ use crate::measure::import::Decimal;
     after_help = "A wide table has a column for each checkpoint and positions in its first column, or the other way round. A long table has a\nrow for each value and columns of tests, members, cycles, positions and values, under the usual names in English, German,\nItalian, French or Spanish. A file or a sheet may be of one curve, with test, member and cycles in lines above its header.\nNothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2\n  gearwear import profiles.csv --study study.toml -o measurements.csv\n  gearwear import profiles/*.txt --study study.toml --turn-sign -o measurements.csv\n  gearwear import weighing.xlsx --study study.toml --quantity mass_loss -o measurements.csv --append"
 )]
 pub struct ImportArgs {
-    /// Tables: .xlsx, or text with commas, semicolons or tabulators
+    /// Tables: .xlsx, or text with commas, semicolons or tabs
     #[arg(value_name = "TABLE", required = true, num_args = 1..)]
     pub(super) tables: Vec<PathBuf>,
     /// Study that the measurements belong to: its tests and gears

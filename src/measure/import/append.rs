@@ -17,7 +17,7 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
     let before = before.strip_prefix('\u{feff}').unwrap_or(before);
     if Dialect::of(before).separator != b',' {
         return Err(ImportError(
-            "it has semicolons or tabulators between its columns: import it into a file of its own first, and append to that".to_owned(),
+            "it has semicolons or tabs between its columns: import it into a file of its own first, and append to that".to_owned(),
         ));
     }
     let is_record = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
