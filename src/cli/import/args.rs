@@ -50,7 +50,7 @@ pub struct ImportArgs {
     /// Mark of the decimals of a text [default: what the numbers say]
     #[arg(long, value_enum, value_name = "MARK")]
     pub(super) decimal: Option<Mark>,
-    /// Lost material is negative in the table
+    /// Reverse the sign: lost material is negative in the table
     #[arg(long)]
     pub(super) turn_sign: bool,
     /// One standard deviation of every value, in the quantity's own unit (um of depth); with --all-sheets of the sheets without a column of it
