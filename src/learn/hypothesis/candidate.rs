@@ -329,6 +329,25 @@ mod tests {
     use crate::effects::{ProfileAt, find};
     use crate::gear::Member;
 
+    /// A form that needs what the study does not state takes no part of its effect's prior.
+    #[test]
+    fn forms_that_a_study_cannot_have_take_no_prior() {
+        let text = include_str!("../../../validation/paper/study.toml");
+        let study = Study::parse(text, "study.toml").unwrap();
+        let own = EffectSet::new([find("micropitting").unwrap()]);
+        let siblings = |study: &Study| {
+            let (singles, _) = Candidate::singles(study);
+            let own = singles.into_iter().find(|c| c.effects == own);
+            own.unwrap().siblings
+        };
+        let all = 1 + find("micropitting").unwrap().forms.len();
+        assert!(!study.states("lubricant.viscosity"));
+        assert_eq!(siblings(&study), all - 1);
+        let oil = "\n[lubricant]\nviscosity = 0.015\npressure_viscosity = 18.0\nroughness = 0.5\n";
+        let oiled = Study::parse(&format!("{text}{oil}"), "study.toml").unwrap();
+        assert_eq!(siblings(&oiled), all);
+    }
+
     /// u cos θ − v sin θ is the wave that `turned` makes of cos θ and cos(θ + π/2).
     #[test]
     fn a_turned_wave_is_the_sum_of_its_two_quarters() {

@@ -51,3 +51,34 @@ impl SigmaModel {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Subject;
+
+    /// Scatter along curves says nothing of weighings.
+    #[test]
+    fn a_factor_is_of_what_lies_on_curves() {
+        let row = |quantity, position| Observation {
+            test: 0,
+            member: Subject::Pinion,
+            cycles: 1e5,
+            quantity,
+            position,
+            value: 1.0,
+            sigma: 0.1,
+            trace: None,
+            face: None,
+            tooth: None,
+            line: 1,
+        };
+        let depths = [26.0, 26.5, 27.0].map(|at| row(Quantity::WearDepth, Some(at)));
+        let mass = row(Quantity::MassLoss, None);
+        let rows: Vec<&Observation> = depths.iter().chain([&mass]).collect();
+        let sigma = SigmaModel::Stated { factor: 3.0 }.of(&rows);
+        for (sigma, expected) in sigma.into_iter().zip([0.3, 0.3, 0.3, 0.1]) {
+            assert!((sigma - expected).abs() < 1e-12, "{sigma} {expected}");
+        }
+    }
+}
