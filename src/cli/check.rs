@@ -82,7 +82,7 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
             "can_show": prospects.can,
             "cannot_show": prospects.cannot,
         }),
-        text: told(
+        text: summary(
             &study,
             &data,
             (sanity, &warnings, looks_right),
@@ -144,7 +144,7 @@ fn curves<'d>(study: &Study, data: &'d Dataset) -> BTreeMap<Key, Vec<&'d Observa
     curves
 }
 
-fn told(
+fn summary(
     study: &Study,
     data: &Dataset,
     (sanity, warnings, looks_right): (&[String], &[String], bool),

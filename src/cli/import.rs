@@ -2,7 +2,7 @@
 
 mod args;
 mod flanks;
-mod said;
+mod summary;
 
 use std::fmt::Write as _;
 use std::fs;
@@ -111,13 +111,14 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             let columns = understood.columns();
             let titles = understood.titles();
             if let Some(first) = shown.as_ref().filter(|first| first.columns == columns) {
-                text += &said::like_the_first(&name, understood.entries(), titles, &first.titles);
+                text +=
+                    &summary::like_the_first(&name, understood.entries(), titles, &first.titles);
             } else {
                 text += &match &understood {
-                    Understood::Long(long) => said::long(args, &name, long),
-                    Understood::Wide(wide) => said::wide(args, &name, wide),
+                    Understood::Long(long) => summary::long(args, &name, long),
+                    Understood::Wide(wide) => summary::wide(args, &name, wide),
                 };
-                text += &said::rows(&header, &rows);
+                text += &summary::rows(&header, &rows);
                 shown = Some(Shown {
                     columns,
                     titles: titles.clone(),

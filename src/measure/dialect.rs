@@ -124,7 +124,7 @@ impl Dialect {
     }
 
     /// What is said where the file is not written in the format's own way.
-    pub(super) fn said(self) -> Option<String> {
+    pub(super) fn in_words(self) -> Option<String> {
         let between = match self.separator {
             b',' => return None,
             b'\t' => "tabs between columns".to_owned(),

@@ -168,7 +168,7 @@ impl Dataset {
             tests: known.tests.iter().map(|test| test.id.clone()).collect(),
             observations,
             traces: reader.into_traces(),
-            reading: reading(dialect, &columns, blank, estimated.said()),
+            reading: reading(dialect, &columns, blank, estimated.in_words()),
             outliers: Vec::new(),
             estimated_sigmas: estimated.rows(),
         })
@@ -177,7 +177,7 @@ impl Dataset {
 
 /// How a file was read that is not written in the format's own way.
 fn reading(dialect: Dialect, columns: &Columns, blank: usize, estimated: Option<String>) -> String {
-    let mut said: Vec<String> = dialect.said().into_iter().collect();
+    let mut said: Vec<String> = dialect.in_words().into_iter().collect();
     let mut passed_over: Vec<String> = Vec::new();
     match columns.passed_over.as_slice() {
         [] => {}

@@ -46,7 +46,7 @@ impl Estimated {
     }
 
     /// In words; None if every row stated its own.
-    pub(super) fn said(self) -> Option<String> {
+    pub(super) fn in_words(self) -> Option<String> {
         let of = |rows: usize, from: &str| match rows {
             0 => None,
             1 => Some(format!("1 from {from}")),

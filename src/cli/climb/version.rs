@@ -103,7 +103,7 @@ impl Fitter<'_> {
     ) -> Result<Fitted, CliError> {
         let study = self.version(&rungs, values)?;
         let compared = compare(&study, self.data, &ModelVersion::of(&study), &|doing| {
-            watch(said(doing));
+            watch(in_words(doing));
         })?;
         self.judged(rungs, compared.comparison, watch)
     }
@@ -143,7 +143,7 @@ impl Fitter<'_> {
             })
             .collect();
         let addition = crate::learn::add(&drafts[0], self.data, &added, &|doing, _| {
-            watch(format!("with {effect}: {}", said(doing)));
+            watch(format!("with {effect}: {}", in_words(doing)));
         })?;
         let mut rungs = rungs.to_vec();
         rungs.push(Rung {
@@ -167,7 +167,7 @@ impl Fitter<'_> {
         } else {
             let study = self.version(&rungs, &values)?;
             left_out(&study, self.data, &|doing| {
-                watch(format!("leaving tests out: {}", said(doing)));
+                watch(format!("leaving tests out: {}", in_words(doing)));
             })?
         };
         Ok(Fitted {
@@ -179,6 +179,6 @@ impl Fitter<'_> {
     }
 }
 
-fn said(doing: CompareStage) -> String {
+fn in_words(doing: CompareStage) -> String {
     fitting::state(doing).1
 }

@@ -226,7 +226,7 @@ impl Design {
     }
 
     /// What a result says of it: the keys with what they were varied over, and of designs their kind.
-    pub(super) fn told(&self) -> (serde_json::Value, Option<serde_json::Value>) {
+    pub(super) fn documents(&self) -> (serde_json::Value, Option<serde_json::Value>) {
         use serde_json::json;
         let listed = |axis: &Axis| {
             let values = axis.values.iter().map(|value| grid::json(value));

@@ -28,7 +28,7 @@ pub(super) fn document(
         }
         row
     });
-    let (vary, kind) = design.told();
+    let (vary, kind) = design.documents();
     let mut document = json!({
         "title": title,
         "vary": vary,

@@ -88,7 +88,7 @@ fn experiment(
     );
     let found: Vec<Option<TestDiscrimination>> = tests
         .par_iter()
-        .map(|(_, operation)| told(context, shop, operation, a, b))
+        .map(|(_, operation)| discrimination(context, shop, operation, a, b))
         .collect();
     let repetition = found[count..]
         .iter()
@@ -239,7 +239,7 @@ impl Place {
     }
 }
 
-fn told(
+fn discrimination(
     context: &Context<'_>,
     shop: &Workshop,
     operation: &Operation,

@@ -92,7 +92,7 @@ pub fn plan_after(
     let found: Vec<Vec<QuantityDiscrimination>> = tests
         .par_iter()
         .map(|(_, operation)| {
-            told(&context, &shop, operation, &leaders, Some(noise)).unwrap_or_default()
+            discriminations(&context, &shop, operation, &leaders, Some(noise)).unwrap_or_default()
         })
         .collect();
     let repetition = repetition(&context, &shop, &leaders);
@@ -154,10 +154,10 @@ fn repetition(
     let measured = &context.likelihood.measured;
     let score = |&test: &usize| {
         let operation = &measured.study().tests[test].conditions;
-        let told = told(context, shop, operation, leaders, None)?;
+        let found = discriminations(context, shop, operation, leaders, None)?;
         Some(Repetition {
             test: measured.data.tests[test].clone(),
-            chi2: told.first()?.score(),
+            chi2: found.first()?.score(),
         })
     };
     let all: Vec<Option<Repetition>> = context.likelihood.tests.par_iter().map(score).collect();
@@ -245,7 +245,7 @@ impl QuantityDiscrimination {
 
 /// What a test says by each of the quantities, with the relative `noise` of those that were not measured yet; without it, by all that was
 /// measured together.
-fn told(
+fn discriminations(
     context: &Context<'_>,
     shop: &Workshop,
     operation: &Operation,

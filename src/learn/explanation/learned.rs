@@ -9,7 +9,7 @@ impl Diagnosis {
     /// With a law learned from the measurements, said beside what else there is to say.
     pub(in crate::learn) fn with_learned(mut self, learned: Option<LearnedAnswer>) -> Self {
         if let Some(learned) = &learned {
-            self.reasons.push(said(learned));
+            self.reasons.push(sentence(learned));
             let add = match carries_over(learned) {
                 Some(true) => Some("and see the held-out error fall"),
                 None => Some("and hold a test out to see whether the law carries over"),
@@ -34,7 +34,7 @@ fn carries_over(learned: &LearnedAnswer) -> Option<bool> {
     Some(after < before)
 }
 
-fn said(learned: &LearnedAnswer) -> String {
+fn sentence(learned: &LearnedAnswer) -> String {
     let least = learned.values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = learned
         .values
