@@ -259,18 +259,20 @@ fn values_of_the_wrong_number_or_not_finite_are_refused() {
     );
 }
 
-/// A law with answers between −0.05 and 0.05 only, where differences as wide as its prior suggests leave on both sides.
+/// 1 + p n/1e5, with answers below 0.05 only.
+fn sloped(o: &Observation, k: f64, p: &[f64]) -> f64 {
+    let factor = if p[0].abs() < 0.05 {
+        1.0 + p[0] * o.cycles / 1e5
+    } else {
+        f64::NAN
+    };
+    factor * steady(o, k, &[])
+}
+
+/// Differences as wide as its prior suggests leave the narrow domain of a law on both sides; from the lower bound on, on the one, and on the other lies
+/// nothing.
 #[test]
 fn a_law_with_a_narrow_domain_is_fitted_within_it() {
-    fn sloped(o: &Observation, k: f64, p: &[f64]) -> f64 {
-        let inside = p[0].abs() < 0.05;
-        let factor = if inside {
-            1.0 + p[0] * o.cycles / 1e5
-        } else {
-            f64::NAN
-        };
-        factor * steady(o, k, &[])
-    }
     let empty = wear_data(&[("A", 1e6), ("B", 6e5)], 11, true);
     let truth = [0.03];
     let data = measured(
@@ -286,21 +288,23 @@ fn a_law_with_a_narrow_domain_is_fitted_within_it() {
         data: data.clone(),
         formula: sloped,
     };
-    let mut problem = problem(&data, &predictor);
-    problem.parameters = vec![Parameter {
-        name: "a".to_owned(),
-        unit: "-".to_owned(),
-        start: 0.0,
-        lower: -10.0,
-        upper: 10.0,
-        prior: gearwear::effects::Prior::Normal { mean: 0.0, sd: 5.0 },
-    }];
-    let fit = problem.fit(&Effort::default()).unwrap();
-    let a = &fit.parameters[1];
-    assert!(
-        fit.converged && (a.value - truth[0]).abs() < 4.0 * a.sigma && a.sigma < 0.01,
-        "{a:?}"
-    );
+    for lower in [-10.0, 0.0] {
+        let mut problem = problem(&data, &predictor);
+        problem.parameters = vec![Parameter {
+            name: "a".to_owned(),
+            unit: "-".to_owned(),
+            start: 0.0,
+            lower,
+            upper: 10.0,
+            prior: gearwear::effects::Prior::Normal { mean: 0.0, sd: 5.0 },
+        }];
+        let fit = problem.fit(&Effort::default()).unwrap();
+        let a = &fit.parameters[1];
+        assert!(
+            fit.converged && (a.value - truth[0]).abs() < 4.0 * a.sigma && a.sigma < 0.01,
+            "{a:?}"
+        );
+    }
 }
 
 /// One test says nothing of scatter: its own k is known as well as ever, the common one only within the scatter's prior.
@@ -367,6 +371,49 @@ fn the_best_of_several_starts_is_kept() {
         "{:?}",
         best.parameters
     );
+}
+
+/// Of two places, one where the tests differ by a law and one where each needs a k of its own, the law is taken: both come as near to the
+/// measurements, and only the evidence counts what a scatter of k costs.
+#[test]
+fn a_law_is_taken_before_a_scatter_of_k() {
+    let by_test = |o: &Observation, k: f64, p: &[f64]| {
+        let acts = (-((p[0] - 3.0) / 0.5).powi(2)).exp();
+        steady(o, k, &[]) * (acts * [-0.5, 0.5, -0.4, 0.6][o.test]).exp()
+    };
+    let empty = wear_data(&[("A", 1e6), ("B", 6e5), ("C", 1e6), ("D", 6e5)], 11, true);
+    let data = measured(
+        &empty,
+        by_test,
+        &[1.2e-10; 4],
+        &[3.0],
+        0.02,
+        0.5,
+        &mut Random(10),
+    );
+    let predictor = Formula {
+        data: data.clone(),
+        formula: by_test,
+    };
+    let problem = Problem {
+        data: &data,
+        roles: &[Role::Fit; 4],
+        predictor: &predictor,
+        coefficient: Coefficient::Free(Parameter::coefficient(1e-10)),
+        parameters: vec![Parameter::uniform("a.place", "mm", -3.0, -10.0, 10.0)],
+        noise: noise(Scatter::Estimate),
+    };
+    let fit = |starts: &[f64]| {
+        let starts: Vec<Vec<f64>> = starts.iter().map(|&start| vec![start]).collect();
+        problem.fit_from(&starts, &Effort::default()).unwrap()
+    };
+    let scattered = fit(&[-3.0]);
+    assert!(scattered.scatter > 0.2, "{}", scattered.scatter);
+    for starts in [[-3.0, 2.8], [2.8, -3.0]] {
+        let best = fit(&starts);
+        assert!((best.parameters[1].value - 3.0).abs() < 0.2);
+        assert!(best.scatter < 0.1, "{}", best.scatter);
+    }
 }
 
 /// A parameter without influence keeps its prior.
