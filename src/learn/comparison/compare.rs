@@ -225,7 +225,7 @@ impl Measured<'_> {
                 }
             };
             let is_far = |fit: &Fit| missed.is_some() && self.misfit(fit).is_far();
-            let better = |second: &Fit| second.log_evidence > first.log_evidence;
+            let better = |second: &Fit| second.attained_evidence() > first.attained_evidence();
             let attained = |promised: f64| {
                 is_far(&first) && self.misfit(&first).square < (1.0 + ATTAINED) * promised
             };
@@ -244,7 +244,9 @@ impl Measured<'_> {
                 from(version.medians(), &effort).ok()
             };
             let fit = second
-                .filter(|second| second.log_evidence > first.log_evidence + effort.tolerance)
+                .filter(|second| {
+                    second.attained_evidence() > first.attained_evidence() + effort.tolerance
+                })
                 .unwrap_or(first);
             if is_far(&fit) {
                 let fit = problem.judged(fit, &effort)?;
@@ -278,7 +280,8 @@ impl Measured<'_> {
         let first = problem.fit_from(std::slice::from_ref(&start.values), look)?;
         if is_hopeless(&first) && missed.promises(self, version, start.promised) {
             let second = problem.fit_from(&[version.medians()], look).ok();
-            let better = second.filter(|second| second.log_evidence > first.log_evidence);
+            let better =
+                second.filter(|second| second.attained_evidence() > first.attained_evidence());
             return Ok(better.unwrap_or(first));
         }
         Ok(first)

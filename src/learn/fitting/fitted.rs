@@ -29,6 +29,8 @@ pub struct Fit {
     pub log_posterior: f64,
     /// Logarithm of the marginal likelihood of the fit tests: parameters, k per test, datums and scatter integrated out.
     pub log_evidence: f64,
+    /// How much of it the derivatives only promise: what a step to the top of their parabola would gain.
+    pub promised: f64,
     /// Whether a further step would gain nothing.
     pub converged: bool,
     /// Steps.
@@ -41,6 +43,11 @@ impl Fit {
     /// Whether it converged with no parameter on a bound.
     pub fn is_settled(&self) -> bool {
         self.converged && self.parameters.iter().all(|p| !p.at_bound)
+    }
+
+    /// Logarithm of the marginal likelihood without what the derivatives only promise: by it fits from several starts are compared.
+    pub fn attained_evidence(&self) -> f64 {
+        self.log_evidence - self.promised
     }
 
     /// Whether it says something of a test: it was fitted to it, or has judged it as a held-out one. The rows of others are zeros.
