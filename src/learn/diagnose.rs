@@ -37,7 +37,6 @@ pub use crate::learn::prediction::fidelity::Fidelity;
 
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
-use crate::learn::checks::noise_level;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::discrepancy::gaussian_process;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
@@ -115,13 +114,7 @@ pub fn diagnose(
         approximate,
     };
     watch(0.08, "fitting the base model".to_owned());
-    let mut base = context.base(Candidate::base(measured.study()))?;
-    let sigma = noise_level::sigma_model(&context.likelihood, &base.fitted.found.model);
-    if sigma != noise.sigma {
-        let noise = NoiseModel { sigma, ..noise };
-        context.likelihood = Likelihood::new(measured, noise, Role::Fit);
-        base = context.base(Candidate::base(measured.study()))?;
-    }
+    let base = context.base_by_scatter()?;
     Ok(search(&context, &base, &analytic, watch))
 }
 

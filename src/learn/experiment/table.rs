@@ -12,7 +12,6 @@ use super::plan::{LEADERS, LEADING, Leader, NextTests, Plan, RankedTest, Separat
 use super::wording::{self, Repetition};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::candidates::likelihood::Likelihood;
-use crate::learn::checks::noise_level;
 use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
@@ -68,13 +67,7 @@ pub fn plan_after(
         approximate: true,
     };
     watch(0.0, "fitting the base model".to_owned());
-    let mut base = context.base(Candidate::base(study))?;
-    let sigma = noise_level::sigma_model(&context.likelihood, &base.fitted.found.model);
-    if sigma != fitted.sigma {
-        context.likelihood = Likelihood::new(measured, NoiseModel { sigma, ..fitted }, Role::Fit);
-        base = context.base(Candidate::base(study))?;
-    }
-    let base = base;
+    let base = context.base_by_scatter()?;
     let diagnosed = decided.map(|decided| {
         watch(0.2, "fitting what the diagnosis left".to_owned());
         decided.fitted(&context, &base)

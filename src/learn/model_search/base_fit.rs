@@ -4,10 +4,28 @@ use super::context::Context;
 use super::high_fidelity::DECIDE;
 use crate::learn::candidates::candidate_model::{model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::BaseFit;
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::noise_level;
 use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::noise::NoiseModel;
 use crate::learn::prediction::predictor::PredictError;
+use crate::study::Role;
 
 impl Context<'_> {
+    /// Fits the base model, once more where the scatter about it calls for another σ than the stated one; the likelihood then has that.
+    pub(in crate::learn) fn base_by_scatter(&mut self) -> Result<BaseFit, PredictError> {
+        let measured = self.likelihood.measured;
+        let candidate = || Candidate::base(measured.study());
+        let base = self.base(candidate())?;
+        let sigma = noise_level::sigma_model(&self.likelihood, &base.fitted.found.model);
+        let noise = self.likelihood.noise;
+        if sigma == noise.sigma {
+            return Ok(base);
+        }
+        self.likelihood = Likelihood::new(measured, NoiseModel { sigma, ..noise }, Role::Fit);
+        self.base(candidate())
+    }
+
     /// Fits the base model.
     pub(in crate::learn) fn base(&self, candidate: Candidate) -> Result<BaseFit, PredictError> {
         let likelihood = &self.likelihood;
