@@ -4,6 +4,9 @@
 //! study, measurements -> members -> tests on the bench -> fit of what is free -> Comparison
 //! ```
 
+mod attempt;
+
+use self::attempt::{Attempt, FirstFit};
 use super::missed::BaselineMisfit;
 use super::record::Comparison;
 use crate::effects::ParamRole;
@@ -169,10 +172,6 @@ impl Measured<'_> {
             share: missed.map_or(effort.share, |_| FAR_SHARE),
             ..effort
         };
-        let look = Effort {
-            iterations: LOOK_STEPS,
-            ..effort
-        };
         let expected = self.roles.len() * HISTORIES_PER_TEST * (1 + version.free.len());
         let told = |histories| {
             watch(CompareStage::Fitting {
@@ -196,95 +195,39 @@ impl Measured<'_> {
         let without = anchor.and_then(|missed| missed.base(self));
         self.with_problem(bench, version, noise, &told, |problem| {
             let start = self.start_of(problem, version, places, without);
-            let problem = &problem.beginning_at(start.coefficient());
-            let from = |start, effort: &Effort| problem.fit_from(&[start], effort);
-            let first = match missed {
-                None => from(start.values, &effort)?,
-                Some(missed) => {
-                    let little = dear
-                        && without.is_some()
-                        && !missed.promises(self, version, start.promised);
-                    let first = self.look(problem, version, missed, &start, little, &look)?;
-                    match missed.hopeless(self, &first) {
-                        Some(share) => {
-                            // not worth the price of the held-out tests
-                            let first = if dear {
-                                first
-                            } else {
-                                problem.judged(first, &effort)?
-                            };
-                            let compared = self.compared(bench, version, first, start.promised);
-                            return Ok(Compared {
-                                given_up: Some(share),
-                                ..compared.without_intervals()
-                            });
-                        }
-                        None if first.converged => first,
-                        None => problem.go_on(&first, &effort)?,
-                    }
+            let promised = start.promised;
+            let attempt = Attempt {
+                measured: self,
+                problem: &problem.beginning_at(start.coefficient()),
+                version,
+                start: &start,
+                missed,
+                effort: &effort,
+                dear,
+            };
+            let first = match attempt.first(without.is_some())? {
+                FirstFit::Hopeless { fit, share } => {
+                    return Ok(Compared {
+                        given_up: Some(share),
+                        ..(self.compared(bench, version, fit, promised)).without_intervals()
+                    });
                 }
+                FirstFit::Hopeful(fit) => fit,
             };
-            let is_far = |fit: &Fit| missed.is_some() && self.misfit(fit).is_far();
-            let better = |second: &Fit| second.attained_evidence() > first.attained_evidence();
-            let attained = |promised: f64| {
-                is_far(&first) && self.misfit(&first).square < (1.0 + ATTAINED) * promised
-            };
-            let second = if first.is_settled()
-                || version.effects.is_empty()
-                || one_valley
-                || start.promised.is_some_and(attained)
-            {
-                None
-            } else if is_far(&first) {
-                let second = from(version.medians(), &look).ok();
-                second
-                    .filter(better)
-                    .and_then(|second| problem.go_on(&second, &effort).ok())
+            let fit = if one_valley {
+                first
             } else {
-                from(version.medians(), &effort).ok()
+                attempt.best_of_starts(first)
             };
-            let fit = second
-                .filter(|second| {
-                    second.attained_evidence() > first.attained_evidence() + effort.tolerance
-                })
-                .unwrap_or(first);
-            if is_far(&fit) {
-                let fit = problem.judged(fit, &effort)?;
-                let compared = self.compared(bench, version, fit, start.promised);
-                return Ok(compared.without_intervals());
+            if attempt.is_far(&fit) {
+                let fit = attempt.problem.judged(fit, &effort)?;
+                return Ok(self
+                    .compared(bench, version, fit, promised)
+                    .without_intervals());
             }
-            let fit = self.refined(bench, version, problem, fit, &effort, &told)?;
-            Ok(self.compared(bench, version, fit, start.promised))
+            let fit = self.refined(bench, version, attempt.problem, fit, &effort, &told)?;
+            Ok(self.compared(bench, version, fit, promised))
         })
-    }
-
-    /// A look at a fit against what the model without its last effect `missed`: where a cheaper model promises `little` at that model's end, else some steps
-    /// from `start`, and if these are hopeless though more is promised, from the priors' medians too.
-    fn look(
-        &self,
-        problem: &Problem<'_>,
-        version: &ModelVersion,
-        missed: &BaselineMisfit<'_>,
-        start: &Start,
-        little: bool,
-        look: &Effort,
-    ) -> Result<Fit, FitError> {
-        let is_hopeless = |fit: &Fit| missed.hopeless(self, fit).is_some();
-        if little
-            && let Some(cheaper) = &start.fit
-            && let Ok(fit) = problem.go_on(cheaper, &Effort::STAY)
-            && is_hopeless(&fit)
-        {
-            return Ok(fit);
-        }
-        let first = problem.fit_from(std::slice::from_ref(&start.values), look)?;
-        if is_hopeless(&first) && missed.promises(self, version, start.promised) {
-            let second = problem.fit_from(&[version.medians()], look).ok();
-            let better =
-                second.filter(|second| second.attained_evidence() > first.attained_evidence());
-            return Ok(better.unwrap_or(first));
-        }
-        Ok(first)
     }
 
     /// Values that somebody has chosen or fitted, for they may leave nothing to look for, or else what a cheaper model finds.
@@ -413,16 +356,10 @@ const SMOOTH: Effort = Effort {
 /// Part of the misfit beyond noise that a fit of an effect more may leave of ln posterior: what such a fit is asked is how much the effect takes away.
 pub(super) const FAR_SHARE: f64 = 2e-3;
 
-/// A fit that is far from the measurements, and by no more than this share of χ² farther than a cheaper model promises of the best of several starts,
-/// is not looked for from elsewhere.
-const ATTAINED: f64 = 0.05;
-
 /// Whether an effect multiplies the work of fine elements: by the slices of the face, or by the teeth that differ.
 fn multiplies_work(effect: &EffectSpec) -> bool {
     effect.acts_across_the_face() || effect.acts_on_teeth()
 }
 
-/// Steps after which it is looked at whether a fit is hopeless.
-const LOOK_STEPS: usize = 6;
 /// Wear histories of one test that a fit of one parameter takes, from experience.
 const HISTORIES_PER_TEST: usize = 6;

@@ -6,39 +6,22 @@
 //! ```
 //! Linear in what is refitted. An effect in another form than the catalogue's is told apart less well than this says.
 
-use nalgebra::DVector;
+mod responses;
+mod score;
+
 use rayon::prelude::*;
 
+use self::responses::{MEASURED, TestResponses};
+use self::score::{DiscriminationTable, Score};
 use super::candidate_tests::{CLEAR, changes, grid, purpose, ranked, shown};
-use super::discrimination::{
-    Discrimination, LEAST_SCATTER, PlannedResponse, Whitening, noise_ahead,
-};
-use super::measurement_design::MeasurementDesign;
 use super::plan::{AloneTest, Campaign, ChosenTest, EffectVisibility, Plan};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::inference::quadratic::State;
 use crate::learn::model_search::context::{DiagnoseError, Watch};
-use crate::learn::noise::SigmaModel;
 use crate::learn::prediction::bench::Workshop;
 use crate::learn::prediction::fidelity::Fidelity;
 use crate::learn::prediction::predictor::PredictError;
-use crate::measure::Quantity;
 use crate::simulate::forward::ContactKind;
-use crate::study::{Operation, Scatter, Study};
-
-/// One standard deviation of ln k before any measurement: a factor of ten.
-const K_SPREAD: f64 = std::f64::consts::LN_10;
-
-/// What is measured: wear depths; with mass losses; with a transmission error too.
-const MEASURED: [&[Quantity]; 3] = [
-    &[Quantity::WearDepth],
-    &[Quantity::WearDepth, Quantity::MassLoss],
-    &[
-        Quantity::WearDepth,
-        Quantity::MassLoss,
-        Quantity::TransmissionError,
-    ],
-];
+use crate::study::{Operation, Study};
 
 /// The first campaign of a study without measurements, of `count` tests at most.
 ///
@@ -55,310 +38,184 @@ pub fn plan_first(
     let candidates: Vec<Candidate> = std::iter::once(base)
         .chain(singles.into_iter().filter(Candidate::is_own_form))
         .collect();
-    let numerics = Fidelity::Screening.resolution(study.resolution());
-    let shop = Workshop::new(study.gear_set(), numerics, ContactKind::Hertz, &[])?;
-    let tests = grid(&study.operation);
-    watch(0.0, format!("running {} feasible tests", tests.len()));
-    let seen: Vec<Option<TestResponses>> = tests
-        .par_iter()
-        .map(|(_, operation)| TestResponses::of(study, &shop, operation, &candidates, noise))
-        .collect::<Result<_, PredictError>>()?;
+    let feasible = FeasibleTests::new(study, &candidates, noise, watch)?;
     watch(0.9, "choosing".to_owned());
-    // Only effects that run in every test that the base model runs in are compared.
-    let runs = |c: &usize| seen.iter().flatten().all(|s| s.runs[*c]);
-    let (kept, failed): (Vec<usize>, Vec<usize>) = (1..candidates.len()).partition(runs);
-    let names: Vec<String> = candidates
-        .iter()
-        .map(|c| c.hypothesis().to_string())
-        .collect();
-    let tables: Vec<Option<DiscriminationTable>> = seen
-        .iter()
-        .map(|s| s.as_ref().map(|s| DiscriminationTable::new(s, &kept, 0)))
-        .collect();
-    let empty = DiscriminationTable::empty(kept.len());
-    let told_apart = |score: &Score| -> Vec<usize> {
-        (0..kept.len()).filter(|&a| score.told_apart(a)).collect()
-    };
-    let mut chosen: Vec<usize> = Vec::new();
-    let mut made: Vec<ChosenTest> = Vec::new();
-    let (mut joint, mut before) = (empty, Vec::new());
-    while chosen.len() < count {
-        let scores: Vec<(f64, usize)> = tables
-            .iter()
-            .enumerate()
-            .map(|(i, table)| match table {
-                Some(table) if !chosen.contains(&i) => {
-                    (joint.and(table).score().value(), tests[i].0)
-                }
-                _ => (f64::NEG_INFINITY, usize::MAX),
-            })
-            .collect();
-        let value = joint.score().value();
-        // Near-equal in what is gained.
-        let gains: Vec<(f64, usize)> = scores.iter().map(|s| (s.0 - value, s.1)).collect();
-        let best = ranked(&gains).first().copied();
-        let Some((best, table)) = best
-            .filter(|&i| gains[i].0 > 0.0)
-            .and_then(|i| tables[i].as_ref().map(|table| (i, table)))
-        else {
-            break;
-        };
-        joint = joint.and(table);
-        chosen.push(best);
-        let score = joint.score();
-        let now = told_apart(&score);
-        let newly: Vec<String> = now
-            .iter()
-            .filter(|a| !before.contains(*a))
-            .map(|&a| names[kept[a]].clone())
-            .collect();
-        let test = shown(&tests[best].1);
-        made.push(ChosenTest {
-            detectable: score.detectable(),
-            told_apart: now.len(),
-            why: purpose(&test, &study.operation),
-            newly,
-            test,
-        });
-        before = now;
-    }
-    let score = joint.score();
-    let effects: Vec<EffectVisibility> = (0..kept.len())
-        .map(|a| EffectVisibility {
-            effect: names[kept[a]].clone(),
-            detection_chi2: score.shown[a],
-            nearest: score.nearest[a].map_or(String::new(), |b| names[kept[b]].clone()),
-            nearest_chi2: score.apart[a],
-            detectable: score.shown[a] >= CLEAR,
-            told_apart: score.told_apart(a),
-        })
-        .collect();
-    let with = |measured: usize| {
-        let tables = chosen.iter().filter_map(|&i| seen[i].as_ref());
-        let joint = tables.fold(DiscriminationTable::empty(kept.len()), |joint, seen| {
-            joint.and(&DiscriminationTable::new(seen, &kept, measured))
-        });
-        let names: Vec<&str> = MEASURED[measured].iter().map(|q| q.name()).collect();
-        (names.join(" + "), told_apart(&joint.score()).len())
-    };
-    let mut alone: Vec<AloneTest> = Vec::new();
-    for (i, (changes, operation)) in tests.iter().enumerate() {
-        let Some(table) = &tables[i] else { continue };
-        let score = table.score();
-        alone.push(AloneTest {
-            test: shown(operation),
-            changes: *changes,
-            detectable: score.detectable(),
-            told_apart: told_apart(&score).len(),
-            chosen: chosen.iter().position(|&c| c == i).map(|place| place + 1),
-        });
-    }
-    alone.sort_by(|a, b| {
-        (b.told_apart, b.detectable, a.changes).cmp(&(a.told_apart, a.detectable, b.changes))
-    });
+    let choice = feasible.choose(&study.operation, count);
     Ok(Plan::Campaign(Campaign {
-        sentence: sentence(study, &made, kept.len()),
-        told_apart_with: [with(1), with(2)],
+        sentence: sentence(study, &choice.tests, feasible.kept.len()),
+        told_apart_with: [1, 2].map(|measured| feasible.told_apart_with(&choice, measured)),
         noise,
-        tests: made,
-        effects,
-        alone,
+        effects: feasible.effects(&choice.joint.score()),
+        alone: feasible.alone(&choice),
+        tests: choice.tests,
         not_judged,
-        failed: failed.into_iter().map(|i| names[i].clone()).collect(),
+        failed: feasible.names(&feasible.failed),
     }))
 }
 
-/// What all candidates say of one test, in units of its noise, for each set of quantities.
-struct TestResponses {
-    /// Whether a candidate has an answer there.
-    runs: Vec<bool>,
-    by_quantities: Vec<Vec<White>>,
+/// All tests that may be made, and what the effects of the catalogue do in each.
+struct FeasibleTests {
+    /// The base model's and every effect's name.
+    candidates: Vec<String>,
+    /// Effects that run wherever the base model runs, and the others: only the first are compared.
+    kept: Vec<usize>,
+    failed: Vec<usize>,
+    /// Conditions with their number of changes against the study's.
+    tests: Vec<(usize, Operation)>,
+    /// None where the gears do not run.
+    responses: Vec<Option<TestResponses>>,
+    /// By wear depths alone.
+    tables: Vec<Option<DiscriminationTable>>,
 }
 
-/// One candidate's in units of the noise.
-struct White {
-    values: DVector<f64>,
-    /// By k, by each parameter, and by the strength: common to tests.
-    common: Vec<DVector<f64>>,
-    /// By k of the test.
-    own: Vec<DVector<f64>>,
+/// The chosen tests.
+struct Choice {
+    /// Their places among the feasible ones, in the order of their choice.
+    places: Vec<usize>,
+    tests: Vec<ChosenTest>,
+    /// What they show together.
+    joint: DiscriminationTable,
 }
 
-impl TestResponses {
-    /// None if the gears do not run there.
-    fn of(
+impl FeasibleTests {
+    fn new(
         study: &Study,
-        shop: &Workshop,
-        operation: &Operation,
         candidates: &[Candidate],
         noise: f64,
-    ) -> Result<Option<Self>, PredictError> {
-        let Some(design) = MeasurementDesign::standard(study, operation, noise) else {
-            return Ok(None);
-        };
-        let Ok(bench) = shop.bench(vec![design.test(study, operation)]) else {
-            return Ok(None);
-        };
-        let said: Vec<Result<PlannedResponse, PredictError>> = candidates
+        watch: Watch<'_>,
+    ) -> Result<Self, DiagnoseError> {
+        let numerics = Fidelity::Screening.resolution(study.resolution());
+        let shop = Workshop::new(study.gear_set(), numerics, ContactKind::Hertz, &[])?;
+        let tests = grid(&study.operation);
+        watch(0.0, format!("running {} feasible tests", tests.len()));
+        let responses: Vec<Option<TestResponses>> = tests
             .par_iter()
-            .map(|candidate| PlannedResponse::of(&bench, candidate, &median(study, candidate)))
-            .collect();
-        let runs: Vec<bool> = said.iter().map(Result::is_ok).collect();
-        let base = match &said[0] {
-            Ok(base) => base.values.clone(),
-            Err(error) => return Err(error.clone()),
-        };
-        let data = design.with(&base);
-        let noise = noise_ahead(study, SigmaModel::AS_STATED);
-        let scatter = match study.noise.coefficient_scatter {
-            Scatter::Relative(scatter) => scatter,
-            Scatter::Estimate => LEAST_SCATTER,
-        };
-        let of = |quantities: &[Quantity]| -> Vec<White> {
-            let rows = quantities.iter().flat_map(|q| design.rows(*q)).collect();
-            let scale = Whitening::new(&data, rows, &noise);
-            let base = scale.white(&base);
-            (said.iter().zip(candidates))
-                .map(|(said, candidate)| {
-                    let Ok(said) = said else {
-                        return White {
-                            values: DVector::zeros(base.len()),
-                            common: Vec::new(),
-                            own: Vec::new(),
-                        };
-                    };
-                    let values = scale.white(&said.values);
-                    let by_k = scale.white(&said.by_k);
-                    let mut common = vec![&by_k * K_SPREAD];
-                    let own = said.prior(candidate);
-                    common.extend(own.iter().map(|column| scale.white(column)));
-                    common.push(&values - &base);
-                    White {
-                        own: vec![by_k * scatter],
-                        values,
-                        common,
-                    }
-                })
-                .collect()
-        };
-        Ok(Some(Self {
-            runs,
-            by_quantities: MEASURED.iter().map(|quantities| of(quantities)).collect(),
-        }))
+            .map(|(_, operation)| TestResponses::of(study, &shop, operation, candidates, noise))
+            .collect::<Result<_, PredictError>>()?;
+        let runs = |c: &usize| responses.iter().flatten().all(|r| r.runs[*c]);
+        let (kept, failed): (Vec<usize>, Vec<usize>) = (1..candidates.len()).partition(runs);
+        let table = |r: &TestResponses| DiscriminationTable::new(r, &kept, 0);
+        let tables = responses.iter().map(|r| r.as_ref().map(table)).collect();
+        let names = candidates.iter().map(|c| c.hypothesis().to_string());
+        Ok(Self {
+            candidates: names.collect(),
+            kept,
+            failed,
+            tests,
+            responses,
+            tables,
+        })
     }
-}
 
-/// The study's k and an effect's median strength.
-fn median(study: &Study, candidate: &Candidate) -> State {
-    let values = candidate.medians();
-    let own = candidate.parameters.iter().zip(&values);
-    State {
-        log_k: study.wear.coefficient.ln(),
-        theta: own.map(|(p, &x)| p.natural_start(x)).collect(),
-        epsilon: vec![0.0],
+    fn names(&self, candidates: &[usize]) -> Vec<String> {
+        let names = candidates.iter().map(|&c| self.candidates[c].clone());
+        names.collect()
     }
-}
 
-/// What some tests together say: of every effect as the truth against no effect, and against every other one.
-struct DiscriminationTable {
-    nothing: Vec<Option<Discrimination>>,
-    rivals: Vec<Vec<Option<Discrimination>>>,
-}
+    /// Of the compared effects, which a set of tests tells from every other one.
+    fn told_apart(&self, score: &Score) -> Vec<usize> {
+        (0..self.kept.len())
+            .filter(|&a| score.told_apart(a))
+            .collect()
+    }
 
-impl DiscriminationTable {
-    fn empty(count: usize) -> Self {
-        Self {
-            nothing: vec![None; count],
-            rivals: vec![vec![None; count]; count],
+    /// One test after the other, as long as one adds something.
+    fn choose(&self, plain: &Operation, count: usize) -> Choice {
+        let mut choice = Choice {
+            places: Vec::new(),
+            tests: Vec::new(),
+            joint: DiscriminationTable::empty(self.kept.len()),
+        };
+        let mut before = Vec::new();
+        while choice.places.len() < count {
+            let Some((place, joint)) = self.best_addition(&choice) else {
+                break;
+            };
+            let score = joint.score();
+            let told_apart = self.told_apart(&score);
+            let newly: Vec<usize> = (told_apart.iter())
+                .filter(|a| !before.contains(*a))
+                .map(|&a| self.kept[a])
+                .collect();
+            let test = shown(&self.tests[place].1);
+            choice.tests.push(ChosenTest {
+                detectable: score.detectable(),
+                told_apart: told_apart.len(),
+                why: purpose(&test, plain),
+                newly: self.names(&newly),
+                test,
+            });
+            choice.places.push(place);
+            choice.joint = joint;
+            before = told_apart;
         }
+        choice
     }
 
-    fn new(seen: &TestResponses, kept: &[usize], measured: usize) -> Self {
-        let white = &seen.by_quantities[measured];
-        let of = |truth: usize, rival: usize| {
-            let (a, b) = (&white[truth], &white[rival]);
-            Some(Discrimination::new(
-                &(&a.values - &b.values),
-                &b.common,
-                &b.own,
-            ))
+    /// The test that adds most to a choice, of near-equal ones the plainest, and what it shows with the others; None if none adds anything.
+    fn best_addition(&self, choice: &Choice) -> Option<(usize, DiscriminationTable)> {
+        let value = choice.joint.score().value();
+        let gain = |(place, table): (usize, &Option<DiscriminationTable>)| match table {
+            Some(table) if !choice.places.contains(&place) => {
+                let gain = choice.joint.and(table).score().value() - value;
+                (gain, self.tests[place].0)
+            }
+            _ => (f64::NEG_INFINITY, usize::MAX),
         };
-        let against = |a: usize| {
-            let others = kept.iter();
-            others
-                .map(|&b| if b == a { None } else { of(a, b) })
-                .collect()
-        };
-        Self {
-            nothing: kept.iter().map(|&a| of(a, 0)).collect(),
-            rivals: kept.par_iter().map(|&a| against(a)).collect(),
-        }
+        let gains: Vec<(f64, usize)> = self.tables.iter().enumerate().map(gain).collect();
+        let best = *ranked(&gains).first()?;
+        let table = self.tables[best].as_ref()?;
+        (gains[best].0 > 0.0).then(|| (best, choice.joint.and(table)))
     }
 
-    fn and(&self, other: &Self) -> Self {
-        let join = |a: &[Option<Discrimination>],
-                    b: &[Option<Discrimination>]|
-         -> Vec<Option<Discrimination>> {
-            let both = a.iter().zip(b);
-            both.map(|(a, b)| match (a, b) {
-                (Some(a), Some(b)) => Some(a.and(b)),
-                (one, other) => one.as_ref().or(other.as_ref()).cloned(),
+    fn effects(&self, score: &Score) -> Vec<EffectVisibility> {
+        let name = |a: usize| self.candidates[self.kept[a]].clone();
+        (0..self.kept.len())
+            .map(|a| EffectVisibility {
+                effect: name(a),
+                detection_chi2: score.shown[a],
+                nearest: score.nearest[a].map_or(String::new(), name),
+                nearest_chi2: score.apart[a],
+                detectable: score.shown[a] >= CLEAR,
+                told_apart: score.told_apart(a),
             })
             .collect()
-        };
-        let rivals = self.rivals.iter().zip(&other.rivals);
-        Self {
-            nothing: join(&self.nothing, &other.nothing),
-            rivals: rivals.map(|(a, b)| join(a, b)).collect(),
+    }
+
+    /// A set of measured quantities, and how many effects the chosen tests tell apart by them.
+    fn told_apart_with(&self, choice: &Choice, measured: usize) -> (String, usize) {
+        let joint = (choice.places.iter())
+            .filter_map(|&place| self.responses[place].as_ref())
+            .map(|responses| DiscriminationTable::new(responses, &self.kept, measured))
+            .fold(
+                DiscriminationTable::empty(self.kept.len()),
+                |joint, table| joint.and(&table),
+            );
+        let names: Vec<&str> = MEASURED[measured].iter().map(|q| q.name()).collect();
+        (names.join(" + "), self.told_apart(&joint.score()).len())
+    }
+
+    /// Every test by itself, the most telling first.
+    fn alone(&self, choice: &Choice) -> Vec<AloneTest> {
+        let mut alone = Vec::new();
+        for (place, (changes, operation)) in self.tests.iter().enumerate() {
+            let Some(table) = &self.tables[place] else {
+                continue;
+            };
+            let score = table.score();
+            let chosen = choice.places.iter().position(|&c| c == place);
+            alone.push(AloneTest {
+                test: shown(operation),
+                changes: *changes,
+                detectable: score.detectable(),
+                told_apart: self.told_apart(&score).len(),
+                chosen: chosen.map(|order| order + 1),
+            });
         }
-    }
-
-    fn score(&self) -> Score {
-        let chi2 = |discrimination: &Option<Discrimination>| {
-            discrimination.as_ref().map_or(0.0, Discrimination::chi2)
-        };
-        let mut score = Score {
-            shown: self.nothing.iter().map(chi2).collect(),
-            nearest: Vec::new(),
-            apart: Vec::new(),
-        };
-        for (a, rivals) in self.rivals.iter().enumerate() {
-            let others = (0..rivals.len()).filter(|&b| b != a);
-            let nearest = others
-                .map(|b| (b, chi2(&rivals[b])))
-                .min_by(|x, y| x.1.total_cmp(&y.1));
-            score.nearest.push(nearest.map(|n| n.0));
-            score.apart.push(nearest.map_or(score.shown[a], |n| n.1));
-        }
-        score
-    }
-}
-
-/// χ² of every effect against nothing and against its nearest look-alike.
-struct Score {
-    shown: Vec<f64>,
-    nearest: Vec<Option<usize>>,
-    apart: Vec<f64>,
-}
-
-impl Score {
-    fn detectable(&self) -> usize {
-        self.shown.iter().filter(|c| **c >= CLEAR).count()
-    }
-
-    fn told_apart(&self, a: usize) -> bool {
-        self.shown[a].min(self.apart[a]) >= CLEAR
-    }
-
-    /// Effects told apart, then those shown, then how near the others are: what a choice makes large.
-    fn value(&self) -> f64 {
-        let near = |c: f64| (c / CLEAR).min(1.0);
-        (0..self.shown.len())
-            .map(|a| {
-                let apart = self.shown[a].min(self.apart[a]);
-                f64::from(u8::from(apart >= CLEAR)) + 0.3 * near(self.shown[a]) + 0.3 * near(apart)
-            })
-            .sum()
+        alone.sort_by(|a, b| {
+            (b.told_apart, b.detectable, a.changes).cmp(&(a.told_apart, a.detectable, b.changes))
+        });
+        alone
     }
 }
 
@@ -377,35 +234,4 @@ fn sentence(study: &Study, made: &[ChosenTest], effects: usize) -> String {
         last.detectable,
         last.told_apart
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn discrimination(v: f64) -> Option<Discrimination> {
-        Some(Discrimination::new(&DVector::from_element(1, v), &[], &[]))
-    }
-
-    #[test]
-    fn an_effect_counts_when_it_shows_and_no_other_looks_like_it() {
-        let table = DiscriminationTable {
-            nothing: vec![discrimination(3.0), discrimination(4.0)],
-            rivals: vec![
-                vec![None, discrimination(1.0)],
-                vec![discrimination(5.0), None],
-            ],
-        };
-        let score = table.score();
-        assert_eq!(score.detectable(), 2);
-        assert!(!score.told_apart(0) && score.told_apart(1));
-        assert_eq!(score.nearest, [Some(1), Some(0)]);
-        // a second test of the same kind adds its χ²
-        let both = table.and(&table).score();
-        assert!((both.apart[0] - 2.0).abs() < 1e-12);
-        assert!(both.value() > score.value());
-        // the empty set of tests says nothing and adds nothing
-        let with = DiscriminationTable::empty(2).and(&table).score();
-        assert_eq!(with.apart, score.apart);
-    }
 }

@@ -10,14 +10,15 @@
 //! where it comes to rest they are taken once more, central and over two posterior standard deviations to each side.
 
 mod derivatives;
+mod descent;
 
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use self::descent::Position;
 use crate::learn::hypothesis::parameters::Parameter;
-use crate::learn::inference::quadratic::{Layout, Normal, Quadratic, State};
-use crate::learn::inference::scatter::most_probable;
+use crate::learn::inference::quadratic::{Layout, Normal, State};
 use crate::learn::inference::selection::Selection;
 use crate::learn::prediction::evaluate::{Evaluator, Point};
 use crate::learn::prediction::predictor::PredictError;
@@ -134,26 +135,11 @@ const SMALLER_STARTS: usize = 8;
 /// By how much k is scaled to the measured wear at once, and how often at most.
 const MOST_SCALED: f64 = 100.0;
 const SCALINGS: usize = 5;
-/// Promised gain of ln posterior up to which a step is short: two posterior standard deviations.
-const SHORT: f64 = 2.0;
 /// Step of the differences in ln k of a test.
 const DIFFERENCE_K: f64 = 0.02;
 
-/// How far a step goes at most, prior standard deviations (for ln k: 1): the derivatives say nothing of what lies beyond, and laws out there, a hundred times
-/// as fast as they are measured, take minutes to wear.
-const FARTHEST: f64 = 2.0;
-
-/// Gain of ln posterior, in tolerances, up to which a step is none: a fit would creep on the predictions' own roughness.
-const NOTHING: f64 = 0.1;
-
-/// The same as a share of what the misfit beyond noise adds to the tolerance: far from the measurements, a fit that gains little in a step would need many.
-const CREEP: f64 = 0.5;
-
 /// Whitened sum of squares by which model values may have moved under derivatives that are kept.
 const MOVED: f64 = 1.0;
-
-/// Loss of ln posterior allowed to a fit for its misfit, from which on derivatives as they are serve as well as new ones.
-const FAR: f64 = 3.0;
 
 /// Model values per test.
 type Values = Vec<Arc<[f64]>>;
@@ -178,8 +164,9 @@ impl Search<'_> {
             self.own(evaluator, &state)
         };
         let taken = self.with_differences(evaluator, &state, &values, own)?;
-        let settled = taken.exact.then(|| state.clone());
-        self.descend(evaluator, state, values, taken.jacobian, settled, effort)
+        let exact = taken.exact;
+        let start = Position::new(state, values, taken.jacobian, exact);
+        self.descend(evaluator, start, effort)
     }
 
     /// Goes on from `state`, where another search settled with these derivatives and model values: if the derivatives promise
@@ -196,135 +183,8 @@ impl Search<'_> {
         let joined = self.selection.joined(&values);
         let moved: Vec<f64> = joined.iter().zip(before).map(|(now, b)| now - b).collect();
         let same = squared(&self.selection.covariance.whiten(&moved)) < MOVED;
-        let settled = same.then(|| state.clone());
-        self.descend(evaluator, state, values, jacobian, settled, effort)
-    }
-
-    fn descend(
-        &self,
-        evaluator: &mut Evaluator<'_>,
-        mut state: State,
-        mut values: Values,
-        mut jacobian: DMatrix<f64>,
-        mut settled_at: Option<State>,
-        effort: &Effort,
-    ) -> Result<SearchEnd, PredictError> {
-        let mut taken_at = state.clone();
-        let mut damping = 1e-3;
-        let (mut iterations, mut rounds) = (0, 0);
-        let (converged, scatter, normal) = loop {
-            let model = self.selection.joined(&values);
-            let covariance = &self.selection.covariance;
-            let normal = self.selection.normal(&model, &jacobian, covariance);
-            let scatter = most_probable(self.scatter, &self.layout, &normal, &state);
-            let quadratic = Quadratic::new(&self.layout, &normal, &state, scatter);
-            let fresh = taken_at == state;
-            let promised = quadratic.step(0.0).decrease;
-            let beyond = 0.5 * (normal.square - self.selection.len() as f64).max(0.0);
-            let tolerance = effort.tolerance + effort.share * beyond;
-            let floor = effort.floor + effort.share * beyond;
-            let least = NOTHING * effort.tolerance + CREEP * effort.share * beyond;
-            let settled = rounds == effort.settle
-                || effort.share * beyond > FAR
-                || settled_at.as_ref().is_some_and(|at| self.near(at, &state));
-            if promised <= tolerance {
-                if !settled {
-                    jacobian = self.at_rest(evaluator, &state, &values, &quadratic)?;
-                    (taken_at, settled_at) = (state.clone(), Some(state.clone()));
-                    rounds += 1;
-                    continue;
-                }
-                if effort.settle > 0 || fresh || self.distance(&taken_at, &state) <= effort.carry {
-                    break (true, scatter, normal);
-                }
-                let own = self.own(evaluator, &state);
-                (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
-                taken_at = state.clone();
-                continue;
-            }
-            if iterations == effort.iterations {
-                break (false, scatter, normal);
-            }
-            iterations += 1;
-            if effort.settle > 0
-                && settled
-                && promised <= SHORT
-                && let Some(next) = self.short_step(&quadratic, &state, scatter)
-            {
-                values = self.along(&jacobian, [&state, &next], &values);
-                state = next;
-                continue;
-            }
-            let tried = self.improve(
-                evaluator,
-                &quadratic,
-                &state,
-                scatter,
-                (&mut damping, effort.gain, least),
-                &|next| self.distance(&taken_at, next) > effort.carry,
-            );
-            let Some((next, next_values, own)) = tried else {
-                if !settled {
-                    jacobian = self.at_rest(evaluator, &state, &values, &quadratic)?;
-                    (taken_at, settled_at) = (state.clone(), Some(state.clone()));
-                    rounds += 1;
-                    damping = 1e-3;
-                    continue;
-                }
-                if promised <= floor {
-                    break (true, scatter, normal);
-                }
-                if fresh {
-                    break (false, scatter, normal);
-                }
-                let own = self.own(evaluator, &state);
-                (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
-                taken_at = state.clone();
-                damping = 1e-3;
-                continue;
-            };
-            if effort.settle > 0 && self.near(&state, &next) {
-                (state, values) = (next, next_values);
-            } else if self.distance(&taken_at, &next) <= effort.carry {
-                self.broyden(&mut jacobian, [&state, &next], [&values, &next_values]);
-                (state, values) = (next, next_values);
-            } else {
-                (state, values) = (next, next_values);
-                let own = own.unwrap_or_else(|| self.own(evaluator, &state));
-                (jacobian, settled_at) = self.anew(evaluator, &state, &values, own, settled_at)?;
-                taken_at = state.clone();
-            }
-        };
-        Ok(SearchEnd {
-            objective: self.layout.objective(normal.square, &state, scatter),
-            model: self.selection.joined(&values),
-            state,
-            scatter,
-            normal,
-            jacobian,
-            iterations,
-            converged,
-        })
-    }
-
-    /// The full step, if it goes no farther than a forward difference: so near, derivatives say as much as predictions do.
-    fn short_step(&self, quadratic: &Quadratic, state: &State, scatter: f64) -> Option<State> {
-        let next = (self.layout).moved(state, &quadratic.step(0.0).x, scatter);
-        self.near(state, &next).then_some(next)
-    }
-
-    /// Derivatives taken anew, the model's `own` as far as it has them, and where a search has settled: exact ones leave nothing to be taken once more.
-    fn anew(
-        &self,
-        evaluator: &mut Evaluator<'_>,
-        state: &State,
-        values: &Values,
-        own: OwnDerivatives,
-        settled_at: Option<State>,
-    ) -> Result<(DMatrix<f64>, Option<State>), PredictError> {
-        let taken = self.with_differences(evaluator, state, values, own)?;
-        let settled_at = taken.exact.then(|| state.clone()).or(settled_at);
-        Ok((taken.jacobian, settled_at))
+        let start = Position::new(state, values, jacobian, same);
+        self.descend(evaluator, start, effort)
     }
 
     /// Sum of the squared whitened residuals at `state`, with k (if free) scaled to the measured size.
@@ -335,45 +195,6 @@ impl Search<'_> {
     ) -> Result<f64, PredictError> {
         let (_, values) = self.scaled_start(evaluator, state)?;
         Ok(self.square(&values))
-    }
-
-    /// A state with a posterior higher by `least` or more at this scatter, by ever shorter steps; None if there seems to be none. With the model's own derivatives
-    /// there where `far` says that they will be taken anew: they bring the predictions with them.
-    fn improve(
-        &self,
-        evaluator: &mut Evaluator<'_>,
-        quadratic: &Quadratic,
-        state: &State,
-        scatter: f64,
-        (damping, gain, least): (&mut f64, f64, f64),
-        far: &dyn Fn(&State) -> bool,
-    ) -> Option<(State, Values, Option<OwnDerivatives>)> {
-        for trial in 0..8 {
-            let mut step = quadratic.step(*damping);
-            let mut next = self.layout.moved(state, &step.x, scatter);
-            while self.distance(state, &next) > FARTHEST && *damping < 1e6 {
-                *damping = (*damping * 10.0).max(0.1);
-                step = quadratic.step(*damping);
-                next = self.layout.moved(state, &step.x, scatter);
-            }
-            if trial > 0 && step.decrease < least {
-                return None;
-            }
-            // a second trial is for steps that often fail
-            let own = (trial == 0 && far(&next)).then(|| self.own(evaluator, &next));
-            if let Ok(values) = self.predict(evaluator, &next) {
-                let square = self.square(&values);
-                let gained = quadratic.value - self.layout.objective(square, &next, scatter);
-                if gained > (gain * step.decrease).max(least) {
-                    let good = gained > 0.75 * step.decrease;
-                    *damping = if good { *damping * 0.1 } else { *damping };
-                    *damping = damping.max(1e-6);
-                    return Some((next, values, own));
-                }
-            }
-            *damping = (*damping * 10.0).max(0.1);
-        }
-        None
     }
 
     /// The start with k (if free) scaled so that wear has the size of the measured one.
