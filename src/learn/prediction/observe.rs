@@ -1,5 +1,6 @@
 //! What an instrument reads off the model: each quantity of the measurement file, in its unit.
 
+mod derivatives;
 mod meshing;
 mod thickness;
 
@@ -12,7 +13,7 @@ use crate::simulate::forward::{Forward, ForwardError, GearSet, Variation};
 use crate::simulate::wear_state::worn_area;
 use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::Moment;
-use meshing::{Meshing, MeshingTangent};
+use meshing::Meshing;
 
 /// A worn state that can be read. Contacts are solved only when a quantity asks for them.
 pub(in crate::learn) struct Reading<'r, 'f> {
@@ -69,123 +70,6 @@ impl<'r, 'f> Reading<'r, 'f> {
                 Ok(1e6 * (self.meshing()?.0.mean - fresh))
             }
         }
-    }
-
-    /// The derivatives of what `observation` should be, by parameter.
-    ///
-    /// # Errors
-    /// [`ForwardError`] if a contact cannot be solved.
-    pub(in crate::learn) fn tangents_of(
-        &mut self,
-        observation: &Observation,
-    ) -> Result<Vec<f64>, ForwardError> {
-        let at = observation.position.unwrap_or(0.0);
-        let pinion_for_pair = observation.member.member().unwrap_or(Member::Pinion);
-        match observation.quantity {
-            Quantity::WearDepth => {
-                let arc = self.arc(pinion_for_pair, at);
-                let slices = self.sections_worn_at(pinion_for_pair, arc, observation);
-                Ok(
-                    self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
-                        1e3 * self.inclined() * interpolate(stations, depths, arc)
-                    }),
-                )
-            }
-            Quantity::MassLoss => {
-                let of = |member: Member| {
-                    self.each_depth(
-                        member,
-                        &self.all_sections(member),
-                        |stations, depths, displaced| {
-                            self.mass_of(member, worn_area(stations, depths) - displaced)
-                        },
-                    )
-                };
-                Ok(match observation.member {
-                    Subject::Pair => {
-                        let [pinion, gear] = Member::BOTH.map(of);
-                        pinion.iter().zip(&gear).map(|(p, g)| p + g).collect()
-                    }
-                    _ => of(pinion_for_pair),
-                })
-            }
-            Quantity::TransmissionError => {
-                let ratio = self.forward.cycle().pair.speed_ratio;
-                let (meshing, _) = self.meshing()?;
-                let of = |tangent: &MeshingTangent| {
-                    let approach =
-                        interpolate(&meshing.turns.0, &tangent.approach, at.rem_euclid(1.0));
-                    -1e6 * (approach - tangent.mean) / ratio
-                };
-                Ok(meshing.tangents.iter().map(of).collect())
-            }
-            Quantity::MeshStiffness => {
-                let stiffness = self.stiffness(at)?;
-                let (approach, _) = self.approach(at)?;
-                let (meshing, _) = self.meshing()?;
-                let of = |tangent: &MeshingTangent| {
-                    let change =
-                        interpolate(&meshing.turns.0, &tangent.approach, at.rem_euclid(1.0));
-                    -stiffness * change / approach
-                };
-                Ok(meshing.tangents.iter().map(of).collect())
-            }
-            Quantity::ContactPressure => {
-                let arc = self.arc(pinion_for_pair, at);
-                let stations = self.stations(pinion_for_pair).to_vec();
-                let slices = self.sections_pressed_at(pinion_for_pair, arc, observation)?;
-                let (meshing, _) = self.meshing()?;
-                let of = |tangent: &MeshingTangent| {
-                    let at = |&(i, weight): &(usize, f64)| {
-                        let largest = &tangent.largest[i][side(pinion_for_pair)];
-                        weight * interpolate(&stations, largest, arc)
-                    };
-                    slices.iter().map(at).sum()
-                };
-                Ok(meshing.tangents.iter().map(of).collect())
-            }
-            Quantity::LoadShare => self.load_share_tangents(pinion_for_pair, at),
-            Quantity::SpanLoss | Quantity::ChordalLoss => {
-                let felt = self.thickness(observation, pinion_for_pair);
-                let slices = self.sections_worn_at(pinion_for_pair, felt.arc, observation);
-                Ok(
-                    self.each_depth(pinion_for_pair, &slices, |stations, depths, _| {
-                        1e3 * self.inclined() * felt.gain * interpolate(stations, depths, felt.arc)
-                    }),
-                )
-            }
-            Quantity::MeanLag => {
-                let fresh = self.fresh()?.1.clone();
-                let tangents = self.meshing()?.0.tangents.iter();
-                Ok((tangents.zip(fresh))
-                    .map(|(t, f)| 1e6 * (t.mean - f))
-                    .collect())
-            }
-        }
-    }
-
-    /// What `of` makes of the stations of one flank, of the derivative of its depths (the weighted sum of the `slices`) and of that of its
-    /// displaced area, by parameter.
-    fn each_depth(
-        &self,
-        member: Member,
-        slices: &[(usize, f64)],
-        of: impl Fn(&[f64], &[f64], f64) -> f64,
-    ) -> Vec<f64> {
-        let stations = self.stations(member);
-        let tangents = &self.worn.tangents;
-        let each = tangents.depth.iter().zip(&tangents.displaced);
-        each.map(|(depth, displaced)| {
-            let mut sum = vec![0.0; stations.len()];
-            for &(slice, weight) in slices {
-                let own = self.of_slice(depth, slice, member);
-                sum.iter_mut()
-                    .zip(own)
-                    .for_each(|(sum, d)| *sum += weight * d);
-            }
-            of(stations, &sum, displaced[side(member)])
-        })
-        .collect()
     }
 
     /// What an observed flank point feels: the contact at the moment at which it presses the point most, and the depth worn by
@@ -468,29 +352,5 @@ impl<'r, 'f> Reading<'r, 'f> {
             &shares,
             cycle.pair.path_at_rho(member, rho),
         ))
-    }
-    fn load_share_tangents(
-        &mut self,
-        member: Member,
-        radius: f64,
-    ) -> Result<Vec<f64>, ForwardError> {
-        let variations = self.variations;
-        let (meshing, forward) = self.meshing()?;
-        let cycle = forward.cycle();
-        let gear = cycle.pair.member(member);
-        let path = cycle.pair.path_at_rho(member, gear.rho_at_radius(radius));
-        let order = &meshing.passage.order;
-        let path_of = |&(q, index): &(usize, usize)| cycle.positions[q].pairs[index].path;
-        let paths: Vec<f64> = order.iter().map(path_of).collect();
-        let directions = forward.directions(variations);
-        let of = |(tangent, direction): (&MeshingTangent, _)| {
-            let share = |&(q, index): &(usize, usize)| {
-                let (contact, change) = (&meshing.contacts[q], &tangent.contacts[q]);
-                forward.moment_tangent(q, index, contact, change, direction) / forward.torque()
-            };
-            let shares: Vec<f64> = order.iter().map(share).collect();
-            interpolate(&paths, &shares, path)
-        };
-        Ok(meshing.tangents.iter().zip(&directions).map(of).collect())
     }
 }
