@@ -21,23 +21,10 @@ pub(in crate::learn) type AnchoredOn<'a> = anchored::Anchored<&'a GearModel<'a>>
 
 /// A candidate's model on a bench.
 pub(in crate::learn) fn model<'b>(bench: &'b Bench<'b>, candidate: &'b Candidate) -> GearModel<'b> {
-    let names: Vec<&str> = candidate
-        .parameters
-        .iter()
+    let names: Vec<&str> = (candidate.parameters.iter())
         .map(|p| p.name.as_str())
         .collect();
-    let effects = &candidate.version.effects;
-    GearModel::new(
-        bench,
-        Box::new(move |values| {
-            effects.build(&|name| {
-                let place = names.iter().position(|known| *known == name)?;
-                values.get(place).copied()
-            })
-        }),
-    )
-    .stretching(effects.stretches_time())
-    .giving_up()
+    GearModel::of_effects(bench, &candidate.version.effects, names).giving_up()
 }
 
 /// Predictions of all tests of a likelihood at a state, by test of the likelihood.

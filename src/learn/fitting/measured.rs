@@ -132,18 +132,7 @@ impl<'a> Measured<'a> {
             .map(parameter)
             .collect();
         let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
-        let effects = &version.effects;
-        let model = GearModel::new(
-            bench,
-            Box::new(move |values| {
-                effects.build(&|name| {
-                    let place = names.iter().position(|known| known == name)?;
-                    values.get(place).copied()
-                })
-            }),
-        )
-        .stretching(effects.stretches_time())
-        .giving_up();
+        let model = GearModel::of_effects(bench, &version.effects, names).giving_up();
         let problem = Problem {
             data: &self.data,
             roles: &self.roles,

@@ -14,6 +14,7 @@ use crate::learn::prediction::predictor::{Linearised, Move, PredictError, Predic
 use crate::learn::prediction::trajectory::Trajectory;
 use crate::measure::{Observation, Quantity};
 use crate::simulate::forward::{Forward, ForwardError, Mounting, Variation};
+use crate::study::EffectModel;
 use crate::wear::acting::Acting;
 
 /// Builds the effects of a model from the values of its free parameters.
@@ -65,6 +66,21 @@ impl<'a> GearModel<'a> {
             first: Mutex::default(),
             mountings: Mutex::default(),
         }
+    }
+
+    /// The model with the effects of a study, whose free parameters `names` stand in this order.
+    pub(in crate::learn) fn of_effects<N: AsRef<str> + Send + Sync + 'a>(
+        bench: &'a Bench<'a>,
+        effects: &'a EffectModel,
+        names: Vec<N>,
+    ) -> Self {
+        let build = move |values: &[f64]| {
+            effects.build(&|name| {
+                let place = names.iter().position(|known| known.as_ref() == name)?;
+                values.get(place).copied()
+            })
+        };
+        Self::new(bench, Box::new(build)).stretching(effects.stretches_time())
     }
 
     /// The same, where the wear coefficient only stretches time: every effect multiplies it and none has a clock.

@@ -286,15 +286,6 @@ impl<'a> Simulator<'a> {
     /// The model without any history yet.
     fn model(&self) -> GearModel<'_> {
         let names: Vec<&str> = self.effect_parameters().map(|p| p.name.as_str()).collect();
-        GearModel::new(
-            self.bench,
-            Box::new(move |values| {
-                self.effects.build(&|name| {
-                    let place = names.iter().position(|known| *known == name)?;
-                    values.get(place).copied()
-                })
-            }),
-        )
-        .stretching(self.effects.stretches_time())
+        GearModel::of_effects(self.bench, self.effects, names)
     }
 }
