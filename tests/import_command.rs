@@ -2134,6 +2134,15 @@ fn what_counts_no_revolutions_is_no_checkpoint() {
             "{header}: {message}"
         );
     }
+    let stages = refused(
+        &home,
+        "radius [mm],stage 1,stage 2\n26,3,4\n27,2,3\n",
+        options,
+    );
+    assert!(
+        stages.contains("B1: the header `stage 1` counts stages or measurements"),
+        "{stages}"
+    );
     for header in [
         "100000 load cycles",
         "100000 U",
@@ -2188,12 +2197,34 @@ fn what_counts_no_revolutions_is_no_checkpoint() {
             "{message}"
         );
     }
+    let long = "Wear depth, cycles in millions\ncycles,radius [mm],wear depth [um]\n0.1,26,3\n";
+    let message = refused(&home, long, options);
+    assert!(
+        message.contains("row 1: `Wear depth cycles in millions` speaks of multiples"),
+        "{message}"
+    );
     let fact = "Operating hours of the rig: 1234\nradius [mm],100000\n26,3\n";
     assert!(
         rows(&home, fact, options)
             .0
             .contains("title    row 1 passed over")
     );
+}
+
+#[test]
+fn a_unit_above_the_header_is_that_of_the_values() {
+    let home = home();
+    let options = "--test A --member pinion --sigma 0.1";
+    for table in [
+        "Unit: mm\nradius [mm],100000\n26,0.003\n",
+        "Unit: mm\ncycles,radius [mm],wear depth\n100000,26,0.003\n",
+    ] {
+        let written = rows(&home, table, options).1;
+        assert!(
+            written.starts_with("A,pinion,100000,wear_depth,26,3,"),
+            "{written}"
+        );
+    }
 }
 
 #[test]

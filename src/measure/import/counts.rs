@@ -8,6 +8,34 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// Words that may stand beside a count and leave it as it is; `U` are German revolutions.
 const PLAIN: [&str; 5] = ["u", "load", "in", "total", "all"];
 
+/// Words before a small number that make it the place in a sequence.
+const ORDINALS: [&str; 22] = [
+    "stage",
+    "step",
+    "stop",
+    "block",
+    "check",
+    "inspection",
+    "interval",
+    "reading",
+    "measurement",
+    "phase",
+    "no",
+    "nr",
+    "number",
+    "stufe",
+    "schritt",
+    "messung",
+    "abschnitt",
+    "prufung",
+    "etape",
+    "mesure",
+    "etapa",
+    "fase",
+];
+/// Numbers from which such a word does not make a place of a number: `stop 100000`.
+const NO_ORDINAL: f64 = 1000.0;
+
 /// Refuses the header of a checkpoint whose words behind the number say that it is none, or not in revolutions: `70 hrs`, `25 %`, `50 Nm`. The
 /// unit of the `quantity` may stand there in brackets or behind the word for revolutions.
 pub(super) fn refuse_others(
@@ -17,8 +45,15 @@ pub(super) fn refuse_others(
     row: usize,
     column: usize,
 ) -> Result<()> {
-    let at = header.find(number).map_or(0, |at| at + number.len());
-    let behind = &header[at..];
+    let start = header.find(number).unwrap_or(0);
+    let (before, behind) = (&header[..start], &header[start + number.len()..]);
+    let last = names::words(before).pop().unwrap_or_default();
+    if ORDINALS.contains(&last.as_str()) && number.parse().is_ok_and(|n: f64| n < NO_ORDINAL) {
+        return Err(ImportError(format!(
+            "{}: the header `{header}` counts stages or measurements: write the revolutions of the pinion there at which each was made",
+            cell_name(row, column)
+        )));
+    }
     let refused = |what: &str| {
         Err(ImportError(format!(
             "{}: the header `{header}` has `{what}` behind its number: a checkpoint is a number of revolutions of the pinion (or of the gear: `100000 \
@@ -89,6 +124,29 @@ pub(super) fn refuse_others_above(sheet: &Sheet, head: usize) -> Result<()> {
     Ok(())
 }
 
+/// Refuses a table with a column of revolutions of which a row above the header says that they count millions or the like: `cycles in millions`.
+pub(super) fn refuse_multiples_above(sheet: &Sheet, head: usize) -> Result<()> {
+    for (row, cells) in sheet.rows.iter().enumerate().take(head) {
+        let cells: Vec<&str> = (cells.iter().map(String::as_str))
+            .filter(|cell| !cell.is_empty())
+            .collect();
+        let text = cells.join(" ");
+        let words = names::words(&text);
+        let speaks_of_revolutions = words.iter().any(|word| names::revolutions(word).is_some());
+        let multiple = || words.iter().any(|word| names::is_multiple(word));
+        if !is_fact(&cells)
+            && speaks_of_revolutions
+            && (multiple() || names::is_times_a_power(&text))
+        {
+            return Err(ImportError(format!(
+                "row {}: `{text}` speaks of multiples, and the numbers of revolutions would be read as they are: write them in full",
+                row + 1
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Whether a row tells a number of its own: `Operating hours: 1234`, `Operating hours | 1234`.
 fn is_fact(cells: &[&str]) -> bool {
     let has_digit = |text: &str| text.contains(|c: char| c.is_ascii_digit());
@@ -145,10 +203,16 @@ mod tests {
             "Verschlei\u{df} [mm] nach 250000",
             "100000 rev (pinion)",
             "250000 in total",
+            "stop 250000",
+            "stage 2, 250000 rev",
         ] {
             assert_eq!(of(header), Ok(()), "{header}");
         }
         for header in [
+            "stage 1",
+            "after stage 2",
+            "Messung Nr. 3",
+            "wear after stop 4 [um]",
             "70 hrs",
             "2 wk",
             "25 %",

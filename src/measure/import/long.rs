@@ -12,7 +12,7 @@ use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, decimal_commas, units};
+use super::{ImportError, Sheet, cell_name, counts, decimal_commas, units};
 use crate::measure::{Place, Quantity, names};
 use line::Line;
 
@@ -111,6 +111,7 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
         (Some(_), _) => None,
         (None, what) => Some(single_quantity(&read, what, wanted)?),
     };
+    counts::refuse_multiples_above(sheet, head)?;
     let titles = Titles::of(sheet, head, single.unwrap_or(Quantity::WearDepth))?;
     // what a deviation lost is positive whatever is said of the deviation's own sign, which has to be that of more material
     let stated = wanted.turn_sign || differences;

@@ -41,6 +41,19 @@ const LOST: [&str; 18] = [
     "usure",
     "perdido",
 ];
+/// Words that say that nothing but the unit of the values follows: `Unit: mm`, `All values in mm`.
+const UNIT: [&str; 10] = [
+    "unit",
+    "units",
+    "einheit",
+    "einheiten",
+    "unita",
+    "unite",
+    "unites",
+    "unidad",
+    "values",
+    "werte",
+];
 const NOT: [&str; 6] = ["not", "no", "nicht", "kein", "non", "pas"];
 
 impl Titles {
@@ -100,7 +113,9 @@ fn unit(text: &str, quantity: Quantity) -> Option<String> {
         names::column(word) == Some("position")
             || ["roll", "angle", "length"].contains(&word.as_str())
     };
-    if !words.iter().any(of_values) || words.iter().any(of_places) {
+    let is_unit = |word: &String| UNIT.contains(&word.as_str());
+    let names_values = words.iter().any(of_values) || words.iter().any(is_unit);
+    if !names_values || words.iter().any(of_places) {
         return None;
     }
     let stated = text.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
@@ -140,6 +155,10 @@ mod tests {
             Some("um")
         );
         assert_eq!(unit("Wear in um, roll length in mm"), None);
+        assert_eq!(unit("Unit: mm").as_deref(), Some("mm"));
+        assert_eq!(unit("Alle Werte in mm").as_deref(), Some("mm"));
+        assert_eq!(unit("Units: mm, \u{b5}m"), None);
+        assert_eq!(unit("Unit of mass: mg"), None);
         assert_eq!(unit("scale 50 mm"), None);
         for (text, says) in [
             ("Wear depth, negative = material lost", Some(true)),
