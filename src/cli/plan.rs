@@ -27,12 +27,18 @@ pub struct PlanArgs {
     tests: u8,
 }
 
+/// What to do where the measurements are still to be made.
+const NOT_YET_MEASURED: &str = "before anything is measured, take [measurements] out of the study: `gearwear plan` then chooses the first tests";
+
 /// Checks the input and the folder, plans, writes.
 pub(super) fn execute(args: &PlanArgs, context: &Context) -> Result<Outcome, CliError> {
     let study = Study::load(&args.paths.study)?;
     study.check_wears()?;
     let data = match &study.measurements {
-        Some(_) => Some(study.dataset()?),
+        Some(file) => Some(study.dataset().map_err(|error| match file.exists() {
+            true => error,
+            false => error.with_hint(NOT_YET_MEASURED),
+        })?),
         None => None,
     };
     if let Some(data) = &data {

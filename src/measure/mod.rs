@@ -8,6 +8,7 @@
 //! Knows the study by [`Known`] only: ids and lengths of the tests, the flanks' radii, the face width.
 
 mod cell;
+mod curve_scatter;
 mod dialect;
 mod face_places;
 mod header;

@@ -1,31 +1,23 @@
 //! The σ of rows that state none, from what the measurements themselves tell of their noise.
 //!
-//! In this order: the scatter of a curve's points about what their neighbours lead one to expect ([`super::neighbours`]; of a value that has
+//! In this order: the scatter of a curve's points about what their neighbours lead one to expect ([`super::curve_scatter`]; of a value that has
 //! no position, about those before and after it in the test's life), pooled over the curves of its quantity ([`super::pooled_scatter`]); values of the same quantity measured again at the same place and time;
 //! the σ that other rows of the quantity state; of values without a position the scatter of a few in a test's life ([`super::short_series`]). If none of these tells it, the row is refused.
 
 use std::collections::BTreeMap;
 
 use super::Observation;
-use super::neighbours::{SIDE, around, around_within, curves, points};
+use super::curve_scatter::{Along, ENOUGH, LEAST, of_alike, of_one};
+use super::neighbours::{curves, points};
 use super::pooled_scatter::{CurveScatter, ScatterLaw};
 use super::quantity::Quantity;
 use super::short_series;
 use crate::numeric::median;
 
-/// Median of |x| of a standard normal number.
-const MEDIAN: f64 = 0.674_490;
-/// Points of a curve of which it can be told whether it has been filtered.
-const ENOUGH: usize = 15;
 /// Values measured again that give a scatter.
 const REPEATS: usize = 3;
 /// Degrees of freedom of all short series of a quantity together from which they tell a scatter.
 const FREEDOM: usize = 6;
-/// Least σ over a curve's largest value: smoother ones have been filtered.
-const LEAST: f64 = 1e-3;
-/// Of so many points of a curve one may be left out, where it stands so many times the scatter of the others from what they lead one to expect.
-const MOST_APART: usize = 12;
-const FAR_APART: f64 = 8.0;
 /// Scatter of a curve, as a part of that of the middle one of its quantity, both as it is and over the largest value, below which it has been filtered.
 const FILTERED: f64 = 0.2;
 
@@ -119,20 +111,28 @@ pub(super) fn estimate(observations: &mut [Observation]) -> Result<Estimated, us
 /// Of each row by the scatter of its curve and of the others of its quantity; false where it is of the others although its own has one.
 fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
     let rows: Vec<&Observation> = observations.iter().collect();
-    let along = (curves(&rows).into_iter()).map(|curve| (points(&rows, &curve), curve));
+    let along: Vec<Along> = (curves(&rows).into_iter())
+        .map(|own| Along::new(&rows, points(&rows, &own), own))
+        .collect();
+    let scatters = of_alike(&along);
+    let along = (along.into_iter().zip(scatters)).map(|(curve, scatter)| Curve {
+        scatter,
+        largest: largest(&curve.points),
+        rows: curve.rows,
+    });
     let in_time = (series(&rows).into_iter()).map(|own| {
         let point = |&i: &usize| [rows[i].cycles, rows[i].value, 1.0];
-        (own.iter().map(point).collect(), own)
+        let points: Vec<[f64; 3]> = own.iter().map(point).collect();
+        Curve {
+            scatter: of_one(&points),
+            largest: largest(&points),
+            rows: own,
+        }
     });
     let mut quantities: BTreeMap<Quantity, Vec<Curve>> = BTreeMap::new();
-    let all: Vec<(Vec<[f64; 3]>, Vec<usize>)> = along.chain(in_time).collect();
-    for (points, own) in all {
-        let quantity = quantities.entry(rows[own[0]].quantity).or_default();
-        quantity.push(Curve {
-            scatter: scatter(&points),
-            largest: (points.iter()).fold(0.0, |most, point| most.max(point[1].abs())),
-            rows: own,
-        });
+    for curve in along.chain(in_time) {
+        let quantity = rows[curve.rows[0]].quantity;
+        quantities.entry(quantity).or_default().push(curve);
     }
     let mut found = vec![None; rows.len()];
     for curves in quantities.values() {
@@ -158,6 +158,11 @@ fn of_neighbours(observations: &[Observation]) -> Vec<Option<(f64, bool)>> {
         }
     }
     found
+}
+
+/// The largest absolute value of some points.
+fn largest(points: &[[f64; 3]]) -> f64 {
+    points.iter().map(|p| p[1].abs()).fold(0.0, f64::max)
 }
 
 /// Of rows without a position by the scatter of their test's few, and of the others of their quantity; none where all together tell little.
@@ -219,67 +224,6 @@ fn series(rows: &[&Observation]) -> Vec<Vec<usize>> {
     series
 }
 
-/// Points on each side that lead one to expect a value: a tenth of the curve's, since wear bends within a few of twenty points (with four on each
-/// side the scatter of such a curve comes out up to a half too large). Of a short curve all that there are.
-fn side(points: usize) -> usize {
-    if points < ENOUGH {
-        SIDE
-    } else {
-        (points / 10).clamp(2, SIDE)
-    }
-}
-
-/// Variance of the logarithm of such a scatter of independent normal points (2,000 draws each of 15 to 80 points: 2.65, 2.1 and 1.7 over their number
-/// with two, three and four on each side).
-fn variance(points: usize) -> f64 {
-    (0.75 + 3.8 / side(points) as f64) / points as f64
-}
-
-/// Scatter of a curve's points about what their neighbours lead one to expect, no less than a thousandth of its largest value.
-/// A point that stands far apart is left out: it is in the expectation of as many as it has neighbours, half a short curve.
-fn scatter(points: &[[f64; 3]]) -> Option<CurveScatter> {
-    let even: Vec<[f64; 3]> = points.iter().map(|[x, y, _]| [*x, *y, 1.0]).collect();
-    let mut left_out = vec![false; even.len()];
-    let (mut found, mut furthest) = middle_of_apart(&even, &left_out)?;
-    for _ in 0..even.len() / MOST_APART {
-        left_out[furthest] = true;
-        let without = middle_of_apart(&even, &left_out);
-        let apart = around(&even, furthest, &left_out).map_or(0.0, |near| {
-            (even[furthest][1] - near.expected).abs() / near.sigma
-        });
-        // by noise alone no point stands as far from what the others say of it
-        match without {
-            Some((less, next)) if apart > FAR_APART * less => (found, furthest) = (less, next),
-            _ => {
-                left_out[furthest] = false;
-                break;
-            }
-        }
-    }
-    let kept = even.iter().zip(&left_out).filter(|(_, out)| !**out);
-    let largest = kept.map(|(p, _)| p[1].abs()).fold(0.0, f64::max);
-    (largest > 0.0).then(|| CurveScatter {
-        scatter: found.max(LEAST * largest),
-        largest,
-        points: even.len(),
-        variance: variance(even.len()),
-    })
-}
-
-/// Scatter of the points that are not left out about what their neighbours lead one to expect, and the one that stands furthest apart.
-fn middle_of_apart(even: &[[f64; 3]], left_out: &[bool]) -> Option<(f64, usize)> {
-    let apart = (0..even.len())
-        .filter(|&at| !left_out[at])
-        .filter_map(|at| {
-            let found = around_within(even, at, left_out, side(even.len()))?;
-            Some((at, (even[at][1] - found.expected).abs() / found.sigma))
-        });
-    let apart: Vec<(usize, f64)> = apart.collect();
-    let furthest = apart.iter().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
-    let all = apart.into_iter().map(|(_, apart)| apart).collect();
-    Some((median(all)? / MEDIAN, furthest))
-}
-
 /// Of each quantity by values of the same place and time.
 fn of_repeats(observations: &[Observation]) -> BTreeMap<Quantity, f64> {
     let mut places: BTreeMap<_, Vec<f64>> = BTreeMap::new();
@@ -311,28 +255,4 @@ fn of_stated(observations: &[Observation]) -> BTreeMap<Quantity, f64> {
     (stated.into_iter())
         .filter_map(|(quantity, all)| Some((quantity, median(all)?)))
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Sixteen points of a parabola with a noise of ±0.1, and one of them with a decimal point at the wrong place.
-    #[test]
-    fn a_slip_of_the_pen_does_not_make_a_curve_scatter() {
-        let noise = |i: usize| 0.1 * (7.3 * (i * i) as f64 + 1.0).sin();
-        let value = |i: usize| 0.5 + 0.05 * (i as f64 - 6.0).powi(2) + noise(i);
-        let clean: Vec<[f64; 3]> = (0..16).map(|i| [i as f64, value(i), 1.0]).collect();
-        let mut slipped = clean.clone();
-        slipped[7][1] *= 10.0;
-        let [of_clean, of_slipped] = [&clean, &slipped].map(|points| scatter(points).unwrap());
-        let (largest, same) = (of_clean.largest, of_slipped.largest);
-        let (of_clean, of_slipped) = (of_clean.scatter, of_slipped.scatter);
-        assert!((0.03..0.2).contains(&of_clean), "{of_clean}");
-        assert!(
-            (of_slipped / of_clean - 1.0).abs() < 0.5,
-            "{of_slipped} {of_clean}"
-        );
-        assert_eq!(largest, same);
-    }
 }

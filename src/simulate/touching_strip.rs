@@ -2,7 +2,10 @@
 //!
 //! Under a sharp corner of an elastic body the pressure has no bound, and where a tip corner has worn a ledge it changes within a hundredth of a module:
 //! its largest value on a grid says more about the grid than about the teeth. Near the end of a flank the peak is therefore the largest mean over
-//! 0.02 modules, which converges as the grid is refined (`validation/cases/corner.md`). Elsewhere it is the largest value.
+//! 0.02 modules, which converges as the grid is refined (`validation/cases/corner.md`). Elsewhere it is the largest value. Of the analytic model it is that of
+//! Hertz's ellipse itself, wherever the nodes lie.
+
+use std::f64::consts::PI;
 
 use crate::contact::cycle::{Cycle, PairContact};
 use crate::contact::frame::Touch;
@@ -32,6 +35,17 @@ impl TouchingStrip {
     pub fn of(kind: ContactKind, cycle: &Cycle, pair: &PairContact, pressure: &[f64]) -> Self {
         let at_corner =
             pair.frame.touch != Touch::Flanks || ends_loaded(pair, pressure, cycle.spec.window);
+        if kind == ContactKind::Hertz
+            && !at_corner
+            && let Some((peak_pressure, half_width)) =
+                hertz_ellipse(&pair.xi, &pair.length, pressure)
+        {
+            return Self {
+                half_width,
+                at_corner,
+                peak_pressure,
+            };
+        }
         let half_width = half_width(&pair.xi, pressure);
         let length = LENGTH * cycle.pair.pinion.rack.module;
         let near = NEAR * cycle.pair.pinion.rack.module;
@@ -52,6 +66,30 @@ impl TouchingStrip {
             peak_pressure,
         }
     }
+}
+
+/// Largest pressure, MPa, and half width, mm, of a Hertz pressure that is known at nodes and carries its load on their `lengths` (mm); none where it
+/// stands on fewer than three of them.
+///
+/// The squares of an ellipse's heights lie on a parabola, whose zeros are the edges. The heights themselves are scaled so that their sum carries the load, and
+/// so depend on where the nodes lie; 2w/(πb) does not.
+fn hertz_ellipse(xi: &[f64], lengths: &[f64], pressure: &[f64]) -> Option<(f64, f64)> {
+    let loaded: Vec<usize> = (0..xi.len()).filter(|&k| pressure[k] > 0.0).collect();
+    let [first, .., last] = loaded[..] else {
+        return None;
+    };
+    let middle = loaded[loaded.len() / 2];
+    if middle == first || middle == last {
+        return None;
+    }
+    let [a, b, c] = [first, middle, last].map(|k| (xi[k] - xi[middle], pressure[k].powi(2)));
+    let (before, after) = ((a.1 - b.1) / a.0, (c.1 - b.1) / c.0);
+    let bend = (after - before) / (c.0 - a.0);
+    let slope = before - bend * a.0;
+    let half_width = (slope * slope - 4.0 * bend * b.1).sqrt() / (2.0 * bend.abs());
+    let load: f64 = pressure.iter().zip(lengths).map(|(p, l)| p * l).sum();
+    let peak = 2.0 * load / (PI * half_width);
+    (bend < 0.0 && peak.is_finite()).then_some((peak, half_width))
 }
 
 fn largest(pressure: &[f64]) -> f64 {
@@ -132,7 +170,24 @@ fn largest_mean(nodes: &[f64], values: &[f64], length: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::largest_mean;
+    use super::{hertz_ellipse, largest_mean};
+
+    /// Nodes anywhere under an ellipse of 800 MPa over ±0.08 mm, its heights scaled to carry the load.
+    #[test]
+    fn an_ellipse_is_the_same_wherever_the_nodes_lie() {
+        let (peak, half_width) = (800.0, 0.08);
+        let load = 0.5 * std::f64::consts::PI * half_width * peak;
+        for (spacing, offset) in [(0.016, 0.0), (0.026, 0.007), (0.04, 0.0199), (0.05, 0.013)] {
+            let nodes: Vec<f64> = (-8..=8).map(|i| spacing * f64::from(i) + offset).collect();
+            let height = |x: &f64| (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();
+            let area = spacing * nodes.iter().map(height).sum::<f64>();
+            let pressure: Vec<f64> = nodes.iter().map(|x| load / area * height(x)).collect();
+            let (found, width) = hertz_ellipse(&nodes, &[spacing; 17], &pressure).unwrap();
+            assert!((found / peak - 1.0).abs() < 1e-12, "{found}");
+            assert!((width / half_width - 1.0).abs() < 1e-12, "{width}");
+        }
+        assert!(hertz_ellipse(&[0.0, 0.1], &[0.1; 2], &[1.0, 2.0]).is_none());
+    }
 
     /// Of a Hertz pressure the mean over half its half width is (a/2) in closed form: (t √(1 − t²) + asin t)/(2 t), t = 1/4.
     #[test]

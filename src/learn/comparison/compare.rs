@@ -13,7 +13,7 @@ use crate::effects::ParamRole;
 use crate::gear::JAM_TOLERANCE;
 use crate::learn::fitting::fit::{FitError, Problem, ScaledPrediction};
 use crate::learn::fitting::fitted::Fit;
-use crate::learn::fitting::measured::Measured;
+use crate::learn::fitting::measured::{Measured, Misfit};
 use crate::learn::fitting::starts::Start;
 use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::inference::search::Effort;
@@ -226,7 +226,17 @@ impl Measured<'_> {
                     .without_intervals());
             }
             let fit = self.refined(bench, version, attempt.problem, fit, &effort, &told)?;
-            Ok(self.compared(bench, version, fit, promised))
+            let misfit = self.misfit(&fit);
+            let mut compared = self.compared(bench, version, fit, promised);
+            if misfit.is_far()
+                && version
+                    .free
+                    .iter()
+                    .any(|free| free.name != WEAR_COEFFICIENT)
+            {
+                compared.comparison.warnings.push(far(misfit));
+            }
+            Ok(compared)
         })
     }
 
@@ -332,6 +342,14 @@ impl Measured<'_> {
             }),
         }
     }
+}
+
+/// What the parameters' intervals are worth where far more than noise is left.
+fn far(misfit: Misfit) -> String {
+    format!(
+        "\u{3c7}\u{b2} is {:.2} per point: the intervals of the fitted parameters count the noise alone, and hold only for a model that leaves no more than that",
+        misfit.square / misfit.points
+    )
 }
 
 /// Whether nothing is free but k and the parts of smooth functions: these have no valleys of their own, so that another start ends in the same one.

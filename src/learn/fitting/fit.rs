@@ -62,12 +62,6 @@ pub enum FitError {
     NoObservations,
 }
 
-/// How much ln posterior the derivatives promise beyond where a search ended.
-fn promised(layout: &Layout, end: &SearchEnd) -> f64 {
-    let quadratic = Quadratic::new(layout, &end.normal, &end.state, end.scatter);
-    quadratic.step(0.0).decrease
-}
-
 /// χ² above the number of points, in standard deviations of noise's own, up to which a model is within the noise.
 const WITHIN_NOISE: f64 = 3.0;
 
@@ -101,7 +95,7 @@ impl Problem<'_> {
         // by evidence: the density at a mode does not count what it costs to let the tests' own k take up a misfit
         let evidence = |end: &SearchEnd| {
             let found = marginal(self.noise.scatter, &fit.layout, &end.normal, &end.state);
-            found.log_integral - promised(&fit.layout, end)
+            found.log_integral - end.promised
         };
         let mut best: Option<(f64, SearchEnd)> = None;
         let mut failure = None;
@@ -298,7 +292,7 @@ impl Problem<'_> {
             rows,
             log_posterior: -found.objective - constant,
             log_evidence: posterior.log_integral - constant,
-            promised: promised(&fit.layout, &found),
+            promised: found.promised,
             converged: found.converged,
             iterations: found.iterations,
             evaluations: evaluator.evaluations(),

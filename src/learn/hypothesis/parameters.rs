@@ -211,7 +211,8 @@ impl Parameter {
             } else {
                 sd
             },
-            interval: [at(0.025), at(0.975)],
+            // with the mode in it, which lies outside where it is on a bound or where the centre is what derivatives promise
+            interval: [at(0.025).min(value), at(0.975).max(value)],
             at_bound: !self.is_angle()
                 && (mode - prior.lower <= near || prior.upper - mode <= near),
             logarithmic: self.is_logarithmic(),

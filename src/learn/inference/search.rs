@@ -125,6 +125,8 @@ pub(in crate::learn) struct SearchEnd {
     /// Derivatives of the rows with respect to (θ, ln k_t), without whitening.
     pub(in crate::learn) jacobian: DMatrix<f64>,
     pub(in crate::learn) objective: f64,
+    /// By how much the derivatives promise to lower the objective further.
+    pub(in crate::learn) promised: f64,
     pub(in crate::learn) iterations: usize,
     pub(in crate::learn) converged: bool,
 }

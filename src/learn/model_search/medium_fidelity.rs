@@ -216,13 +216,13 @@ fn worth_its_teeth(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
         || judged.log_evidence - before >= SINGLE_TEETH_SHARE * leader
 }
 
-/// A look at a candidate fitted on if it is in play.
+/// A look at a candidate fitted on if it is in play, or promises to be.
 fn fitted_on(
     look: SearchEnd,
     bar: f64,
     fit: impl Fn(State, &Effort) -> Option<SearchEnd>,
 ) -> SearchEnd {
-    if look.objective > bar || look.converged {
+    if look.objective - look.promised > bar || look.converged {
         return look;
     }
     let on = |found: SearchEnd, effort| {

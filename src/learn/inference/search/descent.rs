@@ -95,7 +95,7 @@ impl Search<'_> {
         effort: &Effort,
     ) -> Result<SearchEnd, PredictError> {
         let mut iterations = 0;
-        let (converged, scatter, normal) = loop {
+        let (converged, promised, scatter, normal) = loop {
             let model = self.selection.joined(&at.values);
             let covariance = &self.selection.covariance;
             let normal = self.selection.normal(&model, &at.jacobian, covariance);
@@ -113,14 +113,14 @@ impl Search<'_> {
                     || at.is_fresh()
                     || self.distance(&at.taken_at, &at.state) <= effort.carry
                 {
-                    break (true, scatter, normal);
+                    break (true, promised, scatter, normal);
                 } else {
                     self.differentiate(evaluator, &mut at, None)?;
                 }
                 continue;
             }
             if iterations == effort.iterations {
-                break (false, scatter, normal);
+                break (false, promised, scatter, normal);
             }
             iterations += 1;
             if effort.settle > 0
@@ -145,8 +145,8 @@ impl Search<'_> {
                     self.settle(evaluator, &mut at, &quadratic)?;
                     at.damping = DAMPING;
                 }
-                None if promised <= limits.floor => break (true, scatter, normal),
-                None if at.is_fresh() => break (false, scatter, normal),
+                None if promised <= limits.floor => break (true, promised, scatter, normal),
+                None if at.is_fresh() => break (false, promised, scatter, normal),
                 None => {
                     self.differentiate(evaluator, &mut at, None)?;
                     at.damping = DAMPING;
@@ -155,6 +155,7 @@ impl Search<'_> {
         };
         Ok(SearchEnd {
             objective: self.layout.objective(normal.square, &at.state, scatter),
+            promised,
             model: self.selection.joined(&at.values),
             state: at.state,
             scatter,
