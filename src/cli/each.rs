@@ -39,7 +39,7 @@ pub(super) fn each(
     }
     let target = output.map_or_else(|| default(home, command), Path::to_path_buf);
     atomic::check(&target)?;
-    let (mut rows, mut lines, mut failures) = (Vec::new(), Vec::new(), 0);
+    let mut rows = Vec::new();
     for (i, study) in studies.iter().enumerate() {
         let name = study
             .strip_prefix(home)
@@ -47,48 +47,21 @@ pub(super) fn each(
             .display()
             .to_string();
         context.tell(&format!("{} of {}: {name}", i + 1, studies.len()));
-        let mut row = json!({"study": name});
-        match one(study, &folder::default_path(study, command)) {
-            Ok(outcome) => {
-                for (column, of) in columns {
-                    row[*column] = of(&outcome.json);
-                }
-                row["error"] = Value::Null;
-            }
-            Err(error) => {
-                failures += 1;
-                for (column, _) in columns {
-                    row[*column] = Value::Null;
-                }
-                row["error"] = json!(reason(&error));
-            }
-        }
-        let cells = std::iter::once("study").chain(columns.iter().map(|(name, _)| *name));
-        lines.push(
-            cells
-                .chain(["error"])
-                .map(|name| cell(&row[name]))
-                .collect::<Vec<_>>(),
-        );
-        rows.push(row);
+        let outcome = one(study, &folder::default_path(study, command));
+        rows.push(row(name, outcome, columns));
     }
-    let head = std::iter::once("study").chain(columns.iter().map(|(name, _)| *name));
-    let head: Vec<String> = head.chain(["error"]).map(str::to_owned).collect();
-    let mut table = String::new();
-    for line in std::iter::once(&head).chain(&lines) {
-        let quoted: Vec<String> = line.iter().map(|cell| quoted(cell)).collect();
-        table += &(quoted.join(",") + "\n");
-    }
+    let failures = rows.iter().filter(|row| !row["error"].is_null()).count();
+    let table = table(&rows, columns);
     let document = json!(rows);
     let mut staging = Staging::begin(&target)?;
-    staging.write("each.csv", table.as_bytes())?;
+    staging.write("each.csv", csv(&table).as_bytes())?;
     staging.write(
         "each.json",
         &crate::report::json::text("each.json", &document)?,
     )?;
     let folder = staging.commit()?;
     let mut text = String::new();
-    for line in std::iter::once(&head).chain(&lines) {
+    for line in &table {
         text += &format!("  {}\n", line.join("  ").trim_end());
     }
     if failures > 0 {
@@ -103,6 +76,47 @@ pub(super) fn each(
         text,
         success: failures == 0,
     })
+}
+
+/// The values of the columns for a study, or why it has none.
+fn row(name: String, outcome: Result<Outcome, CliError>, columns: &[Column]) -> Value {
+    let mut row = json!({"study": name});
+    match outcome {
+        Ok(outcome) => {
+            for (column, of) in columns {
+                row[*column] = of(&outcome.json);
+            }
+            row["error"] = Value::Null;
+        }
+        Err(error) => {
+            for (column, _) in columns {
+                row[*column] = Value::Null;
+            }
+            row["error"] = json!(reason(&error));
+        }
+    }
+    row
+}
+
+/// The rows as texts below a header.
+fn table(rows: &[Value], columns: &[Column]) -> Vec<Vec<String>> {
+    let names = columns.iter().map(|(name, _)| *name);
+    let names: Vec<&str> = std::iter::once("study")
+        .chain(names)
+        .chain(["error"])
+        .collect();
+    let head = names.iter().map(|&name| name.to_owned()).collect();
+    let line = |row: &Value| names.iter().map(|&name| cell(&row[name])).collect();
+    std::iter::once(head).chain(rows.iter().map(line)).collect()
+}
+
+fn csv(table: &[Vec<String>]) -> String {
+    let mut text = String::new();
+    for line in table {
+        let quoted: Vec<String> = line.iter().map(|cell| quoted(cell)).collect();
+        text += &(quoted.join(",") + "\n");
+    }
+    text
 }
 
 /// `NAME.toml` in the folder and `NAME/study.toml` below it, by name.

@@ -1,7 +1,9 @@
 //! `gearwear export`: one mesh position as an input deck, for another finite-element program to solve again.
 
+use std::path::Path;
+
 use clap::Args;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::args::StudyAndOutput;
 use super::folder;
@@ -69,43 +71,71 @@ pub(super) fn execute(args: &ExportArgs, context: &Context) -> Result<Outcome, C
     )?;
     progress.stage("contact");
     let solved = OnePosition::solve(&set, &members, &conditions, &numerics, args.position)?;
-    let turn = 1e6 * solved.contact.approach;
-    let (peak, _) = solved.peak();
     let name = format!("position_{:.4}", args.position);
-    let title = format!(
-        "gearwear {}: {}\nmesh position {:.4} base pitches from the pitch point, torque per width {} N mm/mm; units mm, N, MPa\n\
-         expected: turn of the pinion {turn:.3} urad, largest pressure {peak:.2} MPa\nwritten for CalculiX: ccx {name}",
-        env!("CARGO_PKG_VERSION"),
-        study.title.replace('\n', " "),
-        args.position,
-        solved.torque,
-    );
+    let title = title(&study, args.position, &solved, &name);
     let text = deck(&title, &set, &members, &solved)
         .map_err(|error| ForwardError::from(MemberError::from(error)))?;
     let file = format!("{name}.inp");
     staging.write(&file, text.as_bytes())?;
-    let loads = solved.loads();
-    let document = json!({
-        "deck": file,
-        "position": args.position,
-        "torque_per_width": solved.torque,
-        "angle_urad": turn,
-        "peak_pressure": peak,
-        "nodes": members.members.iter().map(|m| m.mesh.points.len()).sum::<usize>(),
-        "pairs": loads.iter().map(|load| json!({
-            "pair": load.pair, "path": load.path, "line_load": load.line_load,
-            "peak_pressure": load.peak_pressure, "at_corner": load.at_corner,
-        })).collect::<Vec<_>>(),
-    });
+    let nodes = members.members.iter().map(|m| m.mesh.points.len()).sum();
+    let document = document(args.position, &file, nodes, &solved);
     let name_of_expected = "expected.json";
     staging.write(
         name_of_expected,
         &crate::report::json::text(name_of_expected, &document)?,
     )?;
     let folder = staging.commit()?;
-    let mut summary =
-        format!("turn of the pinion  {turn:.2} µrad\npeak pressure       {peak:.1} MPa\n");
-    for load in &loads {
+    Ok(Outcome {
+        json: document,
+        text: summary(&solved, &name, &folder),
+        success: true,
+    })
+}
+
+/// Turn of the pinion under load, µrad.
+fn turn(solved: &OnePosition) -> f64 {
+    1e6 * solved.contact.approach
+}
+
+/// What the deck says of itself, with what is expected of it.
+fn title(study: &Study, position: f64, solved: &OnePosition, name: &str) -> String {
+    let (peak, _) = solved.peak();
+    format!(
+        "gearwear {}: {}\nmesh position {position:.4} base pitches from the pitch point, torque per width {} N mm/mm; units mm, N, MPa\n\
+         expected: turn of the pinion {:.3} urad, largest pressure {peak:.2} MPa\nwritten for CalculiX: ccx {name}",
+        env!("CARGO_PKG_VERSION"),
+        study.title.replace('\n', " "),
+        solved.torque,
+        turn(solved),
+    )
+}
+
+/// `expected.json` for the deck `file` of so many nodes.
+fn document(position: f64, file: &str, nodes: usize, solved: &OnePosition) -> Value {
+    let pairs = solved.loads().into_iter().map(|load| {
+        json!({
+            "pair": load.pair, "path": load.path, "line_load": load.line_load,
+            "peak_pressure": load.peak_pressure, "at_corner": load.at_corner,
+        })
+    });
+    json!({
+        "deck": file,
+        "position": position,
+        "torque_per_width": solved.torque,
+        "angle_urad": turn(solved),
+        "peak_pressure": solved.peak().0,
+        "nodes": nodes,
+        "pairs": pairs.collect::<Vec<Value>>(),
+    })
+}
+
+fn summary(solved: &OnePosition, name: &str, folder: &Path) -> String {
+    let mut summary = format!(
+        "turn of the pinion  {:.2} µrad\npeak pressure       {:.1} MPa\n",
+        turn(solved),
+        solved.peak().0
+    );
+    for load in solved.loads() {
         let corner = if load.at_corner { ", tip corner" } else { "" };
         summary += &format!(
             "tooth pair {:>2}       {:.2} N/mm, {:.1} MPa at path {:.3} mm{corner}\n",
@@ -116,11 +146,7 @@ pub(super) fn execute(args: &ExportArgs, context: &Context) -> Result<Outcome, C
         "Written to {}\nNext: ccx {name}, in that folder; compare U1 of node set TURN and the contact stresses in {name}.dat\n",
         folder.display()
     );
-    Ok(Outcome {
-        json: document,
-        text: summary,
-        success: true,
-    })
+    summary
 }
 
 /// The deck knows plain elastic contact only.

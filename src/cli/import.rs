@@ -3,68 +3,21 @@
 mod args;
 mod flanks;
 mod summary;
+mod taken;
+mod understood;
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use serde_json::json;
-
 pub(super) use args::ImportArgs;
 use args::{Across, On, PositionKind, ShareOf};
-use flanks::Flanks;
+use taken::Taken;
 
 use super::init::Example;
 use super::{CliError, Context, Outcome};
-use crate::measure::import::{self, Decimal, Entry, Long, Sheet, Titles, UnitFrom, Wanted, Wide};
-use crate::measure::{Dataset, Subject};
-use crate::report::write_file;
+use crate::measure::Subject;
+use crate::measure::import::{self, Decimal, Sheet, Wanted};
 use crate::study::Study;
-
-/// Either kind of table, as it was understood.
-enum Understood {
-    Long(Long),
-    Wide(Wide),
-}
-
-impl Understood {
-    fn entries(&self) -> &[Entry] {
-        match self {
-            Understood::Long(long) => &long.entries,
-            Understood::Wide(wide) => &wide.entries,
-        }
-    }
-
-    fn titles(&self) -> &Titles {
-        match self {
-            Understood::Long(long) => &long.titles,
-            Understood::Wide(wide) => &wide.titles,
-        }
-    }
-
-    fn flank(&self) -> Option<&str> {
-        match self {
-            Understood::Long(long) => long.flank.as_deref(),
-            Understood::Wide(wide) => wide.flank.as_deref(),
-        }
-    }
-
-    /// What was read as what, by which a table is like another.
-    fn columns(&self) -> Vec<(String, String)> {
-        let (mut columns, turned) = match self {
-            Understood::Long(long) => (long.columns.clone(), long.turned),
-            Understood::Wide(wide) => (vec![wide.corner.clone()], wide.turned),
-        };
-        columns.push(("sign".to_owned(), turned.to_string()));
-        columns
-    }
-}
-
-/// The table that was shown in full, to which others are alike.
-struct Shown {
-    columns: Vec<(String, String)>,
-    titles: Titles,
-}
 
 /// Reads the tables, shows how, writes if asked.
 pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliError> {
@@ -77,12 +30,7 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
         )));
     }
     let wanted = wanted(args, &study)?;
-    let mut file = there(args)?;
-    let mut text = String::new();
-    let mut documents = Vec::new();
-    let mut shown: Option<Shown> = None;
-    let mut flanks = Flanks::default();
-    let mut count = 0;
+    let mut taken = Taken::after(there(args)?);
     for table in &args.tables {
         let sheets = import::sheets(table).map_err(|error| unusable(error.to_string()))?;
         let chosen = chosen(&sheets, table, args)?;
@@ -91,181 +39,10 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             ..wanted.clone()
         };
         for sheet in chosen {
-            let name = named(table, sheet);
-            let understood =
-                understood(sheet, &wanted).map_err(|error| unusable(format!("{name}: {error}")))?;
-            flanks.agree(&name, &understood)?;
-            let (header, rows) = import::lines(understood.entries());
-            let source = source(args, file.is_some(), &name);
-            let whole = with_rows(args, &name, file.as_deref(), &header, &rows)?;
-            // what cannot be read back is not written
-            Dataset::parse(&whole, &source, &study.known()).map_err(|error| {
-                // the place within the table's own rows, where these alone are wrong
-                let own = format!("{header}\n{}\n", rows.join("\n"));
-                let own = Dataset::parse(&own, &source, &study.known()).err();
-                let error = own.filter(|_| !args.append).unwrap_or(error);
-                reading(&understood)
-                    .into_iter()
-                    .fold(error, |error, said| error.with_hint(&said))
-            })?;
-            let columns = understood.columns();
-            let titles = understood.titles();
-            if let Some(first) = shown.as_ref().filter(|first| first.columns == columns) {
-                text +=
-                    &summary::like_the_first(&name, understood.entries(), titles, &first.titles);
-            } else {
-                text += &match &understood {
-                    Understood::Long(long) => summary::long(args, &name, long),
-                    Understood::Wide(wide) => summary::wide(args, &name, wide),
-                };
-                text += &summary::rows(&header, &rows);
-                shown = Some(Shown {
-                    columns,
-                    titles: titles.clone(),
-                });
-            }
-            count += rows.len();
-            documents.push(document(&understood));
-            file = Some(whole);
+            taken.take(args, &study, &named(table, sheet), sheet, &wanted)?;
         }
     }
-    if documents.is_empty() {
-        return Err(unusable(
-            "no sheet of these tables holds anything".to_owned(),
-        ));
-    }
-    let whole = file.unwrap_or_default();
-    let mut document = match <[serde_json::Value; 1]>::try_from(documents) {
-        Ok([one]) => one,
-        Err(several) => json!({ "tables": several, "rows": count }),
-    };
-    match &args.output {
-        None => {
-            text += "nothing is written yet: -o measurements.csv writes it\n";
-            document["written"] = json!([]);
-        }
-        Some(path) => {
-            let all = Dataset::parse(&whole, &path.display().to_string(), &study.known())?;
-            write_file(path, whole.as_bytes())?;
-            let _ = writeln!(
-                text,
-                "wrote {}: {} rows\n{}next: gearwear check {}",
-                path.display(),
-                all.observations.len(),
-                read_from(&study, &args.study, path),
-                args.study.display()
-            );
-            document["written"] = json!([path.display().to_string()]);
-        }
-    }
-    Ok(Outcome {
-        json: document,
-        text,
-        success: true,
-    })
-}
-
-/// What is to be changed in a study, of that file, that does not read the file that was written; a line.
-fn read_from(study: &Study, file: &Path, written: &Path) -> String {
-    let is_same = |own: &Path| match (own.canonicalize(), written.canonicalize()) {
-        (Ok(own), Ok(written)) => own == written,
-        _ => own == written,
-    };
-    let reads = match &study.measurements {
-        Some(own) if is_same(own) => return String::new(),
-        Some(own) => format!("the study reads {}", own.display()),
-        None => "the study reads no measurements yet".to_owned(),
-    };
-    let whole = written.canonicalize();
-    let whole = whole.as_deref().unwrap_or(written);
-    let file = file.canonicalize().ok();
-    let folder = file.as_deref().and_then(Path::parent);
-    let from_study = folder.and_then(|folder| whole.strip_prefix(folder).ok());
-    format!(
-        "{reads}: put file = \"{}\" under its [measurements]\n",
-        from_study.unwrap_or(whole).display()
-    )
-}
-
-/// A sheet as either kind of table.
-fn understood(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Understood, import::ImportError> {
-    match import::long(sheet, wanted)? {
-        Some(long) => Ok(Understood::Long(long)),
-        None => import::wide(sheet, wanted).map(Understood::Wide),
-    }
-}
-
-/// What messages about the rows call them: they stand in no file yet.
-fn source(args: &ImportArgs, has_others: bool, table: &str) -> String {
-    match &args.output {
-        Some(path) if args.append && has_others => {
-            format!("{} with the rows of {table}", path.display())
-        }
-        _ => format!("the rows of {table}"),
-    }
-}
-
-/// How the numbers were read, for messages about the rows.
-fn reading(understood: &Understood) -> Vec<String> {
-    let wide = match understood {
-        Understood::Wide(wide) => wide,
-        Understood::Long(long) => {
-            let times = long
-                .columns
-                .iter()
-                .filter(|(_, what)| what.starts_with("running time"));
-            return times
-                .map(|(written, what)| format!("the cycles are those of `{written}`: {what}"))
-                .collect();
-        }
-    };
-    let mut said = Vec::new();
-    if wide.of_gear {
-        said.push("the headers count revolutions of the gear; these are the pinion's, by the numbers of teeth".to_owned());
-    }
-    let (unit, from) = &wide.unit;
-    if *unit != wide.quantity.unit() {
-        let by = match from {
-            UnitFrom::Header => "the header says so",
-            UnitFrom::Title => "the title says so",
-            _ => "--unit",
-        };
-        said.push(format!("the values were read in {unit} ({by})"));
-    }
-    said
-}
-
-/// The document of `--json`, without what was written.
-fn document(understood: &Understood) -> serde_json::Value {
-    let titles = |titles: &import::Titles| {
-        let rows = titles.passed_over.iter().map(|(_, text)| text.clone());
-        rows.collect::<Vec<String>>()
-    };
-    match understood {
-        Understood::Long(long) => json!({
-            "columns": long.columns,
-            "passed_over": long.passed_over,
-            "titles_passed_over": titles(&long.titles),
-            "sign_turned": long.turned,
-            "empty": long.empty,
-            "rows": long.entries.len(),
-        }),
-        Understood::Wide(wide) => json!({
-            "columns": match (wide.across, wide.position) {
-                (import::Across::Checkpoints, _) => "checkpoints",
-                (import::Across::Positions, Some(_)) => "positions",
-                (import::Across::Positions, None) => "members",
-            },
-            "position": wide.position.map(|(kind, _)| kind.name()),
-            "checkpoints": wide.checkpoints,
-            "from_to": wide.position.map(|(_, from_to)| from_to),
-            "passed_over": wide.passed_over,
-            "titles_passed_over": titles(&wide.titles),
-            "sign_turned": wide.turned,
-            "empty": wide.empty,
-            "rows": wide.entries.len(),
-        }),
-    }
+    taken.outcome(args, &study)
 }
 
 /// The sheets that are meant, those without a cell left out.
@@ -401,23 +178,4 @@ fn there(args: &ImportArgs) -> Result<Option<String>, CliError> {
         "{} is there already; --append writes behind its rows, --force overwrites it",
         path.display()
     )))
-}
-
-/// The text of the file with these rows.
-fn with_rows(
-    args: &ImportArgs,
-    table: &str,
-    before: Option<&str>,
-    header: &str,
-    rows: &[String],
-) -> Result<String, CliError> {
-    let Some(before) = before else {
-        return Ok(format!("{header}\n{}\n", rows.join("\n")));
-    };
-    import::appended(before, header, rows).map_err(|error| {
-        CliError::Unusable(match &args.output {
-            Some(path) if args.append => format!("{}: {error}", path.display()),
-            _ => format!("{table}: {error}"),
-        })
-    })
 }

@@ -1,24 +1,19 @@
 //! A diagnosis for people: the summary on the terminal and the page.
 
+mod page;
+
 use std::fmt::Write as _;
 use std::path::Path;
 
+pub use self::page::page;
 use super::comparison::with_unit;
-use super::drivers;
-use super::format::{count, plain, probability, significant, uncertain};
-use super::html::{Cell, Page, Section, Table};
-use super::learned;
-use super::measured_curves;
-use crate::learn::diagnose::{
-    Diagnosis, Fidelity, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
-};
+use super::format::{probability, significant, uncertain};
+use crate::learn::diagnose::{Diagnosis, Fidelity, Hypothesis, Ranked, Verdict};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;
 /// Probability from which the parameters of a rival are worth a line.
 const RIVAL: f64 = 0.05;
-/// Fits listed on the page.
-const FITTED: usize = 20;
 
 /// Verdict, reasons, ranking, what to do next.
 pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -> String {
@@ -30,6 +25,27 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     for reason in &diagnosis.reasons {
         let _ = writeln!(text, "  {reason}");
     }
+    text += &ranking(diagnosis);
+    text += &values_of_rivals(diagnosis);
+    for warning in &diagnosis.warnings {
+        let _ = writeln!(text, "\nwarning: {warning}");
+    }
+    if let Some(next) = &diagnosis.next_experiment {
+        let _ = writeln!(text, "\nnext experiment: {}", next.why);
+    }
+    let _ = writeln!(
+        text,
+        "\nnext: {}",
+        diagnosis.next_step.replace("STUDY", study)
+    );
+    let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
+    let _ = writeln!(text, "figures: {}", folder.join("diagnosis.json").display());
+    text
+}
+
+/// The first lines of the ranking below a header, and what is unknown.
+fn ranking(diagnosis: &Diagnosis) -> String {
+    let mut text = String::new();
     let shown = || shown(&diagnosis.ranking).into_iter();
     let names = shown()
         .map(name)
@@ -79,20 +95,6 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     if shown().any(|entry| is_beside_unknown(entry) && has_figures(entry)) {
         text += "  χ² of +unknown: of the effect alone, what is unknown beside it left out\n";
     }
-    text += &values_of_rivals(diagnosis);
-    for warning in &diagnosis.warnings {
-        let _ = writeln!(text, "\nwarning: {warning}");
-    }
-    if let Some(next) = &diagnosis.next_experiment {
-        let _ = writeln!(text, "\nnext experiment: {}", next.why);
-    }
-    let _ = writeln!(
-        text,
-        "\nnext: {}",
-        diagnosis.next_step.replace("STUDY", study)
-    );
-    let _ = writeln!(text, "page:    {}", folder.join("report.html").display());
-    let _ = writeln!(text, "figures: {}", folder.join("diagnosis.json").display());
     text
 }
 
@@ -149,218 +151,6 @@ fn means(fidelity: Fidelity) -> &'static str {
         Fidelity::Middle => "coarse elements",
         Fidelity::Full => "finite elements",
     }
-}
-
-/// The same as a page, with the whole ranking; `study` is how the commands to come name the study file.
-pub fn page(title: &str, diagnosis: &Diagnosis, study: &str) -> Page {
-    let mut why = Section::new("Why");
-    for reason in &diagnosis.reasons {
-        why = why.paragraph(reason);
-    }
-    for warning in &diagnosis.warnings {
-        why = why.note(format!("Warning: {warning}."));
-    }
-    let beside = !diagnosis.beside_unknown.is_empty();
-    let over_unknown = |cell: Cell| beside.then_some(cell);
-    let head = ["effect", "probability", "ln evidence over the base"]
-        .into_iter()
-        .chain(beside.then_some("over unknown"))
-        .chain([
-            "χ² per point",
-            "held out",
-            "angle",
-            "parameters",
-            "decided by",
-        ]);
-    let mut table = Table::new("", head);
-    for entry in &diagnosis.ranking {
-        let [fit, _] = figures(entry, 3);
-        let [_, held] = figures(entry, 2);
-        let angle = entry
-            .angle_to_leader
-            .map_or("–".to_owned(), |a| format!("{a:.0}°"));
-        let gain = gain_over_unknown(diagnosis, entry).map_or("–".to_owned(), |gain| {
-            // no minus before a zero
-            format!("{:.1}", (10.0 * gain).round() / 10.0 + 0.0)
-        });
-        let first = [
-            Cell::text(name(entry)),
-            Cell::Bar(entry.probability, probability(entry.probability)),
-            Cell::number(format!("{:.1}", entry.evidence_gain)),
-        ];
-        let last = [
-            Cell::number(fit),
-            Cell::number(held),
-            Cell::number(angle),
-            Cell::text(parameters(entry)),
-            Cell::text(means(entry.decided_by)),
-        ];
-        let gain = over_unknown(Cell::number(gain));
-        table = table.row(first.into_iter().chain(gain).chain(last));
-    }
-    if let Some(&unknown) = diagnosis.probabilities.get("unknown") {
-        let dash = || Cell::number("–");
-        let none = [
-            dash(),
-            dash(),
-            dash(),
-            dash(),
-            Cell::text(""),
-            Cell::text(""),
-        ];
-        let first = [
-            Cell::text(unknown_name(diagnosis)),
-            Cell::Bar(unknown, probability(unknown)),
-        ];
-        table = table.row(first.into_iter().chain(over_unknown(dash())).chain(none));
-    }
-    let of_unknown = if beside {
-        " over unknown: ln evidence of an effect with something unknown beside it over something unknown alone; the probability of \
-         these lines follows this figure, for something unknown may account for what an effect gains over the base."
-    } else {
-        ""
-    };
-    let ranking = Section::new("Ranking").table(table).note(format!(
-        "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
-         its free parameters counted against it.{of_unknown} angle: between what a line and the leading one change in these measurements, \
-         k refitted; at 90° they have nothing in common, below some 10° they do the same, towards 180° the opposite. χ² of lines that were decided by other means than the first holds the \
-         error of those means too.",
-    ));
-    let mut sections = vec![why];
-    let is_established = !matches!(
-        diagnosis.verdict,
-        Verdict::NothingMissing | Verdict::Unknown
-    );
-    sections.extend(measured_curves::section(
-        &diagnosis.residual_drivers,
-        is_established,
-    ));
-    sections.extend(diagnosis.learned.as_ref().map(learned::section));
-    sections.push(ranking);
-    sections.extend(fitted(diagnosis));
-    sections.extend(drivers::sections(diagnosis));
-    let mut next =
-        Section::new("What to do next").paragraph(diagnosis.next_step.replace("STUDY", study));
-    if let Some(experiment) = &diagnosis.next_experiment {
-        next = next
-            .paragraph(experiment.why.clone())
-            .table(conditions(experiment));
-    }
-    sections.push(next);
-    Page {
-        title: if title.is_empty() {
-            "Diagnosis".to_owned()
-        } else {
-            format!("Diagnosis: {title}")
-        },
-        kicker: String::new(),
-        conclusion: diagnosis.sentence.clone(),
-        sections,
-        ..Page::default()
-    }
-}
-
-/// Everything that was fitted, as bars of what each explains.
-fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
-    let attainable = diagnosis.attainable_drop;
-    if diagnosis.screened.is_empty() || attainable <= 0.0 {
-        return None;
-    }
-    let head = ["effect", "fall of χ²", "ln evidence over the base", "by"];
-    let mut table = Table::new("", head);
-    let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
-    let largest = drops.fold(attainable, f64::max);
-    let better = |entry: &&Screened| entry.chi2_drop > 0.0;
-    let shown: Vec<&Screened> = (diagnosis.screened.iter().filter(better))
-        .take(FITTED)
-        .collect();
-    let count = shown.len();
-    for entry in shown {
-        let named = if entry.form.is_empty() {
-            entry.effect.to_string()
-        } else {
-            format!("{} ({})", entry.effect, entry.form)
-        };
-        table = table.row([
-            Cell::text(named),
-            Cell::Bar(entry.chi2_drop / largest, format!("{:.0}", entry.chi2_drop)),
-            Cell::number(format!("{:.1}", entry.evidence_gain)),
-            Cell::text(if entry.decided {
-                "the deciding model"
-            } else {
-                "screening"
-            }),
-        ]);
-    }
-    let text = format!(
-        "Anything smooth could bring χ² down by about {attainable:.0}. The {count} best of {} candidates; those that showed nothing in \
-         the screening are left out.",
-        diagnosis.screened.len()
-    );
-    Some(
-        Section::new("What each effect explains")
-            .paragraph(text)
-            .table(table),
-    )
-}
-
-/// The next test as a person would set it up, and those beside it.
-fn conditions(experiment: &NextExperiment) -> Table {
-    let direction = |test: &NextTest| {
-        if test.reversed {
-            "reversed"
-        } else {
-            "as before"
-        }
-    };
-    let test = &experiment.test;
-    let beside = experiment.further.iter().map(|test| {
-        let conditions = format!(
-            "{} N·m, {} rpm, misalignment {} mm, {} pinion revolutions, direction {}",
-            plain(test.torque),
-            plain(test.speed),
-            plain(test.misalignment),
-            count(test.cycles),
-            direction(test)
-        );
-        ("to be made as well", conditions)
-    });
-    let together = (!experiment.further.is_empty()).then(|| {
-        let chi2 = significant(experiment.together_chi2, 3);
-        ("expected difference after all", chi2)
-    });
-    Table::of_values(
-        "Conditions of the next test",
-        [
-            ("separates", experiment.separates.join(", ")),
-            ("torque", format!("{} N·m", plain(test.torque))),
-            ("speed", format!("{} rpm", plain(test.speed))),
-            ("misalignment", format!("{} mm", plain(test.misalignment))),
-            ("pinion revolutions", count(test.cycles)),
-            ("direction", direction(test).to_owned()),
-            (
-                "expected difference in χ²",
-                format!(
-                    "{} (a repetition of the best test so far: {})",
-                    significant(experiment.expected_chi2, 3),
-                    significant(experiment.repetition_chi2, 3)
-                ),
-            ),
-        ]
-        .into_iter()
-        .chain(beside)
-        .chain(together),
-    )
-}
-
-/// ln evidence of an effect beside something unknown over something unknown alone; None of what is by itself.
-fn gain_over_unknown(diagnosis: &Diagnosis, entry: &Ranked) -> Option<f64> {
-    let Hypothesis::EffectsAndUnknown(effects) = &entry.effect else {
-        return None;
-    };
-    let mut all = diagnosis.beside_unknown.iter();
-    all.find(|beside| beside.effects == *effects)
-        .map(|beside| beside.gain_over_unknown)
 }
 
 /// What holds the probability that no effect of the catalogue does.

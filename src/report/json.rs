@@ -62,24 +62,11 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
         }
     }
     if !run.last().slices.is_empty() {
-        let of = |state: &State| {
-            let slices = state.slices.iter();
-            let rows: Vec<Value> = slices
-                .map(|slice| {
-                    let deepest = (slice.depth.each_ref())
-                        .map(|depth| depth.iter().fold(0.0, |m: f64, h| m.max(*h)));
-                    json!({"face": slice.face, "load": slice.load, "peak_pressure": slice.peak_pressure,
-                           "max_depth_um": {"pinion": deepest[0], "gear": deepest[1]}})
-                })
-                .collect();
-            json!({"cycles": state.cycles, "load_factor": state.face_load_factor(), "slices": rows})
-        };
-        document["face"] = json!({"first": of(run.first()), "last": of(run.last())});
+        let [first, last] = [run.first(), run.last()].map(across_the_face);
+        document["face"] = json!({"first": first, "last": last});
     }
     if !run.last().teeth.is_empty() {
-        let of = |class: &ToothClass| json!({"member": class.member.name(), "teeth": class.teeth, "max_depth_um": class.deepest()});
-        let of = |state: &State| -> Vec<Value> { state.teeth.iter().map(of).collect() };
-        document["teeth"] = json!({"cycles": run.last().cycles, "classes": of(run.last())});
+        document["teeth"] = by_tooth(run.last());
     }
     if let Some(last) = run.last().te_over_a_turn_urad() {
         let first = run.first().te_over_a_turn_urad();
@@ -90,6 +77,27 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
     }
     check_numbers(run)?;
     Ok(document)
+}
+
+/// Load, pressure and wear of every slice.
+fn across_the_face(state: &State) -> Value {
+    let slices = state.slices.iter();
+    let rows: Vec<Value> = slices
+        .map(|slice| {
+            let deepest =
+                (slice.depth.each_ref()).map(|depth| depth.iter().fold(0.0, |m: f64, h| m.max(*h)));
+            json!({"face": slice.face, "load": slice.load, "peak_pressure": slice.peak_pressure,
+                   "max_depth_um": {"pinion": deepest[0], "gear": deepest[1]}})
+        })
+        .collect();
+    json!({"cycles": state.cycles, "load_factor": state.face_load_factor(), "slices": rows})
+}
+
+/// Wear of the teeth that differ.
+fn by_tooth(state: &State) -> Value {
+    let of = |class: &ToothClass| json!({"member": class.member.name(), "teeth": class.teeth, "max_depth_um": class.deepest()});
+    let classes: Vec<Value> = state.teeth.iter().map(of).collect();
+    json!({"cycles": state.cycles, "classes": classes})
 }
 
 /// A document as text, indented, with a newline at its end.

@@ -34,13 +34,44 @@ pub fn deck(
     members: &Members,
     solved: &OnePosition,
 ) -> Result<String, MeshError> {
-    let pair = &solved.cycle.pair;
-    let turns = member_turns(&solved.cycle, solved.position().theta);
-    let centres = [Vec2::zeros(), Vec2::new(pair.centre_distance, 0.0)];
     let mut deck = Deck::default();
     for line in title.lines() {
         deck.line(format_args!("** {line}"));
     }
+    let meshes = placed(members, solved)?;
+    let nodes: usize = meshes.iter().map(|(mesh, _)| mesh.points.len()).sum();
+    let reference = nodes + 1;
+    let mut first = (0, 0);
+    let mut starts = Vec::new();
+    for ((mesh, points), name) in meshes.iter().zip(["PINION", "GEAR"]) {
+        deck.body(name, mesh, points, first);
+        starts.push(first);
+        first = (first.0 + points.len(), first.1 + mesh.cells.len());
+    }
+    deck.line(format_args!(
+        "*NODE, NSET=TURN\n{reference}, 0., 0., 0.\n** its displacement 1 is the turn of the pinion's bore, rad"
+    ));
+    deck.materials(set);
+    deck.contact(set, solved, &meshes, &starts);
+    let held: Vec<String> = meshes[1]
+        .0
+        .bore
+        .iter()
+        .map(|node| format!("{}, 1, 2", starts[1].0 + *node as usize + 1))
+        .chain([format!("{reference}, 2, 3")])
+        .collect();
+    let held = held.join("\n");
+    deck.line(format_args!("*BOUNDARY\n{held}\n*EQUATION"));
+    deck.turning_bore(&meshes[0], reference);
+    deck.steps(solved, reference, &held);
+    Ok(deck.text)
+}
+
+/// The meshes of pinion and gear with their flanks' profile deviations, and their points as placed at the position, mm.
+fn placed(members: &Members, solved: &OnePosition) -> Result<Vec<(Mesh, Vec<Vec2>)>, MeshError> {
+    let pair = &solved.cycle.pair;
+    let turns = member_turns(&solved.cycle, solved.position().theta);
+    let centres = [Vec2::zeros(), Vec2::new(pair.centre_distance, 0.0)];
     let mut meshes = Vec::new();
     for (side, gear) in [&pair.pinion, &pair.gear].into_iter().enumerate() {
         let nominal = &members.members[side].mesh;
@@ -62,53 +93,7 @@ pub fn deck(
         let points: Vec<Vec2> = mesh.points.iter().map(placed).collect();
         meshes.push((mesh, points));
     }
-    let nodes: usize = meshes.iter().map(|(mesh, _)| mesh.points.len()).sum();
-    let reference = nodes + 1;
-    let mut first = (0, 0);
-    let mut starts = Vec::new();
-    for ((mesh, points), name) in meshes.iter().zip(["PINION", "GEAR"]) {
-        deck.body(name, mesh, points, first);
-        starts.push(first);
-        first = (first.0 + points.len(), first.1 + mesh.cells.len());
-    }
-    deck.line(format_args!(
-        "*NODE, NSET=TURN\n{reference}, 0., 0., 0.\n** its displacement 1 is the turn of the pinion's bore, rad"
-    ));
-    for (material, name) in set.materials.iter().zip(["PINION", "GEAR"]) {
-        deck.line(format_args!(
-            "*MATERIAL, NAME=OF_{name}\n*ELASTIC\n{:.9e}, {:.9e}\n*SOLID SECTION, ELSET={name}, MATERIAL=OF_{name}\n1.",
-            material.youngs_modulus, material.poisson_ratio
-        ));
-    }
-    deck.contact(set, solved, &meshes, &starts);
-    let held: Vec<String> = meshes[1]
-        .0
-        .bore
-        .iter()
-        .map(|node| format!("{}, 1, 2", starts[1].0 + *node as usize + 1))
-        .chain([format!("{reference}, 2, 3")])
-        .collect();
-    let held = held.join("\n");
-    deck.line(format_args!("*BOUNDARY\n{held}\n*EQUATION"));
-    for &node in &meshes[0].0.bore {
-        let x = meshes[0].1[node as usize];
-        let number = node as usize + 1;
-        deck.line(format_args!(
-            "2\n{number}, 1, 1., {reference}, 1, {:.12e}\n2\n{number}, 2, 1., {reference}, 1, {:.12e}",
-            x.y, -x.x
-        ));
-    }
-    deck.line(format_args!(
-        "** step 1: the pinion turned to where the flanks meet\n*STEP, INC=100\n*STATIC\n1., 1.\n*BOUNDARY\n{reference}, 1, 1, {:.12e}\n\
-         *NODE PRINT, NSET=TURN\nU, RF\n*END STEP",
-        solved.contact.approach
-    ));
-    deck.line(format_args!(
-        "** step 2: the pinion free to turn under the torque\n*STEP, INC=100\n*STATIC\n1., 1.\n*BOUNDARY, OP=NEW\n{held}\n*CLOAD\n\
-         {reference}, 1, {:.12e}\n*NODE PRINT, NSET=TURN\nU\n*CONTACT PRINT\nCSTR\n*NODE FILE\nU\n*EL FILE\nS\n*END STEP",
-        solved.torque
-    ));
-    Ok(deck.text)
+    Ok(meshes)
 }
 
 #[derive(Default)]
@@ -120,6 +105,42 @@ impl Deck {
     fn line(&mut self, line: std::fmt::Arguments<'_>) {
         // writing into a text cannot fail
         let _ = writeln!(self.text, "{line}");
+    }
+
+    /// The materials of both gears.
+    fn materials(&mut self, set: &GearSet) {
+        for (material, name) in set.materials.iter().zip(["PINION", "GEAR"]) {
+            self.line(format_args!(
+                "*MATERIAL, NAME=OF_{name}\n*ELASTIC\n{:.9e}, {:.9e}\n*SOLID SECTION, ELSET={name}, MATERIAL=OF_{name}\n1.",
+                material.youngs_modulus, material.poisson_ratio
+            ));
+        }
+    }
+
+    /// The equations by which the bore of the pinion turns with the node `reference`.
+    fn turning_bore(&mut self, (pinion, points): &(Mesh, Vec<Vec2>), reference: usize) {
+        for &node in &pinion.bore {
+            let x = points[node as usize];
+            let number = node as usize + 1;
+            self.line(format_args!(
+                "2\n{number}, 1, 1., {reference}, 1, {:.12e}\n2\n{number}, 2, 1., {reference}, 1, {:.12e}",
+                x.y, -x.x
+            ));
+        }
+    }
+
+    /// Both steps; `held`: what is held in the second one.
+    fn steps(&mut self, solved: &OnePosition, reference: usize, held: &str) {
+        self.line(format_args!(
+            "** step 1: the pinion turned to where the flanks meet\n*STEP, INC=100\n*STATIC\n1., 1.\n*BOUNDARY\n{reference}, 1, 1, {:.12e}\n\
+             *NODE PRINT, NSET=TURN\nU, RF\n*END STEP",
+            solved.contact.approach
+        ));
+        self.line(format_args!(
+            "** step 2: the pinion free to turn under the torque\n*STEP, INC=100\n*STATIC\n1., 1.\n*BOUNDARY, OP=NEW\n{held}\n*CLOAD\n\
+             {reference}, 1, {:.12e}\n*NODE PRINT, NSET=TURN\nU\n*CONTACT PRINT\nCSTR\n*NODE FILE\nU\n*EL FILE\nS\n*END STEP",
+            solved.torque
+        ));
     }
 
     /// Nodes and elements of one gear, numbered on from `first` (nodes, elements).

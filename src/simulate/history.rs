@@ -1,11 +1,15 @@
 //! Wear histories: from fresh flanks to the requested cycles, with the balance of worn area at every step.
 
+mod area_check;
+mod steps;
+
+use self::area_check::{AreaCheck, Verdict};
+use self::steps::{History, Trial};
 use crate::contact::model::ContactModel;
 use crate::simulate::balance::Balance;
-use crate::simulate::wear_state::{split, worn_area};
 use crate::wear::acting::Acting;
-use crate::wear::archard::{ArchardSystem, AreaRate, WearError};
-use crate::wear::integrator::{Stand, Step, StepControl, StepError, WearSystem, advance};
+use crate::wear::archard::{AreaRate, WearError};
+use crate::wear::integrator::{Stand, Step, StepControl, StepError};
 use crate::wear::tangent::{Differentiated, Direction};
 
 /// What an observer gets after each accepted wear step.
@@ -60,6 +64,33 @@ impl Progress {
     pub fn forget_sets(&mut self) {
         self.warm.clear();
     }
+
+    /// Fresh flanks of depths `u` (all 0), worn off at `rate`.
+    fn fresh(u: Vec<f64>, control: StepControl, rate: AreaRate) -> Self {
+        Self {
+            stand: Stand::new(u, control),
+            balance: Balance::default(),
+            rate,
+            displaced: [0.0; 2],
+            solves: 0,
+            max_depth: [0.0; 2],
+            warm: Vec::new(),
+        }
+    }
+
+    /// Goes on to the end of `trial`; `solves_before`: contact problems solved before this part of the history.
+    fn accept(&mut self, trial: Trial, solves_before: usize) {
+        self.balance = trial.balance;
+        for side in 0..2 {
+            self.displaced[side] +=
+                0.5 * trial.length * (self.rate.displaced[side] + trial.rate.displaced[side]);
+        }
+        self.rate = trial.rate;
+        self.solves = solves_before + trial.solves;
+        self.warm = trial.warm;
+        self.max_depth = trial.max_depth;
+        self.stand = trial.stand;
+    }
 }
 
 /// Archard wear coefficients, effects and step control of a history.
@@ -85,23 +116,6 @@ pub enum Balancing {
     /// The same, and steps that would add to a difference that stands already are to be better the larger it is. Of a contact that is not
     /// solved (Hertz) a part of the difference is its own, at any length of step.
     History,
-}
-
-/// A shorter step was taken in vain if it is farther off than this share of the longer one: errors of a step fall at least in proportion to
-/// it.
-const IN_VAIN: f64 = 0.85;
-
-/// So many shorter steps are taken in vain; a corner that comes into contact within the step is left behind by then.
-const MOST_IN_VAIN: usize = 4;
-
-/// Attempts at a step that were refused for their worn area.
-#[derive(Debug, Clone, Copy)]
-struct Refused {
-    /// How far off the last one was.
-    off: f64,
-    in_vain: usize,
-    /// Length of the first one, cycles.
-    longest: f64,
 }
 
 /// Depth below which the step tolerance is absolute, modules.
@@ -218,122 +232,31 @@ pub fn wear_with_tangents<M: ContactModel + ?Sized>(
     (directions, tangents): (&[Direction<'_>], &mut HistoryTangents),
     observe: &mut dyn FnMut(&Progress, &HistoryTangents) -> bool,
 ) -> Result<bool, StepError<WearError>> {
-    let cycle = model.cycle();
-    let module = cycle.pair.pinion.rack.module;
-    let mut system = ArchardSystem::new(model, law.coefficient).with(law.acting);
-    let area_rate = |system: &mut ArchardSystem<'_, M>, n, u: &[f64]| {
-        if law.balance != Balancing::Off {
-            system.area_rate(n, u)
-        } else {
-            Ok(AreaRate::default())
-        }
-    };
-    let fail = |source| StepError::System { n: 0.0, source };
-    let control = match progress {
-        Some(_) => law.control(module, &[]),
-        None => {
-            let fresh = vec![0.0; system.slices() * cycle.stations.count()];
-            let control = law.control(module, &system.rate(0.0, &fresh).map_err(fail)?);
-            let rate = area_rate(&mut system, 0.0, &fresh).map_err(fail)?;
-            *progress = Some(Progress {
-                stand: Stand::new(fresh, control),
-                balance: Balance::default(),
-                rate,
-                displaced: [0.0; 2],
-                solves: 0,
-                max_depth: [0.0; 2],
-                warm: Vec::new(),
-            });
-            control
-        }
-    };
+    let mut history = History::new(model, law);
+    let control = history.begin(progress)?;
     let progress = progress.as_mut().expect("filled above");
-    let displaces = law.acting.is_some_and(|a| a.effects.displaces());
     if tangents.depth.is_empty() {
-        *tangents = HistoryTangents::fresh(directions.len(), progress.stand.u.len());
-        if displaces && !directions.is_empty() {
-            let mut differentiated = Differentiated {
-                system: &mut system,
-                directions,
-            };
-            let (n, u) = (progress.stand.n, &progress.stand.u);
-            tangents.displaced_rate = differentiated
-                .displaced_tangents(n, u, &tangents.depth)
-                .map_err(|source| StepError::System { n, source })?;
-        }
+        history.begin_tangents(directions, progress, tangents)?;
     }
     let solves_before = progress.solves;
-    system.start_from(&progress.warm);
-    let mut refused: Option<Refused> = None;
+    history.system.start_from(&progress.warm);
+    let mut area_check = AreaCheck::new(&law, model.cycle());
     while progress.stand.n < end {
-        // with the balance, a step counts only once the contact at its end is known too
-        let mut stand = progress.stand.clone();
-        let taken = advance(&mut system, &mut stand, end, control)?;
-        let rate = area_rate(&mut system, stand.n, &stand.u)
-            .map_err(|source| StepError::System { n: stand.n, source })?;
-        let flanks = split(cycle, &stand.u);
-        let step = stand.n - progress.stand.n;
-        let mut balance = progress.balance;
-        for (side, arc) in cycle.stations.arc.iter().enumerate() {
-            balance.law[side] += 0.5 * step * (progress.rate.law[side] + rate.law[side]);
-            balance.geometry[side] = system.mean(side, |slice| worn_area(arc, flanks[slice][side]));
-        }
-        // worn areas of a mean depth of one module
-        let unit =
-            (cycle.stations.arc.each_ref()).map(|arc| module * (arc[arc.len() - 1] - arc[0]));
-        if law.balance != Balancing::Off {
-            let drift = law.balance == Balancing::History;
-            let off = balance.off(&progress.balance, unit, drift);
-            let grown = (stand.u.iter().zip(&progress.stand.u))
-                .any(|(now, then)| now - then > LEAST_GROWTH * module);
-            let helps = refused.is_none_or(|before| off <= IN_VAIN * before.off);
-            let in_vain = refused.map_or(0, |before| before.in_vain + usize::from(!helps));
-            let longest = refused.map_or(step, |before| before.longest);
-            // along given steps no error is too large
-            let refuses = law.tolerance.is_finite();
-            if refuses && off > 1.0 && grown && in_vain < MOST_IN_VAIN {
-                progress.stand.step = step * (0.85 / off.sqrt()).clamp(0.2, 0.7);
+        let mut trial = history.step(progress, end, control)?;
+        match area_check.judge(progress, &trial) {
+            Verdict::Again { shorter } => {
+                progress.stand.step = shorter;
                 progress.stand.rejected += 1;
-                refused = Some(Refused {
-                    off,
-                    in_vain,
-                    longest,
-                });
                 continue;
             }
-            if in_vain == MOST_IN_VAIN {
-                // no matter of the step's length
-                stand.step = stand.step.max(longest);
-            } else if off > 0.5 {
-                // the depth's own error would have it longer, and taken again
-                stand.step = stand.step.min(step);
-            }
+            Verdict::Counts { next } => trial.stand.step = next,
         }
-        let (solves, warm) = (system.solves, system.warm().to_vec());
         if !directions.is_empty() {
-            let mut differentiated = Differentiated {
-                system: &mut system,
-                directions,
-            };
-            tangents
-                .follow(&mut differentiated, &taken, (stand.n, &stand.u), displaces)
-                .map_err(|source| StepError::System { n: stand.n, source })?;
+            history.follow(&trial, directions, tangents)?;
         }
         // from here on nothing fails: a step counts whole or not at all
-        refused = None;
-        progress.balance = balance;
-        for side in 0..2 {
-            progress.displaced[side] +=
-                0.5 * step * (progress.rate.displaced[side] + rate.displaced[side]);
-        }
-        progress.rate = rate;
-        progress.solves = solves_before + solves;
-        progress.warm = warm;
-        progress.max_depth = [0, 1].map(|side| {
-            let depths = flanks.iter().flat_map(|flanks| flanks[side]);
-            depths.fold(0.0, |m: f64, h| m.max(*h))
-        });
-        progress.stand = stand;
+        area_check.next_step();
+        progress.accept(trial, solves_before);
         if !observe(progress, tangents) {
             return Ok(false);
         }

@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use crate::paper::{self, Inputs};
+use crate::gear::Pair;
+use crate::paper::{self, Inputs, Outcome};
 use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::gather;
 use crate::simulate::result::{Cost, PairState, PositionState, Profile, Run, Sliding, State};
@@ -54,64 +55,17 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
         .map(|i| inputs.cycles * i as u64 / plan.stored_states as u64)
         .collect();
     let outcome = paper::run_with_states(&inputs, &stops)?;
-    let full = inputs.torque / (outcome.geometry.base_radius[0] * inputs.face_width);
-    let volume_per_area = inputs.face_width * f64::from(inputs.teeth[0]);
     let states = outcome
         .states
         .iter()
-        .map(|state| {
-            let radius: Vec<f64> = outcome.points.iter().map(|p| p.radius).collect();
-            let depth: Vec<f64> = state.points.iter().map(|p| 1e3 * p.depth).collect();
-            let arc: Vec<f64> = radius
-                .iter()
-                .map(|r| pair.pinion.arc(pair.pinion.rho_at_radius(*r)))
-                .collect();
-            let area: f64 = arc
-                .windows(2)
-                .zip(depth.windows(2))
-                .map(|(s, h)| 0.5e-3 * (s[1] - s[0]) * (h[0] + h[1]))
-                .sum();
-            let loaded = outcome
-                .points
-                .iter()
-                .zip(&state.points)
-                .filter(|(p, _)| p.load_per_width > 0.0);
-            let mut cycle: Vec<PositionState> = loaded
-                .map(|(point, now)| {
-                    let turns = point.y / pair.base_pitch;
-                    PositionState {
-                        position: turns - turns.floor(),
-                        angle_urad: 0.0,
-                        pairs: vec![PairState {
-                            pair: turns.floor() as i32,
-                            path: point.y,
-                            load_share: point.load_per_width / full,
-                            line_load: point.load_per_width,
-                            peak_pressure: now.pressure,
-                            half_width: now.half_width,
-                            off_line_of_action: false,
-                            at_corner: false,
-                            sliding: Sliding::default(),
-                        }],
-                    }
-                })
-                .collect();
-            cycle.sort_by(|a, b| a.position.total_cmp(&b.position));
-            State {
-                cycles: state.cycles as f64,
-                pinion: Profile {
-                    path: outcome.points.iter().map(|p| p.y).collect(),
-                    radius,
-                    depth,
-                    worn_area_mm2: area,
-                    mass_loss_mg: 1e-3 * area * volume_per_area * plan.set.densities[0],
-                },
-                gear: Profile::default(),
-                cycle,
-                slices: Vec::new(),
-                teeth: Vec::new(),
-                turn: Vec::new(),
-            }
+        .map(|state| State {
+            cycles: state.cycles as f64,
+            pinion: profile(&pair, &inputs, &outcome, state, plan.set.densities[0]),
+            gear: Profile::default(),
+            cycle: mesh_cycle(&pair, &inputs, &outcome, state),
+            slices: Vec::new(),
+            teeth: Vec::new(),
+            turn: Vec::new(),
         })
         .collect();
     let mut conditions = gather::conditions(plan);
@@ -133,4 +87,70 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
             ..Cost::default()
         },
     })
+}
+
+/// The worn flank of the pinion, of a material with this density, kg/m³.
+fn profile(
+    pair: &Pair,
+    inputs: &Inputs,
+    outcome: &Outcome,
+    state: &paper::State,
+    density: f64,
+) -> Profile {
+    let volume_per_area = inputs.face_width * f64::from(inputs.teeth[0]);
+    let radius: Vec<f64> = outcome.points.iter().map(|p| p.radius).collect();
+    let depth: Vec<f64> = state.points.iter().map(|p| 1e3 * p.depth).collect();
+    let arc: Vec<f64> = radius
+        .iter()
+        .map(|r| pair.pinion.arc(pair.pinion.rho_at_radius(*r)))
+        .collect();
+    let area: f64 = arc
+        .windows(2)
+        .zip(depth.windows(2))
+        .map(|(s, h)| 0.5e-3 * (s[1] - s[0]) * (h[0] + h[1]))
+        .sum();
+    Profile {
+        path: outcome.points.iter().map(|p| p.y).collect(),
+        radius,
+        depth,
+        worn_area_mm2: area,
+        mass_loss_mg: 1e-3 * area * volume_per_area * density,
+    }
+}
+
+/// The loaded points, each as a position of the mesh cycle with one pair in contact.
+fn mesh_cycle(
+    pair: &Pair,
+    inputs: &Inputs,
+    outcome: &Outcome,
+    state: &paper::State,
+) -> Vec<PositionState> {
+    let full = inputs.torque / (outcome.geometry.base_radius[0] * inputs.face_width);
+    let loaded = outcome
+        .points
+        .iter()
+        .zip(&state.points)
+        .filter(|(p, _)| p.load_per_width > 0.0);
+    let mut cycle: Vec<PositionState> = loaded
+        .map(|(point, now)| {
+            let turns = point.y / pair.base_pitch;
+            PositionState {
+                position: turns - turns.floor(),
+                angle_urad: 0.0,
+                pairs: vec![PairState {
+                    pair: turns.floor() as i32,
+                    path: point.y,
+                    load_share: point.load_per_width / full,
+                    line_load: point.load_per_width,
+                    peak_pressure: now.pressure,
+                    half_width: now.half_width,
+                    off_line_of_action: false,
+                    at_corner: false,
+                    sliding: Sliding::default(),
+                }],
+            }
+        })
+        .collect();
+    cycle.sort_by(|a, b| a.position.total_cmp(&b.position));
+    cycle
 }

@@ -7,20 +7,17 @@
 //! N(0, 1) before any measurement. At z₀ the values are the stated ones to the last bit. A factor of both members has no mean over its knots in Φ: that
 //! is the wear coefficient's.
 
+mod reading;
+
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use toml::de::DeValue;
 
-use super::effect::Result;
+pub(super) use self::reading::read;
 use super::effect_model::{EffectSpec, Law, Parameter};
-use super::quantity as q;
-use super::reader::Table;
-use super::values::plain_number;
-use crate::effects::{Hook, LARGEST_LOGARITHM, Learned, LearnedError, Param, ParamRole, Prior};
+use crate::effects::{Hook, Learned, Param, ParamRole, Prior};
 use crate::gear::Member;
 use crate::numeric::smooth_functions::leading;
-use crate::source_text::list;
 
 /// The `kind` of a learned law.
 pub(super) const KIND: &str = "learned";
@@ -192,124 +189,6 @@ fn coefficients(parts: &DMatrix<f64>, values: &[f64]) -> Vec<f64> {
         .column_iter()
         .map(|part| part.dot(&values) / part.norm_squared())
         .collect()
-}
-
-/// An `[[effect]]` of this kind.
-pub(super) fn read(table: &Table<'_>) -> Result<EffectSpec> {
-    table.check_known(KEYS)?;
-    table.name(
-        "name",
-        "a title of your own; results name a learned law by its driver",
-    )?;
-    let hooks = Learned::HOOKS.map(|hook| (hook.name(), hook));
-    let Some(hook) = table.choice("acts", &hooks)? else {
-        return Err(Box::new(
-            table.missing("acts", &list(hooks.map(|(name, _)| name))),
-        ));
-    };
-    let drivers = || list(Learned::drivers(hook));
-    let Some(driver) = table.name("driver", "the variable that the law follows")? else {
-        return Err(Box::new(table.missing("driver", &drivers())));
-    };
-    let members = [
-        ("both", None),
-        ("pinion", Some(Member::Pinion)),
-        ("gear", Some(Member::Gear)),
-    ];
-    let member = table.choice("member", &members)?.flatten();
-    let [knots, values] = [
-        required(table, "knots", "numbers in the driver's unit, ascending")?,
-        required(table, "values", "one number for each knot")?,
-    ];
-    let law = Learned::new(hook, driver, member, &knots).map_err(|error| {
-        Box::new(match error {
-            LearnedError::Driver { nearest, .. } => table
-                .refuse(
-                    "driver",
-                    &format!("is nothing that {} can follow", hook.name()),
-                    drivers(),
-                )
-                .with_hint(format!("the nearest is \"{nearest}\"")),
-            LearnedError::Knots(message) => {
-                let mut refusal = table.refuse(
-                    "knots",
-                    "",
-                    "at least 2 numbers, each above the one before it",
-                );
-                refusal.message = format!("{}: {message}", refusal.key);
-                refusal
-            }
-            LearnedError::Hook { .. } => table.refuse("acts", "is none of a learned law", ""),
-        })
-    })?;
-    if values.len() != knots.len() {
-        let mut refusal = table.refuse("values", "", "one value for each knot");
-        refusal.message = format!(
-            "{} has {} values for {} knots",
-            refusal.key,
-            values.len(),
-            knots.len()
-        );
-        return Err(Box::new(refusal));
-    }
-    let (least, most, why) = match hook {
-        Hook::WearFactor => (
-            -LARGEST_LOGARITHM,
-            LARGEST_LOGARITHM,
-            "values are natural logarithms of the factor: 0 leaves the wear as it is",
-        ),
-        Hook::AddedDepth => (0.0, f64::MAX, "um per contact of that member"),
-        _ => (
-            f64::MIN,
-            f64::MAX,
-            "um of material removed before the start",
-        ),
-    };
-    if let Some(n) = values.iter().position(|v| !(least..=most).contains(v)) {
-        let mut refusal = table
-            .refuse(
-                "values",
-                "",
-                format!("{} to {}", q::Short(least), q::Short(most)),
-            )
-            .with_hint(why);
-        refusal.message = format!("{}: value {} is {}", refusal.key, n + 1, values[n]);
-        return Err(Box::new(refusal));
-    }
-    let positive = |key: &str, usual: f64| -> Result<f64> {
-        match table.number(key, &q::ANY)? {
-            Some(number) if number > 0.0 && number.is_finite() => Ok(number),
-            Some(_) => Err(Box::new(table.refuse(key, "is not above 0", "above 0"))),
-            None => Ok(usual),
-        }
-    };
-    let size = positive("size", LearnedLaw::usual_size(hook))?;
-    let length = positive("length", LearnedLaw::usual_length(&knots))?;
-    Ok(EffectSpec {
-        span: table.header(),
-        ..LearnedLaw::new(law, values, size, length).spec()
-    })
-}
-
-/// A list of numbers that must be there.
-fn required(table: &Table<'_>, key: &str, wanted: &str) -> Result<Vec<f64>> {
-    let Some((value, span)) = table.get(key) else {
-        return Err(Box::new(table.missing(key, wanted)));
-    };
-    let wanted = format!("a list of {wanted}");
-    let DeValue::Array(items) = value else {
-        return Err(table.wrong_type(key, value, span, &wanted).into());
-    };
-    let read = |item: &toml::Spanned<DeValue<'_>>| match plain_number(item.get_ref()) {
-        Some(number) if number.is_finite() => Ok(number),
-        _ => Err(Box::from(table.wrong_type(
-            key,
-            item.get_ref(),
-            item.span(),
-            &wanted,
-        ))),
-    };
-    items.iter().map(read).collect()
 }
 
 #[cfg(test)]

@@ -45,59 +45,7 @@ const MATERIALS: [Elastic; 2] = [
 pub fn frictionless(per_half_length: usize) -> Result<Vec<Measured>, CaseError> {
     let b = hertz_line::half_width(LOAD, RADIUS, contact_modulus(MATERIALS[0], MATERIALS[1]));
     let p0 = 2.0 * LOAD / (PI * b);
-    let fine = 1.25 * b;
-    let upper = 2 * (1.25 * per_half_length as f64).ceil() as usize;
-    let lower = 2 * (0.6 * upper as f64).ceil() as usize;
-    let body = |radius, outline, elements| {
-        let surface = fine_surface(fine, elements);
-        HalfBody::new(&HalfBodySpec {
-            surface: &surface,
-            radius,
-            outline,
-            first_row: 2.0 * fine / elements as f64,
-            growth: 1.15,
-            order: Order::Quadratic,
-        })
-    };
-    let block = body(None, Outline::Block(100.0, 200.0), lower)?;
-    let cylinder = body(Some(RADIUS), Outline::Disc(2.0 * RADIUS), upper)?;
-    let base: Vec<u32> = block
-        .outer
-        .iter()
-        .copied()
-        .filter(|&n| block.mesh.points[n as usize].y > 200.0 - 1e-6)
-        .collect();
-    let axis_top = block.surface[block.surface.len() / 2];
-    let chain = |body: &HalfBody| (body.surface.clone(), body.arc.clone(), body.order);
-    let side = |body: &HalfBody, material, fixed: &[u32], turn| {
-        let (nodes, arc, order) = chain(body);
-        ElasticSide::new(
-            &body.mesh,
-            material,
-            &both(fixed),
-            Surface {
-                nodes: &nodes,
-                arc: &arc,
-                order,
-            },
-            turn,
-        )
-    };
-    let sides = [
-        Some(side(&block, MATERIALS[0], &base, PI)?),
-        Some(side(&cylinder, MATERIALS[1], &cylinder.outer, 0.0)?),
-    ];
-    let mut xi: Vec<f64> = cylinder
-        .arc
-        .iter()
-        .filter(|s| s.abs() < 1.0001 * fine)
-        .map(|s| RADIUS * (s / RADIUS).sin())
-        .collect();
-    xi.dedup();
-    let pair = TwoBodies::new(sides, xi, Vec2::y(), |x| Facing {
-        arc: [-x, RADIUS * (x / RADIUS).asin()],
-        gap: RADIUS - (RADIUS * RADIUS - x * x).sqrt(),
-    });
+    let (pair, axis_top) = cylinder_on_block(b, per_half_length)?;
     let solution = pair.solve(Drive::Load(LOAD))?;
     let fit = compare(&pair.xi, &solution, b, p0);
     // the block is turned by 180°: up in its frame is down
@@ -134,6 +82,62 @@ pub fn frictionless(per_half_length: usize) -> Result<Vec<Measured>, CaseError> 
     ];
     out.extend(discipline("B3", &at, &solution));
     Ok(out)
+}
+
+/// The cylinder on the block, with so many edges on the half length `b` (mm), and the node of the block's top on the axis.
+fn cylinder_on_block(b: f64, per_half_length: usize) -> Result<(TwoBodies, u32), CaseError> {
+    let fine = 1.25 * b;
+    let upper = 2 * (1.25 * per_half_length as f64).ceil() as usize;
+    let lower = 2 * (0.6 * upper as f64).ceil() as usize;
+    let body = |radius, outline, elements| {
+        let surface = fine_surface(fine, elements);
+        HalfBody::new(&HalfBodySpec {
+            surface: &surface,
+            radius,
+            outline,
+            first_row: 2.0 * fine / elements as f64,
+            growth: 1.15,
+            order: Order::Quadratic,
+        })
+    };
+    let block = body(None, Outline::Block(100.0, 200.0), lower)?;
+    let cylinder = body(Some(RADIUS), Outline::Disc(2.0 * RADIUS), upper)?;
+    let base: Vec<u32> = block
+        .outer
+        .iter()
+        .copied()
+        .filter(|&n| block.mesh.points[n as usize].y > 200.0 - 1e-6)
+        .collect();
+    let axis_top = block.surface[block.surface.len() / 2];
+    let side = |body: &HalfBody, material, fixed: &[u32], turn| {
+        ElasticSide::new(
+            &body.mesh,
+            material,
+            &both(fixed),
+            Surface {
+                nodes: &body.surface,
+                arc: &body.arc,
+                order: body.order,
+            },
+            turn,
+        )
+    };
+    let sides = [
+        Some(side(&block, MATERIALS[0], &base, PI)?),
+        Some(side(&cylinder, MATERIALS[1], &cylinder.outer, 0.0)?),
+    ];
+    let mut xi: Vec<f64> = cylinder
+        .arc
+        .iter()
+        .filter(|s| s.abs() < 1.0001 * fine)
+        .map(|s| RADIUS * (s / RADIUS).sin())
+        .collect();
+    xi.dedup();
+    let pair = TwoBodies::new(sides, xi, Vec2::y(), |x| Facing {
+        arc: [-x, RADIUS * (x / RADIUS).asin()],
+        gap: RADIUS - (RADIUS * RADIUS - x * x).sqrt(),
+    });
+    Ok((pair, axis_top))
 }
 
 /// u_y of the top on the axis of a block meshed by rows and columns under Hertz's pressure, mm.

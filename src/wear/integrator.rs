@@ -11,10 +11,15 @@
 //! ```
 //! with γ = 1 − 1/√2. The error is that of the embedded first-order solution u + τ k₁, so the step is on the safe side.
 
+mod attempt;
+#[cfg(test)]
+mod tests;
+
 use std::sync::Arc;
 
 use faer::Mat;
 
+use self::attempt::Attempt;
 use crate::contact::sequence::Sharing;
 use crate::numeric::patchy::PatchyMatrix;
 use crate::wear::shifted::Shifted;
@@ -191,33 +196,9 @@ pub fn advance<S: WearSystem>(
     let mut step = stand.step;
     let mut refused = false;
     loop {
-        // stretch a little rather than leave a sliver before the end
-        let tau = if n + 1.01 * step >= end {
-            end - n
-        } else if n + 2.0 * step > end {
-            0.5 * (end - n)
-        } else {
-            step
-        };
-        let shifted = jacobian.as_ref().map(|j| Shifted::new(j, GAMMA * tau));
-        let k1 = implicit(shifted.as_ref(), rate.clone());
-        let middle: Vec<f64> = stand.u.iter().zip(&k1).map(|(u, k)| u + tau * k).collect();
-        let second = system.rate(n + tau, &middle).map_err(fail)?;
-        let k2 = implicit(
-            shifted.as_ref(),
-            second.iter().zip(&k1).map(|(f, k)| f - 2.0 * k).collect(),
-        );
-        let scale = stand
-            .u
-            .iter()
-            .chain(&middle)
-            .fold(control.floor, |m, u| m.max(u.abs()))
-            .min(control.ceiling);
-        // root mean square: a sharp corner's few stations must not rule the whole flank
-        let squares: f64 = (k1.iter().zip(&k2))
-            .map(|(a, b)| (0.5 * tau * (a + b)).powi(2))
-            .sum();
-        let error = (squares / k1.len() as f64).sqrt() / (control.tolerance * scale);
+        let tau = length(n, step, end);
+        let attempt = Attempt::new(system, stand, (&rate, jacobian.as_ref()), tau).map_err(fail)?;
+        let error = attempt.error(stand, control);
         // the error is of second order in the step
         let most = if refused && control.hesitates {
             1.0
@@ -230,10 +211,7 @@ pub fn advance<S: WearSystem>(
             most
         };
         if error <= 1.0 {
-            let before = stand.u.clone();
-            for ((u, a), b) in stand.u.iter_mut().zip(&k1).zip(&k2) {
-                *u += tau * (1.5 * a + 0.5 * b);
-            }
+            let taken = attempt.taken(stand);
             stand.n = if tau == end - n { end } else { n + tau };
             // a step shortened by the end says little about the size that would do
             stand.step = if tau < step {
@@ -242,24 +220,26 @@ pub fn advance<S: WearSystem>(
                 tau * factor
             };
             stand.accepted += 1;
-            return Ok(Step {
-                n,
-                tau,
-                u: [before, middle],
-                k1,
-                k2,
-                shifted,
-            });
+            return Ok(taken);
         }
         stand.rejected += 1;
         refused = true;
         let shorter = factor.min(0.7);
         step = tau * shorter;
-        let growth =
-            (k1.iter().zip(&k2)).fold(0.0, |m: f64, (a, b)| m.max(tau * (a.abs() + b.abs())));
-        if shorter * growth <= control.least_growth || !error.is_finite() {
+        if shorter * attempt.growth() <= control.least_growth || !error.is_finite() {
             return Err(StepError::TooSmall { n, step, error });
         }
+    }
+}
+
+/// The length of a step from `n` not beyond `end`: stretched a little rather than to leave a sliver before the end.
+fn length(n: f64, step: f64, end: f64) -> f64 {
+    if n + 1.01 * step >= end {
+        end - n
+    } else if n + 2.0 * step > end {
+        0.5 * (end - n)
+    } else {
+        step
     }
 }
 
@@ -312,130 +292,4 @@ fn implicit(shifted: Option<&Shifted>, mut rhs: Vec<f64>) -> Vec<f64> {
         shifted.solve(&mut rhs);
     }
     rhs
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Prothero & Robinson's stiff problem with a known solution, time as its first unknown: u = (n, sin n).
-    struct Stiff(f64);
-
-    impl WearSystem for Stiff {
-        type Error = std::convert::Infallible;
-        fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, Self::Error> {
-            Ok(vec![1.0, -self.0 * (u[1] - u[0].sin()) + u[0].cos()])
-        }
-        fn jacobian(&mut self, _: f64, u: &[f64]) -> Result<Option<Jacobian>, Self::Error> {
-            let j = [[0.0, 0.0], [self.0 * u[0].cos() - u[0].sin(), -self.0]];
-            let full = || Jacobian::Full(PatchyMatrix::from_fn(2, |i, k| j[i][k]));
-            Ok((self.0 > 10.0).then(full))
-        }
-    }
-
-    fn fixed_step_error(stiffness: f64, steps: usize) -> f64 {
-        let loose = StepControl {
-            tolerance: 1e9,
-            floor: 1.0,
-            ceiling: f64::INFINITY,
-            first_step: 1.0 / steps as f64,
-            hesitates: false,
-            least_growth: 0.0,
-        };
-        let mut stand = Stand::new(vec![0.0, 0.0], loose);
-        for _ in 0..steps {
-            stand.step = 1.0 / steps as f64;
-            let end = stand.n + stand.step;
-            advance(&mut Stiff(stiffness), &mut stand, end, loose).unwrap();
-        }
-        (stand.u[1] - 1f64.sin()).abs()
-    }
-
-    #[test]
-    fn is_of_second_order_with_and_without_a_jacobian() {
-        for stiffness in [1.0, 12.0] {
-            let order = (fixed_step_error(stiffness, 40) / fixed_step_error(stiffness, 80)).log2();
-            assert!((order - 2.0).abs() < 0.2, "observed order {order}");
-        }
-    }
-
-    #[test]
-    fn steps_far_beyond_the_explicit_limit_stay_bounded() {
-        assert!(fixed_step_error(1e6, 10) < 1e-2);
-    }
-
-    /// Depths that all grow by 1 and then differ as they do in [`Stiff`]: with the ceiling the error is that of shallow flanks.
-    #[test]
-    fn deep_flanks_are_worn_no_more_coarsely_than_the_ceiling_allows() {
-        let error = |ceiling| {
-            let control = StepControl {
-                tolerance: 1e-3,
-                floor: 1e-3,
-                ceiling,
-                first_step: 1e-3,
-                hesitates: false,
-                least_growth: 1e-9,
-            };
-            let mut stand = Stand::new(vec![100.0, 100f64.sin()], control);
-            while stand.n < 10.0 {
-                advance(&mut Stiff(100.0), &mut stand, 10.0, control).unwrap();
-            }
-            (stand.u[1] - 110f64.sin()).abs()
-        };
-        assert!(error(1.0) < 2e-3, "{}", error(1.0));
-        assert!(error(f64::INFINITY) > 5.0 * error(1.0));
-    }
-
-    /// A rate that jumps where the first unknown passes 1: the step that is refused there is not followed by a longer one.
-    #[test]
-    fn hesitates_after_a_refused_step() {
-        struct Jump;
-        impl WearSystem for Jump {
-            type Error = std::convert::Infallible;
-            fn rate(&mut self, _: f64, u: &[f64]) -> Result<Vec<f64>, Self::Error> {
-                Ok(vec![if u[0] < 1.0 { 1.0 } else { 1.5 }])
-            }
-            fn jacobian(&mut self, _: f64, _: &[f64]) -> Result<Option<Jacobian>, Self::Error> {
-                Ok(None)
-            }
-        }
-        let grown = |hesitates| {
-            let control = StepControl {
-                tolerance: 0.1,
-                floor: 1.0,
-                ceiling: f64::INFINITY,
-                first_step: 0.9,
-                hesitates,
-                least_growth: 1e-9,
-            };
-            let mut stand = Stand::new(vec![0.5], control);
-            let step = advance(&mut Jump, &mut stand, 1e9, control).unwrap();
-            assert!(stand.rejected > 0);
-            stand.step / step.length()
-        };
-        assert!(grown(false) > 1.0);
-        assert!(grown(true) <= 1.0);
-    }
-
-    #[test]
-    fn follows_its_tolerance() {
-        let error = |tolerance| {
-            let control = StepControl {
-                tolerance,
-                floor: 1.0,
-                ceiling: f64::INFINITY,
-                first_step: 1e-3,
-                hesitates: false,
-                least_growth: 1e-9,
-            };
-            let mut stand = Stand::new(vec![0.0, 0.0], control);
-            while stand.n < 1.0 {
-                advance(&mut Stiff(1e4), &mut stand, 1.0, control).unwrap();
-            }
-            assert_eq!(stand.n, 1.0);
-            (stand.u[1] - 1f64.sin()).abs()
-        };
-        assert!(error(1e-3) < 1e-3);
-        assert!(error(1e-5) < 1e-5);
-    }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::target::{folder, is_free, target, writable, write_whole};
 use super::{AddArgs, CliError, Context, Outcome};
@@ -93,7 +93,29 @@ fn refuse_what_it_lacks(study: &Study, wanted: &WantedLaw) -> Result<(), CliErro
 
 /// What was learned, in words and in the command's document.
 fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome {
-    let (law, name) = (&found.law, wanted.name());
+    let mut text = format!("wrote {shown}\n");
+    let _ = writeln!(
+        text,
+        "  {WEAR_COEFFICIENT} = {:?}",
+        rounded(found.compared.fit.coefficient)
+    );
+    let _ = writeln!(text, "  {}: {}", wanted.name(), law_in_words(found, wanted));
+    text += &fit_in_words(found);
+    let _ = writeln!(text, "next: gearwear compare {shown}");
+    Outcome {
+        json: json!({
+            "written": [shown],
+            "parameters": [{"name": WEAR_COEFFICIENT, "value": found.compared.fit.coefficient}],
+            "fit": document(found, wanted),
+        }),
+        text,
+        success: true,
+    }
+}
+
+/// What the law spans and where.
+fn law_in_words(found: &LearnedAddition, wanted: &WantedLaw) -> String {
+    let law = &found.law;
     let knots = law.law.knots();
     let (first, last) = (knots[0], knots[knots.len() - 1]);
     let least = law.values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -106,21 +128,19 @@ fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome 
         ],
         _ => [format!("{least:.2}"), format!("{most:.2}"), "um".to_owned()],
     };
-    let (before, after) = (&found.without.comparison, &found.compared.comparison);
-    let mut text = format!("wrote {shown}\n");
-    let _ = writeln!(
-        text,
-        "  {WEAR_COEFFICIENT} = {:?}",
-        rounded(found.compared.fit.coefficient)
-    );
-    let _ = writeln!(
-        text,
-        "  {name}: {least} to {most} {unit}, at {} knots from {first} to {last}; size {}, length {}",
+    format!(
+        "{least} to {most} {unit}, at {} knots from {first} to {last}; size {}, length {}",
         knots.len(),
         law.size,
         law.length
-    );
+    )
+}
+
+/// How well the fit describes the tests, and what to know of it; lines.
+fn fit_in_words(found: &LearnedAddition) -> String {
+    let (before, after) = (&found.without.comparison, &found.compared.comparison);
     let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
+    let mut text = String::new();
     for (what, before, after) in [
         ("fit", &before.fit, &after.fit),
         ("held-out", &before.holdout, &after.holdout),
@@ -138,38 +158,35 @@ fn outcome(found: &LearnedAddition, wanted: &WantedLaw, shown: &str) -> Outcome 
     for warning in &after.warnings {
         let _ = writeln!(text, "  warning: {warning}");
     }
-    let _ = writeln!(text, "next: gearwear compare {shown}");
+    text
+}
+
+/// The fit in the command's document.
+fn document(found: &LearnedAddition, wanted: &WantedLaw) -> Value {
+    let law = &found.law;
+    let (before, after) = (&found.without.comparison, &found.compared.comparison);
     let tried: Vec<_> = (found.tried.iter())
         .map(|t| json!({"size": t.size, "length": t.length, "log_evidence": t.log_evidence}))
         .collect();
-    let json = json!({
-        "written": [shown],
-        "parameters": [{"name": WEAR_COEFFICIENT, "value": found.compared.fit.coefficient}],
-        "fit": {
-            "learned": {
-                "name": name,
-                "acts": wanted.hook.name(),
-                "driver": wanted.driver.name,
-                "member": wanted.member.map_or("both", crate::gear::Member::name),
-                "knots": knots,
-                "values": law.values,
-                "sigma": found.sigma,
-                "size": law.size,
-                "length": law.length,
-                "tried": tried,
-            },
-            "log_evidence_gain": found.compared.fit.log_evidence - found.without.fit.log_evidence,
-            "without": {"fit": before.fit, "holdout": before.holdout},
-            "parameters": after.parameters,
-            "fit": after.fit,
-            "holdout": after.holdout,
-            "converged": after.converged,
-            "warnings": after.warnings,
+    json!({
+        "learned": {
+            "name": wanted.name(),
+            "acts": wanted.hook.name(),
+            "driver": wanted.driver.name,
+            "member": wanted.member.map_or("both", crate::gear::Member::name),
+            "knots": law.law.knots(),
+            "values": law.values,
+            "sigma": found.sigma,
+            "size": law.size,
+            "length": law.length,
+            "tried": tried,
         },
-    });
-    Outcome {
-        json,
-        text,
-        success: true,
-    }
+        "log_evidence_gain": found.compared.fit.log_evidence - found.without.fit.log_evidence,
+        "without": {"fit": before.fit, "holdout": before.holdout},
+        "parameters": after.parameters,
+        "fit": after.fit,
+        "holdout": after.holdout,
+        "converged": after.converged,
+        "warnings": after.warnings,
+    })
 }

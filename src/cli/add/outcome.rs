@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::Outcome;
 use super::drafts::Draft;
-use crate::learn::{Addition, Share};
+use crate::learn::{Addition, Comparison, FormFit, ParameterRecord, Share};
 use crate::report::comparison::{NO_INTERVAL, with_unit};
 use crate::report::format::significant;
 
@@ -30,107 +30,41 @@ const ASTRAY: f64 = 1.02;
 /// A fit in words and in the command's document.
 pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
-    let chosen = drafts[addition.form].form();
-    let mut text = String::new();
-    for p in &comparison.parameters {
-        let at_bound = if p.at_bound { ", at a bound" } else { "" };
-        let known = match p.interval_95 {
-            Some(ends) => {
-                let [low, high] = ends.map(|end| with_unit(significant(end, 4), &p.unit));
-                format!("95 % between {low} and {high}")
-            }
-            None if !comparison.converged => "no interval: the fit did not converge".to_owned(),
-            None if comparison.fit.is_far() => {
-                "no interval: the model with it is still far from the measurements".to_owned()
-            }
-            None => NO_INTERVAL.to_owned(),
-        };
-        let value = with_unit(significant(p.value, 4), &p.unit);
-        let _ = writeln!(text, "  {} = {value}   {known}{at_bound}", p.name);
-    }
-    if let Some(share) = addition.compared.given_up {
-        let _ = writeln!(
-            text,
-            "  given up early: the effect explains {:.0} % of what the model without it misses; it is hardly the one \
-             (gearwear diagnose ranks them all)",
-            100.0 * share.max(0.0)
-        );
-    } else if !comparison.converged {
-        let why = if comparison.fit.is_within_noise() {
-            "it describes the fit tests within their noise, but these hardly tell its parameters apart; set one \
-             that you know (--set), or measure where they differ"
-        } else {
-            "these are the values where it stopped, not what the measurements ask for; another effect, or a parameter that is set (--set), may be \
-             the answer"
-        };
-        let _ = writeln!(text, "  the fit did not converge: {why}");
-    }
-    let chi2 = |share: &Share| share.chi2_per_point.map(|chi2| format!("{chi2:.3}"));
-    let without = addition.without_chi2_per_point;
-    let without_it =
-        |chi2: Option<f64>| chi2.map_or(String::new(), |chi2| format!(" (without it {chi2:.3})"));
-    if let Some(chi2) = chi2(&comparison.fit) {
-        let without = without_it(without);
-        let _ = writeln!(text, "  chi2 per point of the fit tests: {chi2}{without}");
-    }
-    if let Some(chi2) = chi2(&comparison.holdout) {
-        let without = without_it(addition.without_holdout_chi2_per_point);
-        let _ = writeln!(
-            text,
-            "  chi2 per point of the held-out tests: {chi2}{without}"
-        );
-    }
-    if addition.compared.given_up.is_none() && addition.betters_nothing() {
-        let _ = writeln!(
-            text,
-            "  the effect betters nothing that noise would not: leave it out"
-        );
-    }
-    // semicolons between forms: some names have commas of their own
-    let tried: Vec<Value> = (drafts.iter().zip(&addition.tried))
-        .filter_map(|(draft, tried)| {
-            let tried = (*tried)?;
-            Some(json!({
-                "form": draft.form(),
-                "log_evidence": tried.log_evidence,
-                "chi2_per_point": tried.chi2_per_point,
-            }))
-        })
+    let tried: Vec<(&str, FormFit)> = (drafts.iter().zip(&addition.tried))
+        .filter_map(|(draft, tried)| Some((draft.form(), (*tried)?)))
         .collect();
-    if tried.len() > 1 {
-        let each = drafts
-            .iter()
-            .zip(&addition.tried)
-            .filter_map(|(draft, tried)| {
-                let chi2 = (*tried)?.chi2_per_point?;
-                // the model without the effect is one of its own cases, but for what priors cost
-                let astray = without.is_some_and(|without| chi2 > ASTRAY * without);
-                let note = if astray { ", did not converge" } else { "" };
-                Some(format!("{} {chi2:.3}{note}", draft.form()))
-            });
-        let each: Vec<String> = each.collect();
-        let _ = writeln!(
-            text,
-            "  form of the law: {chosen} (chi2 per point by form: {})",
-            each.join("; ")
-        );
-    }
     let passed_over: Vec<&str> = (addition.passed_over.iter())
         .map(|&form| drafts[form].form())
         .collect();
+    let chosen = drafts[addition.form].form();
+    let parameters = comparison.parameters.iter();
+    let mut lines: Vec<String> = parameters.map(|p| parameter(p, comparison)).collect();
+    lines.extend(no_end(addition));
+    lines.extend(chi2_with_and_without(addition));
+    if addition.compared.given_up.is_none() && addition.betters_nothing() {
+        lines.push("the effect betters nothing that noise would not: leave it out".to_owned());
+    }
+    if tried.len() > 1 {
+        lines.push(form(chosen, &tried, addition.without_chi2_per_point));
+    }
     if !passed_over.is_empty() {
-        let _ = writeln!(
-            text,
-            "  forms not fitted, as a cheaper model shows little gain: {} (--form NAME fits one)",
+        lines.push(format!(
+            "forms not fitted, as a cheaper model shows little gain: {} (--form NAME fits one)",
             passed_over.join("; ")
-        );
+        ));
     }
-    for suspect in &comparison.sanity {
-        let _ = writeln!(text, "  check first: {suspect}");
-    }
-    for warning in &comparison.warnings {
-        let _ = writeln!(text, "  warning: {warning}");
-    }
+    let sanity = comparison.sanity.iter();
+    lines.extend(sanity.map(|suspect| format!("check first: {suspect}")));
+    let warnings = comparison.warnings.iter();
+    lines.extend(warnings.map(|warning| format!("warning: {warning}")));
+    let forms = tried.iter().map(|(form, tried)| {
+        json!({
+            "form": form,
+            "log_evidence": tried.log_evidence,
+            "chi2_per_point": tried.chi2_per_point,
+        })
+    });
+    let forms: Vec<Value> = forms.collect();
     Fitted {
         draft: addition.form,
         values: (fit.parameters.iter())
@@ -138,19 +72,99 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
             .collect(),
         json: json!({
             "form": chosen,
-            "forms": tried,
+            "forms": forms,
             "forms_not_fitted": passed_over,
             "parameters": comparison.parameters,
             "fit": comparison.fit,
-            "without_chi2_per_point": without,
+            "without_chi2_per_point": addition.without_chi2_per_point,
             "without_holdout_chi2_per_point": addition.without_holdout_chi2_per_point,
             "holdout": comparison.holdout,
             "converged": comparison.converged,
             "given_up_explaining": addition.compared.given_up,
             "warnings": comparison.warnings,
         }),
-        text,
+        text: lines.iter().map(|line| format!("  {line}\n")).collect(),
     }
+}
+
+/// A parameter with its value and what is known of it.
+fn parameter(p: &ParameterRecord, comparison: &Comparison) -> String {
+    let at_bound = if p.at_bound { ", at a bound" } else { "" };
+    let known = match p.interval_95 {
+        Some(ends) => {
+            let [low, high] = ends.map(|end| with_unit(significant(end, 4), &p.unit));
+            format!("95 % between {low} and {high}")
+        }
+        None if !comparison.converged => "no interval: the fit did not converge".to_owned(),
+        None if comparison.fit.is_far() => {
+            "no interval: the model with it is still far from the measurements".to_owned()
+        }
+        None => NO_INTERVAL.to_owned(),
+    };
+    let value = with_unit(significant(p.value, 4), &p.unit);
+    format!("{} = {value}   {known}{at_bound}", p.name)
+}
+
+/// Why a fit did not come to an end, where it did not.
+fn no_end(addition: &Addition) -> Option<String> {
+    let comparison = &addition.compared.comparison;
+    if let Some(share) = addition.compared.given_up {
+        return Some(format!(
+            "given up early: the effect explains {:.0} % of what the model without it misses; it is hardly the one \
+             (gearwear diagnose ranks them all)",
+            100.0 * share.max(0.0)
+        ));
+    }
+    if comparison.converged {
+        return None;
+    }
+    let why = if comparison.fit.is_within_noise() {
+        "it describes the fit tests within their noise, but these hardly tell its parameters apart; set one \
+         that you know (--set), or measure where they differ"
+    } else {
+        "these are the values where it stopped, not what the measurements ask for; another effect, or a parameter that is set (--set), may be \
+         the answer"
+    };
+    Some(format!("the fit did not converge: {why}"))
+}
+
+/// χ² per point of the fit tests and of the held-out ones, beside those without the effect.
+fn chi2_with_and_without(addition: &Addition) -> impl Iterator<Item = String> {
+    let comparison = &addition.compared.comparison;
+    let line = |tests: &str, share: &Share, without: Option<f64>| {
+        let chi2 = share.chi2_per_point?;
+        let without = without.map_or(String::new(), |chi2| format!(" (without it {chi2:.3})"));
+        Some(format!(
+            "chi2 per point of the {tests} tests: {chi2:.3}{without}"
+        ))
+    };
+    [
+        line("fit", &comparison.fit, addition.without_chi2_per_point),
+        line(
+            "held-out",
+            &comparison.holdout,
+            addition.without_holdout_chi2_per_point,
+        ),
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// The form that was chosen, and how those that were tried fit; `without`: χ² per point without the effect.
+fn form(chosen: &str, tried: &[(&str, FormFit)], without: Option<f64>) -> String {
+    let each = tried.iter().filter_map(|(form, tried)| {
+        let chi2 = tried.chi2_per_point?;
+        // the model without the effect is one of its own cases, but for what priors cost
+        let astray = without.is_some_and(|without| chi2 > ASTRAY * without);
+        let note = if astray { ", did not converge" } else { "" };
+        Some(format!("{form} {chi2:.3}{note}"))
+    });
+    let each: Vec<String> = each.collect();
+    // semicolons between forms: some names have commas of their own
+    format!(
+        "form of the law: {chosen} (chi2 per point by form: {})",
+        each.join("; ")
+    )
 }
 
 /// What the command tells.

@@ -1,8 +1,9 @@
 //! A step up by one of several effects that the data cannot tell apart.
 
+use super::CliError;
 use super::kept::State;
+use super::steps::{drop_needless, names, refused};
 use super::version::{Fitted, Fitter};
-use super::{CliError, drop_needless, names, refused};
 use crate::learn::climb::{Answer, Standing, choose};
 
 /// Fits each of the effects and goes on from the one that does best on tests that it was not fitted to; false if none pays.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Understood;
+use super::understood::Understood;
 use crate::cli::CliError;
 use crate::measure::Subject;
 

@@ -36,72 +36,126 @@ pub(super) fn compute(
         .collect();
     let reused = results.iter().flatten().count();
     let count = own.iter().filter(|own| **own).count();
-    let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (i, point) in points.iter().enumerate() {
         if let Err(why) = &point.study {
             results[i] = own[i].then(|| Err(why.clone()));
-            continue;
         }
-        groups.entry(&point.bodies).or_default().push(i);
+    }
+    let mut computing = Computing {
+        points,
+        outputs,
+        kept,
+        progress,
+        count,
+        done: reused,
+        limit: Limit::default(),
+        results,
+    };
+    for group in groups(points) {
+        computing.group(&group, &own)?;
+    }
+    Ok((computing.results, reused))
+}
+
+/// The points that have a study, those with the same bodies together; in the order of the first of each.
+fn groups(points: &[Point]) -> Vec<Vec<usize>> {
+    let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (i, point) in points.iter().enumerate() {
+        if point.study.is_ok() {
+            groups.entry(&point.bodies).or_default().push(i);
+        }
     }
     let mut order: Vec<Vec<usize>> = groups.into_values().collect();
     order.sort_unstable();
-    let mut done = reused;
-    let mut limit = Limit::default();
-    for group in order {
+    order
+}
+
+/// The points of a sweep, as far as they are computed.
+struct Computing<'a> {
+    points: &'a [Point],
+    outputs: &'a Outputs,
+    kept: &'a Kept,
+    progress: &'a Progress,
+    /// Points to be computed here, those kept from before among them.
+    count: usize,
+    /// How many of them are done.
+    done: usize,
+    limit: Limit,
+    /// By point.
+    results: Vec<Option<Result>>,
+}
+
+impl Computing<'_> {
+    /// Computes the points of a `group` with the same bodies that are this one's `own` and not done yet.
+    fn group(&mut self, group: &[usize], own: &[bool]) -> std::result::Result<(), CliError> {
         let open: Vec<usize> = group
             .iter()
             .copied()
-            .filter(|&i| own[i] && results[i].is_none())
+            .filter(|&i| own[i] && self.results[i].is_none())
             .collect();
-        let Some(&first) = open.first() else { continue };
-        progress.stage("mesh, factor and condense both gears");
-        let Ok(set) = points[first].study.as_ref().map(Study::gear_set) else {
-            continue;
+        let Some(&first) = open.first() else {
+            return Ok(());
         };
-        let members = match members(&set, points, &group) {
+        self.progress.stage("mesh, factor and condense both gears");
+        let Ok(set) = self.points[first].study.as_ref().map(Study::gear_set) else {
+            return Ok(());
+        };
+        let members = match members(&set, self.points, group) {
             Ok(members) => members,
             Err(Unbuilt::Input(error)) => return Err(error),
             Err(Unbuilt::Failed(error)) => {
                 for i in open {
-                    kept.keep_failure(&points[i].key, &error.to_string())?;
-                    results[i] = Some(Err(error.to_string()));
+                    let key = &self.points[i].key;
+                    self.kept.keep_failure(key, &error.to_string())?;
+                    self.results[i] = Some(Err(error.to_string()));
                 }
-                continue;
+                return Ok(());
             }
         };
         let mut rest = &open[..];
         while !rest.is_empty() {
-            let (now, later) = rest.split_at(limit.points().min(rest.len()));
+            let (now, later) = rest.split_at(self.limit.points().min(rest.len()));
             rest = later;
-            progress.show(
-                done as f64 / count as f64,
-                format!("point {} of {count}", done + 1),
-            );
-            let computed: Vec<(usize, Result)> = now
-                .par_iter()
-                .map(|&i| {
-                    let study = points[i].study.as_ref();
-                    let result = study.map_err(Clone::clone);
-                    // a model without bodies has points of different gears in one group
-                    let result = result
-                        .and_then(|study| one(study, &study.gear_set(), members.as_ref(), outputs));
-                    (i, result)
-                })
-                .collect();
-            limit.learn();
-            for (i, result) in computed {
-                match &result {
-                    Ok(figures) => kept.keep(&points[i].key, figures)?,
-                    Err(why) => kept.keep_failure(&points[i].key, why)?,
-                }
-                results[i] = Some(result);
-                done += 1;
-            }
-            progress.show(done as f64 / count as f64, String::new());
+            self.at_once(now, members.as_ref())?;
         }
+        Ok(())
     }
-    Ok((results, reused))
+
+    /// Computes some points at once.
+    fn at_once(
+        &mut self,
+        now: &[usize],
+        members: Option<&Members>,
+    ) -> std::result::Result<(), CliError> {
+        let (points, outputs, count) = (self.points, self.outputs, self.count);
+        self.progress.show(
+            self.done as f64 / count as f64,
+            format!("point {} of {count}", self.done + 1),
+        );
+        let computed: Vec<(usize, Result)> = now
+            .par_iter()
+            .map(|&i| {
+                let study = points[i].study.as_ref();
+                let result = study.map_err(Clone::clone);
+                // a model without bodies has points of different gears in one group
+                let result =
+                    result.and_then(|study| one(study, &study.gear_set(), members, outputs));
+                (i, result)
+            })
+            .collect();
+        self.limit.learn();
+        for (i, result) in computed {
+            match &result {
+                Ok(figures) => self.kept.keep(&points[i].key, figures)?,
+                Err(why) => self.kept.keep_failure(&points[i].key, why)?,
+            }
+            self.results[i] = Some(result);
+            self.done += 1;
+        }
+        self.progress
+            .show(self.done as f64 / count as f64, String::new());
+        Ok(())
+    }
 }
 
 enum Unbuilt {

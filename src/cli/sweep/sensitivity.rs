@@ -10,6 +10,7 @@ use crate::numeric::interpolate;
 use crate::numeric::sobol_indices::{Indices, Row, sobol_indices};
 use crate::report::OutputError;
 use crate::report::plots::{IndexBar, IndexPanel, index_picture};
+use crate::simulate::result::Member;
 
 /// Radii at which the indices of a wear profile are taken.
 const RADII: usize = 41;
@@ -33,6 +34,80 @@ struct Sensitive {
     indices: Vec<Indices>,
 }
 
+/// The rows of a design whose points have all come to figures.
+struct Whole<'a> {
+    rows: Vec<Vec<&'a Figures>>,
+    /// Of the intervals.
+    seed: u64,
+}
+
+impl Whole<'_> {
+    /// The indices of one figure, from the rows in which every point has it.
+    fn indices(&self, of: impl Fn(&Figures) -> Option<f64>) -> Option<Vec<Indices>> {
+        let rows = self.rows.iter().filter_map(|row| {
+            let values: Option<Vec<f64>> = row.iter().map(|figures| of(figures)).collect();
+            let mut values = values?;
+            let mixed = values.split_off(2);
+            Some(Row {
+                a: values[0],
+                b: values[1],
+                mixed,
+            })
+        });
+        sobol_indices(&rows.collect::<Vec<_>>(), self.seed)
+    }
+
+    /// The indices of a member's depths along its flank, where it wears.
+    fn along_the_flank(&self, member: Member) -> Vec<Sensitive> {
+        let depth = |figures: &Figures, at: f64| {
+            let profile = figures.profile(member)?;
+            let worn = !profile.radius.is_empty();
+            worn.then(|| interpolate(&profile.radius, &profile.depth, at))
+        };
+        let radii = self.radii(member);
+        let spreads: Vec<f64> = radii
+            .iter()
+            .map(|&at| spread(self.rows.iter().flatten().filter_map(|f| depth(f, at))))
+            .collect();
+        let largest = spreads.iter().copied().fold(0.0, f64::max);
+        let mut found = Vec::new();
+        for (at, spread) in radii.into_iter().zip(spreads) {
+            if spread <= HARDLY_WORN * largest {
+                continue;
+            }
+            if let Some(indices) = self.indices(|figures| depth(figures, at)) {
+                found.push(Sensitive {
+                    name: profile_name(member),
+                    title: format!("Depth along the flank, {}", member.name()),
+                    radius: Some(at),
+                    indices,
+                });
+            }
+        }
+        found
+    }
+
+    /// Radii where all flanks are, mm; none where there is no such place.
+    fn radii(&self, member: Member) -> Vec<f64> {
+        let profiles = || {
+            let all = self.rows.iter().flatten();
+            all.filter_map(move |figures| figures.profile(member))
+                .filter(|profile| !profile.radius.is_empty())
+        };
+        let ends = |end: fn(&[f64]) -> Option<&f64>| {
+            profiles().filter_map(move |profile| end(&profile.radius).copied())
+        };
+        let low = ends(<[f64]>::first).fold(f64::NEG_INFINITY, f64::max);
+        let high = ends(<[f64]>::last).fold(f64::INFINITY, f64::min);
+        if low >= high || !(low.is_finite() && high.is_finite()) {
+            return Vec::new();
+        }
+        (0..RADII)
+            .map(|i| low + (high - low) * i as f64 / (RADII - 1) as f64)
+            .collect()
+    }
+}
+
 impl Sensitivity {
     /// The indices of every output; none for other designs.
     pub(super) fn of(design: &Design, outputs: &Outputs, results: &[Result]) -> Option<Self> {
@@ -44,22 +119,13 @@ impl Sensitivity {
             .iter()
             .filter_map(|row| row.iter().map(|result| result.as_ref().ok()).collect())
             .collect();
-        let indices = |of: &dyn Fn(&Figures) -> Option<f64>| {
-            let rows = whole.iter().filter_map(|row| {
-                let values: Option<Vec<f64>> = row.iter().map(|figures| of(figures)).collect();
-                let mut values = values?;
-                let mixed = values.split_off(2);
-                Some(Row {
-                    a: values[0],
-                    b: values[1],
-                    mixed,
-                })
-            });
-            sobol_indices(&rows.collect::<Vec<_>>(), *seed)
+        let whole = Whole {
+            rows: whole,
+            seed: *seed,
         };
         let mut found = Vec::new();
         for &column in &outputs.columns {
-            if let Some(indices) = indices(&|figures| figures.value(column)) {
+            if let Some(indices) = whole.indices(|figures| figures.value(column)) {
                 found.push(Sensitive {
                     name: column.name.to_owned(),
                     title: column.title.to_owned(),
@@ -69,49 +135,10 @@ impl Sensitivity {
             }
         }
         for &member in &outputs.profiles {
-            let profiles = || {
-                let all = whole.iter().flatten();
-                all.filter_map(move |figures| figures.profile(member))
-                    .filter(|profile| !profile.radius.is_empty())
-            };
-            // where all flanks are
-            let ends = |end: fn(&[f64]) -> Option<&f64>| {
-                profiles().filter_map(move |profile| end(&profile.radius).copied())
-            };
-            let low = ends(<[f64]>::first).fold(f64::NEG_INFINITY, f64::max);
-            let high = ends(<[f64]>::last).fold(f64::INFINITY, f64::min);
-            if low >= high || !(low.is_finite() && high.is_finite()) {
-                continue;
-            }
-            let radii: Vec<f64> = (0..RADII)
-                .map(|i| low + (high - low) * i as f64 / (RADII - 1) as f64)
-                .collect();
-            let depth = |figures: &Figures, at: f64| {
-                let profile = figures.profile(member)?;
-                let worn = !profile.radius.is_empty();
-                worn.then(|| interpolate(&profile.radius, &profile.depth, at))
-            };
-            let spreads: Vec<f64> = radii
-                .iter()
-                .map(|&at| spread(whole.iter().flatten().filter_map(|f| depth(f, at))))
-                .collect();
-            let largest = spreads.iter().copied().fold(0.0, f64::max);
-            for (at, spread) in radii.into_iter().zip(spreads) {
-                if spread <= HARDLY_WORN * largest {
-                    continue;
-                }
-                if let Some(indices) = indices(&|figures| depth(figures, at)) {
-                    found.push(Sensitive {
-                        name: profile_name(member),
-                        title: format!("Depth along the flank, {}", member.name()),
-                        radius: Some(at),
-                        indices,
-                    });
-                }
-            }
+            found.extend(whole.along_the_flank(member));
         }
         Some(Self {
-            rows: (whole.len(), rows.len()),
+            rows: (whole.rows.len(), rows.len()),
             keys: design.keys.clone(),
             outputs: found,
         })

@@ -21,23 +21,20 @@ struct Lines {
     cycles: Vec<(usize, f64)>,
 }
 
+impl Lines {
+    /// Row and column of the value where a member's line and a checkpoint's cross.
+    fn crossing(&self, member: usize, checkpoint: usize) -> (usize, usize) {
+        match self.across {
+            Across::Checkpoints => (member, checkpoint),
+            Across::Positions => (checkpoint, member),
+        }
+    }
+}
+
 /// The mapping of a wide table of a quantity without places.
 pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> Result<Wide> {
-    let by_member = |row: &Vec<String>| {
-        let mut names = row
-            .iter()
-            .skip(1)
-            .filter(|cell| !cell.is_empty() && !names::is_for_people(cell));
-        let is_member = |cell: &String| {
-            names::one_member(cell).is_some() && !cell.contains(|c: char| c.is_ascii_digit())
-        };
-        row.first()
-            .is_some_and(|first| names::revolutions(&units::name_and_unit(first).0).is_some())
-            && names.clone().next().is_some()
-            && names.all(is_member)
-    };
     let test = wanted.one_test(sheet)?;
-    let members_across = sheet.rows.iter().position(by_member);
+    let members_across = sheet.rows.iter().position(|row| is_header_of_members(row));
     let head = match members_across {
         Some(head) => head,
         None => header(sheet).map_err(|_| no_header(sheet))?,
@@ -53,8 +50,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         Some(head) => members_in_header(sheet, head)?,
         None => members_in_rows(sheet, head, quantity, wanted)?,
     };
-    let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
-    let corner = cell(head, 0);
+    let corner = cell(sheet, head, 0);
     let headers: Vec<&str> = sheet.rows[head]
         .iter()
         .skip(1)
@@ -71,39 +67,14 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         Across::Checkpoints => counts_gear_revolutions(corner, &headers)?,
         Across::Positions => counts_gear_revolutions(corner, &[])?,
     };
-    let mut empty = 0;
-    let mut entries = Vec::new();
-    for &(member_line, member) in &lines.members {
-        for &(cycles_line, cycles) in &lines.cycles {
-            let (row, column) = match lines.across {
-                Across::Checkpoints => (member_line, cycles_line),
-                Across::Positions => (cycles_line, member_line),
-            };
-            if cell(row, column).is_empty() {
-                empty += 1;
-                continue;
-            }
-            let value =
-                number(cell(row, column), row, column)? * if turned { -factor } else { factor };
-            entries.push(Entry {
-                test: test.0.clone(),
-                member,
-                cycles: if of_gear {
-                    wanted.pinion_revolutions(&test.0, cycles)
-                } else {
-                    cycles
-                },
-                quantity,
-                position: None,
-                value,
-                sigma: None,
-                trace: String::new(),
-                face: String::new(),
-                tooth: String::new(),
-                cell: (row, column),
-            });
-        }
-    }
+    let reading = Reading {
+        wanted,
+        test: &test.0,
+        quantity,
+        factor: if turned { -factor } else { factor },
+        of_gear,
+    };
+    let (mut entries, empty) = reading.entries(sheet, &lines)?;
     in_order(&mut entries, wanted)?;
     let mut checkpoints: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
     checkpoints.dedup();
@@ -124,6 +95,73 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         empty,
         entries,
     })
+}
+
+/// Whether cycles head the first column of a row, and members all others that are not for people.
+fn is_header_of_members(row: &[String]) -> bool {
+    let mut names = row
+        .iter()
+        .skip(1)
+        .filter(|cell| !cell.is_empty() && !names::is_for_people(cell));
+    let is_member = |cell: &String| {
+        names::one_member(cell).is_some() && !cell.contains(|c: char| c.is_ascii_digit())
+    };
+    row.first()
+        .is_some_and(|first| names::revolutions(&units::name_and_unit(first).0).is_some())
+        && names.clone().next().is_some()
+        && names.all(is_member)
+}
+
+fn cell(sheet: &Sheet, row: usize, column: usize) -> &str {
+    sheet.rows[row].get(column).map_or("", String::as_str)
+}
+
+/// How the values of a table are read.
+struct Reading<'a> {
+    wanted: &'a Wanted<'a>,
+    /// Id of the test.
+    test: &'a str,
+    quantity: Quantity,
+    /// From a value in the table to the quantity's own unit and sign.
+    factor: f64,
+    /// Whether the checkpoints are revolutions of the gear.
+    of_gear: bool,
+}
+
+impl Reading<'_> {
+    /// A row of a measurement file for each cell with a value, and the number of cells without one.
+    fn entries(&self, sheet: &Sheet, lines: &Lines) -> Result<(Vec<Entry>, usize)> {
+        let mut empty = 0;
+        let mut entries = Vec::new();
+        for &(member_line, member) in &lines.members {
+            for &(cycles_line, cycles) in &lines.cycles {
+                let (row, column) = lines.crossing(member_line, cycles_line);
+                let text = cell(sheet, row, column);
+                if text.is_empty() {
+                    empty += 1;
+                    continue;
+                }
+                entries.push(Entry {
+                    test: self.test.to_owned(),
+                    member,
+                    cycles: if self.of_gear {
+                        self.wanted.pinion_revolutions(self.test, cycles)
+                    } else {
+                        cycles
+                    },
+                    quantity: self.quantity,
+                    position: None,
+                    value: number(text, row, column)? * self.factor,
+                    sigma: None,
+                    trace: String::new(),
+                    face: String::new(),
+                    tooth: String::new(),
+                    cell: (row, column),
+                });
+            }
+        }
+        Ok((entries, empty))
+    }
 }
 
 /// A column for each member, cycles in the first one.

@@ -1,17 +1,20 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
+mod grid;
+mod reading;
+
+use self::grid::{Grid, Places};
+use self::reading::Reading;
 use super::arrange::flank_above;
 use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
 use super::numbers::{
-    header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
-    without_thousands,
+    header_number, number, number_words, plain_cycles, pointed, with_points, without_thousands,
 };
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{ImportError, Sheet, cell_name, decimal_commas, units};
 use super::{columns, counts};
-use crate::gear::Gear;
 use crate::measure::{Place, Quantity, Subject, names};
 
 /// What the columns of a wide table are.
@@ -70,108 +73,53 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
     let member = (wanted.stated_member(sheet, quantity)?).unwrap_or(Subject::Pinion);
-    let gear = wanted.gear_of(member);
     let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
     without_thousands(&mut sheet.rows[head]);
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let sheet = &sheet;
-    let across = across_numbers(sheet, head)?;
-    let down = down_numbers(sheet, head)?;
-    let corner = sheet.rows[head][0].clone();
-    let position = PositionKind::of(quantity, wanted.position, &corner);
-    let scale = match position.has_unit() {
-        true => units::of_position(&corner, position == PositionKind::RollAngle)?,
-        false => 1.0,
-    };
-    let numbers = |places: &[(usize, f64)]| places.iter().map(|a| a.1).collect::<Vec<f64>>();
-    let (column_numbers, row_numbers) = (numbers(&across), numbers(&down));
-    let by_numbers = orientation(
-        &column_numbers,
-        &row_numbers,
-        (position, scale, &corner),
-        (gear, member),
-    );
-    let orientation = match (wanted.across, by_numbers) {
-        (None, by_numbers) => by_numbers?,
-        (Some(stated), Ok(other)) if stated != other => return Err(stated_otherwise(stated)),
-        (Some(stated), _) => stated,
-    };
-    refuse_twice_in_a_line(&across, |column| cell_name(head, column))?;
-    refuse_twice_in_a_line(&down, |row| cell_name(row, 0))?;
-    let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
-    match orientation {
-        Across::Checkpoints => (across.iter())
-            .try_for_each(|&(column, _)| checkpoint(cell(head, column), quantity, head, column))?,
-        Across::Positions => {
-            (down.iter()).try_for_each(|&(row, _)| plain_cycles(cell(row, 0), row, 0))?
-        }
-    }
+    let grid = Grid::of(sheet, head)?;
+    let corner = grid.corner();
+    let places = Places::of((quantity, member), wanted, corner)?;
+    let across = grid.orientation(&places, wanted.across)?;
+    grid.refuse_unclear(across, quantity)?;
     counts::refuse_others_above(sheet, head)?;
     // beside positions the headers' unit is that of the positions
-    let headers: Vec<&str> = across
-        .iter()
-        .map(|&(column, _)| cell(head, column))
-        .collect();
-    let said = match orientation {
-        Across::Checkpoints => unit_of(&headers, quantity)?,
-        Across::Positions => None,
+    let headers = match across {
+        Across::Checkpoints => grid.headers(),
+        Across::Positions => Vec::new(),
     };
+    let said = unit_of(&headers, quantity)?;
     let titles = Titles::of(sheet, head, quantity)?;
     let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
     let turned = titles.turns_sign(wanted.turn_sign)?;
-    let of_gear = match orientation {
-        Across::Checkpoints => counts_gear_revolutions(&corner, &headers)?,
-        Across::Positions => counts_gear_revolutions(&corner, &[])?,
-    };
+    let of_gear = counts_gear_revolutions(corner, &headers)?;
     let factor = units::factor(&unit.0, quantity)?;
-    let factor = if turned { -factor } else { factor };
-    let revolutions = |cycles: f64| match of_gear {
-        true => wanted.pinion_revolutions(&test.0, cycles),
-        false => cycles,
+    let reading = Reading {
+        wanted,
+        test: &test.0,
+        quantity,
+        across,
+        places: &places,
+        factor: if turned { -factor } else { factor },
+        of_gear,
     };
-    let mut entries = Vec::new();
-    let mut empty = 0;
-    for &(column, head_number) in &across {
-        for &(row, first) in &down {
-            let text = cell(row, column);
-            if text.is_empty() {
-                empty += 1;
-                continue;
-            }
-            let value = factor * number(text, row, column)?;
-            let (cycles, place) = match orientation {
-                Across::Checkpoints => (head_number, first),
-                Across::Positions => (first, head_number),
-            };
-            entries.push(Entry {
-                test: test.0.clone(),
-                member,
-                cycles: revolutions(cycles),
-                quantity,
-                position: Some(rounded(position.position(scale * place, gear))),
-                value,
-                sigma: None,
-                trace: String::new(),
-                face: String::new(),
-                tooth: wanted.tooth.clone().unwrap_or_default(),
-                cell: (row, column),
-            });
-        }
-    }
+    let (mut entries, empty) = reading.entries(&grid)?;
     in_order(&mut entries, wanted)?;
-    let (places, checkpoints) = match orientation {
+    let [column_numbers, row_numbers] = grid.numbers();
+    let (on_flank, checkpoints) = match across {
         Across::Checkpoints => (row_numbers, column_numbers),
         Across::Positions => (column_numbers, row_numbers),
     };
-    let mut checkpoints: Vec<f64> = checkpoints.into_iter().map(revolutions).collect();
+    let mut checkpoints: Vec<f64> = (checkpoints.into_iter())
+        .map(|cycles| reading.revolutions(cycles))
+        .collect();
     checkpoints.sort_by(f64::total_cmp);
     Ok(Wide {
-        test,
         members: vec![member],
         quantity,
-        across: orientation,
-        position: Some((position, from_to(&places))),
-        corner: (cell_name(head, 0), corner),
+        across,
+        position: Some((places.kind, from_to(&on_flank))),
+        corner: (cell_name(head, 0), corner.to_owned()),
         checkpoints,
         of_gear,
         unit,
@@ -181,18 +129,8 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         passed_over,
         empty,
         entries,
+        test,
     })
-}
-
-/// The numbers of a table say that its columns are not what is stated.
-fn stated_otherwise(stated: Across) -> ImportError {
-    let (stated, places) = match stated {
-        Across::Checkpoints => ("checkpoints", "header"),
-        Across::Positions => ("positions", "first column"),
-    };
-    ImportError(format!(
-        "--columns {stated}: only the numbers of the {places} can be positions; leave --columns out, or say the other"
-    ))
 }
 
 /// Sorts entries by time and place and names their traces.
@@ -369,59 +307,4 @@ pub(super) fn no_header(sheet: &Sheet) -> ImportError {
         "no header row: in a table with a column for each checkpoint or place the first cell names what stands below it (such as `radius \
          [mm]`), the others begin with a number each (cycles, or a radius); {long}"
     ))
-}
-
-/// What the columns are, by where the numbers can stand on the flank.
-fn orientation(
-    columns: &[f64],
-    rows: &[f64],
-    (position, scale, corner): (PositionKind, f64, &str),
-    (gear, member): (Option<&Gear>, Subject),
-) -> Result<Across> {
-    let on_flank = |numbers: &[f64]| match gear {
-        Some(gear) if position == PositionKind::Teeth => {
-            let teeth = gear.spanned_teeth();
-            numbers
-                .iter()
-                .all(|&n| teeth.iter().any(|&teeth| f64::from(teeth) == n))
-        }
-        Some(gear) => numbers.iter().all(|&n| {
-            let radius = position.position(scale * n, Some(gear));
-            (gear.form_radius - 0.01..=gear.tip_radius + 0.01).contains(&radius)
-        }),
-        None => numbers.iter().all(|n| (0.0..=1.0).contains(n)),
-    };
-    let what = match gear {
-        Some(_) if position == PositionKind::Teeth => {
-            "numbers of teeth that a span goes over".to_owned()
-        }
-        Some(gear) => {
-            let unit = units::name_and_unit(corner).1;
-            let kind = match &unit {
-                Some(unit) => format!("{} in {unit}", position.word()),
-                None => position.name().to_owned(),
-            };
-            format!(
-                "radii of the {}'s flank ({:.3} to {:.3} mm), read as {kind}",
-                member.name(),
-                gear.form_radius,
-                gear.tip_radius
-            )
-        }
-        None => "rotations (0 to 1 base pitch)".to_owned(),
-    };
-    match (on_flank(rows), on_flank(columns)) {
-        (true, false) => Ok(Across::Checkpoints),
-        (false, true) => Ok(Across::Positions),
-        (true, true) => Err(ImportError(format!(
-            "both the first column and the header could be {what}: say --columns checkpoints or --columns positions"
-        ))),
-        (false, false) => {
-            let [[row_from, row_to], [from, to]] = [from_to(rows), from_to(columns)];
-            Err(ImportError(format!(
-                "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}: look at --member, at \
-                 --position and at the unit in the header"
-            )))
-        }
-    }
 }

@@ -1,4 +1,10 @@
 //! `report.html` of one run.
+
+mod geometry;
+mod mesh_and_cost;
+
+use self::geometry::geometry;
+use self::mesh_and_cost::mesh_and_cost;
 use super::files;
 use super::oil_and_heat::oil_and_heat;
 use super::page::{Page, Section};
@@ -6,10 +12,10 @@ use super::table::{Cell, Table};
 use crate::gear::Pair;
 use crate::report::drawings;
 use crate::report::error::OutputError;
-use crate::report::format::{count, duration, percent, plain, significant, whole};
+use crate::report::format::{count, percent, plain, significant};
 use crate::report::plots;
 use crate::report::text;
-use crate::simulate::result::{Member, Run, State, WheelGeometry};
+use crate::simulate::result::{Member, Run, State};
 
 /// The page without its list of files; with `pair` the gears are drawn.
 ///
@@ -225,159 +231,6 @@ fn coefficients([pinion, gear]: [f64; 2]) -> String {
     } else {
         format!("{} mm²/N pinion, {} mm²/N gear", plain(pinion), plain(gear))
     }
-}
-
-fn backlash(run: &Run) -> String {
-    let words = text::jammed(run).map_or_else(String::new, |words| format!(": {words}"));
-    format!("{} µm{words}", significant(run.geometry.backlash_um, 4))
-}
-
-fn geometry(run: &Run) -> Section {
-    let g = &run.geometry;
-    let mm = |value: f64| format!("{} mm", significant(value, 6));
-    let [a, b, d, e] = g.path_limits.map(|limit| significant(limit, 5));
-    let pair = Table::of_values(
-        "The pair at its working centre distance",
-        [
-            ("centre distance", mm(g.centre_distance)),
-            (
-                "working pressure angle",
-                format!("{}°", significant(g.working_pressure_angle_deg, 6)),
-            ),
-            ("contact ratio", significant(g.contact_ratio, 6)),
-            ("path of contact", mm(g.path_of_contact)),
-            ("base pitch", mm(g.base_pitch)),
-            (
-                "A, B, D, E from the pitch point",
-                format!("{a}, {b}, {d}, {e} mm"),
-            ),
-            ("backlash", backlash(run)),
-            ("speed ratio", significant(g.speed_ratio, 6)),
-        ],
-    );
-    let helical = g.helix.map(|helix| {
-        let degrees = |value: f64| format!("{}°", significant(value, 6));
-        Table::of_values(
-            "The helix",
-            [
-                (
-                    "helix angle at the pinion's reference circle",
-                    degrees(helix.angle_deg),
-                ),
-                (
-                    "helix angle at the base circles",
-                    degrees(helix.base_angle_deg),
-                ),
-                (
-                    "module of the transverse section",
-                    mm(helix.transverse_module),
-                ),
-                (
-                    "pressure angle of the transverse section",
-                    degrees(helix.transverse_pressure_angle_deg),
-                ),
-                ("overlap ratio", significant(helix.overlap_ratio, 6)),
-                (
-                    "total contact ratio",
-                    significant(g.total_contact_ratio(), 6),
-                ),
-            ],
-        )
-    });
-    let mut wheels = Table::new("The wheels, radii in mm", ["", "pinion", "gear"]);
-    type Column = fn(&WheelGeometry) -> String;
-    let rows: [(&str, Column); 9] = [
-        ("teeth", |w| w.teeth.to_string()),
-        ("profile shift, modules", |w| plain(w.profile_shift)),
-        ("bore", |w| plain(w.bore_radius)),
-        ("root", |w| plain(w.root_radius)),
-        ("base", |w| plain(w.base_radius)),
-        ("form (involute begins)", |w| plain(w.form_radius)),
-        ("active (nominal contact begins)", |w| {
-            plain(w.active_radius)
-        }),
-        ("working pitch", |w| plain(w.pitch_radius)),
-        ("tip", |w| plain(w.tip_radius)),
-    ];
-    for (name, value) in rows {
-        wheels = wheels.row([
-            Cell::text(name),
-            Cell::number(value(&g.pinion)),
-            Cell::number(value(&g.gear)),
-        ]);
-    }
-    let mut section = Section::new("Geometry").table(pair);
-    if let Some(helical) = helical {
-        section = section.table(helical);
-    }
-    section.table(wheels)
-}
-
-fn mesh_and_cost(run: &Run) -> Section {
-    let mut section = Section::new("Mesh and cost");
-    match &run.mesh {
-        None => {
-            section =
-                section.paragraph(format!("The {} model needs no mesh.", run.conditions.model))
-        }
-        Some(meshes) => {
-            let head = [
-                "",
-                "element",
-                "nodes",
-                "elements",
-                "unknowns",
-                "smallest angle, °",
-                "flank spacing, µm",
-            ];
-            let mut table = Table::new("", head);
-            for (member, mesh) in Member::BOTH.into_iter().zip(meshes) {
-                table = table.row([
-                    Cell::text(member.name()),
-                    Cell::text(mesh.element.clone()),
-                    Cell::number(whole(mesh.nodes)),
-                    Cell::number(whole(mesh.elements)),
-                    Cell::number(whole(mesh.dof)),
-                    Cell::number(significant(mesh.min_angle_deg, 3)),
-                    Cell::number(significant(mesh.flank_spacing * 1000.0, 3)),
-                ]);
-            }
-            section = section.table(table);
-        }
-    }
-    let cost = &run.cost;
-    let memory = cost.peak_memory_mb.map_or("not known".to_owned(), |mb| {
-        format!("{} MB", significant(mb, 3))
-    });
-    section = section.table(Table::of_values(
-        "",
-        [
-            ("time", duration(cost.seconds)),
-            ("threads", whole(cost.threads)),
-            ("largest memory", memory),
-            ("factorisations", whole(cost.factorisations)),
-            ("contact problems solved", whole(cost.contact_solves)),
-            ("wear steps", whole(cost.wear_steps)),
-        ],
-    ));
-    if !cost.stages.is_empty() {
-        let mut stages = Table::new("Time per stage", ["stage", "time", "share"]);
-        let total: f64 = cost.stages.iter().map(|(_, seconds)| seconds).sum();
-        for (name, seconds) in &cost.stages {
-            let share = if total > 0.0 {
-                percent(seconds / total, 2)
-            } else {
-                String::new()
-            };
-            stages = stages.row([
-                Cell::text(name.clone()),
-                Cell::number(duration(*seconds)),
-                Cell::number(share),
-            ]);
-        }
-        section = section.table(stages);
-    }
-    section
 }
 
 fn checks(run: &Run) -> Section {

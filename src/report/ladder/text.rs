@@ -55,73 +55,81 @@ pub fn conclusion(result: &Result<'_>) -> String {
         "the tests it is fitted to (none is held out, so nothing here guards against fitting noise)"
     };
     let mut sentences = Vec::new();
-    let best = steps
-        .iter()
-        .filter_map(|step| Some((*step, judge(step)?)))
-        .min_by(|a, b| a.1.total_cmp(&b.1));
     let alone = steps.len() < 2 && result.steps.len() > 1;
     if result.steps.len() == 1 {
         sentences.push(
             "This is one version: list the ones to compare it with after it, such as the studies that `gearwear add` wrote.".to_owned(),
         );
     }
-    if let (Some((best, least)), Some(first), false) =
-        (best, steps.first().and_then(|s| judge(s)), alone)
-    {
-        let with = format!("{} (effects: {})", best.study, effects(best));
-        let change = if best == steps[0] {
-            format!("χ² per point {}", significant(least, 3))
-        } else {
-            format!(
-                "χ² per point {} against {} of the first version",
-                significant(least, 3),
-                significant(first, 3)
-            )
-        };
-        sentences.push(if best != steps[0] && least > NO_BETTER * first {
-            format!(
-                "No version does noticeably better on {of} than {}, χ² per point {}; 1 is the noise floor.",
-                steps[0].study,
-                significant(first, 3)
-            )
-        } else {
-            format!("Least error on {of}: {with}, {change}; 1 is the noise floor.")
-        });
+    if !alone {
+        sentences.extend(best(&steps, of));
     }
-    for after in &result.steps {
-        let named = |name: &String| result.steps.iter().find(|step| step.study == *name);
-        let Some(before) = after.against.as_ref().and_then(named) else {
-            continue;
-        };
-        let (Some(a), Some(b)) = (judge(before), judge(after)) else {
-            continue;
-        };
-        if b > NO_BETTER * a
-            && let Some(open) = not_judged(before, after)
-        {
-            sentences.push(open);
-        } else if b > NO_BETTER * a {
-            sentences.push(format!(
-                "From {} to {} the error on {} {} ({} to {}): that step explains nothing new.",
-                before.study,
-                after.study,
-                if after.holdout_chi2_per_point.is_some() {
-                    "held-out tests"
-                } else {
-                    "the fit tests"
-                },
-                if b < a {
-                    "falls by too little to count"
-                } else {
-                    "does not fall"
-                },
-                significant(a, 3),
-                significant(b, 3)
-            ));
-        }
-    }
+    sentences.extend(
+        result
+            .steps
+            .iter()
+            .filter_map(|after| needless(result, after)),
+    );
     sentences.extend(notes(result));
     sentences.join(" ")
+}
+
+/// Which version does best on the tests that are named `of`, if one does noticeably better than the first.
+fn best(steps: &[&LadderStep], of: &str) -> Option<String> {
+    let first = judge(steps.first()?)?;
+    let (best, least) = steps
+        .iter()
+        .filter_map(|step| Some((*step, judge(step)?)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let with = format!("{} (effects: {})", best.study, effects(best));
+    let change = if best == steps[0] {
+        format!("χ² per point {}", significant(least, 3))
+    } else {
+        format!(
+            "χ² per point {} against {} of the first version",
+            significant(least, 3),
+            significant(first, 3)
+        )
+    };
+    Some(if best != steps[0] && least > NO_BETTER * first {
+        format!(
+            "No version does noticeably better on {of} than {}, χ² per point {}; 1 is the noise floor.",
+            steps[0].study,
+            significant(first, 3)
+        )
+    } else {
+        format!("Least error on {of}: {with}, {change}; 1 is the noise floor.")
+    })
+}
+
+/// That a step explains nothing new, or cannot be judged, where it is so.
+fn needless(result: &Result<'_>, after: &LadderStep) -> Option<String> {
+    let named = |name: &String| result.steps.iter().find(|step| step.study == *name);
+    let before = after.against.as_ref().and_then(named)?;
+    let (a, b) = (judge(before)?, judge(after)?);
+    let falls_too_little = b > NO_BETTER * a;
+    if !falls_too_little {
+        return None;
+    }
+    not_judged(before, after).or_else(|| {
+        Some(format!(
+            "From {} to {} the error on {} {} ({} to {}): that step explains nothing new.",
+            before.study,
+            after.study,
+            if after.holdout_chi2_per_point.is_some() {
+                "held-out tests"
+            } else {
+                "the fit tests"
+            },
+            if b < a {
+                "falls by too little to count"
+            } else {
+                "does not fall"
+            },
+            significant(a, 3),
+            significant(b, 3)
+        ))
+    })
 }
 
 /// What keeps versions from being judged against the first.

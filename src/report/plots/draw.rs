@@ -1,4 +1,7 @@
 //! From [`Plot`] to SVG.
+
+mod panel;
+
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -6,7 +9,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::style::draw_marker;
 use super::{Curve, Plot, Style, finite};
 use crate::report::error::OutputError;
-use crate::report::format::significant;
 use crate::report::html::escape;
 
 /// Size in which the plot is meant to be seen, pixels.
@@ -30,9 +32,9 @@ impl Plot {
             let area =
                 SVGBackend::with_string(&mut text, (SIZE.0 * FINE as u32, height * FINE as u32))
                     .into_drawing_area();
-            self.draw(&area).map_err(|message| OutputError::Plot {
+            self.draw(&area).map_err(|error| OutputError::Plot {
                 title: self.title.clone(),
-                message,
+                message: error.to_string(),
             })?;
         }
         Ok(accessible(&text, &self.title, height))
@@ -55,8 +57,7 @@ impl Plot {
         Ok((accessible(&text, &self.title, height), height))
     }
 
-    fn draw(&self, area: &Area<'_>) -> Result<(), String> {
-        let plot_error = |error: &dyn std::fmt::Display| error.to_string();
+    fn draw(&self, area: &Area<'_>) -> Result<(), DrawError> {
         let legend_rows = self.labelled().count().div_ceil(self.legend_columns()) as i32;
         let (legend, below) = area.split_vertically(legend_rows * LEGEND_ROW + 8 * FINE);
         let mut x = self.horizontal();
@@ -70,121 +71,8 @@ impl Plot {
         } else {
             self.panel(area, &below, x, true)?;
         }
-        self.draw_legend(&legend).map_err(|e| plot_error(&e))?;
-        area.present().map_err(|e| plot_error(&e))
-    }
-
-    /// Axes, marks and curves in `place`, a part of `area`; without `named` the horizontal axis has neither numbers nor name.
-    fn panel(
-        &self,
-        area: &Area<'_>,
-        place: &Area<'_>,
-        x: (f64, f64),
-        named: bool,
-    ) -> Result<(), String> {
-        let plot_error = |error: &dyn std::fmt::Display| error.to_string();
-        let y = self.vertical();
-        let top = if self.marks.iter().all(|mark| mark.1.is_empty()) {
-            10 * FINE
-        } else {
-            24 * FINE
-        };
-        let mut chart = ChartBuilder::on(place)
-            .margin_top(top)
-            .margin_right(if x.1 >= 1e6 { 50 * FINE } else { 32 * FINE })
-            .margin_bottom(6 * FINE)
-            .margin_left(6 * FINE)
-            .x_label_area_size(if named { 52 * FINE } else { 4 * FINE })
-            .y_label_area_size(80 * FINE)
-            .build_cartesian_2d(x.0..x.1, y.0..y.1)
-            .map_err(|e| plot_error(&e))?;
-        let (x_digits, y_digits) = (digits(x), digits(y));
-        let short = self.residuals;
-        let x_tick = |v: &f64| match (named, self.names.is_empty()) {
-            (false, _) => String::new(),
-            (true, true) => tick(*v, x_digits),
-            (true, false) => self.name_at(*v),
-        };
-        let y_tick = |v: &f64| {
-            if self.logarithmic {
-                significant(10f64.powf(*v), 2)
-            } else {
-                tick(*v, y_digits)
-            }
-        };
-        chart
-            .configure_mesh()
-            .x_labels(if self.names.is_empty() {
-                7
-            } else {
-                2 * self.names.len() + 1
-            })
-            .y_labels(if short { 5 } else { 6 })
-            .bold_line_style(GRID.stroke_width(FINE as u32))
-            .light_line_style(TRANSPARENT)
-            .axis_style(INK.stroke_width(FINE as u32))
-            .set_all_tick_mark_size(if named { 5 * FINE } else { 2 * FINE })
-            .label_style((FONT, TEXT).into_font().color(&INK))
-            .axis_desc_style((FONT, TEXT).into_font().color(&INK))
-            .x_desc(if named { self.x_label.as_str() } else { "" })
-            .y_desc(&self.y_label)
-            .x_label_formatter(&x_tick)
-            .y_label_formatter(&y_tick)
-            .draw()
-            .map_err(|e| plot_error(&e))?;
-        let mark_text = TextStyle::from((FONT, TEXT).into_font())
-            .color(&MARK)
-            .pos(Pos::new(HPos::Center, VPos::Bottom));
-        let level = self.residuals.then_some([(x.0, 0.0), (x.1, 0.0)]);
-        let upright = self.marks.iter().filter(|(at, _)| (x.0..=x.1).contains(at));
-        let lines = upright.clone().map(|(at, _)| [(*at, y.0), (*at, y.1)]);
-        for line in lines.chain(level) {
-            chart
-                .draw_series([PathElement::new(
-                    line.to_vec(),
-                    MARK.stroke_width(FINE as u32),
-                )])
-                .map_err(|e| plot_error(&e))?;
-        }
-        for (at, letter) in upright.filter(|mark| !mark.1.is_empty()) {
-            let (px, py) = chart.backend_coord(&(*at, y.1));
-            area.draw(&Text::new(
-                letter.clone(),
-                (px, py - 4 * FINE),
-                mark_text.clone(),
-            ))
-            .map_err(|e| plot_error(&e))?;
-        }
-        for (number, curve) in self.curves.iter().enumerate() {
-            let color = curve.style.color();
-            let shown: Vec<(f64, f64)> = self.seen(&curve.points).collect();
-            if let Some(width) = curve.style.line() {
-                chart
-                    .draw_series(LineSeries::new(
-                        shown.clone(),
-                        color.stroke_width((width * f64::from(FINE)) as u32),
-                    ))
-                    .map_err(|e| plot_error(&e))?;
-            }
-            // bars with curves or among many points stand back, few points alone need theirs seen
-            let width = match curve.style {
-                Style::Points(_) => 2 * FINE,
-                _ => FINE,
-            };
-            for (&(at, value), sigma) in curve.points.iter().zip(&curve.errors) {
-                let bar = [(at, value - sigma), (at, value + sigma)];
-                let bar = PathElement::new(
-                    self.seen(&bar).collect::<Vec<_>>(),
-                    color.stroke_width(width as u32),
-                );
-                chart.draw_series([bar]).map_err(|e| plot_error(&e))?;
-            }
-            for at in curve.marker_places(&shown, x.1 - x.0, number) {
-                let (px, py) = chart.backend_coord(&at);
-                draw_marker(area, curve.style, (px, py)).map_err(|e| plot_error(&e))?;
-            }
-        }
-        Ok(())
+        self.draw_legend(&legend)?;
+        area.present()
     }
 
     /// Finite points as the axes show them.

@@ -45,87 +45,16 @@ pub(super) fn run(
     let mut forward = Forward::new(set, Some(members), conditions, smooth)?;
     // a history of no cycles: it finds out how far contact has to be looked for
     forward.wear_to(&mut None, 0.0, &mut |_, _| true)?;
-    let modulus = set.modulus();
-    let (pressures, contacts) =
-        forward.with_model(|fem| steady(fem, &forward, conditions, None))??;
-    let following = Prescribed::following(forward.cycle(), modulus, &contacts);
-    let (corners, _) = steady(
-        &following.with_corners(&contacts),
-        &forward,
-        conditions,
-        Some(modulus),
-    )?;
-    let held = on_line(&forward, conditions)?;
+    let unworn = Unworn::by_elements(&forward, conditions, set.modulus())?;
 
     stages.next("wear of the Hertz model");
-    let mut jumping = jumping(set, conditions, smooth, members.spacing())?;
-    let cycle = jumping.cycle();
-    let load = jumping.torque() / cycle.pair.pinion.base_radius;
-    let steadily = |model: &dyn ContactModel| -> Result<State, ForwardError> {
-        Ok(steady(model, &jumping, conditions, Some(modulus))?.0)
-    };
-    let equal = steadily(&Prescribed::equal(cycle, modulus, load))?;
-    let springs = jumping.with_model(steadily)??;
-    let spans = spans(&cycle.pair);
-    let shares = steadily(&Prescribed::new(cycle, modulus, |pair| {
-        load * held.load_share(&spans, pair.path)
-    }))?;
-    let hertz = worn(&mut jumping, Kind::Hertz, conditions, Some(modulus))?;
+    let by_hertz = ByHertz::new(set, conditions, smooth, members.spacing(), &unworn.held)?;
 
     stages.next("wear by finite elements");
     let mut fem = worn(&mut forward, Kind::Fem, conditions, None)?;
-    let to_hertz = vec![
-        Step {
-            cause: Cause::ContactWidth,
-            replaced: "wear at the nominal contact point alone",
-            by: "Hertz's ellipse over the width of the contact",
-            state: equal,
-        },
-        Step {
-            cause: Cause::LoadShare,
-            replaced: "equal parts for the pairs in contact",
-            by: "springs of the teeth",
-            state: springs.clone(),
-        },
-        Step {
-            cause: Cause::Feedback,
-            replaced: "load shares of the unworn flanks",
-            by: "load shares that follow the wear",
-            state: State::of(&hertz),
-        },
-    ];
-    let mut to_fem = vec![
-        Step {
-            cause: Cause::Feedback,
-            replaced: "load shares of the Hertz model that follow the wear",
-            by: "those of the unworn flanks",
-            state: springs,
-        },
-        Step {
-            cause: Cause::LoadShare,
-            replaced: "springs of the teeth",
-            by: "load shares by finite elements, contact held to the line of action",
-            state: shares,
-        },
-        Step {
-            cause: Cause::TipContact,
-            replaced: "contact on the line of action only",
-            by: "load shares by finite elements with tip corners that touch outside it",
-            state: corners,
-        },
-        Step {
-            cause: Cause::PressureShape,
-            replaced: "Hertz's ellipse",
-            by: "pressures by finite elements, ends of the flanks included",
-            state: pressures,
-        },
-        Step {
-            cause: Cause::Feedback,
-            replaced: "pressures of the unworn flanks",
-            by: "pressures by finite elements that follow the wear",
-            state: State::of(&fem),
-        },
-    ];
+    let to_hertz = steps_to_hertz(&by_hertz);
+    let mut to_fem = steps_to_fem(&by_hertz, unworn, &fem);
+    let hertz = by_hertz.worn;
     if numerics.friction > 0.0 {
         let mut rough = Forward::new(set, Some(members), conditions, numerics)?;
         fem = worn(&mut rough, Kind::Fem, conditions, None)?;
@@ -142,6 +71,143 @@ pub(super) fn run(
         to_hertz,
         to_fem,
     })
+}
+
+/// The unworn flanks by finite elements, with more and more of the contact let in.
+struct Unworn {
+    /// All contact held to the line of action.
+    held: State,
+    /// Hertz's pressures with the load shares of the elements, tip corners outside the line of action among them.
+    corners: State,
+    /// Pressures of the elements.
+    pressures: State,
+}
+
+impl Unworn {
+    /// `modulus`: contact modulus of the pair, MPa.
+    fn by_elements(
+        forward: &Forward,
+        conditions: Conditions,
+        modulus: f64,
+    ) -> Result<Self, ForwardError> {
+        let (pressures, contacts) =
+            forward.with_model(|fem| steady(fem, forward, conditions, None))??;
+        let following = Prescribed::following(forward.cycle(), modulus, &contacts);
+        let (corners, _) = steady(
+            &following.with_corners(&contacts),
+            forward,
+            conditions,
+            Some(modulus),
+        )?;
+        Ok(Self {
+            held: on_line(forward, conditions)?,
+            corners,
+            pressures,
+        })
+    }
+}
+
+/// The Hertz model and its variants with other load shares.
+struct ByHertz {
+    /// Unworn flanks, equal shares of the pairs in contact.
+    equal: State,
+    /// Unworn flanks, shares by the springs of the teeth.
+    springs: State,
+    /// Unworn flanks, shares by finite elements.
+    shares: State,
+    /// The whole wear history.
+    worn: ModelResult,
+}
+
+impl ByHertz {
+    /// On stations `spacing` mm apart; `held`: the elements' contact whose load shares are taken over.
+    fn new(
+        set: &GearSet,
+        conditions: Conditions,
+        numerics: Numerics,
+        spacing: f64,
+        held: &State,
+    ) -> Result<Self, ForwardError> {
+        let modulus = set.modulus();
+        let mut jumping = jumping(set, conditions, numerics, spacing)?;
+        let cycle = jumping.cycle();
+        let load = jumping.torque() / cycle.pair.pinion.base_radius;
+        let steadily = |model: &dyn ContactModel| -> Result<State, ForwardError> {
+            Ok(steady(model, &jumping, conditions, Some(modulus))?.0)
+        };
+        let equal = steadily(&Prescribed::equal(cycle, modulus, load))?;
+        let springs = jumping.with_model(steadily)??;
+        let spans = spans(&cycle.pair);
+        let shares = steadily(&Prescribed::new(cycle, modulus, |pair| {
+            load * held.load_share(&spans, pair.path)
+        }))?;
+        Ok(Self {
+            equal,
+            springs,
+            shares,
+            worn: worn(&mut jumping, Kind::Hertz, conditions, Some(modulus))?,
+        })
+    }
+}
+
+/// From equal shares in a contact of no width to the Hertz model.
+fn steps_to_hertz(hertz: &ByHertz) -> Vec<Step> {
+    vec![
+        Step {
+            cause: Cause::ContactWidth,
+            replaced: "wear at the nominal contact point alone",
+            by: "Hertz's ellipse over the width of the contact",
+            state: hertz.equal.clone(),
+        },
+        Step {
+            cause: Cause::LoadShare,
+            replaced: "equal parts for the pairs in contact",
+            by: "springs of the teeth",
+            state: hertz.springs.clone(),
+        },
+        Step {
+            cause: Cause::Feedback,
+            replaced: "load shares of the unworn flanks",
+            by: "load shares that follow the wear",
+            state: State::of(&hertz.worn),
+        },
+    ]
+}
+
+/// From the Hertz model to the finite elements without friction.
+fn steps_to_fem(hertz: &ByHertz, unworn: Unworn, fem: &ModelResult) -> Vec<Step> {
+    vec![
+        Step {
+            cause: Cause::Feedback,
+            replaced: "load shares of the Hertz model that follow the wear",
+            by: "those of the unworn flanks",
+            state: hertz.springs.clone(),
+        },
+        Step {
+            cause: Cause::LoadShare,
+            replaced: "springs of the teeth",
+            by: "load shares by finite elements, contact held to the line of action",
+            state: hertz.shares.clone(),
+        },
+        Step {
+            cause: Cause::TipContact,
+            replaced: "contact on the line of action only",
+            by: "load shares by finite elements with tip corners that touch outside it",
+            state: unworn.corners,
+        },
+        Step {
+            cause: Cause::PressureShape,
+            replaced: "Hertz's ellipse",
+            by: "pressures by finite elements, ends of the flanks included",
+            state: unworn.pressures,
+        },
+        Step {
+            cause: Cause::Feedback,
+            replaced: "pressures of the unworn flanks",
+            by: "pressures by finite elements that follow the wear",
+            state: State::of(fem),
+        },
+    ]
 }
 
 /// The unworn flanks by finite elements with all contact held to the line of action.

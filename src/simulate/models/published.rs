@@ -31,11 +31,14 @@ pub(super) enum Absent {
     },
 }
 
+/// A correction by itself: what it corrects, in words what it does, and the state that comes of it.
+type Single = (Cause, &'static str, State);
+
 /// The published model and what follows from correcting it.
 pub(super) struct Published {
     pub(super) model: ModelResult,
     pub(super) steps: Vec<Step>,
-    singly: Vec<(Cause, &'static str, State)>,
+    singly: Vec<Single>,
 }
 
 impl Published {
@@ -70,12 +73,25 @@ pub(super) fn run(
         });
     }
     let inputs = inputs(set, conditions);
-    let printed_speed = gear_speed_as_printed(&inputs).is_some();
     let outcome = paper::run(&inputs)?;
     let model = model(&inputs, &outcome, pair);
+    let singly = if conditions.cycles <= MOST_CYCLES_SINGLY {
+        each_alone(&inputs, pair)?
+    } else {
+        Vec::new()
+    };
+    Ok(Published {
+        model,
+        steps: steps(&inputs, pair, conditions.cycles)?,
+        singly,
+    })
+}
+
+/// The published model with one correction each.
+fn each_alone(inputs: &Inputs, pair: &Pair) -> Result<Vec<Single>, Absent> {
+    let printed_speed = gear_speed_as_printed(inputs).is_some();
     let mut singly = Vec::new();
-    let each = Corrections::each().into_iter();
-    for (correction, corrections) in each.filter(|_| conditions.cycles <= MOST_CYCLES_SINGLY) {
+    for (correction, corrections) in Corrections::each() {
         let cause = cause(corrections);
         if cause == Cause::GearSpeed && !printed_speed {
             continue;
@@ -84,8 +100,13 @@ pub(super) fn run(
             corrections,
             ..inputs.clone()
         })?;
-        singly.push((cause, correction, state(&inputs, &outcome, pair, 1.0)));
+        singly.push((cause, correction, state(inputs, &outcome, pair, 1.0)));
     }
+    Ok(singly)
+}
+
+/// The published model without the angle update, corrected by more and more, after so many cycles.
+fn steps(inputs: &Inputs, pair: &Pair, cycles: f64) -> Result<Vec<Step>, Absent> {
     // without the angle update every cycle takes the same depth: one stands for all
     let steady = |corrections: Corrections, points: usize| -> Result<State, Absent> {
         let inputs = Inputs {
@@ -95,7 +116,7 @@ pub(super) fn run(
             ..inputs.clone()
         };
         let outcome = paper::run(&inputs)?;
-        Ok(state(&inputs, &outcome, pair, conditions.cycles))
+        Ok(state(&inputs, &outcome, pair, cycles))
     };
     let mut corrected = Corrections {
         no_angle_feedback: true,
@@ -107,7 +128,7 @@ pub(super) fn run(
         by: "an involute that stays one",
         state: steady(corrected, inputs.points)?,
     }];
-    if printed_speed {
+    if gear_speed_as_printed(inputs).is_some() {
         corrected.true_speed_ratio = true;
         steps.push(Step {
             cause: Cause::GearSpeed,
@@ -130,11 +151,7 @@ pub(super) fn run(
         by: "2001 points with the tip",
         state: steady(corrected, FINE)?,
     });
-    Ok(Published {
-        model,
-        steps,
-        singly,
-    })
+    Ok(steps)
 }
 
 /// The gear's speed, rpm, if it is the printed one, which contradicts the tooth numbers.

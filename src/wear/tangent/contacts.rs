@@ -1,10 +1,12 @@
 //! The contacts of all positions, differentiated: of one section, of slices that share a rotation, of passages of teeth that differ.
 
+mod passages;
+
 use rayon::prelude::*;
 
-use super::{Differentiated, Direction};
+use self::passages::InTurn;
+use super::Differentiated;
 use crate::contact::model::{ContactModel, PositionContact, SlicedContact};
-use crate::contact::sequence::{Sequence, ToothDepths};
 use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::{Change, ContactTangent};
 use crate::wear::archard::{Joint, WearError};
@@ -31,36 +33,6 @@ impl ContactTangents {
         }
         for responses in self.response_tangents.iter_mut().flatten().flatten() {
             slices.by_section(i, responses);
-        }
-    }
-}
-
-/// Depths of all teeth, and how they and their places change along each direction.
-struct InTurn<'s> {
-    sequence: &'s Sequence,
-    depths: ToothDepths,
-    moved: Vec<Moved>,
-}
-
-/// Derivatives of the depths of all teeth, and of how far these stand back by member and tooth.
-type Moved = (ToothDepths, [Vec<f64>; 2]);
-
-impl<'s> InTurn<'s> {
-    fn new(
-        sequence: &'s Sequence,
-        joint: &Joint,
-        directions: &[Direction<'_>],
-        du: &[Vec<f64>],
-    ) -> Self {
-        let moved = |(direction, du): (&Direction<'_>, &Vec<f64>)| {
-            let altered = direction.altered.as_ref();
-            let back = altered.and_then(|a| a.alteration.tooth_back.clone());
-            (sequence.depths(du), back.unwrap_or_default())
-        };
-        Self {
-            sequence,
-            depths: sequence.depths(&joint.u),
-            moved: directions.iter().zip(du).map(moved).collect(),
         }
     }
 }
@@ -216,90 +188,5 @@ impl<M: ContactModel + ?Sized> Differentiated<'_, '_, M> {
             }
         }
         Ok(out)
-    }
-
-    /// One position of all passages of teeth that differ.
-    fn of_passages(
-        &self,
-        in_turn: &InTurn<'_>,
-        q: usize,
-        joint: &Joint,
-        along: &[&[f64]],
-    ) -> Result<OfPosition, WearError> {
-        let (model, law, sequence) = (self.system.model, self.system.law(), in_turn.sequence);
-        let pairs = &law.cycle.positions[q].pairs;
-        let size = law.cycle.stations.count();
-        let mut linears = Vec::new();
-        let mut tangents = Vec::new();
-        for (s, contact) in joint.met[q].iter().enumerate() {
-            let flanks = sequence.flanks(q, s, &in_turn.depths);
-            let linear = model.linearised(q, contact, &flanks)?;
-            let of_direction = |(direction, (depths, back)): (&Direction<'_>, &Moved)| {
-                linear.tangent(&Change {
-                    flanks: &sequence.flanks_with(q, s, depths, back),
-                    altered: direction.altered.as_ref(),
-                })
-            };
-            let each = self.directions.iter().zip(&in_turn.moved);
-            tangents.push(each.map(of_direction).collect::<Vec<ContactTangent>>());
-            linears.push(linear);
-        }
-        let of_passage = |p: usize| {
-            let read = |index: usize| sequence.read(q, p, index);
-            let own = |index: usize| {
-                let pair = &pairs[index];
-                pair.offset..pair.offset + pair.xi.len()
-            };
-            let tangent = |d: usize| {
-                let mut out = ContactTangent {
-                    pressure: vec![0.0; law.cycle.positions[q].gap.len()],
-                    approach: 0.0,
-                };
-                for index in 0..pairs.len() {
-                    let met = &tangents[read(index)][d];
-                    out.pressure[own(index)].copy_from_slice(&met.pressure[own(index)]);
-                    out.approach += met.approach / pairs.len() as f64;
-                }
-                out
-            };
-            // on the passage's active set, as its Jacobian has them
-            let kept = |index: usize, values: &[f64]| -> Vec<f64> {
-                let active = &joint.met[q][read(index)].active;
-                let all = active.iter().zip(values);
-                all.filter(|(k, _)| own(index).contains(k))
-                    .map(|(_, value)| *value)
-                    .collect()
-            };
-            let mut responses = vec![Vec::new(); along.len()];
-            let mut moved: Vec<Option<Vec<Vec<f64>>>> =
-                vec![Some(vec![Vec::new(); along.len()]); self.directions.len()];
-            for index in 0..pairs.len() {
-                let linear = &linears[read(index)];
-                for (v, response) in along.iter().zip(&mut responses) {
-                    let depth = law.split(&v[p * size..(p + 1) * size]);
-                    response.push(linear.response(&Flanks::alike(pairs.len(), depth)));
-                }
-            }
-            for (moved, direction) in moved.iter_mut().zip(self.directions) {
-                for (v, responses) in responses.iter().enumerate() {
-                    for (index, response) in responses.iter().enumerate() {
-                        let change = direction.altered.as_ref().and_then(|altered| {
-                            linears[read(index)].response_tangent(response, altered)
-                        });
-                        match (change, &mut *moved) {
-                            (Some(change), Some(all)) => all[v].extend(kept(index, &change)),
-                            _ => *moved = None,
-                        }
-                    }
-                }
-            }
-            let responses = (responses.iter()).map(|responses| {
-                let each = responses.iter().enumerate();
-                each.flat_map(|(index, y)| kept(index, y)).collect()
-            });
-            let tangents = (0..self.directions.len()).map(tangent).collect();
-            (tangents, responses.collect(), moved)
-        };
-        Ok((0..sequence.count()).map(of_passage).collect())
     }
 }
