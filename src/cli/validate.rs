@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::progress::Progress;
 use super::{CliError, Context, Outcome};
-use crate::report::format::significant;
+use crate::numeric::written::significant;
 use crate::report::html::{self, Case};
 use crate::report::{self, atomic};
 use crate::verify::contact_and_wear::Effort;

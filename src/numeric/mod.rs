@@ -11,6 +11,7 @@ pub mod smooth_functions;
 pub mod sobol_indices;
 pub mod sparse;
 pub mod truncated_normal;
+pub mod written;
 
 /// A point or vector in the plane, mm unless said otherwise.
 pub type Vec2 = nalgebra::Vector2<f64>;

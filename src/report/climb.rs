@@ -5,12 +5,12 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::format::significant;
 use super::html::{Cell, Page, Section, Table};
 use super::{html, ladder};
 use crate::learn::climb::ClimbStep;
 use crate::learn::diagnose::{Diagnosis, Fidelity};
 use crate::learn::{self, Comparison, Version};
+use crate::numeric::written::significant;
 
 /// All that `climb` shows.
 #[derive(Debug, Clone)]

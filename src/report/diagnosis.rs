@@ -7,8 +7,8 @@ use std::path::Path;
 
 pub use self::page::page;
 use super::comparison::with_unit;
-use super::format::{probability, significant, uncertain};
 use crate::learn::diagnose::{Diagnosis, Fidelity, Hypothesis, Ranked, Verdict};
+use crate::numeric::written::{probability, significant, uncertain};
 
 /// Entries of the ranking shown on the terminal.
 const SHOWN: usize = 6;

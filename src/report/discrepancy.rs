@@ -3,9 +3,9 @@
 use super::comparison::quoted;
 use super::csv::Table;
 use super::error::OutputError;
-use super::format::count;
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::MapPoint;
+use crate::numeric::written::count;
 
 /// File name of the table.
 const NAME: &str = "discrepancy.csv";

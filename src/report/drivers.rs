@@ -4,7 +4,6 @@ use super::comparison::quoted;
 use super::csv::Table as Csv;
 use super::discrepancy;
 use super::error::OutputError;
-use super::format::{percent, significant, whole};
 use super::html::{Cell, Section, Table};
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::{
@@ -12,6 +11,7 @@ use crate::learn::diagnose::{
     ResidualDriver, ResidualDrivers,
 };
 use crate::measure::{Place, Quantity};
+use crate::numeric::written::{percent, significant, whole};
 
 const BINS: &str = "residual_drivers.csv";
 const ROWS: &str = "residual_rows.csv";

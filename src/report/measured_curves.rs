@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::format::count;
 use super::html::Section;
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::{DRIVER_KINDS, DriverRow, Hypothesis, ResidualDrivers};
 use crate::measure::Quantity;
+use crate::numeric::written::count;
 
 /// Curves that are shown.
 const SHOWN: usize = 6;

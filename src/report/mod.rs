@@ -15,7 +15,6 @@ pub mod discrepancy;
 pub mod drawings;
 pub mod drivers;
 mod error;
-pub mod format;
 pub mod guide;
 pub mod html;
 pub mod json;

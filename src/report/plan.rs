@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use super::format::{plain, probability, significant};
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
+use crate::numeric::written::{count, plain, probability, significant};
 
 /// Rows of the table shown on the terminal.
 const SHOWN: usize = 12;
@@ -218,7 +218,7 @@ fn conditions(test: &NextTest) -> Vec<Cell> {
         Cell::number(plain(test.torque)),
         Cell::number(plain(test.speed)),
         Cell::number(plain(test.misalignment)),
-        Cell::number(format!("{:.2e}", test.cycles)),
+        Cell::number(count(test.cycles)),
         Cell::text(if test.reversed { "yes" } else { "" }),
     ]
 }

@@ -1,10 +1,12 @@
 //! What a run found, in words: the conclusion of its report and the summary in the terminal.
 
+mod plausibility;
 mod summary;
 
+use self::plausibility::implausible;
 pub use self::summary::summary;
-use super::format::{count, plain, significant};
 use crate::gear::JAM_TOLERANCE;
+use crate::numeric::written::{count, plain, significant};
 use crate::simulate::result::{Member, Run, State};
 
 /// What to say of the load across helical gears; figures of validation/face3d.
@@ -96,6 +98,8 @@ pub fn conclusion(run: &Run) -> String {
         )
     }));
     sentences.extend(transmission_error(run));
+    let warnings = implausible(run).into_iter();
+    sentences.extend(warnings.map(|words| format!("Warning: {words}.")));
     sentences.extend(see_checks(run));
     sentences.join(" ")
 }

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use super::Outcome;
 use super::drafts::Draft;
 use crate::learn::{Addition, Comparison, FormFit, ParameterRecord, Share};
+use crate::numeric::written::significant;
 use crate::report::comparison::{NO_INTERVAL, with_unit};
-use crate::report::format::significant;
 
 /// What a fit found: a value for each parameter that it was asked for, and what else it has to say.
 #[derive(Debug)]

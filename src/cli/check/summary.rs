@@ -3,7 +3,7 @@
 use super::{Key, curves};
 use crate::learn::Prospects;
 use crate::measure::{Dataset, Observation, Quantity};
-use crate::report::format::{count, plain, significant};
+use crate::numeric::written::{count, plain, significant};
 use crate::study::{Role, Study, Test};
 
 /// What was found in the measurements.

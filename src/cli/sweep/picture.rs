@@ -5,8 +5,8 @@ use super::figures::{Column, Outputs};
 use super::grid::{self, Axis};
 use super::points::{Point, Result};
 use super::tables::with_unit;
+use crate::numeric::written::significant;
 use crate::report::OutputError;
-use crate::report::format::significant;
 use crate::report::plots::sweep_picture;
 
 /// What the picture's panels show.

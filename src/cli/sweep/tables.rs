@@ -6,7 +6,7 @@ use super::design::Design;
 use super::figures::Outputs;
 use super::grid;
 use super::points::{Point, Result};
-use crate::report::format::{plain, significant};
+use crate::numeric::written::{plain, significant};
 use crate::simulate::result::Member;
 
 /// The document of a sweep.

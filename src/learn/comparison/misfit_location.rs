@@ -9,6 +9,7 @@ use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
 use crate::learn::fitting::region::{FlankRegions, words};
 use crate::measure::{Quantity, Subject};
+use crate::numeric::written::count;
 
 /// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
 const SIGNIFICANT: f64 = 5.0;
@@ -115,19 +116,20 @@ fn subject(quantity: Quantity) -> &'static str {
 }
 
 fn when(key: &CellKey, cell: &Cell, map: &FlankRegions) -> String {
-    let count = map.intervals(key.0);
-    if count < 2 {
+    let intervals = map.intervals(key.0);
+    if intervals < 2 {
         return String::new();
     }
     let stage = match key.4 {
-        first if 3 * first < count => "early in life",
-        late if 3 * (late + 1) > 2 * count => "late in life",
+        first if 3 * first < intervals => "early in life",
+        late if 3 * (late + 1) > 2 * intervals => "late in life",
         _ => "in mid-life",
     };
-    format!(
-        " {stage} ({:.0} to {:.0} cycles)",
-        cell.cycles[0], cell.cycles[1]
-    )
+    let [from, to] = cell.cycles;
+    if from == to {
+        return format!(" {stage} ({} cycles)", count(to));
+    }
+    format!(" {stage} ({} to {} cycles)", count(from), count(to))
 }
 
 /// Sign and size of the error; its root mean square where it has no one sign.

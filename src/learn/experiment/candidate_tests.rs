@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numeric::written::count;
 use crate::study::Operation;
 
 /// Conditions of a test, in the study's units.
@@ -111,8 +112,8 @@ pub(in crate::learn) fn changes(test: &NextTest, plain: &Operation) -> String {
     }
     if changed.is_empty() {
         changed.push(format!(
-            "{:.2e} cycles at the study's operation",
-            test.cycles
+            "{} cycles at the study's operation",
+            count(test.cycles)
         ));
     }
     changed.join(", ")

@@ -266,7 +266,7 @@ mod tests {
         let plainest = best(0, 100.0, vec![separated("b", 87.0), separated("c", 45.0)]);
         assert_eq!(
             sentence(&plainest, &plain(), None),
-            "Next: measure the transmission error in a test with 1.00e6 cycles at the study's operation. It tells a from b (χ² 87), and \
+            "Next: measure the transmission error in a test with 1\u{202f}000\u{202f}000 cycles at the study's operation. It tells a from b (χ² 87), and \
              tells a from c (χ² 45), the hardest pair."
         );
         let other = best(1, 50.0, vec![separated("b", 87.0), separated("c", 2.0)]);

@@ -1,8 +1,8 @@
 //! A comparison in words: the sentence at the top of its page, and the lines for the terminal.
 use std::path::Path;
 
-use super::super::format::{percent, significant, uncertain, whole};
 use crate::learn::{Comparison, ParameterRecord, TestRecord};
+use crate::numeric::written::{percent, significant, uncertain, whole};
 use crate::study::Study;
 
 /// χ² per point above which the model is reported to lack something: three standard deviations √(2/n) above 1.

@@ -4,7 +4,7 @@ use super::{figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
     Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
 };
-use crate::report::format::{count, plain, probability, significant};
+use crate::numeric::written::{count, plain, probability, significant};
 use crate::report::html::{Cell, Page, Section, Table};
 use crate::report::{drivers, learned, measured_curves};
 

@@ -2,7 +2,7 @@
 use std::f64::consts::TAU;
 
 use super::{Drawing, opened, path};
-use crate::report::format::significant;
+use crate::numeric::written::significant;
 use crate::simulate::result::{Member, Run};
 
 const SIZE: [f64; 2] = [440.0, 440.0];

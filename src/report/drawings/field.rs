@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use super::palette::{MAP, palette};
 use super::view::View;
 use super::{Drawing, base64};
+use crate::numeric::written::{count, plain, significant};
 use crate::report::error::OutputError;
-use crate::report::format::{count, plain, significant};
 use crate::simulate::result::{FieldFrame, Run};
 
 /// Size of a picture, pixels.

@@ -3,7 +3,7 @@
 use super::palette::palette;
 use super::{Drawing, opened};
 use crate::numeric::interpolate;
-use crate::report::format::significant;
+use crate::numeric::written::significant;
 use crate::report::html::escape;
 use crate::simulate::result::{FaceSlice, Member, Run, State};
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use super::{Drawing, opened, path};
 use crate::gear::{self, Pair, ProfileResolution};
 use crate::numeric::Vec2;
-use crate::report::format::grouped;
+use crate::numeric::written::grouped;
 use crate::report::plots::depths;
 use crate::simulate::result::{Member, Run};
 

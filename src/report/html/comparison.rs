@@ -2,8 +2,8 @@
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::learn::{Cell as Place, Comparison, Group, TestRecord};
+use crate::numeric::written::{count, percent, significant, uncertain, whole};
 use crate::report::comparison::{self, Result, estimate, interval, with_unit};
-use crate::report::format::{count, percent, significant, uncertain, whole};
 use crate::report::models::signed;
 use crate::report::plots;
 use crate::study::Test;

@@ -2,8 +2,8 @@
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::learn::Improvement;
+use crate::numeric::written::significant;
 use crate::report::comparison::{estimate, interval};
-use crate::report::format::significant;
 use crate::report::ladder::{Result, conclusion, effects, factor};
 use crate::report::plots;
 

@@ -1,7 +1,7 @@
 //! The page of `models`: the contact models side by side, and which assumption makes each difference.
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::report::format::{count, significant};
+use crate::numeric::written::{count, significant};
 use crate::report::models::{
     conclusions, decimals, fixed, of_mounting, published_gear_speed, signed,
 };

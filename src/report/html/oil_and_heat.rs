@@ -1,7 +1,7 @@
 //! The section of a run's page on film, flash temperature and losses.
 
 use super::page::Section;
-use crate::report::format::{percent, significant};
+use crate::numeric::written::{percent, significant};
 use crate::report::plots;
 use crate::simulate::result::Run;
 

@@ -53,7 +53,7 @@ pub(super) fn effects(step: &LadderStep) -> String {
 pub(super) fn factor(factor: Option<f64>) -> String {
     match factor.filter(|f| f.is_finite() && *f > 0.0) {
         None => String::new(),
-        Some(f) if f >= 1.0 => format!("÷ {}", super::format::significant(f, 3)),
-        Some(f) => format!("× {}", super::format::significant(1.0 / f, 3)),
+        Some(f) if f >= 1.0 => format!("÷ {}", crate::numeric::written::significant(f, 3)),
+        Some(f) => format!("× {}", crate::numeric::written::significant(1.0 / f, 3)),
     }
 }

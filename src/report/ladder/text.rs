@@ -2,9 +2,9 @@
 use std::path::Path;
 
 use super::super::comparison::estimate;
-use super::super::format::significant;
 use super::{Result, effects, factor};
 use crate::learn::LadderStep;
+use crate::numeric::written::significant;
 
 /// The error by which a version is judged: that of the held-out tests, without any that of the fit tests.
 fn judge(step: &LadderStep) -> Option<f64> {

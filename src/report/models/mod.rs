@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 pub use sentences::{conclusions, of_mounting};
 pub use text::summary;
 
-use super::format::{grouped, significant};
+use crate::numeric::written::{grouped, significant};
 use crate::simulate::models::{
     Comparison, Difference, Flank, Kind, Ladder, Means, ModelResult, Mounted, Quantity, Span,
 };

@@ -5,8 +5,8 @@ use super::{Plot, Style};
 use crate::gear::Pair;
 use crate::learn::{Curve, curves};
 use crate::measure::{Place, Quantity, Subject};
+use crate::numeric::written::count;
 use crate::report::comparison::Result;
-use crate::report::format::count;
 
 /// The plots of each test of the study, by its number: each member's and the pair's quantities, cycles apart by colour.
 pub fn of_comparison(result: &Result<'_>) -> Vec<Vec<Plot>> {

@@ -235,7 +235,7 @@ fn tick(value: f64, digits: usize) -> String {
     if text == "-0" {
         text = "0".to_owned();
     }
-    crate::report::format::grouped(&text)
+    crate::numeric::written::grouped(&text)
 }
 
 /// Adds what a screen reader says, and sets the size in which the drawing is seen.

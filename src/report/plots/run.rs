@@ -1,6 +1,6 @@
 //! The plots of one run.
 use super::{Plot, Style, sliding};
-use crate::report::format::count;
+use crate::numeric::written::count;
 use crate::simulate::result::{Member, PairState, Run, State};
 
 /// Wear and contact; those without data left out.

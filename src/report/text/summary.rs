@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use super::plausibility::implausible;
 use super::{
     HELICAL_SLICES, asked_for, corner_pressure, deepest_on_the_face, failed_checks, jammed,
     new_and_worn,
 };
-use crate::report::format::{duration, percent, significant, whole};
+use crate::numeric::written::{duration, percent, significant, whole};
 use crate::simulate::result::{Member, Run, State};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
@@ -18,6 +19,11 @@ pub fn summary(run: &Run, study: &Path, folder: &Path) -> String {
     lines.extend(new_and_worn_figures(run));
     lines.extend(worst_teeth(run.last()));
     lines.push(row("area balance", &percent(run.balance_error, 2)));
+    lines.extend(
+        implausible(run)
+            .iter()
+            .map(|words| format!("  warning: {words}")),
+    );
     lines.extend(notes(run).map(|words| format!("  note: {words}")));
     lines.push(row("cost", &cost(run)));
     lines.push(String::new());

@@ -1,6 +1,6 @@
 //! `fields/open_in_paraview.py`: opens the fields in ParaView with range, camera and colours set.
 
-use crate::report::format::significant;
+use crate::numeric::written::significant;
 use crate::simulate::result::{FieldFrame, Member, Run};
 
 /// Half the height of the view, in modules.

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use super::rounded;
 use crate::measure::{Dataset, Observation, Quantity};
 use crate::numeric::median;
+use crate::numeric::written::significant;
 
 /// σ over the largest value that no instrument of wear has.
 const TOO_SURE: f64 = 3e-5;
@@ -67,7 +68,8 @@ fn too_sure(quantity: Quantity, stated: &[Stated]) -> Option<String> {
     all.then(|| {
         let (name, unit) = (quantity.name(), quantity.unit());
         format!(
-            "sigma of {name} is about {sigma:.1e} {unit} where values go up to {} {unit}: is it in another unit than the values?",
+            "sigma of {name} is about {} {unit} where values go up to {} {unit}: is it in another unit than the values?",
+            significant(sigma, 2),
             rounded(largest)
         )
     })
@@ -85,10 +87,10 @@ fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> O
     let first = unlike.first()?;
     let names: Vec<&str> = unlike.iter().map(|s| data.tests[s.test].as_str()).collect();
     Some(format!(
-        "sigma of {} in {} is about {:.1e} {} where values go up to {}, in the other tests about {:.1} % of the largest value: is it in another unit there?",
+        "sigma of {} in {} is about {} {} where values go up to {}, in the other tests about {:.1} % of the largest value: is it in another unit there?",
         quantity.name(),
         names.join(", "),
-        first.sigma,
+        significant(first.sigma, 2),
         quantity.unit(),
         rounded(first.largest),
         100.0 * usual
@@ -128,7 +130,7 @@ mod tests {
         }
         let all = lines([0.0002, 0.0002, 0.0002]);
         assert!(
-            all[0].starts_with("sigma of wear_depth is about 2.0e-4"),
+            all[0].starts_with("sigma of wear_depth is about 0.00020"),
             "{all:?}"
         );
     }

@@ -1,6 +1,6 @@
 //! The geometry of the pair in tables.
 
-use crate::report::format::{plain, significant};
+use crate::numeric::written::{plain, significant};
 use crate::report::html::page::Section;
 use crate::report::html::table::{Cell, Table};
 use crate::report::text;

@@ -1,6 +1,6 @@
 //! The meshes and what a run took, in tables.
 
-use crate::report::format::{duration, percent, significant, whole};
+use crate::numeric::written::{duration, percent, significant, whole};
 use crate::report::html::page::Section;
 use crate::report::html::table::{Cell, Table};
 use crate::simulate::result::{Cost, Member, MeshSummary, Run};

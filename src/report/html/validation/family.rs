@@ -1,7 +1,7 @@
 //! A page for each family of cases: what it asks, against what, and every figure.
 use super::fold::{Line, conditions, fold};
 use super::{Case, families};
-use crate::report::format::plain;
+use crate::numeric::written::plain;
 use crate::report::html::{Cell, Page, Section, Table, Verdict};
 
 /// The page of one family.

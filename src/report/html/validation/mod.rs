@@ -5,7 +5,7 @@ mod summary;
 
 use serde::Serialize;
 
-use crate::report::format::significant;
+use crate::numeric::written::significant;
 
 pub use family::{FamilyPage, family_pages};
 pub use summary::summary;

@@ -6,7 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Area, DrawError, FINE, FONT, GRID, INK, MARK, TEXT, digits, tick};
-use crate::report::format::significant;
+use crate::numeric::written::significant;
 use crate::report::plots::style::draw_marker;
 use crate::report::plots::{Curve, Plot, Style};
 

@@ -154,6 +154,9 @@ mod tests {
         );
         assert_eq!(uncertain(-2.913, 0.21), "\u{2212}2.91 ± 0.21");
         assert_eq!(uncertain(127_300.0, 5_400.0), "127\u{202f}300 ± 5400");
+        assert_eq!(uncertain(1.8194, 0.0353), "1.819 ± 0.035");
+        assert_eq!(uncertain(1.239e7, 4.7e5), "(1.239 ± 0.047)·10\u{2077}");
+        assert_eq!(uncertain(0.0271, 0.0017), "0.0271 ± 0.0017");
         assert_eq!(uncertain(3.0, 0.0), "3.000");
         assert_eq!(count(50_000.0), "50\u{202f}000");
         assert_eq!(count(1018.0), "1018");

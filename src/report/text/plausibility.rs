@@ -1,0 +1,39 @@
+//! What of a run's figures no gear lives through: the model computes them all the same.
+
+use crate::numeric::written::significant;
+use crate::simulate::result::{Member, Run};
+
+/// Largest pressure that hardened steel carries in a contact without yielding at once, MPa: three times a yield strength of 1 GPa reaches full plasticity (Johnson,
+/// Contact Mechanics, 1985, section 6.3), and what gears are known to run with stays below.
+const MOST_PRESSURE: f64 = 3000.0;
+/// Largest pressure over the contact modulus for which strains are small: 0.06 is a half width of 0.12 radii (b/R = 2 p/E*, Johnson Eq. 4.46).
+const MOST_STRAIN: f64 = 0.06;
+/// Depth of wear over the module from which a tooth has lost a third of its thickness (π/2 modules at the reference circle, both flanks alike).
+const MOST_WEAR: f64 = 0.25;
+
+/// One sentence for each.
+pub(super) fn implausible(run: &Run) -> Vec<String> {
+    let mut sentences = Vec::new();
+    let [e1, e2] = run.conditions.youngs_modulus;
+    let [nu1, nu2] = run.conditions.poisson_ratio;
+    let modulus = 1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2);
+    let most = MOST_PRESSURE.min(MOST_STRAIN * modulus);
+    if let Some((peak, _)) = run.first().peak_pressure().filter(|peak| peak.0 > most) {
+        sentences.push(format!(
+            "a contact pressure of {} MPa on new flanks is more than such teeth carry elastically (about {} MPa), and the model knows no yielding: look at torque and face width, and their units",
+            significant(peak, 4),
+            significant(most, 2)
+        ));
+    }
+    for member in Member::BOTH {
+        let depth = 1e-3 * run.last().profile(member).max_depth();
+        if depth > MOST_WEAR * run.geometry.module {
+            sentences.push(format!(
+                "the {} is worn {} modules deep; teeth break long before: look at the wear coefficient and the number of cycles, and their units",
+                member.name(),
+                significant(depth / run.geometry.module, 2)
+            ));
+        }
+    }
+    sentences
+}
