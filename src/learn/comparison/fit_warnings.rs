@@ -13,10 +13,10 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
     let mut warnings = Vec::new();
     // one without a step was given up, which is said where it is
     if !fit.converged && fit.iterations > 0 {
-        warnings.push(format!(
-            "the fit did not converge in {} steps",
-            fit.iterations
-        ));
+        warnings.push(match fit.iterations {
+            1 => "the fit did not converge in a step".to_owned(),
+            steps => format!("the fit did not converge in {steps} steps"),
+        });
     }
     for parameter in fit.parameters.iter().filter(|p| p.at_bound) {
         warnings.push(format!(

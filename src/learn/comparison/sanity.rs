@@ -18,6 +18,8 @@ use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Study;
 
+/// Standard deviations by which a negative loss of mass is no noise.
+const GAIN_SIGMAS: f64 = 2.0;
 /// Share of what is measured that `s·f` must explain for a sign or a unit to be told.
 const EXPLAINS: f64 = 0.5;
 /// The same where a model's law may turn a curve round: what stands over a rotation.
@@ -185,6 +187,16 @@ fn total(rows: &[FittedRow<'_>], quantity: Quantity, member: Subject) -> Option<
     (model > 0.0).then(|| value / model)
 }
 
+/// Whether most of the masses have grown by more than their noise.
+fn gains(rows: &[FittedRow<'_>]) -> bool {
+    let masses = rows.iter().map(|(o, _)| o);
+    let masses: Vec<_> = masses
+        .filter(|o| o.quantity == Quantity::MassLoss)
+        .collect();
+    let grown = masses.iter().filter(|o| o.value < -GAIN_SIGMAS * o.sigma);
+    2 * grown.count() > masses.len()
+}
+
 /// Quantities that run against the computed ones.
 fn signs(rows: &[FittedRow<'_>]) -> Vec<String> {
     let turned = |quantity, member, explains: f64| {
@@ -205,7 +217,7 @@ fn signs(rows: &[FittedRow<'_>]) -> Vec<String> {
              k and all that follows mean nothing until then"
         ));
     }
-    if turned(Quantity::MassLoss, None, EXPLAINS) {
+    if turned(Quantity::MassLoss, None, EXPLAINS) || gains(rows) {
         said.push(
             "mass_loss has the other sign: lost mass counts positive. Turn the sign of these values and compare again".to_owned(),
         );

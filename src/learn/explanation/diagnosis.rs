@@ -114,6 +114,8 @@ pub struct Screened {
     pub chi2_drop: f64,
     /// Whether the deciding model was used.
     pub decided: bool,
+    /// Whether it was fitted to the end; what a first look leaves far behind is not, and its χ² is that of the look.
+    pub converged: bool,
     /// Fitted values in the order of its parameters.
     pub values: Vec<f64>,
 }
@@ -230,6 +232,7 @@ fn screened(context: &Context<'_>, posterior: &JudgedCandidates) -> Vec<Screened
         evidence_gain: figures.evidence_gain,
         chi2_drop: figures.chi2_drop,
         decided: fitted.fidelity == context.fidelity,
+        converged: fitted.found.converged,
         values: parameters(fitted).iter().map(|p| p.value).collect(),
     })
     .collect()

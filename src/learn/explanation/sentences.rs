@@ -23,6 +23,8 @@ const LARGE_SCATTER: f64 = 0.2;
 const CERTAIN: f64 = 0.95;
 /// Share of the attainable fall of χ² below which no effect is worth naming.
 const NEGLIGIBLE: f64 = 0.01;
+/// Share of the attainable fall of χ² from which it has to be said why an effect is not named.
+const NEARLY_ALL: f64 = 0.9;
 /// Least fall of χ², over the leader's, of the effects that are told beside it as leaders.
 const BESIDE_LEADER: f64 = 0.9;
 /// Most leaders of an undecided diagnosis.
@@ -190,8 +192,14 @@ fn best_of_catalogue(findings: &Findings<'_>) -> Option<String> {
     let common = common_to_pairs(&posterior.decision.effects).map_or(String::new(), |card| {
         format!(" {} stands in all of the best pairs.", card.name)
     });
+    let why_not = if share < NEARLY_ALL {
+        String::new()
+    } else {
+        " It needs values, or leaves a pattern, for which something unknown is more probable."
+            .to_owned()
+    };
     Some(format!(
-        "The best of the catalogue, {}, accounts for {} of the attainable reduction of χ².{common}",
+        "The best of the catalogue, {}, accounts for {} of the attainable reduction of χ².{why_not}{common}",
         leader.in_words(),
         percent(share)
     ))

@@ -170,16 +170,16 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
             Cell::text(named),
             Cell::Bar(entry.chi2_drop / largest, format!("{:.0}", entry.chi2_drop)),
             Cell::number(format!("{:.1}", entry.evidence_gain)),
-            Cell::text(if entry.decided {
-                "the deciding model"
-            } else {
-                "screening"
+            Cell::text(match (entry.decided, entry.converged) {
+                (true, true) => "the deciding model",
+                (false, true) => "screening",
+                (_, false) => "a first look",
             }),
         ]);
     }
     let text = format!(
         "Anything smooth could bring χ² down by about {attainable:.0}. The {count} best of {} candidates; those that showed nothing in \
-         the screening are left out.",
+         the screening are left out. A first look that leaves a candidate far behind is not followed to its best fit.",
         diagnosis.screened.len()
     );
     Some(

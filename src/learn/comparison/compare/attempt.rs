@@ -61,7 +61,7 @@ impl Attempt<'_> {
         let fit = if fit.converged {
             fit
         } else {
-            self.problem.go_on(&fit, self.effort)?
+            self.go_on(&fit)?
         };
         Ok(FirstFit::Hopeful(fit))
     }
@@ -98,7 +98,7 @@ impl Attempt<'_> {
         let second = if self.is_far(&first) {
             (self.from(medians, &self.look_effort()).ok())
                 .filter(|second| second.attained_evidence() > attained)
-                .and_then(|second| self.problem.go_on(&second, self.effort).ok())
+                .and_then(|second| self.go_on(&second).ok())
         } else {
             self.from(medians, self.effort).ok()
         };
@@ -116,6 +116,16 @@ impl Attempt<'_> {
     fn attains_promise(&self, fit: &Fit) -> bool {
         let near = |promised| self.measured.misfit(fit).square < (1.0 + ATTAINED) * promised;
         self.is_far(fit) && self.start.promised.is_some_and(near)
+    }
+
+    /// A look followed to its end.
+    fn go_on(&self, look: &Fit) -> Result<Fit, FitError> {
+        let end = self.problem.go_on(look, self.effort)?;
+        Ok(Fit {
+            iterations: look.iterations + end.iterations,
+            evaluations: look.evaluations + end.evaluations,
+            ..end
+        })
     }
 
     fn from(&self, start: Vec<f64>, effort: &Effort) -> Result<Fit, FitError> {
