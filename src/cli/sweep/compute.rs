@@ -108,6 +108,7 @@ impl Computing<'_> {
                     let key = &self.points[i].key;
                     self.kept.keep_failure(key, &error.to_string())?;
                     self.results[i] = Some(Err(error.to_string()));
+                    self.done += 1;
                 }
                 return Ok(());
             }

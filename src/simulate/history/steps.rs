@@ -71,16 +71,18 @@ impl<'a, M: ContactModel + ?Sized> History<'a, M> {
         tangents: &mut HistoryTangents,
     ) -> Result<(), StepError<WearError>> {
         let (n, u) = (progress.stand.n, &progress.stand.u);
-        *tangents = HistoryTangents::fresh(directions.len(), u.len());
+        let mut fresh = HistoryTangents::fresh(directions.len(), u.len());
         if self.displaces() && !directions.is_empty() {
             let mut differentiated = Differentiated {
                 system: &mut self.system,
                 directions,
             };
-            tangents.displaced_rate = differentiated
-                .displaced_tangents(n, u, &tangents.depth)
+            fresh.displaced_rate = differentiated
+                .displaced_tangents(n, u, &fresh.depth)
                 .map_err(|source| StepError::System { n, source })?;
         }
+        // whole or not at all: who begins again must not find half of it
+        *tangents = fresh;
         Ok(())
     }
 

@@ -97,27 +97,29 @@ fn check_values(table: &Table<'_>, law: &Learned, values: &[f64]) -> Result<()> 
         );
         return Err(Box::new(refusal));
     }
-    let (least, most, why) = match law.hook() {
+    let (range, allowed, why) = match law.hook() {
         Hook::WearFactor => (
-            -LARGEST_LOGARITHM,
-            LARGEST_LOGARITHM,
+            -LARGEST_LOGARITHM..=LARGEST_LOGARITHM,
+            format!(
+                "{} to {}",
+                q::Short(-LARGEST_LOGARITHM),
+                q::Short(LARGEST_LOGARITHM)
+            ),
             "values are natural logarithms of the factor: 0 leaves the wear as it is",
         ),
-        Hook::AddedDepth => (0.0, f64::MAX, "um per contact of that member"),
+        Hook::AddedDepth => (
+            0.0..=f64::MAX,
+            "0 or more".to_owned(),
+            "um per contact of that member",
+        ),
         _ => (
-            f64::MIN,
-            f64::MAX,
+            f64::MIN..=f64::MAX,
+            "any finite number".to_owned(),
             "um of material removed before the start",
         ),
     };
-    if let Some(n) = values.iter().position(|v| !(least..=most).contains(v)) {
-        let mut refusal = table
-            .refuse(
-                "values",
-                "",
-                format!("{} to {}", q::Short(least), q::Short(most)),
-            )
-            .with_hint(why);
+    if let Some(n) = values.iter().position(|v| !range.contains(v)) {
+        let mut refusal = table.refuse("values", "", allowed).with_hint(why);
         refusal.message = format!("{}: value {} is {}", refusal.key, n + 1, values[n]);
         return Err(Box::new(refusal));
     }

@@ -53,7 +53,11 @@ impl Rows<'_> {
             _ => {
                 let name = self.along.columns()[column];
                 let message = format!("{name} {text:?} is not a finite number");
-                let wanted = ["a number in mm", "a number in um"][column];
+                let wanted = match (&self.along, column) {
+                    (_, 1) => "a number in um",
+                    (Along::Teeth(_), _) => "the number of a tooth",
+                    _ => "a number in mm",
+                };
                 Err(fault(Fault::BadValue, name, message, span)
                     .with_values(text, wanted)
                     .into())
