@@ -75,13 +75,6 @@ impl Context<'_> {
             .filter_map(|((candidate, predictor), found)| {
                 let mut found = found?;
                 if found.objective - found.promised <= bar && !found.converged {
-                    eprintln!(
-                        "TT fit {} {:.1} {:.1} {:.1}",
-                        candidate.hypothesis(),
-                        base.fitted.found.objective - found.objective,
-                        base.fitted.found.objective - bar,
-                        found.promised
-                    );
                     let state = found.state.clone();
                     let parameters = &candidate.parameters;
                     if let Ok(further) = self.likelihood.fit(predictor, parameters, state, &SCREEN)
