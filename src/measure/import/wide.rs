@@ -2,6 +2,7 @@
 
 use super::arrange::flank_above;
 use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
+use super::flank::{Flank, MOST, Side};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, rounded, with_points,
     without_thousands,
@@ -9,9 +10,7 @@ use super::numbers::{
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, decimal_commas, units};
-use super::{columns, counts};
-use crate::gear::Gear;
+use super::{ImportError, Sheet, cell_name, columns, counts, decimal_commas, nameless, units};
 use crate::measure::{Place, Quantity, Subject, names};
 
 /// What the columns of a wide table are.
@@ -50,8 +49,12 @@ pub struct Wide {
     pub turned: bool,
     /// The flank that a row above the header says.
     pub flank: Option<String>,
+    /// What was made of the values, in words.
+    pub arranged: Vec<String>,
     /// Headers of the columns that are passed over.
     pub passed_over: Vec<String>,
+    /// The rows or columns that are left out because the flank does not reach there, in words.
+    pub left_out: Vec<String>,
     /// Cells without a value.
     pub empty: usize,
     /// Rows of a measurement file.
@@ -74,9 +77,11 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
     without_thousands(&mut sheet.rows[head]);
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
+    nameless::refuse_numbers(&sheet, head, 1)?;
+    name_first_column(&mut sheet, head);
     let sheet = &sheet;
-    let across = across_numbers(sheet, head)?;
-    let down = down_numbers(sheet, head)?;
+    let mut across = across_numbers(sheet, head)?;
+    let mut down = down_numbers(sheet, head)?;
     let corner = sheet.rows[head][0].clone();
     let position = PositionKind::of(quantity, wanted.position, &corner);
     let scale = match position.has_unit() {
@@ -84,18 +89,41 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         false => 1.0,
     };
     let numbers = |places: &[(usize, f64)]| places.iter().map(|a| a.1).collect::<Vec<f64>>();
-    let (column_numbers, row_numbers) = (numbers(&across), numbers(&down));
+    let flank = match gear.filter(|_| position.has_unit()) {
+        Some(gear) => Some(Flank::new(gear, member, position, &corner)?),
+        None => None,
+    };
+    let is_place: &dyn Fn(f64) -> bool = match (&flank, gear) {
+        (Some(flank), _) => &|n| flank.is_close(flank.radius(n)),
+        (None, Some(gear)) => &|n| gear.spanned_teeth().iter().any(|&k| f64::from(k) == n),
+        (None, None) => &|n| (0.0..=1.0).contains(&n),
+    };
+    let what = match (&flank, gear) {
+        (Some(flank), _) => flank.places(&corner),
+        (None, Some(_)) => "numbers of teeth that a span goes over".to_owned(),
+        (None, None) => "rotations (0 to 1 base pitch)".to_owned(),
+    };
     let by_numbers = orientation(
-        &column_numbers,
-        &row_numbers,
-        (position, scale, &corner),
-        (gear, member),
+        (&across, |column| cell_name(head, column)),
+        (&down, |row| cell_name(row, 0)),
+        (&what, is_place),
     );
     let orientation = match (wanted.across, by_numbers) {
         (None, by_numbers) => by_numbers?,
         (Some(stated), Ok(other)) if stated != other => return Err(stated_otherwise(stated)),
         (Some(stated), _) => stated,
     };
+    let mut left_out = Vec::new();
+    if let Some(flank) = &flank {
+        left_out = match orientation {
+            Across::Checkpoints => leave_out(&mut down, flank, "row", |row| cell_name(row, 0))?,
+            Across::Positions => leave_out(&mut across, flank, "column", |column| {
+                cell_name(head, column)
+            })?,
+        };
+    }
+    let (across, down) = (across, down);
+    let (column_numbers, row_numbers) = (numbers(&across), numbers(&down));
     refuse_twice_in_a_line(&across, |column| cell_name(head, column))?;
     refuse_twice_in_a_line(&down, |row| cell_name(row, 0))?;
     let cell = |row: usize, column: usize| sheet.rows[row].get(column).map_or("", String::as_str);
@@ -178,7 +206,9 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         titles,
         turned,
         flank: flank_above(sheet, head)?,
+        arranged: Vec::new(),
         passed_over,
+        left_out,
         empty,
         entries,
     })
@@ -371,55 +401,92 @@ pub(super) fn no_header(sheet: &Sheet) -> ImportError {
     ))
 }
 
-/// What the columns are, by where the numbers can stand on the flank.
+/// Names the first column of a table, of which the header says nothing, by the words in the row above it if these name places or cycles.
+fn name_first_column(sheet: &mut Sheet, head: usize) {
+    if !sheet.rows[head][0].is_empty() {
+        return;
+    }
+    let is_filled = |row: &usize| sheet.rows[*row].iter().any(|cell| !cell.is_empty());
+    let Some(above) = (0..head).rev().find(is_filled) else {
+        return;
+    };
+    let words = sheet.rows[above][0].clone();
+    let [column] = &columns::columns(std::slice::from_ref(&words))[..] else {
+        return;
+    };
+    if ["position", "cycles"]
+        .map(Some)
+        .contains(&column.what.own())
+    {
+        sheet.rows[above][0].clear();
+        sheet.rows[head][0] = words;
+    }
+}
+
+/// Takes out the rows or columns that lie a little off the flank, where most of them lie on it, and says how many.
+fn leave_out(
+    places: &mut Vec<(usize, f64)>,
+    flank: &Flank<'_>,
+    what: &str,
+    name: impl Fn(usize) -> String,
+) -> Result<Vec<String>> {
+    let side = |place: f64| flank.side(flank.radius(place));
+    let off: Vec<(usize, f64)> = (places.iter().copied())
+        .filter(|(_, place)| side(*place).is_some())
+        .collect();
+    // a few points may be a matter of rounding, of which the reader of the rows decides
+    let is_trace = (places.len() - off.len()) as f64 >= MOST * places.len() as f64;
+    if !is_trace {
+        return Ok(Vec::new());
+    }
+    if let Some((at, place)) = off.iter().find(|(_, n)| !flank.is_near(flank.radius(*n))) {
+        return Err(ImportError(format!(
+            "{}: {}: look at the number",
+            name(*at),
+            flank.refused(*place)
+        )));
+    }
+    places.retain(|(_, place)| side(*place).is_none());
+    let said = [Side::Below, Side::Above].into_iter().filter_map(|of| {
+        let own = off.iter().map(|(_, place)| *place);
+        let own: Vec<f64> = own.filter(|place| side(*place) == Some(of)).collect();
+        (!own.is_empty()).then(|| flank.left_out(of, (own.len(), what), &own))
+    });
+    Ok(said.collect())
+}
+
+/// What the columns are, by where the numbers of the header and of the first column can stand. Both come with the names of their cells.
 fn orientation(
-    columns: &[f64],
-    rows: &[f64],
-    (position, scale, corner): (PositionKind, f64, &str),
-    (gear, member): (Option<&Gear>, Subject),
+    (columns, column_name): (&[(usize, f64)], impl Fn(usize) -> String),
+    (rows, row_name): (&[(usize, f64)], impl Fn(usize) -> String),
+    (what, is_place): (&str, &dyn Fn(f64) -> bool),
 ) -> Result<Across> {
-    let on_flank = |numbers: &[f64]| match gear {
-        Some(gear) if position == PositionKind::Teeth => {
-            let teeth = gear.spanned_teeth();
-            numbers
-                .iter()
-                .all(|&n| teeth.iter().any(|&teeth| f64::from(teeth) == n))
-        }
-        Some(gear) => numbers.iter().all(|&n| {
-            let radius = position.position(scale * n, Some(gear));
-            (gear.form_radius - 0.01..=gear.tip_radius + 0.01).contains(&radius)
-        }),
-        None => numbers.iter().all(|n| (0.0..=1.0).contains(n)),
-    };
-    let what = match gear {
-        Some(_) if position == PositionKind::Teeth => {
-            "numbers of teeth that a span goes over".to_owned()
-        }
-        Some(gear) => {
-            let unit = units::name_and_unit(corner).1;
-            let kind = match &unit {
-                Some(unit) => format!("{} in {unit}", position.word()),
-                None => position.name().to_owned(),
-            };
-            format!(
-                "radii of the {}'s flank ({:.3} to {:.3} mm), read as {kind}",
-                member.name(),
-                gear.form_radius,
-                gear.tip_radius
-            )
-        }
-        None => "rotations (0 to 1 base pitch)".to_owned(),
-    };
-    match (on_flank(rows), on_flank(columns)) {
+    let good = |line: &[(usize, f64)]| line.iter().filter(|(_, n)| is_place(*n)).count();
+    let are_places = |line: &[(usize, f64)]| good(line) as f64 >= MOST * line.len() as f64;
+    match (are_places(rows), are_places(columns)) {
         (true, false) => Ok(Across::Checkpoints),
         (false, true) => Ok(Across::Positions),
         (true, true) => Err(ImportError(format!(
             "both the first column and the header could be {what}: say --columns checkpoints or --columns positions"
         ))),
         (false, false) => {
-            let [[row_from, row_to], [from, to]] = [from_to(rows), from_to(columns)];
+            let numbers =
+                |line: &[(usize, f64)]| from_to(&line.iter().map(|n| n.1).collect::<Vec<_>>());
+            let [[row_from, row_to], [from, to]] = [numbers(rows), numbers(columns)];
+            let other = |line: &[(usize, f64)]| line.iter().find(|(_, n)| !is_place(*n)).copied();
+            let first = match (good(rows), good(columns)) {
+                (0, 0) => None,
+                (of_rows, of_columns) if of_rows >= of_columns => {
+                    other(rows).map(|(at, number)| (row_name(at), number, of_rows, rows.len()))
+                }
+                (_, of_columns) => other(columns)
+                    .map(|(at, number)| (column_name(at), number, of_columns, columns.len())),
+            };
+            let first = first.map_or_else(String::new, |(cell, number, good, all)| {
+                format!(" ({good} of {all} are, but not {number} in {cell})")
+            });
             Err(ImportError(format!(
-                "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}: look at --member, at \
+                "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}{first}: look at --member, at \
                  --position and at the unit in the header"
             )))
         }
