@@ -19,7 +19,7 @@ use super::{CliError, Context, Outcome};
 use crate::measure::import::{self, Decimal, Entry, Long, Sheet, Titles, UnitFrom, Wanted, Wide};
 use crate::measure::{Dataset, Subject};
 use crate::report::write_file;
-use crate::study::Study;
+use crate::study::{Fault, Study, StudyError};
 
 /// Either kind of table, as it was understood.
 enum Understood {
@@ -98,16 +98,6 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             let (header, rows) = import::lines(understood.entries());
             let source = source(args, file.is_some(), &name);
             let whole = with_rows(args, &name, file.as_deref(), &header, &rows)?;
-            // what cannot be read back is not written
-            Dataset::parse(&whole, &source, &study.known()).map_err(|error| {
-                // the place within the table's own rows, where these alone are wrong
-                let own = format!("{header}\n{}\n", rows.join("\n"));
-                let own = Dataset::parse(&own, &source, &study.known()).err();
-                let error = own.filter(|_| !args.append).unwrap_or(error);
-                reading(&understood)
-                    .into_iter()
-                    .fold(error, |error, said| error.with_hint(&said))
-            })?;
             let columns = understood.columns();
             let titles = understood.titles();
             if let Some(first) = shown.as_ref().filter(|first| first.columns == columns) {
@@ -123,6 +113,14 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
                     columns,
                     titles: titles.clone(),
                 });
+            }
+            // what cannot be read back is not written
+            if let Err(error) = Dataset::parse(&whole, &source, &study.known()) {
+                // the place within the table's own rows, where these alone are wrong
+                let own = format!("{header}\n{}\n", rows.join("\n"));
+                let own = Dataset::parse(&own, &source, &study.known()).err();
+                let error = own.filter(|_| !args.append).unwrap_or(error);
+                return Err(cannot_be_read(error, (&name, &understood), &text));
             }
             count += rows.len();
             documents.push(document(&understood));
@@ -187,6 +185,39 @@ fn read_from(study: &Study, file: &Path, written: &Path) -> String {
     )
 }
 
+/// Why the rows of a table cannot be read back; where it lacks uncertainties, after what was `shown` of it.
+fn cannot_be_read(
+    error: StudyError,
+    (name, understood): (&str, &Understood),
+    shown: &str,
+) -> CliError {
+    let fault = error.diagnostic();
+    let lacks_sigma = fault.fault == Fault::MissingKey && fault.key == "sigma";
+    let own = understood
+        .entries()
+        .iter()
+        .find(|entry| entry.sigma.is_none());
+    match own.filter(|_| lacks_sigma) {
+        Some(entry) => CliError::Shown {
+            shown: summary::without_sigma(shown),
+            why: format!(
+                "{name}: the table has no uncertainty of its {}, and its values are too few to estimate it from their scatter (several points along \
+                 a trace, seven times of a test or repeated measurements would do). State one standard deviation with --sigma, in {}, or a share of \
+                 each value with --relative-sigma, or add a column `sigma`; it may be left out only behind rows that show the \
+                 scatter (-o FILE --append)",
+                entry.quantity.name(),
+                entry.quantity.unit()
+            ),
+        },
+        None => {
+            let error = reading(understood)
+                .into_iter()
+                .fold(error, |error, said| error.with_hint(&said));
+            error.into()
+        }
+    }
+}
+
 /// A sheet as either kind of table.
 fn understood(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Understood, import::ImportError> {
     match import::long(sheet, wanted)? {
@@ -246,6 +277,7 @@ fn document(understood: &Understood) -> serde_json::Value {
             "columns": long.columns,
             "passed_over": long.passed_over,
             "titles_passed_over": titles(&long.titles),
+            "left_out": long.left_out,
             "sign_turned": long.turned,
             "empty": long.empty,
             "rows": long.entries.len(),
@@ -261,6 +293,7 @@ fn document(understood: &Understood) -> serde_json::Value {
             "from_to": wide.position.map(|(_, from_to)| from_to),
             "passed_over": wide.passed_over,
             "titles_passed_over": titles(&wide.titles),
+            "left_out": wide.left_out,
             "sign_turned": wide.turned,
             "empty": wide.empty,
             "rows": wide.entries.len(),
