@@ -710,7 +710,7 @@ fn a_long_table_is_read_by_the_names_of_its_columns() {
         "column   `CICLI`: cycles, pinion revolutions\n",
         "column   `RAGGIO [mm]`: radius, mm\n",
         "column   `USURA [mm]`: wear_depth in mm\n",
-        "passed over the column `NOTE`: for people\n",
+        "passed over the column `NOTE`: a comment column\n",
         "passed over the column `banco`: not known\n",
         "in tests A, B, their sign turned\n",
         "traces   one for each test, member and checkpoint",
@@ -2374,4 +2374,401 @@ fn formulas_without_a_stored_result_are_refused() {
         shown.contains("A,pinion,250000,wear_depth,26,3,"),
         "{shown}"
     );
+}
+
+/// The same part weighed after each stop: the hours of its intervals are no times of the test. At 2000 rpm an hour has 120,000 revolutions.
+#[test]
+fn times_of_single_intervals_are_refused() {
+    let home = home();
+    let table = |hours: [&str; 3]| {
+        format!(
+            "run;stop;run time [h];mass before [g];mass after [g]\nA;1;{};14,7174;14,7168\nA;2;{};14,7168;14,7159\nA;3;{};14,7159;14,7144\n",
+            hours[0], hours[1], hours[2]
+        )
+    };
+    let options = "--member pinion --sigma 0.2";
+    for (hours, says) in [
+        (
+            ["1,00", "1,00", "1,00"],
+            "row 3: `1,00` below `run time [h]` is not more than the `1,00` of row 2, although its weighing goes on where that one ended: running times since the start of the test are wanted, not those of each stop. Add them up: 1,00; 2,00; 3,00",
+        ),
+        (
+            ["2", "1", "3"],
+            "row 3: `1` below `run time [h]` is not more than the `2` of row 2",
+        ),
+    ] {
+        let message = refused(&home, &table(hours), options);
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    // revolutions as well, and without a column of stops
+    let revolutions = table(["1e5", "1e5", "1e5"])
+        .replace("run time [h]", "cycles")
+        .replace("stop;", "lab;");
+    let message = refused(&home, &revolutions, options);
+    assert!(
+        message.contains("revolutions since the start of the test are wanted"),
+        "{message}"
+    );
+    // rising ones may be totals or not: this is said
+    let (shown, written) = rows(&home, &table(["1", "2,5", "5"]), options);
+    assert_eq!(
+        written,
+        "A,pinion,120000,mass_loss,,0.6,0.2,\nA,pinion,300000,mass_loss,,1.5,0.2,\nA,pinion,600000,mass_loss,,3,0.2,\n"
+    );
+    assert!(
+        shown.contains(
+            "layout   `run time [h]` is taken as the total since the start of the test at each stop"
+        ),
+        "{shown}"
+    );
+    // stops of other values
+    let depths = |hours: [&str; 2]| {
+        format!(
+            "test;member;stage;time [h];radius;depth [um]\nA;pinion;1;{};26;1,5\nA;pinion;1;{};27;1,2\nA;pinion;2;{};26;2,5\nA;pinion;2;{};27;2,2\n",
+            hours[0], hours[0], hours[1], hours[1]
+        )
+    };
+    let message = refused(&home, &depths(["2", "2"]), "--sigma 0.1");
+    assert!(
+        message.contains("row 4: `2` below `time [h]` is not more than the `2` of row 2, although `stage` 2 comes after 1")
+            && message.contains("Add them up: 2; 4"),
+        "{message}"
+    );
+    rows(&home, &depths(["2", "4"]), "--sigma 0.1");
+}
+
+/// A header with one name fewer than the rows have cells: hours would be losses.
+#[test]
+fn numbers_below_no_name_are_refused() {
+    let home = home();
+    let shifted = "Versuch;Datum;Laufzeit [h];Ritzel Verlust [g];Rad Verlust [g]\nA;12.5.;Mi;5,00;0,0012;0,0034\nA;13.5.;Do;7,00;0,0022;0,0044\n";
+    let message = refused(&home, shifted, "--sigma 1");
+    assert!(
+        message.contains("F2: `0,0034` stands in a column without a name: is a name missing in row 1, so that others stand above the wrong column? Name the column in F1, or take it out"),
+        "{message}"
+    );
+    let weighings = "run;time [h];mass before [g];mass after [g]\nA;x;1;14,7174;14,7168\n";
+    let message = refused(&home, weighings, "--member pinion --sigma 1");
+    assert!(
+        message.contains("E2: `14,7168` stands in a column without a name"),
+        "{message}"
+    );
+    let wide = "radius;100000;\n26;1;2\n27;2;3\n";
+    let message = refused(&home, wide, "--test A --sigma 1");
+    assert!(
+        message.contains("C2: `2` stands in a column without a name"),
+        "{message}"
+    );
+    // nothing or words alone do no harm, nor does a count of the rows in the first column
+    let words =
+        "test;member;;cycles;mass loss [mg];;\nA;pinion;;100000;4;checked;\nA;pinion;;200000;8;;\n";
+    let (shown, written) = rows(&home, words, "--sigma 1");
+    assert_eq!(written.lines().count(), 2, "{written}");
+    assert!(
+        shown.contains("passed over the column `F1`: no name"),
+        "{shown}"
+    );
+    let counted = ",test,member,cycles,mass loss [mg]\n0,A,pinion,100000,4\n1,A,pinion,200000,8\n";
+    assert_eq!(rows(&home, counted, "--sigma 1").1.lines().count(), 2);
+}
+
+/// A column of tests makes a long table, understood or not: no row of its data is a header, and --test is no way out.
+#[test]
+fn a_long_table_that_lacks_something_is_told_what() {
+    let home = home();
+    for (table, says) in [
+        (
+            "run;hours;mass after [g]\nP1;10,00;14,7168\nP1;20,00;14,7159\n",
+            &[
+                "looks like a table with a row for each value",
+                "understood: `run` as test, `hours` as cycles (a running time), `mass after [g]` as the mass after the test",
+                "missing: member, value",
+                "`mass before [g]` is the other one",
+            ][..],
+        ),
+        (
+            "run;stop;interval [h];mass before [g];mass after [g]\nA;1;1,00;14,7174;14,7168\nA;2;1,00;14,7168;14,7159\n",
+            &[
+                "not understood: `stop`, `interval [h]`",
+                "missing: member, cycles",
+                "If `interval [h]` is the running time since the start of the test, call it `time [h]`; add up the times of single intervals first",
+            ],
+        ),
+        (
+            "Test;Time [h];Teeth spanned;Span [mm]\nA;1,00;4;21,42\nA;2,00;4;21,41\n",
+            &[
+                "`Teeth spanned` as position",
+                "not understood: `Span [mm]`",
+                "missing: member, value",
+            ],
+        ),
+        (
+            "Versuch;Ritzel vorher [g];Ritzel nachher [g]\nA;7,41;7,40\n",
+            &[
+                "`Ritzel vorher [g]` as the mass before the test, `Ritzel nachher [g]` as the mass after the test; not understood: nothing; missing: cycles.",
+            ],
+        ),
+        (
+            "Pr\u{fc}fling;Ritzel vorher [g];Ritzel nachher [g]\nA;7,41;7,40\nB;7,41;7,40\n",
+            &[
+                "`Pr\u{fc}fling` as test, `Ritzel vorher [g]` as the mass before the test",
+                "missing: cycles.",
+            ],
+        ),
+        (
+            "Stufe;Ritzel vorher [g];Ritzel nachher [g]\nS1;7,41;7,40\nS2;7,41;7,40\n",
+            &["not understood: `Stufe`; missing: test, cycles."],
+        ),
+        (
+            // as it stands in the table, not as it is arranged
+            "run;stop;run time [h];mass before [g];mass after [g]\nA;1;1,00;14,7174;14,7168\n",
+            &[
+                "the header in row 1 is `run; stop; run time [h]; mass before [g]; mass after [g]`",
+                "missing: member.",
+            ],
+        ),
+        (
+            "Versuch;Stunden;Dicke neu;Dicke alt\nA;1,00;7,41;7,40\n",
+            &["not understood: `Dicke neu`, `Dicke alt`"],
+        ),
+    ] {
+        let message = refused(&home, table, "--sigma 1");
+        for part in says {
+            assert!(message.contains(part), "no `{part}` in: {message}");
+        }
+        assert!(
+            !message.contains("--test with") && !message.contains("the header `"),
+            "{message}"
+        );
+    }
+    // a member and a time of weighing are enough of a name in a unit of mass
+    let sides = "Versuch;Laufzeit [h];Ritzel vorher [g];Ritzel nachher [g];Rad vorher [g];Rad nachher [g]\n\
+                 A;1,00;7,4100;7,4098;9,1200;9,1195\n";
+    assert_eq!(
+        rows(&home, sides, "--sigma 1").1,
+        "A,pinion,120000,mass_loss,,0.2,1,\nA,gear,120000,mass_loss,,0.5,1,\n"
+    );
+}
+
+/// What a span or a chord lost is the difference of two measurements.
+#[test]
+fn a_span_new_and_a_span_worn_are_a_loss() {
+    let home = home();
+    let table = "Test;Member;Time [h];Teeth spanned;Span new [mm];Span worn [mm]\nA;pinion;1,00;4;21,4212;21,4191\nA;pinion;2,00;4;21,4212;21,4171\n\
+                 A;gear;1,00;6;33,9010;33,9000\n";
+    let (shown, written) = rows(&home, table, "--sigma 1");
+    assert_eq!(
+        written,
+        "A,pinion,120000,span_loss,4,2.1,1,\nA,pinion,240000,span_loss,4,4.1,1,\nA,gear,120000,span_loss,6,1,1,\n"
+    );
+    assert!(
+        shown.contains("layout   span loss: `Span new [mm]` less `Span worn [mm]`\n")
+            && shown.contains("column   `Teeth spanned`: teeth spanned\n"),
+        "{shown}"
+    );
+    for header in [
+        "Versuch;Bauteil;Laufzeit [h];Messz\u{e4}hnezahl;Zahnweite vorher [mm];Zahnweite nachher [mm]",
+        "run;part;time [h];k;base tangent length before [mm];base tangent length after [mm]",
+        "run;part;time [h];k;Wk new [mm];Wk worn [mm]",
+    ] {
+        let (_, data) = table.split_once('\n').unwrap();
+        assert_eq!(
+            rows(&home, &format!("{header}\n{data}"), "--sigma 1").1,
+            written,
+            "{header}"
+        );
+    }
+    // each measurement goes on where the one before ended
+    let stops = "test;member;cycles;k;span before [mm];span after [mm]\nA;gear;100000;6;33,9010;33,9000\nA;gear;200000;6;33,9000;33,8980\n";
+    assert_eq!(
+        rows(&home, stops, "--sigma 1").1,
+        "A,gear,100000,span_loss,6,1,1,\nA,gear,200000,span_loss,6,3,1,\n"
+    );
+    let chords = "test;member;cycles;Measuring circle;Diameter [mm];chordal thickness new [mm];chordal thickness worn [mm]\n\
+                  A;pinion;100000;x;54;3,1400;3,1380\n";
+    assert_eq!(
+        rows(&home, chords, "--sigma 1").1,
+        "A,pinion,100000,chordal_loss,27,2,1,\n"
+    );
+    for (from, to, says) in [
+        (
+            "Span new [mm]",
+            "Span nominal [mm]",
+            "F1: `Span worn [mm]`: a span is no loss: the table needs one column `span new [mm]` and one column `span worn [mm]`",
+        ),
+        ("Span worn [mm]", "Span worn [um]", "in two units"),
+    ] {
+        let message = refused(&home, &table.replace(from, to), "--sigma 1");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    let bare = table.replace(" [mm]", "");
+    assert!(
+        refused(&home, &bare, "--sigma 1")
+            .contains("write the unit into the header of both columns"),
+    );
+}
+
+/// A log of the mass at each stop: what was lost is its difference to that at the start.
+#[test]
+fn masses_at_each_stop_are_taken_from_the_first() {
+    let home = home();
+    let table = "run;run time [h];mass [g]\nA;0;14,7174\nA;1,0;14,7168\nA;2,5;14,7159\nB;0,0;15,0000\nB;1,0;14,9990\n";
+    let options = "--member pinion --quantity mass_loss --sigma 0.1";
+    let (shown, written) = rows(&home, table, options);
+    assert_eq!(
+        written,
+        "A,pinion,120000,mass_loss,,0.6,0.1,\nA,pinion,300000,mass_loss,,1.5,0.1,\nB,pinion,120000,mass_loss,,1,0.1,\n"
+    );
+    assert!(
+        shown.contains("layout   mass loss: `mass [g]` at 0 less each `mass [g]` of the same test and member; the rows at 0 are not written"),
+        "{shown}"
+    );
+    let message = refused(&home, &table.replace("B;0,0;", "B;0,5;"), options);
+    assert!(
+        message.contains("C5: no mass of the pinion in test B stands at 0 h or 0 cycles"),
+        "{message}"
+    );
+    let later = table.replace("A;0;", "A;0,5;").replace("B;0,0;", "B;0,5;");
+    let message = refused(&home, &later, options);
+    assert!(
+        message.contains("C2: 14717.4 mg of loss is the mass itself: the values of the pinion in test A do not grow with time")
+            && message.contains("add the row of the new part, at 0"),
+        "{message}"
+    );
+    // losses from nothing on are losses
+    let losses = "run;run time [h];mass [g]\nA;0;0\nA;1,0;0,0006\nA;2,5;0,0015\n";
+    assert_eq!(
+        rows(&home, losses, options).1,
+        "A,pinion,0,mass_loss,,0,0.1,\nA,pinion,120000,mass_loss,,0.6,0.1,\nA,pinion,300000,mass_loss,,1.5,0.1,\n"
+    );
+    // both members, in a table of a row for each value and in a wide one
+    let sides = "Run,Hours,Pinion (g),Wheel (g)\nA,0,14.7174,30.5\nA,1,14.7168,30.499\n";
+    let both = "A,pinion,120000,mass_loss,,0.6,0.1,\nA,gear,120000,mass_loss,,1,0.1,\n";
+    assert_eq!(
+        rows(&home, sides, "--quantity mass_loss --sigma 0.1").1,
+        both
+    );
+    let wide = "revolutions;pinion [g];gear [g]\n0;14,7174;30,5\n120000;14,7168;30,499\n";
+    let options = "--test A --quantity mass_loss --sigma 0.1";
+    let (shown, written) = rows(&home, wide, options);
+    assert_eq!(written, both);
+    assert!(
+        shown.contains("layout   mass loss: the mass at 0 less"),
+        "{shown}"
+    );
+    let message = refused(&home, &wide.replace("\n0;", "\n60000;"), options);
+    assert!(
+        message.contains("14717.4 mg of loss is the mass itself"),
+        "{message}"
+    );
+}
+
+/// Machines begin a trace below the form circle and end it beyond the tip. The flank of the pinion reaches from 51.194 to 58 mm in diameter.
+#[test]
+fn places_a_little_off_the_flank_are_left_out() {
+    let home = home();
+    let options = "--test A --member pinion --sigma 0.1";
+    let places = |from: f64, count: usize| -> Vec<f64> {
+        (0..count).map(|i| from + 0.5 * i as f64).collect()
+    };
+    let table = |head: &str, places: &[f64]| {
+        let rows: String = places
+            .iter()
+            .map(|d| format!("{d};1,5;2,5\n").replacen('.', ",", 1))
+            .collect();
+        format!("{head}{rows}")
+    };
+    let two_rows = "Diameter [mm];;\n;100000;250000\n";
+    let (shown, written) = rows(&home, &table(two_rows, &places(50.5, 17)), options);
+    for part in [
+        "header   row of A2 `Diameter [mm]`\n",
+        "left out 2 rows below the form circle of the pinion (from 50.5 to 51): its flank covers diameter 51.",
+        "left out 1 row above the tip of the pinion (at 58.5): its flank covers diameter 51.",
+        " to 58.000 mm, and there is no wear to compare outside of it\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    assert_eq!(written.lines().count(), 28, "{written}");
+    assert!(
+        written.starts_with("A,pinion,100000,wear_depth,25.75,1.5,"),
+        "{written}"
+    );
+    // most of them off it, and one that is far away
+    let head = "Diameter [mm];100000;250000\n";
+    let message = refused(&home, &table(head, &places(48.0, 10)), options);
+    assert!(
+        message.contains("neither the first column (48 to 52.5) nor the header (100000 to 250000) are places on the pinion's flank (diameter 51.")
+            && message.contains("(3 of 10 are, but not 48 in A2)"),
+        "{message}"
+    );
+    let mut wrong = places(52.0, 12);
+    wrong[4] = 154.0;
+    let message = refused(&home, &table(head, &wrong), options);
+    assert!(
+        message.contains("A6: the diameter 154 mm is off the pinion's flank (diameter 51."),
+        "{message}"
+    );
+    // a file of one curve
+    let curve: String = places(50.5, 15)
+        .iter()
+        .map(|d| format!("{d},1.5\n"))
+        .collect();
+    let curve = format!("Run: A\nPart: pinion\nCycles: 40000\n\nDiameter [mm],Depth [um]\n{curve}");
+    let (shown, written) = rows(&home, &curve, "--sigma 0.1");
+    assert!(
+        shown.contains("left out 2 rows below the form circle of the pinion (from 50.5 to 51): "),
+        "{shown}"
+    );
+    assert_eq!(written.lines().count(), 13, "{written}");
+    let message = refused(&home, &curve.replace("53.5,", "153.5,"), "--sigma 0.1");
+    assert!(
+        message.contains("A12: `153.5` below `Diameter [mm]`: the diameter 153.5 mm is off the pinion's flank (diameter 51."),
+        "{message}"
+    );
+}
+
+#[test]
+fn typeset_numbers_are_read() {
+    let home = home();
+    let table = "test;member;cycles;radius;depth [um]\nA;pinion;1\u{a0}000\u{a0}000;26,5;\u{2212}1,5\nA;pinion;250\u{202f}000;26,5;\u{2212}0,5\n\
+                 A;pinion;100\u{2009}000;26,5;2\n";
+    assert_eq!(
+        rows(&home, table, "--sigma 0.1").1,
+        "A,pinion,1000000,wear_depth,26.5,-1.5,0.1,\nA,pinion,250000,wear_depth,26.5,-0.5,0.1,\nA,pinion,100000,wear_depth,26.5,2,0.1,\n"
+    );
+    let wide = "radius;250\u{a0}000 rev;1\u{202f}000\u{202f}000 rev\n26;1;2\n";
+    assert_eq!(
+        rows(&home, wide, "--test A --sigma 0.1").1,
+        "A,pinion,250000,wear_depth,26,1,0.1,A-pinion-250000\nA,pinion,1000000,wear_depth,26,2,0.1,A-pinion-1000000\n"
+    );
+}
+
+/// The rows that are made of a table stand in no file that the user has.
+#[test]
+fn a_table_without_uncertainties_is_shown_before_it_is_refused() {
+    let home = home();
+    let table = "test;member;cycles;mass loss [mg];Bemerkung\nA;pinion;100000;4;trocken\nA;pinion;200000;8;\n";
+    let message = refused(&home, table, "");
+    let (shown, why) = message.split_once("\nerror: ").unwrap();
+    for part in [
+        "table    table.csv\n",
+        "column   `mass loss [mg]`: mass_loss in mg\n",
+        "passed over the column `Bemerkung`: a comment column\n",
+        "sigma    none: nothing states it\n",
+        "  A,pinion,100000,mass_loss,,4,,\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    for part in [
+        "table.csv: the table has no uncertainty of its mass_loss",
+        "State one standard deviation with --sigma, in mg, or a share of each value with --relative-sigma",
+        "may be left out",
+    ] {
+        assert!(why.contains(part), "no `{part}` in: {why}");
+    }
+    assert!(
+        !message.contains("-->") && !why.contains("the rows of"),
+        "{message}"
+    );
+    rows(&home, table, "--sigma 0.1");
 }

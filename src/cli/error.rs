@@ -57,6 +57,14 @@ pub enum CliError {
     /// Arguments that cannot be used, and why.
     #[error("{0}")]
     Unusable(String),
+    /// Input that cannot be used, and why, after what was understood of it.
+    #[error("{why}")]
+    Shown {
+        /// What was understood, lines for people.
+        shown: String,
+        /// Why it cannot be used.
+        why: String,
+    },
     /// Points of a sweep that no part has computed.
     #[error("{0}")]
     Missing(String),
@@ -102,6 +110,7 @@ impl CliError {
             CliError::Study(_)
             | CliError::Effect(_)
             | CliError::Unusable(_)
+            | CliError::Shown { .. }
             | CliError::Exists { .. }
             | CliError::NotAFolder { .. } => 2,
             CliError::Missing(_) => 3,
@@ -129,6 +138,7 @@ impl CliError {
     pub(super) fn render(&self, coloured: bool) -> String {
         match self {
             CliError::Study(error) => error.render(coloured),
+            CliError::Shown { shown, why } => format!("{shown}\nerror: {why}"),
             other => format!("error: {other}"),
         }
     }

@@ -6,9 +6,9 @@ mod vocabulary;
 use super::quantity::{Quantity, Subject};
 
 use vocabulary::{
-    AFTER, AROUND_POWER, BEFORE, COLUMNS, CYCLES, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
+    AFTER, AROUND_POWER, BEFORE, CHORDS, COLUMNS, CYCLES, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
     FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES, MEMBERS, MULTIPLES, PER_MINUTE, POWERS, QUANTITIES,
-    SPEEDS, TIMES,
+    SPANS, SPEEDS, STOPS, TIMES,
 };
 
 /// Which of two measurements of a part.
@@ -231,6 +231,26 @@ pub(super) fn weighed(name: &str) -> Option<When> {
 /// Of which of two measurements a name means the deviation from the new profile.
 pub(super) fn profiled(name: &str) -> Option<When> {
     named_when(name, &DEVIATIONS)
+}
+
+/// Of which of two measurements a name means the span over several teeth.
+pub(super) fn spanned(name: &str) -> Option<When> {
+    named_when(name, &SPANS)
+}
+
+/// Of which of two measurements a name means the chord of a tooth.
+pub(super) fn chord(name: &str) -> Option<When> {
+    named_when(name, &CHORDS)
+}
+
+/// Which of two measurements a name means that says nothing else: `before`.
+pub(super) fn time_alone(name: &str) -> Option<When> {
+    named_when(name, &[""])
+}
+
+/// Whether a name means the stops of a test.
+pub(super) fn is_stop(name: &str) -> bool {
+    STOPS.contains(&telling(name).concat().as_str())
 }
 
 /// When what a name means was measured, if it is one of `known`.

@@ -13,6 +13,14 @@ const SHOWN: usize = 3;
 /// Checkpoints that are named one by one.
 const NAMED: usize = 8;
 
+/// What is said of the standard deviation where nothing states it.
+const LEFT_EMPTY: &str = "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)";
+
+/// A mapping where the standard deviation cannot be estimated either.
+pub(super) fn without_sigma(shown: &str) -> String {
+    shown.replace(LEFT_EMPTY, "none: nothing states it")
+}
+
 /// A line of the mapping.
 fn line(text: &mut String, key: &str, words: &str) {
     let _ = writeln!(text, "{key:<8} {words}");
@@ -55,6 +63,9 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
     line(&mut text, "table", table);
     line(&mut text, "header", &format!("row of {corner}{words}"));
     titles(&mut text, &wide.titles);
+    for words in &wide.arranged {
+        line(&mut text, "layout", words);
+    }
     line(&mut text, "down", &down);
     line(&mut text, "across", &across);
     let sign = sign(wide.turned, args.turn_sign);
@@ -79,8 +90,15 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
     };
     line(&mut text, "traces", traces);
     if !wide.passed_over.is_empty() {
-        let columns = format!("the columns for people `{}`", wide.passed_over.join("`, `"));
+        let plural = if wide.passed_over.len() > 1 { "s" } else { "" };
+        let columns = format!(
+            "the comment column{plural} `{}`",
+            wide.passed_over.join("`, `")
+        );
         line(&mut text, "passed over", &columns);
+    }
+    for words in &wide.left_out {
+        line(&mut text, "left out", words);
     }
     match wide.empty {
         0 => {}
@@ -161,6 +179,9 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
     line(&mut text, "sigma", &sigma);
     face(&mut text, args);
     line(&mut text, "traces", long.traces);
+    for words in &long.left_out {
+        line(&mut text, "left out", words);
+    }
     match long.empty {
         0 => {}
         1 => line(&mut text, "empty", "1 row without a value passed over"),
@@ -277,7 +298,7 @@ fn stated_sigma(args: &ImportArgs, unit: &str) -> String {
     };
     let share = format!("{} % of {of}", rounded_percent(args.relative_sigma));
     match (args.sigma, args.relative_sigma > 0.0) {
-        (None, false) => "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)".to_owned(),
+        (None, false) => LEFT_EMPTY.to_owned(),
         (None, true) => share,
         (Some(sigma), false) => format!("{sigma} {unit} for each"),
         (Some(sigma), true) => format!("{sigma} {unit} and {share}, as the root of their squares"),

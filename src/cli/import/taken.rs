@@ -13,7 +13,7 @@ use crate::cli::{CliError, Outcome};
 use crate::measure::Dataset;
 use crate::measure::import::{self, Sheet, Titles, Wanted};
 use crate::report::write_file;
-use crate::study::Study;
+use crate::study::{Fault, Study, StudyError};
 
 /// The table that was shown in full, to which others are alike.
 struct Shown {
@@ -60,15 +60,15 @@ impl Taken {
         let (header, rows) = import::lines(understood.entries());
         let source = source(args, self.file.is_some(), name);
         let whole = with_rows(args, name, self.file.as_deref(), &header, &rows)?;
+        self.show(args, name, &understood, (&header, &rows));
         // what cannot be read back is not written
-        Dataset::parse(&whole, &source, &study.known()).map_err(|error| {
+        if let Err(error) = Dataset::parse(&whole, &source, &study.known()) {
             // the place within the table's own rows, where these alone are wrong
             let own = format!("{header}\n{}\n", rows.join("\n"));
             let own = Dataset::parse(&own, &source, &study.known()).err();
             let error = own.filter(|_| !args.append).unwrap_or(error);
-            (understood.reading().into_iter()).fold(error, |error, said| error.with_hint(&said))
-        })?;
-        self.show(args, name, &understood, (&header, &rows));
+            return Err(cannot_be_read(error, (name, &understood), &self.text));
+        }
         self.count += rows.len();
         self.documents.push(understood.document());
         self.file = Some(whole);
@@ -191,4 +191,35 @@ fn read_from(study: &Study, file: &Path, written: &Path) -> String {
         "{reads}: put file = \"{}\" under its [measurements]\n",
         from_study.unwrap_or(whole).display()
     )
+}
+
+/// Why the rows of a table cannot be read back; where it lacks uncertainties, after what was `shown` of it.
+fn cannot_be_read(
+    error: StudyError,
+    (name, understood): (&str, &Understood),
+    shown: &str,
+) -> CliError {
+    let fault = error.diagnostic();
+    let lacks_sigma = fault.fault == Fault::MissingKey && fault.key == "sigma";
+    let mut entries = understood.entries().iter();
+    let own = entries.find(|entry| entry.sigma.is_none());
+    match own.filter(|_| lacks_sigma) {
+        Some(entry) => CliError::Shown {
+            shown: summary::without_sigma(shown),
+            why: format!(
+                "{name}: the table has no uncertainty of its {}, and its values are too few to estimate it from their scatter (several points along \
+                 a trace, seven times of a test or repeated measurements would do). State one standard deviation with --sigma, in {}, or a share of \
+                 each value with --relative-sigma, or add a column `sigma`; it may be left out only behind rows that show the \
+                 scatter (-o FILE --append)",
+                entry.quantity.name(),
+                entry.quantity.unit()
+            ),
+        },
+        None => {
+            let hints = understood.reading().into_iter();
+            hints
+                .fold(error, |error, said| error.with_hint(&said))
+                .into()
+        }
+    }
 }

@@ -1,8 +1,9 @@
 //! Long tables as people lay them out, as tables with a column for everything: what stands above the header (`Run: A`) as columns
 //! below it, both members' columns side by side one member after the other, columns named after members alone as what the user states, a
-//! mass before and one after as a loss, a deviation before and one after as a depth. Cells keep their places, so messages name them as they stand in the table.
+//! mass, a span or a chord before and one after as a loss, a deviation before and one after as a depth. Cells keep their places, so messages name them as they stand in the table.
 
 mod alone;
+mod gauges;
 mod intervals;
 mod labels;
 mod pairs;
@@ -14,9 +15,10 @@ mod weighings;
 use std::collections::BTreeSet;
 
 use super::columns::{Column, What, columns};
-use super::{ImportError, Sheet, Wanted};
+use super::{ImportError, Sheet, Wanted, decimal_commas, nameless};
 
 pub(super) use labels::{flank_above, stated_above};
+pub(super) use sides::side;
 
 /// A table with a column for everything, or one for each member.
 #[derive(Debug)]
@@ -29,6 +31,8 @@ pub(super) struct Arranged {
     pub(super) said: Vec<String>,
     /// Whether the values are what deviations lost, whatever the sign of these.
     pub(super) differences: bool,
+    /// Of each table the rows that go on where another one ended, in the order of the stops.
+    pub(super) stops: Vec<Vec<Vec<usize>>>,
 }
 
 /// The table so arranged; none if it is no long table.
@@ -81,11 +85,21 @@ fn completed(
         said.push("the columns of the pinion and of the gear side by side".to_owned());
     }
     let mut differences = false;
+    let mut stops = Vec::new();
     for table in &mut sheets {
         let header = columns(&table.rows[head]);
-        if weighings::could_be(&header) {
-            weighings::as_losses(table, head, &header, wanted, &mut said)?;
+        let of_masses = weighings::could_be(&header);
+        let of_gauges = !of_masses && gauges::could_be(&header, wanted);
+        if of_masses || of_gauges {
+            decimal_commas::refuse(table, head)?;
+            nameless::refuse_numbers(table, head, 0)?;
         }
+        stops.push(match (of_masses, of_gauges) {
+            (true, _) => weighings::as_losses(table, head, &header, wanted, &mut said)?,
+            (_, true) => gauges::as_losses(table, head, &header, wanted, &mut said)?,
+            _ => Vec::new(),
+        });
+        differences |= of_gauges;
         differences |= profiles::as_depths(table, head, &header, wanted, &mut said)?;
     }
     if sheets.len() > 1 && !sheets.iter().all(|own| sides::is_table(own, whole, head)) {
@@ -104,6 +118,7 @@ fn completed(
         sheets,
         said,
         differences,
+        stops,
     }))
 }
 

@@ -39,7 +39,15 @@ pub fn sheets(path: &Path) -> Result<Vec<Sheet>, ImportError> {
     }
     let bytes = std::fs::read(path).map_err(|error| cannot(error.to_string()))?;
     if ["xlsx", "xlsm"].contains(&ending.as_str()) {
-        return xlsx::sheets(&bytes).map_err(cannot);
+        let mut sheets = xlsx::sheets(&bytes).map_err(cannot)?;
+        for cell in sheets
+            .iter_mut()
+            .flat_map(|sheet| &mut sheet.rows)
+            .flatten()
+        {
+            *cell = with_plain_marks(cell);
+        }
+        return Ok(sheets);
     }
     let text = String::from_utf8(bytes)
         .or_else(|error| windows_1252(error.as_bytes()))
@@ -84,7 +92,7 @@ fn of_text(text: &str) -> Sheet {
         let spans = field_spans(line, 0..line.len(), separator);
         let fields = spans.into_iter().map(|span| &line[span]);
         fields
-            .map(|field| field.trim_matches('"').trim().to_owned())
+            .map(|field| with_plain_marks(field.trim_matches('"').trim()))
             .collect()
     });
     Sheet {
@@ -95,9 +103,49 @@ fn of_text(text: &str) -> Sheet {
     }
 }
 
+/// Spaces that stand in numbers between thousands and nowhere else inside of them: no-break, narrow no-break, thin.
+const SPACES: [char; 3] = ['\u{a0}', '\u{202f}', '\u{2009}'];
+/// The sign that typesetters put in the place of a hyphen.
+const MINUS: char = '\u{2212}';
+
+/// A text without such spaces between the groups of its digits, and with hyphens before its negative numbers.
+fn with_plain_marks(text: &str) -> String {
+    let chars: Vec<char> = text.chars().collect();
+    let is_digit = |at: usize| chars.get(at).is_some_and(char::is_ascii_digit);
+    let digits_before = |at: usize| (0..at).rev().take_while(|&n| is_digit(n)).count();
+    let is_group = |at: usize| (at..at + 3).all(is_digit) && !is_digit(at + 3);
+    let kept = chars.iter().enumerate().filter_map(|(at, &c)| match c {
+        _ if SPACES.contains(&c) && (1..=3).contains(&digits_before(at)) && is_group(at + 1) => {
+            None
+        }
+        MINUS if is_digit(at + 1) || chars.get(at + 1).is_some_and(|c| ".,".contains(*c)) => {
+            Some('-')
+        }
+        c => Some(c),
+    });
+    kept.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn spaces_between_thousands_and_minus_signs_are_plain() {
+        for (text, plain) in [
+            ("1\u{a0}000\u{a0}000", "1000000"),
+            ("250\u{202f}000 rev", "250000 rev"),
+            ("\u{2212}1\u{2009}234,5", "-1234,5"),
+            ("1e\u{2212}3", "1e-3"),
+            ("100000\u{a0}rev", "100000\u{a0}rev"),
+            ("2026\u{a0}100", "2026\u{a0}100"),
+            ("12\u{a0}34", "12\u{a0}34"),
+            ("new \u{2212} worn", "new \u{2212} worn"),
+            ("1 000", "1 000"),
+        ] {
+            assert_eq!(with_plain_marks(text), plain, "{text}");
+        }
+    }
 
     #[test]
     fn texts_are_cut_at_their_separator() {

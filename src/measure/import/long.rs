@@ -3,18 +3,23 @@
 mod checkpoints;
 mod flanks;
 mod line;
+mod off_flank;
+mod stops;
 mod traces;
+mod weights;
 
 use super::arrange::{Arranged, arranged};
-use super::columns::{Column, What, columns, known_by_content, said};
+use super::columns::{Column, What, columns, known_by_content, said, with_sides};
 use super::entry::{Entry, state_face, state_sigma};
 use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, counts, decimal_commas, units};
+use super::{ImportError, Sheet, cell_name, counts, decimal_commas, nameless, units};
 use crate::measure::{Place, Quantity, names};
 use line::Line;
+
+pub(super) use weights::from_start;
 
 /// What was understood of a long table, and its rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +32,8 @@ pub struct Long {
     pub columns: Vec<(String, String)>,
     /// The columns that are passed over, each with the reason.
     pub passed_over: Vec<(String, &'static str)>,
+    /// The rows that are left out because the flank does not reach there, in words.
+    pub left_out: Vec<String>,
     /// What the rows above the header say.
     pub titles: Titles,
     /// Whether the signs of losses are turned.
@@ -75,6 +82,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         sheets,
         said,
         differences,
+        stops,
     }) = arranged(sheet, wanted)?
     else {
         return Ok(None);
@@ -88,7 +96,8 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     decimal_commas::refuse(sheet, head)?;
     let tables: Vec<Long> = sheets
         .iter()
-        .map(|sheet| of_columns(sheet, head, differences, wanted))
+        .zip(&stops)
+        .map(|(own, stops)| of_columns((own, sheet, head), (differences, stops), wanted))
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
@@ -97,8 +106,13 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     }))
 }
 
-/// The mapping of a table with a column for everything.
-fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>) -> Result<Long> {
+/// The mapping of a table with a column for everything, made of a `whole` sheet.
+fn of_columns(
+    (sheet, whole, head): (&Sheet, &Sheet, usize),
+    (differences, stops): (bool, &[Vec<usize>]),
+    wanted: &Wanted<'_>,
+) -> Result<Long> {
+    nameless::refuse_numbers(sheet, head, 0)?;
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
     let columns = columns;
@@ -116,7 +130,17 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
     // what a deviation lost is positive whatever is said of the deviation's own sign, which has to be that of more material
     let stated = wanted.turn_sign || differences;
     let turned = titles.turns_sign(stated)? && !differences;
-    read.nothing_missing(&columns, sheet, single, wanted)?;
+    let header = match sheet.rows[head] == whole.rows[head] {
+        true => &columns,
+        false => &with_sides(&whole.rows[head]),
+    };
+    read.nothing_missing(header, sheet, single, wanted)?;
+    let line = |row: usize| Line {
+        read: &read,
+        sheet,
+        row,
+        wanted,
+    };
     let mut empty = 0;
     let mut entries = Vec::new();
     for (row, cells) in sheet.rows.iter().enumerate().skip(head + 1) {
@@ -127,13 +151,7 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
             empty += 1;
             continue;
         }
-        let line = Line {
-            read: &read,
-            sheet,
-            row,
-            wanted,
-        };
-        entries.push(line.entry(single, &titles, turned)?);
+        entries.push(line(row).entry(single, &titles, turned)?);
     }
     if entries.is_empty() {
         return Err(ImportError(format!(
@@ -141,7 +159,15 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
             head + 1
         )));
     }
-    let arranged = checkpoints::join(&mut entries);
+    let mut arranged: Vec<String> =
+        stops::refuse_times_of_each(&entries, sheet, (&read, &columns), stops)?
+            .into_iter()
+            .collect();
+    if read.quantity.is_none() {
+        arranged.extend(weights::as_losses(&mut entries, &read, wanted)?);
+    }
+    let left_out = off_flank::leave_out(&mut entries, line)?;
+    arranged.extend(checkpoints::join(&mut entries));
     let flank = flanks::only(sheet, head, &columns, &entries)?;
     let traces = traces::name(&mut entries, &read, wanted)?;
     if let (Some(column), Some(_)) = (read.face, wanted.face) {
@@ -157,6 +183,7 @@ fn of_columns(sheet: &Sheet, head: usize, differences: bool, wanted: &Wanted<'_>
     Ok(Long {
         row: head + 1,
         arranged,
+        left_out,
         columns: read.in_words(&columns, single, &titles, wanted)?,
         passed_over: passed_over(sheet, head, &columns, read.value),
         titles,
@@ -180,7 +207,12 @@ impl Long {
         }
         self.passed_over
             .retain(|column| other.passed_over.contains(column));
-        self.arranged.extend(other.arranged);
+        for words in other.arranged {
+            if !self.arranged.contains(&words) {
+                self.arranged.push(words);
+            }
+        }
+        self.left_out.extend(other.left_out);
         self.empty += other.empty;
         self.has_sigma |= other.has_sigma;
         self.entries.extend(other.entries);
@@ -339,7 +371,8 @@ fn single_quantity(read: &Read<'_>, what: What, wanted: &Wanted<'_>) -> Result<Q
         (What::Values(Quantity::MassLoss), None) if names::is_mass(&read.value.name()) => {
             Err(ImportError(format!(
                 "{column} may be the mass that is left: say --quantity mass_loss if it is what was lost since the start of the test, or call it `mass \
-                 loss [mg]`; two weighings are understood as well, in columns `mass before [g]` and `mass after [g]`"
+                 loss [mg]`; two weighings are understood as well, in columns `mass before [g]` and `mass after [g]`, and with --quantity \
+                 mass_loss a log of masses that begins at 0"
             )))
         }
         (What::Values(quantity), _) | (_, Some(quantity)) => Ok(quantity),
@@ -371,10 +404,15 @@ fn passed_over(
     let mut passed_over: Vec<(String, &'static str)> = (columns.iter())
         .filter_map(|column| {
             let why = match column.what {
-                What::ForPeople => "for people",
+                What::ForPeople if column.hours.is_some() => {
+                    "a running time beside the revolutions, which are read"
+                }
+                What::ForPeople => "a comment column",
+                What::Unknown if names::is_stop(&column.name()) => "the number of the stop",
                 What::Unknown => "not known",
                 What::Weighing(_) => "a weighing",
                 What::Profile(_) => "another profile",
+                What::Span(_) | What::Chord(_) => "a measurement of the tooth thickness",
                 What::Flank => "one flank of each member stands in it, taken for the loaded one",
                 What::Speed { .. } if !uses_speeds => "a speed, which is the study's",
                 What::Expanded => {

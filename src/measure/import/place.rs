@@ -82,6 +82,17 @@ impl PositionKind {
         !matches!(self, PositionKind::Rotation | PositionKind::Teeth)
     }
 
+    /// What a table says of a radius on a flank, the inverse of [`Self::position`].
+    pub(super) fn told(self, radius: f64, gear: &Gear) -> f64 {
+        let roll = || (radius.powi(2) - gear.base_radius.powi(2)).max(0.0).sqrt();
+        match self {
+            PositionKind::Radius | PositionKind::Rotation | PositionKind::Teeth => radius,
+            PositionKind::Diameter => 2.0 * radius,
+            PositionKind::RollAngle => (roll() / gear.base_radius).to_degrees(),
+            PositionKind::RollLength => roll(),
+        }
+    }
+
     /// The radius, or the rotation or number of teeth as it is.
     pub(super) fn position(self, value: f64, gear: Option<&Gear>) -> f64 {
         let base = gear.map_or(0.0, |gear| gear.base_radius);

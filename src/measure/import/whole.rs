@@ -8,7 +8,7 @@ use super::wide::{
     Across, Wide, across_numbers, checkpoint, counts_gear_revolutions, down_numbers, header,
     in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
-use super::{ImportError, Sheet, cell_name, counts, decimal_commas, units};
+use super::{ImportError, Sheet, cell_name, counts, decimal_commas, long, nameless, units};
 use crate::measure::{Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -45,6 +45,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     })?;
     without_thousands(&mut sheet.rows[head]);
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
+    nameless::refuse_numbers(&sheet, head, 1)?;
     let sheet = &sheet;
     let lines = match members_across {
         Some(head) => members_in_header(sheet, head)?,
@@ -75,6 +76,17 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         of_gear,
     };
     let (mut entries, empty) = reading.entries(sheet, &lines)?;
+    let mut arranged = Vec::new();
+    if quantity == Quantity::MassLoss && !speaks_of_loss(sheet, head) {
+        let way_out = "add those of the new parts, at 0, and the losses are taken from them; if the values are what was lost since the start, write \
+                       `mass loss` into a row above the header";
+        if long::from_start(&mut entries, way_out)? {
+            arranged.push(
+                "mass loss: the mass at 0 less each one of the same member; those at 0 are not written themselves"
+                    .to_owned(),
+            );
+        }
+    }
     in_order(&mut entries, wanted)?;
     let mut checkpoints: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
     checkpoints.dedup();
@@ -91,7 +103,9 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         titles,
         turned,
         flank: None,
+        arranged,
         passed_over,
+        left_out: Vec::new(),
         empty,
         entries,
     })
@@ -162,6 +176,18 @@ impl Reading<'_> {
         }
         Ok((entries, empty))
     }
+}
+
+/// Whether the header or a row above it says that its masses are what was lost.
+fn speaks_of_loss(sheet: &Sheet, head: usize) -> bool {
+    let is_loss = |word: &String| {
+        let lost = names::quantity(word).is_some_and(|(named, _)| named == Quantity::MassLoss);
+        lost && !names::is_mass(word)
+    };
+    let cells = sheet.rows[..=head].iter().flatten();
+    cells
+        .flat_map(|cell| names::words(cell))
+        .any(|word| is_loss(&word))
 }
 
 /// A column for each member, cycles in the first one.

@@ -13,8 +13,7 @@ use super::numbers::{
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, decimal_commas, units};
-use super::{columns, counts};
+use super::{ImportError, Sheet, cell_name, columns, counts, decimal_commas, nameless, units};
 use crate::measure::{Place, Quantity, Subject, names};
 
 /// What the columns of a wide table are.
@@ -53,8 +52,12 @@ pub struct Wide {
     pub turned: bool,
     /// The flank that a row above the header says.
     pub flank: Option<String>,
+    /// What was made of the values, in words.
+    pub arranged: Vec<String>,
     /// Headers of the columns that are passed over.
     pub passed_over: Vec<String>,
+    /// The rows or columns that are left out because the flank does not reach there, in words.
+    pub left_out: Vec<String>,
     /// Cells without a value.
     pub empty: usize,
     /// Rows of a measurement file.
@@ -76,11 +79,14 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
     without_thousands(&mut sheet.rows[head]);
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
+    nameless::refuse_numbers(&sheet, head, 1)?;
+    name_first_column(&mut sheet, head);
     let sheet = &sheet;
-    let grid = Grid::of(sheet, head)?;
+    let mut grid = Grid::of(sheet, head)?;
     let corner = grid.corner();
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
+    let left_out = grid.leave_out(across, &places)?;
     grid.refuse_unclear(across, quantity)?;
     counts::refuse_others_above(sheet, head)?;
     // beside positions the headers' unit is that of the positions
@@ -126,7 +132,9 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         titles,
         turned,
         flank: flank_above(sheet, head)?,
+        arranged: Vec::new(),
         passed_over,
+        left_out,
         empty,
         entries,
         test,
@@ -307,4 +315,26 @@ pub(super) fn no_header(sheet: &Sheet) -> ImportError {
         "no header row: in a table with a column for each checkpoint or place the first cell names what stands below it (such as `radius \
          [mm]`), the others begin with a number each (cycles, or a radius); {long}"
     ))
+}
+
+/// Names the first column of a table, of which the header says nothing, by the words in the row above it if these name places or cycles.
+fn name_first_column(sheet: &mut Sheet, head: usize) {
+    if !sheet.rows[head][0].is_empty() {
+        return;
+    }
+    let is_filled = |row: &usize| sheet.rows[*row].iter().any(|cell| !cell.is_empty());
+    let Some(above) = (0..head).rev().find(is_filled) else {
+        return;
+    };
+    let words = sheet.rows[above][0].clone();
+    let [column] = &columns::columns(std::slice::from_ref(&words))[..] else {
+        return;
+    };
+    if ["position", "cycles"]
+        .map(Some)
+        .contains(&column.what.own())
+    {
+        sheet.rows[above][0].clear();
+        sheet.rows[head][0] = words;
+    }
 }

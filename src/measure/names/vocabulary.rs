@@ -57,6 +57,11 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
             "messkreis",
             "messkreisdurchmesser",
             "messkreisø",
+            "teethspanned",
+            "spannedteeth",
+            "messzahne",
+            "messzahnezahl",
+            "messzahnzahl",
             "walzwinkel",
             "walzlange",
             "raggio",
@@ -331,7 +336,7 @@ pub(super) const MEMBERS: [(Subject, &[&str]); 3] = [
 ];
 
 /// Names of quantities beside their own.
-pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
+pub(super) const QUANTITIES: [(Quantity, &[&str]); 8] = [
     (
         Quantity::WearDepth,
         &[
@@ -397,6 +402,20 @@ pub(super) const QUANTITIES: [(Quantity, &[&str]); 6] = [
     ),
     (Quantity::LoadShare, &["lastanteil"]),
     (
+        Quantity::SpanLoss,
+        &["lossspan", "spanwear", "zahnweitenverlust"],
+    ),
+    (
+        Quantity::ChordalLoss,
+        &[
+            "chordloss",
+            "losschord",
+            "chordalthicknessloss",
+            "losschordalthickness",
+            "zahndickenverlust",
+        ],
+    ),
+    (
         Quantity::ContactPressure,
         &["pressung", "pressioncontact", "pressionecontatto"],
     ),
@@ -418,6 +437,48 @@ pub(super) const DEVIATIONS: [&str; 8] = [
 /// Names of the mass of a part: with `loss` they are no longer it.
 pub(super) const MASSES: [&str; 10] = [
     "mass", "weight", "masse", "gewicht", "massa", "peso", "poids", "masa", "massen", "weighing",
+];
+
+/// Names of the span over several teeth.
+pub(super) const SPANS: [&str; 9] = [
+    "span",
+    "toothspan",
+    "spanmeasurement",
+    "spanlength",
+    "spanwidth",
+    "basetangentlength",
+    "wk",
+    "zahnweite",
+    "quotawildhaber",
+];
+
+/// Names of the chord of a tooth.
+pub(super) const CHORDS: [&str; 7] = [
+    "chord",
+    "chordthickness",
+    "chordalthickness",
+    "chordaltooththickness",
+    "sehnendicke",
+    "zahndickensehne",
+    "sehnenzahndicke",
+];
+
+/// Names of the stops of a test, at which it is measured.
+pub(super) const STOPS: [&str; 14] = [
+    "stop",
+    "stage",
+    "interval",
+    "inspection",
+    "stopp",
+    "stufe",
+    "abschnitt",
+    "intervall",
+    "fermata",
+    "intervallo",
+    "arret",
+    "etape",
+    "intervalle",
+    "etapa",
 ];
 
 /// Words for the time before a test.

@@ -52,7 +52,11 @@ fn as_values(
         return None;
     }
     let mut sheet = sheet.clone();
-    let quantity = quantity.name();
+    // it may be what was lost, or what is left
+    let quantity = match quantity {
+        Quantity::MassLoss => "mass",
+        other => other.name(),
+    };
     let with_unit = |column: &Alone, name: String| match &column.unit {
         Some(unit) => format!("{name} [{unit}]"),
         None => name,

@@ -16,12 +16,12 @@ pub(super) enum Weighed {
     AtEachStop,
 }
 
-/// The readings of each test and member, by their numbers, along rising cycles; as they stand where cycles are no numbers.
+/// The readings that agree in some columns, by their numbers, along rising cycles; as they stand where cycles are no numbers.
 pub(super) fn groups(
     sheet: &Sheet,
     head: usize,
     readings: &[Reading],
-    wanted: &Wanted<'_>,
+    (names, wanted): (&[&str], &Wanted<'_>),
 ) -> Vec<Vec<usize>> {
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
@@ -30,9 +30,9 @@ pub(super) fn groups(
         let cell = column.and_then(|column| sheet.rows[reading.row].get(column.at));
         cell.cloned().unwrap_or_default()
     };
-    let mut groups: BTreeMap<[String; 2], Vec<usize>> = BTreeMap::new();
+    let mut groups: BTreeMap<Vec<String>, Vec<usize>> = BTreeMap::new();
     for (n, reading) in readings.iter().enumerate() {
-        let of = ["test", "member"].map(|name| text(reading, name));
+        let of = names.iter().map(|name| text(reading, name)).collect();
         groups.entry(of).or_default().push(n);
     }
     let cycles = |n: &usize| pointed(&text(&readings[*n], "cycles")).parse::<f64>().ok();
@@ -44,36 +44,52 @@ pub(super) fn groups(
     groups.into_values().collect()
 }
 
-/// How the readings of one test and member were weighed.
+/// How the readings of one group were weighed. Where they are neither of the two along their cycles, but each row goes on where the one above it
+/// ended, the group is left in the order of the rows: then its cycles are not what they should be.
 ///
 /// # Errors
 /// [`ImportError`] where they are neither of the two: with another part or an interval left out no loss is known.
 pub(super) fn weighed(
-    group: &[usize],
+    group: &mut Vec<usize>,
     readings: &[Reading],
     pair: &Pair,
 ) -> Result<Weighed, ImportError> {
+    let of = |group: &[usize]| {
+        [Weighed::SinceNew, Weighed::AtEachStop]
+            .into_iter()
+            .find(|how| first_other(group, readings, &[*how]).is_none())
+    };
+    if let Some(how) = of(group) {
+        return Ok(how);
+    }
+    let mut by_rows = group.clone();
+    by_rows.sort_by_key(|&n| readings[n].row);
+    if of(&by_rows) == Some(Weighed::AtEachStop) {
+        *group = by_rows;
+        return Ok(Weighed::AtEachStop);
+    }
+    let both = [Weighed::SinceNew, Weighed::AtEachStop];
+    let at = first_other(group, readings, &both).unwrap_or(1);
+    let [first, last, this] = [0, at - 1, at].map(|at| &readings[group[at]]);
+    Err(refused(first, last, this, pair))
+}
+
+/// Place in a group of the first reading that shows that it was weighed in none of some ways.
+fn first_other(group: &[usize], readings: &[Reading], ways: &[Weighed]) -> Option<usize> {
     let decimals = group.iter().map(|&n| readings[n].decimals).max();
     // one in the last decimal is rounding
     let rounding = 1.001 * 10f64.powi(-(decimals.unwrap_or(0) as i32));
     let is_same = |a: f64, b: f64| (a - b).abs() <= rounding;
     let first = &readings[group[0]];
-    let mut found = None;
-    for pair_of in group.windows(2) {
-        let [last, this] = [&readings[pair_of[0]], &readings[pair_of[1]]];
-        let allowed = [
-            (is_same(this.before, first.before), Weighed::SinceNew),
-            (is_same(this.before, last.after), Weighed::AtEachStop),
-        ];
-        let mut allowed = allowed
-            .iter()
-            .filter(|(is_it, how)| *is_it && found.is_none_or(|f| f == *how));
-        let Some((_, how)) = allowed.next() else {
-            return Err(refused(first, last, this, pair));
-        };
-        found = Some(*how);
-    }
-    Ok(found.unwrap_or(Weighed::SinceNew))
+    let mut ways = ways.to_vec();
+    (1..group.len()).find(|&at| {
+        let [last, this] = [at - 1, at].map(|at| &readings[group[at]]);
+        ways.retain(|way| match way {
+            Weighed::SinceNew => is_same(this.before, first.before),
+            Weighed::AtEachStop => is_same(this.before, last.after),
+        });
+        ways.is_empty()
+    })
 }
 
 fn refused(first: &Reading, last: &Reading, this: &Reading, pair: &Pair) -> ImportError {

@@ -1,5 +1,6 @@
 //! Two columns of one part, one of the new state and one of the worn: what is taken from what.
 
+use super::intervals::{self, Weighed};
 use crate::measure::import::columns::{Column, What};
 use crate::measure::import::numbers::{number, pointed, with_points};
 use crate::measure::import::{Decimal, ImportError, Sheet, Wanted};
@@ -23,6 +24,19 @@ pub(super) struct Reading {
     pub(super) decimals: usize,
     has_commas: bool,
 }
+
+/// What was lost since the new state.
+pub(super) struct Losses {
+    /// Of each row in which both stand.
+    pub(super) lost: Vec<(Reading, f64)>,
+    /// The rows of each group that was measured before and after each interval, in the order of the stops.
+    pub(super) stops: Vec<Vec<usize>>,
+    /// Whether some were measured since the new state.
+    pub(super) since_new: bool,
+}
+
+/// How a group of readings was measured; may put it in order.
+type How = fn(&mut Vec<usize>, &[Reading], &Pair) -> Result<Weighed, ImportError>;
 
 /// The one column that is something; none where several are.
 pub(super) fn only(columns: &[Column], what: What) -> Option<&Column> {
@@ -50,6 +64,38 @@ impl Pair {
             self.before.cell(head),
             self.after.cell(head)
         )))
+    }
+
+    /// What the rows have lost, each group of those that agree in some columns by itself.
+    pub(super) fn losses(
+        &self,
+        sheet: &Sheet,
+        head: usize,
+        by: (&[&str], &Wanted<'_>),
+        how: How,
+    ) -> Result<Losses, ImportError> {
+        self.in_one_unit(head)?;
+        let readings = self.readings(sheet, head, by.1)?;
+        let mut lost: Vec<f64> = readings.iter().map(|r| r.before - r.after).collect();
+        let mut stops = Vec::new();
+        let mut since_new = false;
+        for mut group in intervals::groups(sheet, head, &readings, by) {
+            match how(&mut group, &readings, self)? {
+                Weighed::SinceNew => since_new = true,
+                Weighed::AtEachStop => {
+                    let first = readings[group[0]].before;
+                    for &n in &group {
+                        lost[n] = first - readings[n].after;
+                    }
+                    stops.push(group.iter().map(|&n| readings[n].row).collect());
+                }
+            }
+        }
+        Ok(Losses {
+            lost: readings.into_iter().zip(lost).collect(),
+            stops,
+            since_new,
+        })
     }
 
     /// The rows in which both stand.

@@ -48,7 +48,7 @@ pub(super) fn is_table(own: &Sheet, whole: &Sheet, head: usize) -> bool {
 }
 
 /// The member that a column of places, values or their scatter names, and its header without it.
-fn side(header: &str) -> Option<(Subject, String)> {
+pub(in crate::measure::import) fn side(header: &str) -> Option<(Subject, String)> {
     let member = names::one_member(header)?;
     let is_of = |word: &str| names::member(word) == Some(member);
     let words = header.split(|c: char| !c.is_alphanumeric());
@@ -60,7 +60,9 @@ fn side(header: &str) -> Option<(Subject, String)> {
     let rest = rest.join(" ");
     let column = columns(std::slice::from_ref(&rest)).pop()?;
     let is_side = match column.what {
-        What::Weighing(_) | What::Profile(_) | What::Values(_) => true,
+        What::Weighing(_) | What::Profile(_) | What::Span(_) | What::Chord(_) | What::Values(_) => {
+            true
+        }
         What::Own(own) => ["position", "value", "sigma", "trace"].contains(&own),
         _ => false,
     };

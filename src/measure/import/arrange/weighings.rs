@@ -1,8 +1,8 @@
 //! A mass before and a mass after: their difference is what was lost.
 
 use super::has;
-use super::intervals::{self, Weighed};
-use super::pairs::{Pair, only};
+use super::intervals;
+use super::pairs::{Losses, Pair, only};
 use crate::measure::import::columns::{Column, What};
 use crate::measure::import::{ImportError, Sheet, Wanted, cell_name};
 use crate::measure::names::When;
@@ -18,14 +18,14 @@ pub(super) fn could_be(columns: &[Column]) -> bool {
     is_header && !has(columns, "value")
 }
 
-/// Puts the loss in the place of the mass after.
+/// Puts the loss in the place of the mass after. The rows of each test and member that were weighed at each stop, in the order of the stops.
 pub(super) fn as_losses(
     sheet: &mut Sheet,
     head: usize,
     columns: &[Column],
     wanted: &Wanted<'_>,
     said: &mut Vec<String>,
-) -> Result<(), ImportError> {
+) -> Result<Vec<Vec<usize>>, ImportError> {
     let Some(pair) = Pair::of(columns, What::Weighing) else {
         let of = |when: When| only(columns, What::Weighing(when));
         let one = of(When::Before).or(of(When::After));
@@ -37,26 +37,22 @@ pub(super) fn as_losses(
             sheet.rows[head][at]
         )));
     };
-    pair.in_one_unit(head)?;
-    let readings = pair.readings(sheet, head, wanted)?;
+    let by = (&["test", "member"][..], wanted);
+    let Losses {
+        lost,
+        stops,
+        since_new,
+    } = pair.losses(sheet, head, by, intervals::weighed)?;
     let (before, after) = (&pair.before.written, &pair.after.written);
-    let mut lost: Vec<f64> = readings.iter().map(|r| r.before - r.after).collect();
-    for group in intervals::groups(sheet, head, &readings, wanted) {
-        said.push(match intervals::weighed(&group, &readings, &pair)? {
-            Weighed::SinceNew => format!("mass loss: `{before}` less `{after}`"),
-            Weighed::AtEachStop => {
-                let first = readings[group[0]].before;
-                for n in group {
-                    lost[n] = first - readings[n].after;
-                }
-                format!(
-                    "mass loss: each `{before}` is `{after}` of the stop before it, so the losses are added up from the first `{before}` of each \
-                     test and member"
-                )
-            }
-        });
+    if since_new {
+        said.push(format!("mass loss: `{before}` less `{after}`"));
     }
-    let lost: Vec<_> = readings.into_iter().zip(lost).collect();
+    if !stops.is_empty() {
+        said.push(format!(
+            "mass loss: each `{before}` is `{after}` of the stop before it, so the losses are added up from the first `{before}` of each test and \
+             member"
+        ));
+    }
     pair.put_losses(sheet, head, "mass loss", &lost);
-    Ok(())
+    Ok(stops)
 }

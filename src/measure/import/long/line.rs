@@ -3,6 +3,7 @@
 use super::Read;
 use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
+use crate::measure::import::flank::Flank;
 use crate::measure::import::numbers::{number, plain_count, pointed, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
@@ -247,32 +248,37 @@ impl Line<'_> {
             1.0
         };
         let gear = self.wanted.gear_of(member);
-        let position = rounded(kind.position(scale * number(text, self.row, column.at)?, gear));
-        match gear.filter(|_| quantity.place() == Place::Flank) {
-            Some(gear) if !on_flank(gear, position) => {
-                let other = self
-                    .wanted
-                    .gears
-                    .into_iter()
-                    .find(|other| on_flank(other, position));
-                let hint = match other {
-                    Some(_) => "it lies on the other member's flank: look at the column of members",
-                    None if on_flank(gear, 0.5 * position) => {
-                        "is it a diameter? --position diameter"
-                    }
-                    None => "look at the unit in the header and at --position",
-                };
-                self.refused(
-                    column,
-                    &format!(
-                        "the radius {position} mm is off the {}'s flank ({:.3} to {:.3} mm); {hint}",
-                        member.name(),
-                        gear.form_radius,
-                        gear.tip_radius
-                    ),
-                )
-            }
-            _ => Ok(Some(position)),
+        let place = number(text, self.row, column.at)?;
+        Ok(Some(rounded(kind.position(scale * place, gear))))
+    }
+
+    /// The flank that a place of this row should lie on, and the place as it is written.
+    pub(super) fn flank(&self, entry: &Entry) -> Result<Option<(Flank<'_>, f64)>> {
+        let gear = self.wanted.gear_of(entry.member);
+        let (Some(column), Some(gear)) = (self.read.position, gear) else {
+            return Ok(None);
+        };
+        if entry.quantity.place() != Place::Flank {
+            return Ok(None);
         }
+        let kind = PositionKind::of(entry.quantity, self.wanted.position, &column.written);
+        let place = number(self.text(Some(column)), self.row, column.at)?;
+        let flank = Flank::new(gear, entry.member, kind, &column.written)?;
+        Ok(Some((flank, place)))
+    }
+
+    /// Refuses a place that is off its flank.
+    pub(super) fn off_flank<T>(&self, entry: &Entry, flank: &Flank<'_>, place: f64) -> Result<T> {
+        let column = self.read.position.expect("a place stands in a column");
+        let radius = entry.position.unwrap_or_default();
+        let lies_on_other = (self.wanted.gears.iter()).any(|other| on_flank(other, radius));
+        let is_diameter =
+            (self.wanted.gear_of(entry.member)).is_some_and(|gear| on_flank(gear, 0.5 * radius));
+        let hint = match lies_on_other {
+            true => "it lies on the other member's flank: look at the column of members",
+            false if is_diameter => "is it a diameter? --position diameter",
+            false => "look at the unit in the header and at --position",
+        };
+        self.refused(column, &format!("{}; {hint}", flank.refused(place)))
     }
 }

@@ -4,6 +4,7 @@ use super::{
     Across, Result, across_numbers, checkpoint, down_numbers, from_to, refuse_twice_in_a_line,
 };
 use crate::gear::Gear;
+use crate::measure::import::flank::{Flank, MOST, Side};
 use crate::measure::import::numbers::plain_cycles;
 use crate::measure::import::place::PositionKind;
 use crate::measure::import::wanted::Wanted;
@@ -18,6 +19,8 @@ pub(super) struct Places<'a> {
     /// The gear of the flank; none where they are places in a rotation.
     pub(super) gear: Option<&'a Gear>,
     pub(super) member: Subject,
+    /// None where they are no places along it.
+    flank: Option<Flank<'a>>,
 }
 
 impl<'a> Places<'a> {
@@ -32,54 +35,44 @@ impl<'a> Places<'a> {
             true => units::of_position(corner, kind == PositionKind::RollAngle)?,
             false => 1.0,
         };
+        let gear = wanted.gear_of(member);
+        let flank = match gear.filter(|_| kind.has_unit()) {
+            Some(gear) => Some(Flank::new(gear, member, kind, corner)?),
+            None => None,
+        };
         Ok(Self {
             kind,
             scale,
-            gear: wanted.gear_of(member),
+            gear,
             member,
+            flank,
         })
     }
 
-    /// Whether all of the numbers can be such places.
-    fn hold(&self, numbers: &[f64]) -> bool {
-        match self.gear {
-            Some(gear) if self.kind == PositionKind::Teeth => {
-                let teeth = gear.spanned_teeth();
-                numbers
-                    .iter()
-                    .all(|&n| teeth.iter().any(|&teeth| f64::from(teeth) == n))
+    /// Whether a number can be such a place.
+    fn holds(&self, number: f64) -> bool {
+        match (&self.flank, self.gear) {
+            (Some(flank), _) => flank.is_close(flank.radius(number)),
+            (None, Some(gear)) => {
+                let mut teeth = gear.spanned_teeth().into_iter();
+                teeth.any(|teeth| f64::from(teeth) == number)
             }
-            Some(gear) => numbers.iter().all(|&n| {
-                let radius = self.kind.position(self.scale * n, Some(gear));
-                (gear.form_radius - 0.01..=gear.tip_radius + 0.01).contains(&radius)
-            }),
-            None => numbers.iter().all(|n| (0.0..=1.0).contains(n)),
+            (None, None) => (0.0..=1.0).contains(&number),
         }
     }
 
     /// What such numbers are, in words.
     fn words(&self, corner: &str) -> String {
-        match self.gear {
-            Some(_) if self.kind == PositionKind::Teeth => {
-                "numbers of teeth that a span goes over".to_owned()
-            }
-            Some(gear) => {
-                let unit = units::name_and_unit(corner).1;
-                let kind = match &unit {
-                    Some(unit) => format!("{} in {unit}", self.kind.word()),
-                    None => self.kind.name().to_owned(),
-                };
-                format!(
-                    "radii of the {}'s flank ({:.3} to {:.3} mm), read as {kind}",
-                    self.member.name(),
-                    gear.form_radius,
-                    gear.tip_radius
-                )
-            }
-            None => "rotations (0 to 1 base pitch)".to_owned(),
+        match (&self.flank, self.gear) {
+            (Some(flank), _) => flank.places(corner),
+            (None, Some(_)) => "numbers of teeth that a span goes over".to_owned(),
+            (None, None) => "rotations (0 to 1 base pitch)".to_owned(),
         }
     }
 }
+
+/// Columns or rows with a number each.
+type Line = Vec<(usize, f64)>;
 
 /// The cells of a wide table below and beside its header.
 pub(super) struct Grid<'s> {
@@ -87,9 +80,9 @@ pub(super) struct Grid<'s> {
     /// Row of the header.
     head: usize,
     /// The columns with the number in the header of each.
-    pub(super) across: Vec<(usize, f64)>,
+    pub(super) across: Line,
     /// The rows with the number in the first cell of each.
-    pub(super) down: Vec<(usize, f64)>,
+    pub(super) down: Line,
 }
 
 impl<'s> Grid<'s> {
@@ -138,21 +131,55 @@ impl<'s> Grid<'s> {
     }
 
     fn orientation_by_numbers(&self, places: &Places<'_>) -> Result<Across> {
-        let [columns, rows] = self.numbers();
         let what = places.words(self.corner());
-        match (places.hold(&rows), places.hold(&columns)) {
+        let good = |line: &Line| line.iter().filter(|(_, n)| places.holds(*n)).count();
+        let are_places = |line: &Line| good(line) as f64 >= MOST * line.len() as f64;
+        match (are_places(&self.down), are_places(&self.across)) {
             (true, false) => Ok(Across::Checkpoints),
             (false, true) => Ok(Across::Positions),
             (true, true) => Err(ImportError(format!(
                 "both the first column and the header could be {what}: say --columns checkpoints or --columns positions"
             ))),
             (false, false) => {
-                let [[row_from, row_to], [from, to]] = [from_to(&rows), from_to(&columns)];
+                let [[from, to], [row_from, row_to]] = self.numbers().map(|all| from_to(&all));
+                let first = self.first_off(places, [good(&self.down), good(&self.across)]);
                 Err(ImportError(format!(
-                    "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}: look at --member, at \
-                     --position and at the unit in the header"
+                    "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}{}: look at --member, at \
+                     --position and at the unit in the header",
+                    first.unwrap_or_default()
                 )))
             }
+        }
+    }
+
+    /// The first number that is no place, of the first column or of the header, whichever has more `good` ones; none where both have none.
+    fn first_off(&self, places: &Places<'_>, good: [usize; 2]) -> Option<String> {
+        let [of_rows, of_columns] = good;
+        let is_rows = of_rows >= of_columns;
+        let (line, good) = match is_rows {
+            true => (&self.down, of_rows),
+            false => (&self.across, of_columns),
+        };
+        let (at, number) = *line.iter().find(|(_, n)| !places.holds(*n))?;
+        let cell = match is_rows {
+            true => cell_name(at, 0),
+            false => cell_name(self.head, at),
+        };
+        let all = line.len();
+        (good > 0).then(|| format!(" ({good} of {all} are, but not {number} in {cell})"))
+    }
+
+    /// Takes out the rows or columns that lie a little off the flank, where most of them lie on it, and says how many.
+    pub(super) fn leave_out(&mut self, across: Across, places: &Places<'_>) -> Result<Vec<String>> {
+        let Some(flank) = &places.flank else {
+            return Ok(Vec::new());
+        };
+        let head = self.head;
+        match across {
+            Across::Checkpoints => leave_out(&mut self.down, flank, "row", |row| cell_name(row, 0)),
+            Across::Positions => leave_out(&mut self.across, flank, "column", |column| {
+                cell_name(head, column)
+            }),
         }
     }
 
@@ -181,4 +208,35 @@ fn stated_otherwise(stated: Across) -> ImportError {
     ImportError(format!(
         "--columns {stated}: only the numbers of the {places} can be positions; leave --columns out, or say the other"
     ))
+}
+
+fn leave_out(
+    places: &mut Line,
+    flank: &Flank<'_>,
+    what: &str,
+    name: impl Fn(usize) -> String,
+) -> Result<Vec<String>> {
+    let side = |place: f64| flank.side(flank.radius(place));
+    let off: Line = (places.iter().copied())
+        .filter(|(_, place)| side(*place).is_some())
+        .collect();
+    // a few points may be a matter of rounding, of which the reader of the rows decides
+    let is_trace = (places.len() - off.len()) as f64 >= MOST * places.len() as f64;
+    if !is_trace {
+        return Ok(Vec::new());
+    }
+    if let Some((at, place)) = off.iter().find(|(_, n)| !flank.is_near(flank.radius(*n))) {
+        return Err(ImportError(format!(
+            "{}: {}: look at the number",
+            name(*at),
+            flank.refused(*place)
+        )));
+    }
+    places.retain(|(_, place)| side(*place).is_none());
+    let said = [Side::Below, Side::Above].into_iter().filter_map(|of| {
+        let own = off.iter().map(|(_, place)| *place);
+        let own: Vec<f64> = own.filter(|place| side(*place) == Some(of)).collect();
+        (!own.is_empty()).then(|| flank.left_out(of, (own.len(), what), &own))
+    });
+    Ok(said.collect())
 }
