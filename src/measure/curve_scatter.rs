@@ -261,7 +261,7 @@ mod tests {
         assert!(alone > 1.3, "{alone}");
         assert!((0.9..1.15).contains(&together), "{together}");
         // noise that hides them, and noise of a share
-        for sigma in [&|_| 3.0 as f64, &|depth: f64| 0.2 * depth] as [&dyn Fn(f64) -> f64; 2] {
+        for sigma in [&|_| 3.0, &|depth: f64| 0.2 * depth] as [&dyn Fn(f64) -> f64; 2] {
             let [alone, together] = over_noise(sigma);
             assert!((0.85..1.1).contains(&alone), "{alone}");
             assert!((0.85..1.1).contains(&together), "{together}");
