@@ -8,7 +8,8 @@
 //! b_i = Σ_c (d_c/s_c²) r_ci / Σ_c (d_c/s_c)²          d_c: the largest value, s_c: the noise expected of it
 //! σ_c = median_i |r_ci − d_c b_i| / (0.674 √(1 − h_c))        h_c = (d_c/s_c)²/Σ (d/s)²
 //! ```
-//! s is the law of all such curves of the quantity ([`super::pooled_scatter`]), from one round to the next; in the first it is the same for all. Where that makes curves of a flank scatter more on average, they do not bend alike, and each is taken by itself.
+//! s is the law of all such curves of the quantity ([`super::pooled_scatter`]), from one round to the next; in the first it is the same for all. Where that makes
+//! curves of a flank scatter more on average, they do not bend alike, and each is taken by itself. A slip of the pen is left out once the bends are.
 
 use std::collections::BTreeMap;
 
