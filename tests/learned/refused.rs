@@ -85,7 +85,7 @@ fn what_cannot_be_read_is_refused_at_its_place() {
             fault: Fault::BadValue,
             key: "effect.values",
             mark: "[0, -1]",
-            allowed: "0 to",
+            allowed: "0 or more",
             says: "value 2 is -1",
         },
         Refused {
