@@ -41,8 +41,16 @@ pub(super) struct Along {
     flank: Flank,
 }
 
-/// What curves have in common that bend alike: test, member, quantity, place across the face and places along the flank.
-type Flank = (usize, Subject, Quantity, Option<u64>, Vec<i64>);
+/// What curves have in common that bend alike.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Flank {
+    test: usize,
+    member: Subject,
+    quantity: Quantity,
+    face: Option<u64>,
+    /// Along the flank, in units of [`SAME_PLACE`].
+    places: Vec<i64>,
+}
 
 impl Along {
     pub(super) fn new(rows: &[&Observation], points: Vec<[f64; 3]>, own: Vec<usize>) -> Self {
@@ -50,13 +58,13 @@ impl Along {
         let places = points.iter().map(|p| (p[0] / SAME_PLACE).round() as i64);
         let face = first.face.map(FacePlace::key);
         Self {
-            flank: (
-                first.test,
-                first.member,
-                first.quantity,
+            flank: Flank {
+                test: first.test,
+                member: first.member,
+                quantity: first.quantity,
                 face,
-                places.collect(),
-            ),
+                places: places.collect(),
+            },
             rows: own,
             points,
         }
@@ -70,7 +78,7 @@ pub(super) fn of_alike(curves: &[Along]) -> Vec<Option<CurveScatter>> {
     let mut quantities: BTreeMap<Quantity, BTreeMap<&Flank, Vec<Alike>>> = BTreeMap::new();
     for (place, curve) in curves.iter().enumerate() {
         if let Some(own) = found[place] {
-            let flanks = quantities.entry(curve.flank.2).or_default();
+            let flanks = quantities.entry(curve.flank.quantity).or_default();
             let alike = Alike::new(place, own, even(&curve.points));
             flanks.entry(&curve.flank).or_default().push(alike);
         }
@@ -313,7 +321,13 @@ mod tests {
             (x - 10.5).abs() / 10.5 * if (8..15).contains(&i) { 1.0 } else { 0.55 }
         };
         let depths = [5.0, 12.0, 25.0];
-        let flank = || (0, Subject::Pinion, Quantity::WearDepth, None, Vec::new());
+        let flank = || Flank {
+            test: 0,
+            member: Subject::Pinion,
+            quantity: Quantity::WearDepth,
+            face: None,
+            places: Vec::new(),
+        };
         let mut state = 1;
         let (mut alone, mut together) = (0.0, 0.0);
         let draws = 200;

@@ -780,6 +780,16 @@ fn flanks_as_made() {
             0.0
         );
     }
+    for (other, relieved) in [("on_gear", Member::Pinion), ("on_pinion", Member::Gear)] {
+        let relief = effect("tip_relief", &[(other, 0.0)]);
+        for member in Member::BOTH {
+            let expected = if member == relieved { 6.0 } else { 0.0 };
+            same(
+                relief.profile(&gearwear::effects::ProfileAt { member, ..at }),
+                expected,
+            );
+        }
+    }
     same(effect("tip_relief", &[("exponent", 2.0)]).profile(&at), 4.5);
     same(
         effect("profile_slope", &[("crowning", 4.0)]).profile(&at),

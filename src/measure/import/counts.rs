@@ -8,30 +8,22 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// Words that may stand beside a count and leave it as it is; `U` are German revolutions.
 const PLAIN: [&str; 5] = ["u", "load", "in", "total", "all"];
 
-/// Words before a small number that make it the place in a sequence.
-const ORDINALS: [&str; 22] = [
-    "stage",
+/// Words before a small number that make it the place in a sequence, beside those for stops.
+const ORDINALS: [&str; 14] = [
     "step",
-    "stop",
     "block",
     "check",
-    "inspection",
-    "interval",
     "reading",
     "measurement",
     "phase",
+    "fase",
     "no",
     "nr",
     "number",
-    "stufe",
     "schritt",
     "messung",
-    "abschnitt",
     "prufung",
-    "etape",
     "mesure",
-    "etapa",
-    "fase",
 ];
 /// Numbers from which such a word does not make a place of a number: `stop 100000`.
 const NO_ORDINAL: f64 = 1000.0;
@@ -48,7 +40,8 @@ pub(super) fn refuse_others(
     let start = header.find(number).unwrap_or(0);
     let (before, behind) = (&header[..start], &header[start + number.len()..]);
     let last = names::words(before).pop().unwrap_or_default();
-    if ORDINALS.contains(&last.as_str()) && number.parse().is_ok_and(|n: f64| n < NO_ORDINAL) {
+    let is_ordinal = names::is_stop(&last) || ORDINALS.contains(&last.as_str());
+    if is_ordinal && number.parse().is_ok_and(|n: f64| n < NO_ORDINAL) {
         return Err(ImportError(format!(
             "{}: the header `{header}` counts stages or measurements: write the revolutions of the pinion there at which each was made",
             cell_name(row, column)

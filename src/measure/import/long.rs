@@ -9,7 +9,8 @@ mod traces;
 mod weights;
 
 use super::arrange::{Arranged, arranged};
-use super::columns::{Column, What, columns, known_by_content, said, with_sides};
+use super::columns::half_understood::said;
+use super::columns::{Column, What, columns, known_by_content, with_sides};
 use super::entry::{Entry, state_face, state_sigma};
 use super::numbers::with_points;
 use super::place::PositionKind;

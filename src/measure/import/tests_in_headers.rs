@@ -1,7 +1,7 @@
 //! Wide tables whose headers name the test of each column: `run A 140000 cycles`, `run B 100000 cycles`.
 
 use super::arrange::stated_above;
-use super::columns::refuse_half_understood;
+use super::columns::half_understood;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, of_one_test};
 use super::{ImportError, Sheet, cell_name};
@@ -14,7 +14,7 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
-    refuse_half_understood(sheet, wanted)?;
+    half_understood::refuse(sheet, wanted)?;
     let above = stated_above(sheet, wanted)?;
     let wanted = &Wanted {
         test: wanted.test.or(above.test),

@@ -303,7 +303,7 @@ pub(super) fn header(sheet: &Sheet) -> Result<usize> {
 
 /// What is said of a table whose header is not found.
 pub(super) fn no_header(sheet: &Sheet) -> ImportError {
-    let long = columns::understood(sheet).map_or_else(
+    let long = columns::half_understood::best_header(sheet).map_or_else(
         || {
             "a table with a row for each value has columns test, member, cycles, position (`radius [mm]`) and values (`depth [um]`, `mass loss \
              [mg]`), named in its header"
