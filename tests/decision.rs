@@ -387,6 +387,49 @@ fn an_effect_in_every_leading_hypothesis_is_established() {
     assert_eq!(decided(&whole).verdict, Verdict::Effects);
 }
 
+/// Figures like those of a made-up set with micropitting and a severe transition: the pair leaves nothing, each of the two and their look-alikes leave a
+/// sixth. That each stands beside something unknown is less probable than the pair alone, which then leads the group.
+#[test]
+fn a_pair_that_leaves_nothing_leads_what_its_members_leave() {
+    let [severe, pitting, exponent] =
+        ["severe_transition", "micropitting", "pressure_exponent"].map(place);
+    let forms = |accepted_forms, own| CandidateEvidence {
+        accepted_forms,
+        ..own
+    };
+    let mut candidates: Vec<CandidateEvidence> = (0..CATALOGUE.len())
+        .filter(|other| ![severe, pitting, exponent].contains(other))
+        .map(|other| candidate(&[other], 1.0, 2.0))
+        .collect();
+    candidates.extend([
+        forms(9, candidate(&[severe, pitting], 190.5, 407.9)),
+        forms(9, candidate(&[severe, pitting], 188.1, 408.0)),
+        forms(9, candidate(&[exponent, severe], 188.9, 328.7)),
+        forms(3, candidate(&[exponent], 163.0, 332.9)),
+        forms(3, candidate(&[severe], 153.7, 325.0)),
+        forms(3, candidate(&[pitting], 137.8, 289.1)),
+    ]);
+    let with = |remainder_gain, own| RemainderEvidence {
+        remainder_gain,
+        remaining_spread: 21.6,
+        ..own
+    };
+    let made = Evidence {
+        attainable_spread: 21.6,
+        beside_unknown: vec![
+            with(6.3, beside(exponent, 14.2, 332.9, 61.3)),
+            with(18.6, beside(pitting, 9.7, 289.1, 109.4)),
+            with(9.9, beside(severe, 8.9, 325.0, 58.3)),
+        ],
+        ..evidence(candidates, 394.9, 127.5)
+    };
+    let decision = decided(&made);
+    let pair = EffectSet::new([CATALOGUE[severe], CATALOGUE[pitting]]);
+    assert!(decision.probability_of(&pair) > 0.5, "{decision:?}");
+    assert_eq!(decision.verdict, Verdict::Ambiguous, "{decision:?}");
+    assert_eq!(decision.group.first(), Some(&Hypothesis::Effects(pair)));
+}
+
 /// Figures like those of a made-up set with a worn coating and a cause of no name: two effects that the data cannot tell apart stand beside something
 /// unknown, or each beside a third that comes near. One of the two is missing in nearly every hypothesis, so this is established.
 #[test]

@@ -39,7 +39,7 @@
 //! effect, effects   p(0) < doubt and p₁ ≥ claim
 //! partial           p(0) < doubt, and what holds the most probable effect beside something unknown (that, the effect alone, and every set
 //!                   with it) ≥ claim, unless its own is at most alike · p₁; or the same of all those beside something unknown that are alike (> alike ·
-//!                   the most probable of them), or all those beside something unknown together: then they are a group
+//!                   the most probable of them), and not of several of them alone, or all those beside something unknown together: then they are a group
 //! unknown           p(u) ≥ Σ and p(u) ≥ p(0), unless what holds the most probable effect beside something unknown is more probable than
 //!                   something unknown alone                   p(u): with all that stands beside something unknown
 //! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone);
@@ -227,6 +227,7 @@ fn verdict(
                 logs.map(|log| log.exp()).sum()
             };
             sum(Hypothesis::EffectsAndUnknown) >= sum(Hypothesis::Effects)
+                && partial >= of_these_alone(logs, effects)
                 && held(logs, effects) >= rule.claim * all
         };
         let is_partial = *p > rule.alike * leading
@@ -293,6 +294,19 @@ fn held(logs: &BTreeMap<Hypothesis, f64>, effects: &[&EffectSet]) -> f64 {
         Hypothesis::NothingMissing | Hypothesis::Unknown => false,
     };
     let all = logs.iter().filter(|(hypothesis, _)| holds(hypothesis));
+    all.map(|(_, log)| log.exp()).sum()
+}
+
+/// The probability of all sets of two and more of `effects`, with nothing beside.
+fn of_these_alone(logs: &BTreeMap<Hypothesis, f64>, effects: &[&EffectSet]) -> f64 {
+    let is_of_these = |set: &EffectSet| {
+        let mut cards = set.cards().iter();
+        set.len() > 1 && cards.all(|&card| effects.contains(&&EffectSet::new([card])))
+    };
+    let all = logs.iter().filter(|(hypothesis, _)| match hypothesis {
+        Hypothesis::Effects(set) => is_of_these(set),
+        _ => false,
+    });
     all.map(|(_, log)| log.exp()).sum()
 }
 
