@@ -26,6 +26,9 @@ const JUDGED: usize = 6;
 /// stand: an effect would have to gain as much over the discrepancy to matter.
 const FAR_BEHIND: f64 = 50.0;
 
+/// Log evidence by which a fit without a discrepancy, once that is added, must be ahead of those beside one for the effect to be fitted from there.
+const OTHER_VALLEY: f64 = 1.0;
+
 /// An effect fitted beside a smooth discrepancy.
 pub(in crate::learn) struct BesideUnknown {
     /// The fit beside the discrepancy.
@@ -78,6 +81,7 @@ impl Context<'_> {
                 }
             }
         };
+        fitted.extend(context.where_it_stood_better(plain, &base, &fitted, alone));
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let mut chosen: Vec<FittedCandidate> = Vec::new();
         for candidate in fitted {
@@ -107,6 +111,29 @@ impl Context<'_> {
             .collect();
         found.sort_by(|a, b| b.gain_over_unknown.total_cmp(&a.gain_over_unknown));
         found
+    }
+
+    /// Effects fitted beside the discrepancy from where their fits without one ended, of those that come first without one: where a discrepancy, added to
+    /// that fit, makes more of it than of all those `fitted` beside one, these have ended in another valley.
+    fn where_it_stood_better(
+        &self,
+        plain: &Likelihood<'_>,
+        base: &BaseFit,
+        fitted: &[FittedCandidate],
+        alone: &[FittedCandidate],
+    ) -> Vec<FittedCandidate> {
+        let leading = best_forms(alone).into_iter().take(JUDGED);
+        let stood_better = |own: &&FittedCandidate| {
+            let there = with_discrepancy(plain, own);
+            let mut others = (fitted.iter())
+                .filter(|other| other.candidate.effects == own.candidate.effects)
+                .map(|other| with_discrepancy(plain, other));
+            others.all(|other| there > other + OTHER_VALLEY)
+        };
+        let leading: Vec<&FittedCandidate> = leading.collect();
+        (leading.into_par_iter().filter(stood_better))
+            .filter_map(|own| self.fitted_from(base, own))
+            .collect()
     }
 
     /// An effect fitted beside the discrepancy of this context, by the model that changes are fitted by, from where its fit without one ended.
@@ -169,20 +196,25 @@ fn decided_without<'f>(
     if remainder_gain(plain, leader) > 0.0 || unknown > bar {
         return None;
     }
-    let mut best_forms: Vec<&FittedCandidate> = Vec::new();
+    let of_leader = |c: &FittedCandidate| leader.candidate.effects.contains(&c.candidate.effects);
+    let near = |c: &FittedCandidate| with_discrepancy(plain, c) > bar;
+    let wanted = (best_forms(alone).into_iter().enumerate())
+        .filter(|(place, c)| of_leader(c) || *place < JUDGED && near(c))
+        .map(|(_, c)| c);
+    Some(wanted.collect())
+}
+
+/// Each single effect in its best form, in the order of `alone`, which is by falling evidence.
+fn best_forms(alone: &[FittedCandidate]) -> Vec<&FittedCandidate> {
+    let mut best: Vec<&FittedCandidate> = Vec::new();
     for fitted in alone {
         let effects = &fitted.candidate.effects;
         let known = |c: &&FittedCandidate| c.candidate.effects == *effects;
-        if effects.single().is_some() && !best_forms.iter().any(known) {
-            best_forms.push(fitted);
+        if effects.single().is_some() && !best.iter().any(known) {
+            best.push(fitted);
         }
     }
-    let of_leader = |c: &FittedCandidate| leader.candidate.effects.contains(&c.candidate.effects);
-    let near = |c: &FittedCandidate| with_discrepancy(plain, c) > bar;
-    let wanted = (best_forms.iter().enumerate())
-        .filter(|(place, c)| of_leader(c) || *place < JUDGED && near(c))
-        .map(|(_, c)| *c);
-    Some(wanted.collect())
+    best
 }
 
 /// All effects; where the leader leaves nothing that a discrepancy would account for, its own and those that come next: no other could stand
@@ -199,13 +231,8 @@ fn worth_fitting(
     if remainder_gain(plain, leader) > 0.0 {
         return all();
     }
-    let mut next: Vec<&EffectSet> = Vec::new();
-    for fitted in alone {
-        let effects = &fitted.candidate.effects;
-        if effects.single().is_some() && next.len() < JUDGED && !next.contains(&effects) {
-            next.push(effects);
-        }
-    }
+    let next = best_forms(alone).into_iter().take(JUDGED);
+    let next: Vec<&EffectSet> = next.map(|c| &c.candidate.effects).collect();
     let wanted = |candidate: &&Candidate| {
         leader.candidate.effects.contains(&candidate.effects) || next.contains(&&candidate.effects)
     };
