@@ -430,6 +430,32 @@ fn a_pair_that_leaves_nothing_leads_what_its_members_leave() {
     assert_eq!(decision.group.first(), Some(&Hypothesis::Effects(pair)));
 }
 
+/// Figures like those of a made-up set with a starved band of the flank, which no effect is: a load of two harmonics with a profile of two waves accounts
+/// for all of it, with eleven parameters and hardly more evidence than a smooth function has. Where a pair is there its evidence is far ahead.
+#[test]
+fn two_free_shapes_are_no_names_for_what_a_smooth_function_follows_as_well() {
+    let [load, profile] = ["dynamic_load", "profile_form"].map(place);
+    let mut singles: Vec<CandidateEvidence> = (0..CATALOGUE.len())
+        .filter(|other| ![load, profile].contains(other))
+        .map(|other| candidate(&[other], 1.0, 2.0))
+        .collect();
+    singles.push(candidate(&[load], 200.0, 420.0));
+    singles.push(candidate(&[profile], 326.7, 669.7));
+    let with = |gain| {
+        let pair = CandidateEvidence {
+            accepted_forms: 6,
+            ..candidate(&[load, profile], gain, 834.9)
+        };
+        let candidates = singles.iter().cloned().chain([pair]).collect();
+        decided(&Evidence {
+            attainable_spread: 25.0,
+            ..evidence(candidates, 826.7, 383.1)
+        })
+    };
+    assert_eq!(with(392.2).verdict, Verdict::Unknown);
+    assert_eq!(with(432.0).verdict, Verdict::Effects);
+}
+
 /// Figures like those of a made-up set with a worn coating and a cause of no name: two effects that the data cannot tell apart stand beside something
 /// unknown, or each beside a third that comes near. One of the two is missing in nearly every hypothesis, so this is established.
 #[test]

@@ -71,11 +71,6 @@ fn second_cause(findings: &Findings<'_>, established: &EffectSet) -> Option<Stri
 pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let posterior = findings.posterior;
     let group = established(findings);
-    let beside = |effects: &EffectSet| {
-        posterior
-            .decision
-            .probability(&Hypothesis::EffectsAndUnknown(effects.clone()))
-    };
     // the hypothesis that is established has the rest beside it: alone the effect would take a part of that too
     let beside_fit = |effects: &EffectSet| {
         let hypothesis = Hypothesis::EffectsAndUnknown(effects.clone());
@@ -109,7 +104,10 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
         }
         _ => {
             let list: Vec<String> = (group.iter())
-                .map(|effects| format!("{effects} ({})", percent(beside(effects))))
+                .map(|effects| {
+                    let probability = posterior.decision.probability_in_all(effects);
+                    format!("{effects} ({})", percent(probability))
+                })
                 .collect();
             format!(
                 "One of these effects is missing, and something else beside it: {}. The base model stands at χ² {:.2} per point.",
@@ -118,10 +116,9 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
             )
         }
     };
-    let mut reasons: Vec<String> = match &group[..] {
-        [effects] => second_cause(findings, effects).into_iter().collect(),
-        _ => Vec::new(),
-    };
+    let leading = group.first();
+    let second = leading.and_then(|effects| second_cause(findings, effects));
+    let mut reasons: Vec<String> = second.into_iter().collect();
     if let Some(remainder) = remainder(findings) {
         reasons.push(format!(
             "What remains beside {} is {} of the attainable reduction of χ² (χ² {:.2} per point is left).",
