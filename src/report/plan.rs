@@ -7,8 +7,9 @@ use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
 use crate::numeric::written::{count, plain, probability, significant};
 
-/// Rows of the table shown on the terminal.
+/// Rows of the table shown on the terminal; of those that separate more than enough only so many, for a thirteenth way to do so helps nobody.
 const SHOWN: usize = 12;
+const MORE_THAN_ENOUGH: usize = 4;
 
 /// The table of tests, and for a campaign every effect.
 pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
@@ -21,9 +22,27 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
         Plan::NextTests(next) => {
             let _ = writeln!(text, "to separate: {}\n", separated(next, study));
             heading(&mut text, "measure", ["χ² mean", "χ² least"]);
-            for row in next.tests.iter().take(SHOWN) {
+            let is_enough = |row: &&RankedTest| least(row) >= ENOUGH;
+            let enough = next.tests.iter().filter(is_enough).count();
+            let shown = if enough > MORE_THAN_ENOUGH {
+                MORE_THAN_ENOUGH
+            } else {
+                SHOWN
+            };
+            for row in next.tests.iter().take(shown) {
                 let figures = [row.expected_chi2, least(row)].map(|chi2| capped(chi2, 4));
                 line(&mut text, &row.test, &row.quantity, figures);
+            }
+            if next.tests.len() > shown {
+                let _ = writeln!(
+                    text,
+                    "  and {} more in plan.csv, {}",
+                    next.tests.len() - shown,
+                    match next.tests[shown..].iter().filter(is_enough).count() {
+                        0 => "which separate less".to_owned(),
+                        more => format!("{more} of which separate as well as these"),
+                    }
+                );
             }
             text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough. Of tests that do nearly as well (within a fifth) those with fewer changes stand first.\n";
             let _ = writeln!(
@@ -332,6 +351,31 @@ mod tests {
         });
         let text = summary("", &plan, "s.toml", Path::new("out"));
         assert!(text.contains("≥ 60 ") && !text.contains("99.89"), "{text}");
+    }
+
+    #[test]
+    fn a_few_of_the_tests_that_are_more_than_enough_are_listed() {
+        let text = |rows: Vec<RankedTest>| {
+            let plan = Plan::NextTests(NextTests {
+                tests: rows,
+                ..next()
+            });
+            summary("", &plan, "s.toml", Path::new("out"))
+        };
+        let enough = text((0..9).map(|_| row(60.0, 70.0, "")).collect());
+        assert_eq!(enough.matches("wear_depth").count(), 4, "{enough}");
+        let more = "and 5 more in plan.csv, 5 of which separate as well as these";
+        assert!(enough.contains(more), "{enough}");
+        let few = text(
+            (0..14)
+                .map(|i| row(30.0, 30.0 - f64::from(i), ""))
+                .collect(),
+        );
+        assert_eq!(few.matches("wear_depth").count(), 12, "{few}");
+        assert!(
+            few.contains("and 2 more in plan.csv, which separate less"),
+            "{few}"
+        );
     }
 
     fn next() -> NextTests {
