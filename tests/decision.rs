@@ -40,6 +40,7 @@ fn beside(place: usize, gain_over_unknown: f64, drop: f64, remaining: f64) -> Re
     RemainderEvidence {
         effects: EffectSet::new([CATALOGUE[place]]),
         identified: true,
+        free_shape: false,
         gain_over_unknown,
         remainder_gain: 0.4 * remaining,
         chi2_drop: drop,
@@ -454,6 +455,26 @@ fn two_free_shapes_are_no_names_for_what_a_smooth_function_follows_as_well() {
     };
     assert_eq!(with(392.2).verdict, Verdict::Unknown);
     assert_eq!(with(432.0).verdict, Verdict::Effects);
+}
+
+/// Figures like those of a made-up set with a starved band of the flank: waves of the profile beside something unknown follow it better than something
+/// unknown alone. Of an effect that has a shape of its own as much evidence is enough.
+#[test]
+fn waves_beside_something_unknown_are_no_name() {
+    let profile = place("profile_form");
+    let with = |free_shape| {
+        let beside_unknown = vec![RemainderEvidence {
+            free_shape,
+            ..beside(profile, 31.2, 703.5, 387.9)
+        }];
+        decided(&Evidence {
+            attainable_spread: 27.9,
+            beside_unknown,
+            ..evidence(vec![candidate(&[profile], 331.0, 703.5)], 1097.7, 402.1)
+        })
+    };
+    assert_eq!(with(true).verdict, Verdict::Unknown);
+    assert_eq!(with(false).verdict, Verdict::Partial);
 }
 
 /// Figures like those of a made-up set with a worn coating and a cause of no name: two effects that the data cannot tell apart stand beside something

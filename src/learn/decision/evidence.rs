@@ -29,6 +29,9 @@ pub struct RemainderEvidence {
     pub effects: EffectSet,
     /// Whether the data determine the parameter by which the effect is known.
     pub identified: bool,
+    /// Whether it is a sum of waves along the flank, which follows whatever is smooth there.
+    #[serde(default)]
+    pub free_shape: bool,
     /// ln Z(effect and discrepancy) − ln Z(discrepancy alone).
     pub gain_over_unknown: f64,
     /// ln Z(effect and discrepancy) − ln Z(effect).

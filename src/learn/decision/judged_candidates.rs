@@ -116,6 +116,7 @@ fn remainder(likelihood: &Likelihood<'_>, beside: &BesideUnknown) -> RemainderEv
     RemainderEvidence {
         effects: beside.fitted.candidate.effects.clone(),
         identified: unidentified(likelihood, &beside.fitted).is_none(),
+        free_shape: beside.fitted.candidate.is_free_shape(),
         gain_over_unknown: beside.gain_over_unknown,
         remainder_gain: beside.remainder_gain,
         chi2_drop: beside.chi2_drop,

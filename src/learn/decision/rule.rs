@@ -56,6 +56,9 @@ pub struct DecisionRule {
     /// Odds of another cause of the same pattern where the data do not determine the parameter that an effect is known by: neither is then
     /// to be named.
     pub unidentified_odds: f64,
+    /// Odds of another cause of the same pattern where a sum of waves along the flank stands beside something unknown: six of the ten outer causes of the
+    /// series act by the place on the flank, and one effect in twenty-seven is such a sum.
+    pub free_shape_odds: f64,
     /// Prior odds of one effect beside something unknown, shared evenly among the single effects, to something unknown alone.
     pub remainder_odds: f64,
     /// Share of what an effect and the remainder bring together from which the remainder is more than another form of the effect leaves.
@@ -91,6 +94,7 @@ impl Default for DecisionRule {
             unheard_of: 6.0,
             unheard_of_width: 0.3,
             unidentified_odds: 0.5,
+            free_shape_odds: 4.0,
             remainder_odds: 0.5,
             remainder_share: 0.08,
             remainder_share_width: 0.012,

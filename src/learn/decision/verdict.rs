@@ -30,7 +30,7 @@
 //!
 //! ```text
 //! v(R) = exp(Δ ln Z_R/T) o_R/n                  Δ ln Z_R: over that of the discrepancy alone
-//! unknown: W/(1 + Σ v),  R and unknown: W v/(1 + Σ v)          of which S(−w) is unknown's, and o/(1 + o) if R is not identified
+//! unknown: W/(1 + Σ v),  R and unknown: W v/(1 + Σ v)          of which S(−w) is unknown's, and o/(1 + o) if R is not identified or a free shape
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
 //! With p(0), p(u), and the effects' p of which p₁ is the largest and Σ the sum, the first that holds is the verdict:
@@ -447,6 +447,9 @@ fn share_with_remainders(
         let mut other = log_odds_unheard_of(r.prior_distance, rule);
         if !r.identified {
             other = either(other, rule.unidentified_odds.ln());
+        }
+        if r.free_shape {
+            other = either(other, rule.free_shape_odds.ln());
         }
         let of_other = beside[0] - softplus(-other);
         beside[0] -= softplus(other);

@@ -202,10 +202,13 @@ impl Candidate {
     /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
     /// corners with which a tooth's neighbours touch where it stands back, nor anything across the face.
     pub(in crate::learn) fn may_be_unseen(&self) -> bool {
-        let cards = self.effects.cards();
-        let all = |hook: Hook| cards.iter().all(|card| card.hook == hook);
-        let waves = !self.quarters.is_empty() && all(Hook::Profile);
-        waves || self.acts_on_single_teeth() || self.acts_across_the_face()
+        self.is_free_shape() || self.acts_on_single_teeth() || self.acts_across_the_face()
+    }
+
+    /// Whether it is a sum of waves along the flank, which follows whatever is smooth there.
+    pub(in crate::learn) fn is_free_shape(&self) -> bool {
+        let mut cards = self.effects.cards().iter();
+        !self.quarters.is_empty() && cards.all(|card| card.hook == Hook::Profile)
     }
 
     /// Whether it moves single teeth from their places alone.

@@ -67,3 +67,24 @@ fn check(name: &str, value: f64, limit: f64) -> Check {
         unit: "-".to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_failed_is_named_with_its_size_and_what_helps() {
+        let failed = vec![
+            check(WORN_AREA, 0.013, BALANCE_LIMIT),
+            check("penetration over approach", 2e-3, PENETRATION_LIMIT),
+        ];
+        let text = RunError::Unsound(failed).to_string();
+        for part in [
+            "worn area, law against geometry is off by 1.30e-2 (at most 5e-3 passes): a smaller numerics.step_tolerance",
+            "penetration over approach is off by 2.00e-3 (at most 1e-3 passes): more numerics.elements_per_half_width",
+            "is not written",
+        ] {
+            assert!(text.contains(part), "{text}");
+        }
+    }
+}

@@ -193,3 +193,23 @@ impl Challenge {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_with_a_value_too_few_is_refused() {
+        let whole = &FILES[0];
+        let mut truth: serde_json::Value = serde_json::from_str(whole.truth).unwrap();
+        truth["noise_free"].as_array_mut().unwrap().pop();
+        let text: &'static str = truth.to_string().leak();
+        let short = Files {
+            truth: text,
+            ..*whole
+        };
+        let error = Challenge::read(&short).unwrap_err();
+        assert!(matches!(error, ChallengeError::Uneven { rows, values, .. } if values + 1 == rows));
+        assert!(Challenge::read(whole).is_ok());
+    }
+}
