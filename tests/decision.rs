@@ -42,6 +42,8 @@ fn beside(place: usize, gain_over_unknown: f64, drop: f64, remaining: f64) -> Re
         identified: true,
         free_shape: false,
         gain_over_unknown,
+        gain_with_one: None,
+        gain_with_any: None,
         remainder_gain: 0.4 * remaining,
         chi2_drop: drop,
         remaining_drop: remaining,
@@ -475,6 +477,43 @@ fn waves_beside_something_unknown_are_no_name() {
     };
     assert_eq!(with(true).verdict, Verdict::Unknown);
     assert_eq!(with(false).verdict, Verdict::Partial);
+}
+
+/// Figures like those of a made-up set with an ageing lubricant and a scuff that grows, which no effect is. With the discrepancy that is most probable
+/// without an effect, a soft layer gains most, with every discrepancy ageing gains as much: neither is ruled out.
+#[test]
+fn names_beside_something_unknown_are_shared_by_both_figures() {
+    let [layer, ageing] = ["surface_layer", "lubricant_ageing"].map(place);
+    let with = |place, one: f64, any: f64| RemainderEvidence {
+        gain_with_one: Some(one),
+        gain_with_any: Some(any),
+        ..beside(place, one.min(any), 1200.0, 490.0)
+    };
+    let by = |ageing_with_any| {
+        decided(&Evidence {
+            attainable_spread: 25.0,
+            beside_unknown: vec![
+                with(layer, 37.6, 111.4),
+                with(ageing, 23.6, ageing_with_any),
+            ],
+            ..evidence(
+                vec![
+                    candidate(&[layer], 600.0, 1200.0),
+                    candidate(&[ageing], 580.0, 1160.0),
+                ],
+                1690.0,
+                700.0,
+            )
+        })
+    };
+    let of = |place: usize| Hypothesis::EffectsAndUnknown(EffectSet::new([CATALOGUE[place]]));
+    let decision = by(112.4);
+    assert_eq!(decision.verdict, Verdict::Partial, "{decision:?}");
+    assert_eq!(decision.group, [of(layer), of(ageing)]);
+    let probability = decision.probability(&of(ageing));
+    assert!((probability - 0.318).abs() < 0.01, "{probability}");
+    // where both figures are against it, it is not in the group
+    assert_eq!(by(90.0).group, [of(layer)]);
 }
 
 /// Figures like those of a made-up set with a worn coating and a cause of no name: two effects that the data cannot tell apart stand beside something

@@ -32,8 +32,14 @@ pub struct RemainderEvidence {
     /// Whether it is a sum of waves along the flank, which follows whatever is smooth there.
     #[serde(default)]
     pub free_shape: bool,
-    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone).
+    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone): the smaller of the two below.
     pub gain_over_unknown: f64,
+    /// The same with the discrepancy that is most probable without the effect; None in documents of older programs.
+    #[serde(default)]
+    pub gain_with_one: Option<f64>,
+    /// The same with every kind and size of discrepancy.
+    #[serde(default)]
+    pub gain_with_any: Option<f64>,
     /// ln Z(effect and discrepancy) − ln Z(effect).
     pub remainder_gain: f64,
     /// Fall of χ² by the effect alone.

@@ -30,9 +30,13 @@
 //!
 //! ```text
 //! v(R) = exp(Δ ln Z_R/T) o_R/n                  Δ ln Z_R: over that of the discrepancy alone
-//! unknown: W/(1 + Σ v),  R and unknown: W v/(1 + Σ v)          of which S(−w) is unknown's, and o/(1 + o) if R is not identified or a free shape
+//! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which S(−w) is unknown's, and o/(1 + o) if R is not identified or a free shape
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
+//! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
+//! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
+//! R among the named is the mean of what both give, e^(Δ ln Z_R/T) over its sum, where both are above 0.
+//!
 //! With p(0), p(u), and the effects' p of which p₁ is the largest and Σ the sum, the first that holds is the verdict:
 //!
 //! ```text
@@ -435,14 +439,14 @@ fn share_with_remainders(
     let odds = |r: &RemainderEvidence| {
         r.gain_over_unknown / rule.temper + (rule.remainder_odds / singles).ln()
     };
-    let all: Vec<f64> = std::iter::once(0.0)
-        .chain(remainders.iter().map(|r| odds(r)))
-        .collect();
-    let total = log_sum_exp(&all);
+    let named: Vec<f64> = remainders.iter().map(|r| odds(r)).collect();
+    let named = log_sum_exp(&named);
+    let total = softplus(named);
+    let shares = shares_of_remainders(&remainders, rule);
     let unknown = logs[&Hypothesis::Unknown];
     logs.insert(Hypothesis::Unknown, unknown - total);
-    for r in remainders {
-        let mut beside = vec![unknown + odds(r) - total];
+    for (r, share) in remainders.into_iter().zip(shares) {
+        let mut beside = vec![unknown + named - total + share];
         // another cause of the same pattern is unknown
         let mut other = log_odds_unheard_of(r.prior_distance, rule);
         if !r.identified {
@@ -466,6 +470,28 @@ fn share_with_remainders(
         let beside = log_sum_exp(&beside);
         logs.insert(Hypothesis::EffectsAndUnknown(r.effects.clone()), beside);
     }
+}
+
+/// ln of each effect's share of what all of them beside something unknown have: the mean of its shares by the two figures of what it gains, if both
+/// speak for it; else by the smaller one.
+fn shares_of_remainders(remainders: &[&RemainderEvidence], rule: &DecisionRule) -> Vec<f64> {
+    let by = |gain: fn(&RemainderEvidence) -> f64| -> Vec<f64> {
+        let of = |r: &&RemainderEvidence| {
+            let gain = if r.gain_over_unknown > 0.0 {
+                gain(r)
+            } else {
+                r.gain_over_unknown
+            };
+            gain / rule.temper
+        };
+        let logs: Vec<f64> = remainders.iter().map(of).collect();
+        let all = log_sum_exp(&logs);
+        logs.into_iter().map(|log| log - all).collect()
+    };
+    let with_one = by(|r| r.gain_with_one.unwrap_or(r.gain_over_unknown));
+    let with_any = by(|r| r.gain_with_any.unwrap_or(r.gain_over_unknown));
+    let mean = |(one, any): (f64, f64)| log_sum_exp(&[one, any]) - std::f64::consts::LN_2;
+    with_one.into_iter().zip(with_any).map(mean).collect()
 }
 
 /// The candidates in an order that does not depend on theirs, so that sums are the same to the last bit.

@@ -33,14 +33,23 @@ const OTHER_VALLEY: f64 = 1.0;
 pub(in crate::learn) struct BesideUnknown {
     /// The fit beside the discrepancy.
     pub(in crate::learn) fitted: FittedCandidate,
-    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone).
-    pub(in crate::learn) gain_over_unknown: f64,
+    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone), with the discrepancy that is most probable without the effect.
+    pub(in crate::learn) gain_with_one: f64,
+    /// The same with every kind and size of discrepancy.
+    pub(in crate::learn) gain_with_any: f64,
     /// ln Z(effect and discrepancy) − ln Z(effect), the effect fitted without.
     pub(in crate::learn) remainder_gain: f64,
     /// Fall of χ² by the effect without the discrepancy.
     pub(in crate::learn) chi2_drop: f64,
     /// What anything smooth could still bring once the effect is in.
     pub(in crate::learn) remaining: SmoothDiscrepancy,
+}
+
+impl BesideUnknown {
+    /// ln Z(effect and discrepancy) − ln Z(discrepancy alone): what both figures grant.
+    pub(in crate::learn) fn gain_over_unknown(&self) -> f64 {
+        self.gain_with_one.min(self.gain_with_any)
+    }
 }
 
 impl Context<'_> {
@@ -100,8 +109,8 @@ impl Context<'_> {
                 let remaining =
                     SmoothDiscrepancy::of(plain, &without.found.model).gaining(remainder_gain);
                 Some(BesideUnknown {
-                    gain_over_unknown: (with_discrepancy(plain, &fitted) - unknown)
-                        .min(fitted.log_evidence - base.fitted.log_evidence),
+                    gain_with_one: fitted.log_evidence - base.fitted.log_evidence,
+                    gain_with_any: with_discrepancy(plain, &fitted) - unknown,
                     remainder_gain,
                     chi2_drop: before - without.square,
                     remaining,
@@ -109,7 +118,7 @@ impl Context<'_> {
                 })
             })
             .collect();
-        found.sort_by(|a, b| b.gain_over_unknown.total_cmp(&a.gain_over_unknown));
+        found.sort_by(|a, b| b.gain_over_unknown().total_cmp(&a.gain_over_unknown()));
         found
     }
 
