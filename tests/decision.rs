@@ -21,7 +21,6 @@ fn candidate(places: &[usize], gain: f64, drop: f64) -> CandidateEvidence {
         identified: true,
         evidence_gain: gain,
         chi2_drop: drop,
-        prior_distance: 0.0,
     }
 }
 
@@ -48,7 +47,6 @@ fn beside(place: usize, gain_over_unknown: f64, drop: f64, remaining: f64) -> Re
         chi2_drop: drop,
         remaining_drop: remaining,
         remaining_spread: 6.0,
-        prior_distance: 0.0,
     }
 }
 
@@ -248,24 +246,6 @@ fn each_verdict_has_its_evidence() {
         decided(&evidence(pair, 2000.0, 850.0)).verdict,
         Verdict::Effects
     );
-    // nor is one that explains all with a size that no gear has had, alone or beside something unknown
-    let of_size = |prior_distance| {
-        let own = place("debris_abrasion");
-        let candidates = vec![CandidateEvidence {
-            prior_distance,
-            ..candidate(&[own], 900.0, 1990.0)
-        }];
-        let beside_unknown = vec![RemainderEvidence {
-            prior_distance,
-            ..beside(own, 50.0, 1990.0, 10.0)
-        }];
-        decided(&Evidence {
-            beside_unknown,
-            ..evidence(candidates, 2000.0, 850.0)
-        })
-    };
-    assert_eq!(of_size(3.8).verdict, Verdict::Effect);
-    assert_eq!(of_size(8.0).verdict, Verdict::Unknown);
     // an effect known by a speed that the data do not determine stays beside the unknown
     let unidentified = CandidateEvidence {
         identified: false,

@@ -35,27 +35,6 @@ pub(in crate::learn) fn regained(
     more.min((0.5 * fall - least_loss - gain).max(0.0))
 }
 
-/// How far a fit lies outside what the catalogue knows, in prior standard deviations: the largest over its added parameters. A strength counts only
-/// where it is larger than the catalogue expects, for a weak effect is nothing strange.
-pub(in crate::learn) fn distance(candidate: &Candidate, state: &State) -> f64 {
-    let added = (candidate.parameters.iter().zip(&state.theta)).skip(candidate.inherited);
-    let of_each = added.zip(candidate.neutrals());
-    let all = of_each.map(|((parameter, &natural), neutral)| beyond(parameter, natural, neutral));
-    all.fold(0.0, f64::max)
-}
-
-/// Prior standard deviations from the mean to `natural`; 0 of a strength between its mean and none, its value `neutral`.
-fn beyond(parameter: &Parameter, natural: f64, neutral: Option<f64>) -> f64 {
-    let prior = parameter.natural_prior();
-    let none = neutral.map(|none| parameter.natural(none));
-    let is_weak = none.is_some_and(|none| (natural - none) * (natural - prior.mean) < 0.0);
-    if is_weak {
-        0.0
-    } else {
-        (natural - prior.mean).abs() * prior.precision.sqrt()
-    }
-}
-
 /// ln p/p_catalogue of one strength at `natural`, which does nothing at the value `neutral`.
 fn more(parameter: &Parameter, natural: f64, neutral: f64) -> f64 {
     let (prior, none) = (parameter.natural_prior(), parameter.natural(neutral));
@@ -72,21 +51,6 @@ fn more(parameter: &Parameter, natural: f64, neutral: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::effects::find;
-
-    #[test]
-    fn only_what_is_stronger_than_known_lies_far_from_it() {
-        let of = |name: &str, neutral: f64, sds: f64| {
-            let parameter = Parameter::of_card(name, &find(name).unwrap().params[0]);
-            let prior = parameter.natural_prior();
-            beyond(&parameter, prior.mean + sds * prior.scale(), Some(neutral))
-        };
-        assert_eq!(of("debris_abrasion", 0.0, -7.0), 0.0);
-        assert!((of("debris_abrasion", 0.0, 8.0) - 8.0).abs() < 1e-12);
-        // of either sign, about no effect
-        for sds in [-4.0, 4.0] {
-            assert!((of("member_hardness", 0.0, sds) - 4.0).abs() < 1e-12);
-        }
-    }
 
     /// A coating that is 8.5 ± 1.2 % harder than its base where ten times is usual: the integral of likelihood times prior, by sums over the
     /// whole of both halves, against what a fit under the catalogue's prior gives and `more`.

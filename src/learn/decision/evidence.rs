@@ -48,9 +48,6 @@ pub struct RemainderEvidence {
     pub remaining_drop: f64,
     /// Standard deviation of that on noise alone.
     pub remaining_spread: f64,
-    /// Prior standard deviations by which a parameter lies outside what the catalogue knows.
-    #[serde(default)]
-    pub prior_distance: f64,
 }
 
 impl RemainderEvidence {
@@ -73,9 +70,6 @@ pub struct CandidateEvidence {
     pub evidence_gain: f64,
     /// Fall of the whole χ² against the base model.
     pub chi2_drop: f64,
-    /// Prior standard deviations by which a parameter lies outside what the catalogue knows; 0 in documents of older programs.
-    #[serde(default)]
-    pub prior_distance: f64,
 }
 
 impl Evidence {

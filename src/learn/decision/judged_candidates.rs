@@ -5,7 +5,6 @@ use super::rule::DecisionRule;
 use super::verdict::{Decision, decide};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
-use crate::learn::candidates::strength_prior;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -42,7 +41,6 @@ impl JudgedCandidates {
             identified: unidentified(likelihood, fitted).is_none(),
             evidence_gain: fitted.log_evidence - base.log_evidence,
             chi2_drop: base.square - fitted.square,
-            prior_distance: distance(fitted),
         };
         let evidence = Evidence {
             candidates: candidates.iter().map(figures).collect(),
@@ -124,10 +122,5 @@ fn remainder(likelihood: &Likelihood<'_>, beside: &BesideUnknown) -> RemainderEv
         chi2_drop: beside.chi2_drop,
         remaining_drop: beside.remaining.drop,
         remaining_spread: beside.remaining.spread(),
-        prior_distance: distance(&beside.fitted),
     }
-}
-
-fn distance(fitted: &FittedCandidate) -> f64 {
-    strength_prior::distance(&fitted.candidate, &fitted.found.state)
 }

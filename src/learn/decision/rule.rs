@@ -48,11 +48,6 @@ pub struct DecisionRule {
     pub second_share: f64,
     /// Its width.
     pub second_share_width: f64,
-    /// Prior standard deviations from which a value that fits is as likely another cause's of the same pattern. Right names need
-    /// up to 4.6 in the series (forms of other laws); a humidity cycle that was taken for debris needed 8.
-    pub unheard_of: f64,
-    /// Its width.
-    pub unheard_of_width: f64,
     /// Odds of another cause of the same pattern where the data do not determine the parameter that an effect is known by: neither is then
     /// to be named.
     pub unidentified_odds: f64,
@@ -91,8 +86,6 @@ impl Default for DecisionRule {
             pair_share_spreads: 1.5,
             second_share: 0.10,
             second_share_width: 0.012,
-            unheard_of: 6.0,
-            unheard_of_width: 0.3,
             unidentified_odds: 0.5,
             free_shape_odds: 4.0,
             remainder_odds: 0.5,

@@ -8,7 +8,6 @@
 //! s(c) = Δχ²_c/A,  δ = sd(A)/max(A, 1)          A: attainable fall of χ²; s = 1 if A < 5 sd(A)
 //! x(c) = (s_min − s(c) − m δ)/width             ln odds that such a share is not the missing effect's own; of a single effect at most
 //!        max(0, ln Z_R(c) − ln Z_c − r)         R(c): the same beside a discrepancy. Evidence that denies a remainder leaves even odds
-//!        and where a parameter lies z prior sds outside what the catalogue knows: ln(eˣ + e^w + e^(x+w)), w = (z − z_max)/width
 //! y(c) = (r_min − r(c))/width                   for pairs: r the fall of χ² added to the stronger effect's alone, over that fall
 //! S(x) = 1/(1 + eˣ)
 //!
@@ -30,7 +29,7 @@
 //!
 //! ```text
 //! v(R) = exp(Δ ln Z_R/T) o_R/n                  Δ ln Z_R: over that of the discrepancy alone
-//! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which S(−w) is unknown's, and o/(1 + o) if R is not identified or a free shape
+//! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which o/(1 + o) is unknown's if R is not identified or a free shape
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
@@ -371,7 +370,6 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
                 (rule.pair_share - share - rule.pair_share_spreads * doubt) / rule.pair_share_width
             }
         };
-        let odds = either(odds, log_odds_unheard_of(c.prior_distance, rule));
         let own = Hypothesis::Effects(c.effects.clone());
         match stronger_alone(&candidates, c) {
             Some((stronger, second)) => {
@@ -409,16 +407,6 @@ fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypot
         .collect()
 }
 
-/// ln odds that what a fit so far outside of what the catalogue knows explains is another cause's.
-fn log_odds_unheard_of(prior_distance: f64, rule: &DecisionRule) -> f64 {
-    (prior_distance - rule.unheard_of) / rule.unheard_of_width
-}
-
-/// ln odds that at least one of two independent objections holds, of the ln odds of each.
-fn either(a: f64, b: f64) -> f64 {
-    log_sum_exp(&[a, b, a + b])
-}
-
 /// ln evidence for a remainder beside a form of a single effect, where one that leaves as much or more was fitted beside a discrepancy.
 fn remainder_gain(evidence: &Evidence, c: &CandidateEvidence) -> Option<f64> {
     let mut fitted = evidence.beside_unknown.iter();
@@ -447,18 +435,17 @@ fn share_with_remainders(
     logs.insert(Hypothesis::Unknown, unknown - total);
     for (r, share) in remainders.into_iter().zip(shares) {
         let mut beside = vec![unknown + named - total + share];
-        // another cause of the same pattern is unknown
-        let mut other = log_odds_unheard_of(r.prior_distance, rule);
-        if !r.identified {
-            other = either(other, rule.unidentified_odds.ln());
+        let objections = [
+            (!r.identified, rule.unidentified_odds),
+            (r.free_shape, rule.free_shape_odds),
+        ];
+        for (_, odds) in objections.into_iter().filter(|(holds, _)| *holds) {
+            // another cause of the same pattern is as good, and unknown
+            let of_other = beside[0] - softplus(-odds.ln());
+            beside[0] -= softplus(odds.ln());
+            let unknown = log_sum_exp(&[logs[&Hypothesis::Unknown], of_other]);
+            logs.insert(Hypothesis::Unknown, unknown);
         }
-        if r.free_shape {
-            other = either(other, rule.free_shape_odds.ln());
-        }
-        let of_other = beside[0] - softplus(-other);
-        beside[0] -= softplus(other);
-        let unknown = log_sum_exp(&[logs[&Hypothesis::Unknown], of_other]);
-        logs.insert(Hypothesis::Unknown, unknown);
         if let Some(alone) = logs.get_mut(&Hypothesis::Effects(r.effects.clone()))
             && r.is_remaining()
         {

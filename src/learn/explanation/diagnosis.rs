@@ -112,8 +112,6 @@ pub struct Screened {
     pub evidence_gain: f64,
     /// Fall of the whole χ² against the base model.
     pub chi2_drop: f64,
-    /// Prior standard deviations by which a parameter lies outside what the catalogue knows.
-    pub prior_distance: f64,
     /// Whether the deciding model was used.
     pub decided: bool,
     /// Whether it was fitted to the end; what a first look leaves far behind is not, and its χ² is that of the look.
@@ -233,7 +231,6 @@ fn screened(context: &Context<'_>, posterior: &JudgedCandidates) -> Vec<Screened
         identified: figures.identified,
         evidence_gain: figures.evidence_gain,
         chi2_drop: figures.chi2_drop,
-        prior_distance: figures.prior_distance,
         decided: fitted.fidelity == context.fidelity,
         converged: fitted.found.converged,
         values: parameters(fitted).iter().map(|p| p.value).collect(),

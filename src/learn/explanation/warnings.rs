@@ -3,7 +3,6 @@
 use super::ranked::parameters;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
-use crate::learn::candidates::strength_prior;
 use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
@@ -158,9 +157,7 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
             Verdict::Partial => decision.probability_in_all(&leader.candidate.effects),
             _ => decision.probability(&leader.candidate.hypothesis()),
         };
-        let is_outside = strength_prior::distance(&leader.candidate, &leader.found.state)
-            > posterior.rule.unheard_of;
-        if probability > 0.5 || decision.verdict == Verdict::Unknown && is_outside {
+        if probability > 0.5 {
             warnings.extend(unheard_of(leader));
         }
     }
