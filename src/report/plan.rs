@@ -7,8 +7,9 @@ use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
 use crate::numeric::written::{count, plain, probability, significant};
 
-/// Rows of the table shown on the terminal; of those that separate more than enough only so many, for a thirteenth way to do so helps nobody.
+/// Rows of the table shown on the terminal.
 const SHOWN: usize = 12;
+/// The same where more tests than these separate more than enough.
 const MORE_THAN_ENOUGH: usize = 4;
 
 /// The table of tests, and for a campaign every effect.

@@ -2,6 +2,7 @@
 
 mod evidence;
 pub(in crate::learn) mod judged_candidates;
+mod posterior;
 mod rule;
 mod verdict;
 

@@ -52,7 +52,7 @@ pub struct DecisionRule {
     /// to be named.
     pub unidentified_odds: f64,
     /// Odds of another cause of the same pattern where a sum of waves along the flank stands beside something unknown: six of the ten outer causes of the
-    /// series act by the place on the flank, and one effect in twenty-seven is such a sum.
+    /// series act by the place on the flank, and one effect of the catalogue's 32 is such a sum.
     pub free_shape_odds: f64,
     /// Prior odds of one effect beside something unknown, shared evenly among the single effects, to something unknown alone.
     pub remainder_odds: f64,

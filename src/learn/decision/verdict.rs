@@ -1,40 +1,4 @@
-//! From evidence to probabilities and a verdict.
-//!
-//! Candidates c are the fitted forms of effects and pairs. All log evidence is over the base model's.
-//!
-//! ```text
-//! q(c) = exp(Δ ln Z_c) π_c/forms_c              π_c: prior of singles (pairs) over the number of single effects (pairs)
-//! t(c) = q* (q(c)/q*)^(1/T)                     q* the largest q
-//! s(c) = Δχ²_c/A,  δ = sd(A)/max(A, 1)          A: attainable fall of χ²; s = 1 if A < 5 sd(A)
-//! x(c) = (s_min − s(c) − m δ)/width             ln odds that such a share is not the missing effect's own; of a single effect at most
-//!        max(0, ln Z_R(c) − ln Z_c − r)         R(c): the same beside a discrepancy. Evidence that denies a remainder leaves even odds
-//! y(c) = (r_min − r(c))/width                   for pairs: r the fall of χ² added to the stronger effect's alone, over that fall
-//! S(x) = 1/(1 + eˣ)
-//!
-//! weight of   nothing_missing     π_0
-//!             a single effect     Σ_forms t S(x)              + Σ_pairs of which it is the stronger t S(x) S(−y)
-//!             a pair              Σ_forms t S(x) S(y)
-//!             unknown             W + Σ_c not identified t S(x) o             W: Σ_c t S(−x) + min(u, cap)
-//! u = Z_GP/Z_base e^offset π_u,     ln cap = ln t* + max(x*, Δ ln Z_GP − Δ ln Z*)          *: the candidate with the largest t; of a pair
-//!                                   max(x*, ln u − ln q*)                                no cap where nothing smooth is missed
-//! ```
-//! A free discrepancy follows what remains of an effect in another form too. It counts only as far as the leader's share leaves room
-//! for it, or its evidence exceeds the leader's: effects that were really there never let that happen (97 of 99 sets gained at least 1.8
-//! more; the other two had not been found). Pairs are held against it with their priors: two effects of wavelike shapes follow anything smooth as well as
-//! it does (a starved band gave 9 of log evidence to a load and a profile of two waves each; pairs that were really there gained 49 and more).
-//!
-//! W, which is not the effects' own, is shared between something unknown alone and effects beside something unknown, and where an effect
-//! leaves more than a tolerance of its form explains, so is what is its own (R: what the effects brought fitted beside a discrepancy,
-//! `n` single effects, r the share of all that is left once the effect is in, if that is more than noise):
-//!
-//! ```text
-//! v(R) = exp(Δ ln Z_R/T) o_R/n                  Δ ln Z_R: over that of the discrepancy alone
-//! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which o/(1 + o) is unknown's if R is not identified or a free shape
-//! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
-//! ```
-//! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
-//! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
-//! R among the named is the mean of what both give, e^(Δ ln Z_R/T) over its sum, where both are above 0.
+//! From probabilities to a verdict.
 //!
 //! With p(0), p(u), and the effects' p of which p₁ is the largest and Σ the sum, the first that holds is the verdict:
 //!
@@ -50,17 +14,14 @@
 //!                   if that exception holds, the effect beside something unknown and something unknown alone
 //! ```
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::evidence::{CandidateEvidence, Evidence, RemainderEvidence};
+use super::evidence::{CandidateEvidence, Evidence};
+use super::posterior::log_probabilities;
 use super::rule::DecisionRule;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
-use crate::numeric::logarithm::{log_sum_exp, softplus};
-
-/// Fall of χ² by which another form of an effect may be behind and leave as much.
-const LEAVES_AS_MUCH: f64 = 1.0;
 
 /// What is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -327,187 +288,6 @@ fn with_remainder<'e>(
         .collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(b.0)));
     all
-}
-
-/// Posterior probabilities of all hypotheses.
-fn log_probabilities(evidence: &Evidence, rule: &DecisionRule) -> BTreeMap<Hypothesis, f64> {
-    let candidates = sorted(evidence);
-    let singles: BTreeSet<&'static str> = (candidates.iter())
-        .filter_map(|c| Some(c.effects.single()?.name))
-        .collect();
-    let count = singles.len().max(1) as f64;
-    let pairs = (0.5 * count * (count - 1.0)).max(1.0);
-    let log_posterior = |c: &CandidateEvidence| {
-        let prior = match c.effects.single() {
-            Some(_) => rule.prior_singles / count,
-            None => rule.prior_pairs / pairs,
-        };
-        c.evidence_gain + (prior / c.accepted_forms as f64).ln()
-    };
-    let most = (candidates.iter().map(|c| log_posterior(c))).fold(f64::NEG_INFINITY, f64::max);
-    let doubt = evidence.attainable_spread / evidence.attainable_drop.max(1.0);
-    let unknown = evidence.unknown_evidence_gain;
-    let alone = unknown + rule.unknown_offset + rule.prior_unknown.ln();
-    let mut logs: BTreeMap<Hypothesis, Vec<f64>> = BTreeMap::new();
-    let mut add = |hypothesis, log| logs.entry(hypothesis).or_default().push(log);
-    add(Hypothesis::NothingMissing, rule.prior_nothing.ln());
-    // of the same pattern as an effect: not shared with that effect beside something else
-    let mut other_causes = vec![f64::NEG_INFINITY];
-    let (mut leading, mut cap) = (f64::NEG_INFINITY, f64::INFINITY);
-    for c in &candidates {
-        let log = most - (most - log_posterior(c)) / rule.temper;
-        let share = evidence.share(c);
-        let odds = match c.effects.single() {
-            Some(_) => {
-                let odds = (rule.single_share - share - rule.single_share_spreads * doubt)
-                    / rule.single_share_width;
-                match remainder_gain(evidence, c) {
-                    Some(gain) => odds.min((gain - rule.remainder_denied).max(0.0)),
-                    None => odds,
-                }
-            }
-            None => {
-                (rule.pair_share - share - rule.pair_share_spreads * doubt) / rule.pair_share_width
-            }
-        };
-        let own = Hypothesis::Effects(c.effects.clone());
-        match stronger_alone(&candidates, c) {
-            Some((stronger, second)) => {
-                let mends = (rule.second_share - second) / rule.second_share_width;
-                add(own, log - softplus(odds) - softplus(mends));
-                let stronger = Hypothesis::Effects(stronger.clone());
-                add(stronger, log - softplus(odds) - softplus(-mends));
-            }
-            None => add(own, log - softplus(odds)),
-        }
-        add(Hypothesis::Unknown, log - softplus(-odds));
-        if !c.identified {
-            other_causes.push(log - softplus(odds) + rule.unidentified_odds.ln());
-        }
-        if evidence.is_discrepant() && log > leading {
-            leading = log;
-            let ahead = match c.effects.single() {
-                Some(_) => unknown - c.evidence_gain,
-                None => alone - log_posterior(c),
-            };
-            cap = log + odds.max(ahead);
-        }
-    }
-    add(Hypothesis::Unknown, alone.min(cap));
-    let mut logs: BTreeMap<Hypothesis, f64> = (logs.into_iter())
-        .map(|(hypothesis, logs)| (hypothesis, log_sum_exp(&logs)))
-        .collect();
-    share_with_remainders(&mut logs, evidence, rule, count);
-    let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
-    logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
-    let all: Vec<f64> = logs.values().copied().collect();
-    let total = log_sum_exp(&all);
-    (logs.into_iter())
-        .map(|(hypothesis, log)| (hypothesis, log - total))
-        .collect()
-}
-
-/// ln evidence for a remainder beside a form of a single effect, where one that leaves as much or more was fitted beside a discrepancy.
-fn remainder_gain(evidence: &Evidence, c: &CandidateEvidence) -> Option<f64> {
-    let mut fitted = evidence.beside_unknown.iter();
-    let own =
-        fitted.find(|r| r.effects == c.effects && r.chi2_drop <= c.chi2_drop + LEAVES_AS_MUCH);
-    own.map(|r| r.remainder_gain)
-}
-
-/// Shares the weight of the unknown, and of effects that leave something, with effects beside something unknown.
-fn share_with_remainders(
-    logs: &mut BTreeMap<Hypothesis, f64>,
-    evidence: &Evidence,
-    rule: &DecisionRule,
-    singles: f64,
-) {
-    let mut remainders: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
-    remainders.sort_by(|a, b| a.effects.cmp(&b.effects));
-    let odds = |r: &RemainderEvidence| {
-        r.gain_over_unknown / rule.temper + (rule.remainder_odds / singles).ln()
-    };
-    let named: Vec<f64> = remainders.iter().map(|r| odds(r)).collect();
-    let named = log_sum_exp(&named);
-    let total = softplus(named);
-    let shares = shares_of_remainders(&remainders, rule);
-    let unknown = logs[&Hypothesis::Unknown];
-    logs.insert(Hypothesis::Unknown, unknown - total);
-    for (r, share) in remainders.into_iter().zip(shares) {
-        let mut beside = vec![unknown + named - total + share];
-        let objections = [
-            (!r.identified, rule.unidentified_odds),
-            (r.free_shape, rule.free_shape_odds),
-        ];
-        for (_, odds) in objections.into_iter().filter(|(holds, _)| *holds) {
-            // another cause of the same pattern is as good, and unknown
-            let of_other = beside[0] - softplus(-odds.ln());
-            beside[0] -= softplus(odds.ln());
-            let unknown = log_sum_exp(&[logs[&Hypothesis::Unknown], of_other]);
-            logs.insert(Hypothesis::Unknown, unknown);
-        }
-        if let Some(alone) = logs.get_mut(&Hypothesis::Effects(r.effects.clone()))
-            && r.is_remaining()
-        {
-            let left = r.remaining_drop / (r.remaining_drop + r.chi2_drop.max(0.0));
-            let within = (rule.remainder_share - left) / rule.remainder_share_width;
-            beside.push(*alone - softplus(within));
-            *alone -= softplus(-within);
-        }
-        let beside = log_sum_exp(&beside);
-        logs.insert(Hypothesis::EffectsAndUnknown(r.effects.clone()), beside);
-    }
-}
-
-/// ln of each effect's share of what all of them beside something unknown have: the mean of its shares by the two figures of what it gains, if both
-/// speak for it; else by the smaller one.
-fn shares_of_remainders(remainders: &[&RemainderEvidence], rule: &DecisionRule) -> Vec<f64> {
-    let by = |gain: fn(&RemainderEvidence) -> f64| -> Vec<f64> {
-        let of = |r: &&RemainderEvidence| {
-            let gain = if r.gain_over_unknown > 0.0 {
-                gain(r)
-            } else {
-                r.gain_over_unknown
-            };
-            gain / rule.temper
-        };
-        let logs: Vec<f64> = remainders.iter().map(of).collect();
-        let all = log_sum_exp(&logs);
-        logs.into_iter().map(|log| log - all).collect()
-    };
-    let with_one = by(|r| r.gain_with_one.unwrap_or(r.gain_over_unknown));
-    let with_any = by(|r| r.gain_with_any.unwrap_or(r.gain_over_unknown));
-    let mean = |(one, any): (f64, f64)| log_sum_exp(&[one, any]) - std::f64::consts::LN_2;
-    with_one.into_iter().zip(with_any).map(mean).collect()
-}
-
-/// The candidates in an order that does not depend on theirs, so that sums are the same to the last bit.
-fn sorted(evidence: &Evidence) -> Vec<&CandidateEvidence> {
-    let mut candidates: Vec<&CandidateEvidence> = evidence.candidates.iter().collect();
-    candidates.sort_by(|a, b| {
-        (b.evidence_gain.total_cmp(&a.evidence_gain))
-            .then(b.chi2_drop.total_cmp(&a.chi2_drop))
-            .then(a.effects.cmp(&b.effects))
-            .then(a.accepted_forms.cmp(&b.accepted_forms))
-            .then(a.identified.cmp(&b.identified))
-    });
-    candidates
-}
-
-/// The stronger effect of a pair, and the fall of χ² that the other one adds to what it brings alone, as a share of that; None for
-/// single effects.
-fn stronger_alone<'e>(
-    candidates: &[&'e CandidateEvidence],
-    pair: &CandidateEvidence,
-) -> Option<(&'e EffectSet, f64)> {
-    if pair.effects.len() < 2 {
-        return None;
-    }
-    let parts = (candidates.iter())
-        .filter(|c| c.effects.single().is_some() && pair.effects.contains(&c.effects));
-    let stronger = parts.reduce(|a, b| if b.chi2_drop > a.chi2_drop { b } else { a })?;
-    let alone = stronger.chi2_drop;
-    (alone > 0.0).then(|| (&stronger.effects, (pair.chi2_drop - alone) / alone))
 }
 
 /// Effects and sets by falling probability. By its logarithm: far behind, probabilities themselves are all 0, and no name may be chosen

@@ -83,14 +83,15 @@ impl Context<'_> {
             few.into_par_iter().filter_map(anew).collect()
         } else {
             let screened = context.screen(&base, &singles);
-            match context.fidelity {
+            let mut all = match context.fidelity {
                 Fidelity::Screening => screened,
                 Fidelity::Middle | Fidelity::Full => {
                     context.refine(&base, screened, true, f64::INFINITY)
                 }
-            }
+            };
+            all.extend(context.where_it_stood_better(plain, &base, &all, alone));
+            all
         };
-        fitted.extend(context.where_it_stood_better(plain, &base, &fitted, alone));
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let mut chosen: Vec<FittedCandidate> = Vec::new();
         for candidate in fitted {
