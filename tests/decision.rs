@@ -496,6 +496,52 @@ fn names_beside_something_unknown_are_shared_by_both_figures() {
     assert_eq!(by(90.0).group, [of(layer)]);
 }
 
+/// Figures like those of a made-up set with an oxidative and a mechanical rate and a groove of the gear's flank, which no effect is. All act by the place on
+/// the flank: beside a discrepancy, micropitting is ahead of the oxidative rate. With waves of the profile for the groove, the oxidative rate is far ahead
+/// of every single effect: it is named, and neither the waves nor both are.
+#[test]
+fn a_pair_beside_something_unknown_lends_its_weight_to_what_is_no_free_shape() {
+    let [oxidative, pitting, profile] = ["oxidative", "micropitting", "profile_form"].map(place);
+    let mut all = vec![
+        beside(pitting, 60.0, 2000.0, 1500.0),
+        beside(oxidative, 52.0, 1900.0, 1600.0),
+        RemainderEvidence {
+            free_shape: true,
+            ..beside(profile, 49.0, 1500.0, 2000.0)
+        },
+    ];
+    let mut candidates: Vec<CandidateEvidence> = (0..CATALOGUE.len())
+        .filter(|other| ![oxidative, pitting, profile].contains(other))
+        .map(|other| candidate(&[other], 1.0, 2.0))
+        .collect();
+    candidates.extend([
+        candidate(&[pitting], 950.0, 2000.0),
+        candidate(&[oxidative], 900.0, 1900.0),
+        candidate(&[profile], 700.0, 1500.0),
+    ]);
+    let of = |place: usize| Hypothesis::EffectsAndUnknown(EffectSet::new([CATALOGUE[place]]));
+    let by = |beside_unknown: &[RemainderEvidence]| {
+        decided(&Evidence {
+            beside_unknown: beside_unknown.to_vec(),
+            ..evidence(candidates.clone(), 3500.0, 1500.0)
+        })
+    };
+    assert_eq!(by(&all).group.first(), Some(&of(pitting)));
+    let pair = EffectSet::new([CATALOGUE[oxidative], CATALOGUE[profile]]);
+    all.push(RemainderEvidence {
+        effects: pair.clone(),
+        ..beside(oxidative, 110.0, 3000.0, 500.0)
+    });
+    let decision = by(&all);
+    assert_eq!(decision.verdict, Verdict::Partial, "{decision:?}");
+    assert_eq!(decision.group, [of(oxidative)]);
+    let both = Hypothesis::EffectsAndUnknown(pair);
+    assert_eq!(decision.probability(&both), 0.0);
+    // of a pair that is hardly ahead nothing is lent: three causes are rarer than two
+    all[3].gain_over_unknown = 64.0;
+    assert_eq!(by(&all).group.first(), Some(&of(pitting)));
+}
+
 /// Figures like those of a made-up set with a worn coating and a cause of no name: two effects that the data cannot tell apart stand beside something
 /// unknown, or each beside a third that comes near. One of the two is missing in nearly every hypothesis, so this is established.
 #[test]

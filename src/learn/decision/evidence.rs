@@ -25,7 +25,7 @@ pub struct Evidence {
 /// An effect judged beside something unknown.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RemainderEvidence {
-    /// The effect, in its form of the largest evidence beside the discrepancy.
+    /// The effect or pair, in its form of the largest evidence beside the discrepancy.
     pub effects: EffectSet,
     /// Whether the data determine the parameter by which the effect is known.
     pub identified: bool,

@@ -32,6 +32,10 @@
 //! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which o/(1 + o) is unknown's if R is not identified or a free shape
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
+//! Where two effects were fitted beside a discrepancy, they have a v of their own, o_R/n their prior as pairs have it, which is lent to the single
+//! effects: one of the two is there, and the other may but follow the unknown. It is divided by their own shares; of the part of a free shape, of
+//! which o/(1 + o) would be unknown's, that goes to the other one.
+//!
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
 //! R among the named is the mean of what both give, e^(Δ ln Z_R/T) over its sum, where both are above 0.
@@ -117,7 +121,7 @@ pub(super) fn log_probabilities(
     let mut logs: BTreeMap<Hypothesis, f64> = (logs.into_iter())
         .map(|(hypothesis, logs)| (hypothesis, log_sum_exp(&logs)))
         .collect();
-    share_with_remainders(&mut logs, evidence, rule, count);
+    share_with_remainders(&mut logs, evidence, rule, [count, pairs]);
     let unknown = [logs[&Hypothesis::Unknown], log_sum_exp(&other_causes)];
     logs.insert(Hypothesis::Unknown, log_sum_exp(&unknown));
     let all: Vec<f64> = logs.values().copied().collect();
@@ -140,31 +144,43 @@ fn share_with_remainders(
     logs: &mut BTreeMap<Hypothesis, f64>,
     evidence: &Evidence,
     rule: &DecisionRule,
-    singles: f64,
+    [singles, pairs]: [f64; 2],
 ) {
     let mut remainders: Vec<&RemainderEvidence> = evidence.beside_unknown.iter().collect();
     remainders.sort_by(|a, b| a.effects.cmp(&b.effects));
-    let odds = |r: &RemainderEvidence| {
-        r.gain_over_unknown / rule.temper + (rule.remainder_odds / singles).ln()
+    let log_prior = |r: &RemainderEvidence| match r.effects.single() {
+        Some(_) => (rule.remainder_odds / singles).ln(),
+        None => (rule.remainder_odds * rule.prior_pairs / rule.prior_singles / pairs).ln(),
     };
-    let named: Vec<f64> = remainders.iter().map(|r| odds(r)).collect();
+    let prior: Vec<f64> = remainders.iter().map(|r| log_prior(r)).collect();
+    let odds = |(r, prior): (&&RemainderEvidence, &f64)| r.gain_over_unknown / rule.temper + prior;
+    let named: Vec<f64> = remainders.iter().zip(&prior).map(odds).collect();
     let named = log_sum_exp(&named);
     let total = softplus(named);
-    let shares = shares_of_remainders(&remainders, rule);
+    let shares = shares_of_remainders(&remainders, &prior, rule);
+    let lent = lent_by_pairs(&remainders, &shares, rule);
     let unknown = logs[&Hypothesis::Unknown];
     logs.insert(Hypothesis::Unknown, unknown - total);
-    for (r, share) in remainders.into_iter().zip(shares) {
-        let mut beside = vec![unknown + named - total + share];
-        let objections = [
-            (!r.identified, rule.unidentified_odds),
-            (r.free_shape, rule.free_shape_odds),
-        ];
-        for (_, odds) in objections.into_iter().filter(|(holds, _)| *holds) {
-            // another cause of the same pattern is as good, and unknown
-            let of_other = beside[0] - softplus(-odds.ln());
-            beside[0] -= softplus(odds.ln());
+    for (i, r) in remainders.into_iter().enumerate() {
+        if r.effects.single().is_none() {
+            continue;
+        }
+        let scale = unknown + named - total;
+        let mut beside = vec![scale + shares[i], scale + lent[i]];
+        // another cause of the same pattern is as good, and unknown
+        let mut to_unknown = |log: &mut f64, odds: f64| {
+            let of_other = *log - softplus(-odds.ln());
+            *log -= softplus(odds.ln());
             let unknown = log_sum_exp(&[logs[&Hypothesis::Unknown], of_other]);
             logs.insert(Hypothesis::Unknown, unknown);
+        };
+        if r.free_shape {
+            to_unknown(&mut beside[0], rule.free_shape_odds);
+        }
+        if !r.identified {
+            for log in &mut beside {
+                to_unknown(log, rule.unidentified_odds);
+            }
         }
         if let Some(alone) = logs.get_mut(&Hypothesis::Effects(r.effects.clone()))
             && r.is_remaining()
@@ -179,19 +195,57 @@ fn share_with_remainders(
     }
 }
 
-/// ln of each effect's share of what all of them beside something unknown have: the mean of its shares by the two figures of what it gains, if both
-/// speak for it; else by the smaller one.
-fn shares_of_remainders(remainders: &[&RemainderEvidence], rule: &DecisionRule) -> Vec<f64> {
+/// ln of what pairs beside something unknown lend to each single effect, as a share of what all beside something unknown have. A pair says that one of
+/// its effects is missing: the other one may but follow the unknown. Which it is, their own shares tell; of a free shape's part what `free_shape_odds`
+/// takes from it is the other one's.
+fn lent_by_pairs(
+    remainders: &[&RemainderEvidence],
+    shares: &[f64],
+    rule: &DecisionRule,
+) -> Vec<f64> {
+    let mut lent = vec![vec![f64::NEG_INFINITY]; remainders.len()];
+    let ln_kept = |r: &RemainderEvidence| match r.free_shape {
+        true => -softplus(rule.free_shape_odds.ln()),
+        false => 0.0,
+    };
+    let pairs = (remainders.iter().zip(shares)).filter(|(r, _)| r.effects.len() == 2);
+    for (pair, share) in pairs {
+        let members: Vec<usize> = (0..remainders.len())
+            .filter(|&i| remainders[i].effects.single().is_some())
+            .filter(|&i| pair.effects.contains(&remainders[i].effects))
+            .collect();
+        let own: Vec<f64> = members.iter().map(|&i| shares[i]).collect();
+        let both = log_sum_exp(&own);
+        for &i in &members {
+            let part = share + shares[i] - both;
+            lent[i].push(part + ln_kept(remainders[i]));
+            if remainders[i].free_shape {
+                for &other in members.iter().filter(|&&other| other != i) {
+                    lent[other].push(part - softplus(-rule.free_shape_odds.ln()));
+                }
+            }
+        }
+    }
+    lent.iter().map(|logs| log_sum_exp(logs)).collect()
+}
+
+/// ln of each one's share of what all beside something unknown have: the mean of its shares by the two figures of what it gains, if both speak for it;
+/// else by the smaller one.
+fn shares_of_remainders(
+    remainders: &[&RemainderEvidence],
+    prior: &[f64],
+    rule: &DecisionRule,
+) -> Vec<f64> {
     let by = |gain: fn(&RemainderEvidence) -> f64| -> Vec<f64> {
-        let of = |r: &&RemainderEvidence| {
+        let of = |(r, prior): (&&RemainderEvidence, &f64)| {
             let gain = if r.gain_over_unknown > 0.0 {
                 gain(r)
             } else {
                 r.gain_over_unknown
             };
-            gain / rule.temper
+            gain / rule.temper + prior
         };
-        let logs: Vec<f64> = remainders.iter().map(of).collect();
+        let logs: Vec<f64> = remainders.iter().zip(prior).map(of).collect();
         let all = log_sum_exp(&logs);
         logs.into_iter().map(|log| log - all).collect()
     };

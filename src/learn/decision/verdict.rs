@@ -275,15 +275,15 @@ fn of_these_alone(logs: &BTreeMap<Hypothesis, f64>, effects: &[&EffectSet]) -> f
     all.map(|(_, log)| log.exp()).sum()
 }
 
-/// Effects beside something unknown with their probability, the most probable first.
+/// Single effects beside something unknown with their probability, the most probable first.
 fn with_remainder<'e>(
     evidence: &'e Evidence,
     logs: &BTreeMap<Hypothesis, f64>,
 ) -> Vec<(&'e EffectSet, f64)> {
     let mut all: Vec<(&EffectSet, f64)> = (evidence.beside_unknown.iter())
-        .map(|r| {
+        .filter_map(|r| {
             let hypothesis = Hypothesis::EffectsAndUnknown(r.effects.clone());
-            (&r.effects, logs[&hypothesis].exp())
+            Some((&r.effects, logs.get(&hypothesis)?.exp()))
         })
         .collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(b.0)));

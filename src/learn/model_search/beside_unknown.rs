@@ -29,7 +29,12 @@ const FAR_BEHIND: f64 = 50.0;
 /// Log evidence by which a fit without a discrepancy, once that is added, must be ahead of those beside one for the effect to be fitted from there.
 const OTHER_VALLEY: f64 = 1.0;
 
-/// An effect fitted beside a smooth discrepancy.
+/// Pairs that are fitted beside a discrepancy, of those that come first without one.
+const PAIRS: usize = 2;
+/// Pairs that are looked at for that.
+const PAIRS_LOOKED_AT: usize = 6;
+
+/// An effect, or a pair, fitted beside a smooth discrepancy.
 pub(in crate::learn) struct BesideUnknown {
     /// The fit beside the discrepancy.
     pub(in crate::learn) fitted: FittedCandidate,
@@ -92,17 +97,21 @@ impl Context<'_> {
             all.extend(context.where_it_stood_better(plain, &base, &all, alone));
             all
         };
+        let pairs = context.pairs_ahead(plain, &base, &fitted, alone);
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
         let mut chosen: Vec<FittedCandidate> = Vec::new();
         for candidate in fitted {
-            let known = |c: &FittedCandidate| c.candidate.effects == candidate.candidate.effects;
-            if chosen.len() < JUDGED && !chosen.iter().any(known) {
+            let effects = &candidate.candidate.effects;
+            let known = |c: &FittedCandidate| c.candidate.effects == *effects;
+            let of_pair = |pair: &FittedCandidate| pair.candidate.effects.contains(effects);
+            if (chosen.len() < JUDGED || pairs.iter().any(of_pair)) && !chosen.iter().any(known) {
                 chosen.push(candidate);
             }
         }
+        chosen.extend(pairs);
         let mut found: Vec<BesideUnknown> = (chosen.into_par_iter())
             .filter_map(|fitted| {
-                // what the effect brings without the discrepancy: its form of the largest evidence
+                // what the effects bring without the discrepancy: their forms of the largest evidence
                 let without = alone
                     .iter()
                     .find(|c| c.candidate.effects == fitted.candidate.effects)?;
@@ -132,7 +141,7 @@ impl Context<'_> {
         fitted: &[FittedCandidate],
         alone: &[FittedCandidate],
     ) -> Vec<FittedCandidate> {
-        let leading = best_forms(alone).into_iter().take(JUDGED);
+        let leading = best_forms(alone, 1).into_iter().take(JUDGED);
         let stood_better = |own: &&FittedCandidate| {
             let there = with_discrepancy(plain, own);
             let mut others = (fitted.iter())
@@ -146,7 +155,30 @@ impl Context<'_> {
             .collect()
     }
 
-    /// An effect fitted beside the discrepancy of this context, by the model that changes are fitted by, from where its fit without one ended.
+    /// The pairs of which, once a discrepancy is added, more comes than of every single effect fitted beside one: where an effect and the unknown act
+    /// alike, a second effect that follows the unknown shows the first one more clearly than the discrepancy does.
+    fn pairs_ahead(
+        &self,
+        plain: &Likelihood<'_>,
+        base: &BaseFit,
+        singles: &[FittedCandidate],
+        alone: &[FittedCandidate],
+    ) -> Vec<FittedCandidate> {
+        let of_singles = singles.par_iter().map(|own| with_discrepancy(plain, own));
+        let best = of_singles.reduce(|| f64::NEG_INFINITY, f64::max);
+        let pairs = best_forms(alone, 2).into_iter().take(PAIRS_LOOKED_AT);
+        let mut ahead: Vec<(f64, &FittedCandidate)> = (pairs.collect::<Vec<_>>().into_par_iter())
+            .map(|pair| (with_discrepancy(plain, pair), pair))
+            .filter(|(there, pair)| *there > best && remainder_gain(plain, pair) > 0.0)
+            .collect();
+        ahead.sort_by(|a, b| b.0.total_cmp(&a.0));
+        ahead.truncate(PAIRS);
+        (ahead.into_par_iter())
+            .filter_map(|(_, pair)| self.fitted_from(base, pair))
+            .collect()
+    }
+
+    /// Effects fitted beside the discrepancy of this context, by the model that changes are fitted by, from where their fit without one ended.
     fn fitted_from(&self, base: &BaseFit, alone: &FittedCandidate) -> Option<FittedCandidate> {
         let (bench, offset) = match self.fidelity {
             Fidelity::Screening => (self.hertz, &base.hertz_offset),
@@ -208,19 +240,19 @@ fn decided_without<'f>(
     }
     let of_leader = |c: &FittedCandidate| leader.candidate.effects.contains(&c.candidate.effects);
     let near = |c: &FittedCandidate| with_discrepancy(plain, c) > bar;
-    let wanted = (best_forms(alone).into_iter().enumerate())
+    let wanted = (best_forms(alone, 1).into_iter().enumerate())
         .filter(|(place, c)| of_leader(c) || *place < JUDGED && near(c))
         .map(|(_, c)| c);
     Some(wanted.collect())
 }
 
-/// Each single effect in its best form, in the order of `alone`, which is by falling evidence.
-fn best_forms(alone: &[FittedCandidate]) -> Vec<&FittedCandidate> {
+/// Each set of `size` effects in its best forms, in the order of `alone`, which is by falling evidence.
+fn best_forms(alone: &[FittedCandidate], size: usize) -> Vec<&FittedCandidate> {
     let mut best: Vec<&FittedCandidate> = Vec::new();
     for fitted in alone {
         let effects = &fitted.candidate.effects;
         let known = |c: &&FittedCandidate| c.candidate.effects == *effects;
-        if effects.single().is_some() && !best.iter().any(known) {
+        if effects.len() == size && !best.iter().any(known) {
             best.push(fitted);
         }
     }
@@ -241,7 +273,7 @@ fn worth_fitting(
     if remainder_gain(plain, leader) > 0.0 {
         return all();
     }
-    let next = best_forms(alone).into_iter().take(JUDGED);
+    let next = best_forms(alone, 1).into_iter().take(JUDGED);
     let next: Vec<&EffectSet> = next.map(|c| &c.candidate.effects).collect();
     let wanted = |candidate: &&Candidate| {
         leader.candidate.effects.contains(&candidate.effects) || next.contains(&&candidate.effects)
