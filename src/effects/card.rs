@@ -88,7 +88,7 @@ pub struct Form {
     /// Parameters of which both signs do the same in this form: a fit keeps to the side above the value without effect.
     pub even: &'static [&'static str],
     /// Values of those that it frees, which stand behind all that the own form fits, each a place from which this form is tried beside what the
-    /// own one was fitted to. None: it is fitted for itself.
+    /// own one was fitted to; a wave among them is brought to the amplitude and phase that serve best. None: it is fitted for itself.
     pub grown: &'static [&'static [f64]],
     /// What it does to the wear where that is not what the card says; empty: the card's.
     pub signature: &'static str,

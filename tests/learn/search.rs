@@ -307,6 +307,49 @@ fn a_law_with_a_narrow_domain_is_fitted_within_it() {
     }
 }
 
+/// Wear that waves with the cycles.
+fn waved(o: &Observation, k: f64, p: &[f64]) -> f64 {
+    (1.0 + 0.5 * (o.cycles / 2e5 + p[0]).cos()) * steady(o, k, &[])
+}
+
+/// An angle has no end: from the other side of ±π a fit reaches the same place, with the same evidence, as from near by.
+#[test]
+fn a_phase_is_found_across_the_end_of_its_turn() {
+    let empty = wear_data(&[("A", 1e6), ("B", 6e5)], 11, true);
+    for truth in [3.0, -3.0] {
+        let data = measured(
+            &empty,
+            waved,
+            &[1.2e-10, 1.4e-10],
+            &[truth],
+            0.02,
+            0.5,
+            &mut Random(4),
+        );
+        let predictor = Formula {
+            data: data.clone(),
+            formula: waved,
+        };
+        let ends = [truth * 0.8, -truth * 0.8].map(|start| {
+            let mut problem = problem(&data, &predictor);
+            problem.parameters = vec![Parameter::uniform("phase", "rad", start, -PI, PI)];
+            let fit = problem
+                .fit(&Effort {
+                    tolerance: 1e-8,
+                    carry: 0.0,
+                    ..Effort::default()
+                })
+                .unwrap();
+            let phase = fit.parameters[1].clone();
+            assert!(fit.converged && !phase.at_bound, "{phase:?}");
+            assert!((phase.value - truth).abs() < 4.0 * phase.sigma, "{phase:?}");
+            (phase.value, fit.log_evidence)
+        });
+        assert!((ends[0].0 - ends[1].0).abs() < 1e-3, "{ends:?}");
+        assert!((ends[0].1 - ends[1].1).abs() < 1e-2, "{ends:?}");
+    }
+}
+
 /// One test says nothing of scatter: its own k is known as well as ever, the common one only within the scatter's prior.
 #[test]
 fn one_test_leaves_the_common_k_within_the_scatter() {

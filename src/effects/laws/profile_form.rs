@@ -5,37 +5,23 @@
 //! ```
 //! Only the sum of both flanks' deviations enters the contact, so it stands on the pinion alone.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use crate::effects::{Card, Effect, Form, Hook, Param, ParamRole, Prior, ProfileAt};
 use crate::gear::Member;
 
-/// Amplitude, phase and waves of second waves to begin with: an amplitude of either sign makes the other half of the phases.
-const SECOND_WAVES: [&[f64]; 24] = [
-    &[1.0, 0.0, 1.0],
-    &[-1.0, 0.0, 1.0],
-    &[1.0, FRAC_PI_2, 1.0],
-    &[-1.0, FRAC_PI_2, 1.0],
-    &[1.0, 0.0, 1.5],
-    &[-1.0, 0.0, 1.5],
-    &[1.0, FRAC_PI_2, 1.5],
-    &[-1.0, FRAC_PI_2, 1.5],
-    &[1.0, 0.0, 2.0],
-    &[-1.0, 0.0, 2.0],
-    &[1.0, FRAC_PI_2, 2.0],
-    &[-1.0, FRAC_PI_2, 2.0],
-    &[1.0, 0.0, 3.0],
-    &[-1.0, 0.0, 3.0],
-    &[1.0, FRAC_PI_2, 3.0],
-    &[-1.0, FRAC_PI_2, 3.0],
-    &[1.0, 0.0, 4.5],
-    &[-1.0, 0.0, 4.5],
-    &[1.0, FRAC_PI_2, 4.5],
-    &[-1.0, FRAC_PI_2, 4.5],
-    &[1.0, 0.0, 6.5],
-    &[-1.0, 0.0, 6.5],
-    &[1.0, FRAC_PI_2, 6.5],
-    &[-1.0, FRAC_PI_2, 6.5],
+/// Amplitude, phase and waves of second waves to begin with, each turned to the phase that serves best.
+const SECOND_WAVES: [&[f64]; 10] = [
+    &[0.5, 0.0, 0.7],
+    &[0.5, 0.0, 1.0],
+    &[0.5, 0.0, 1.5],
+    &[0.5, 0.0, 2.0],
+    &[0.5, 0.0, 2.5],
+    &[0.5, 0.0, 3.0],
+    &[0.5, 0.0, 4.0],
+    &[0.5, 0.0, 5.0],
+    &[0.5, 0.0, 6.5],
+    &[0.5, 0.0, 8.5],
 ];
 
 pub(super) const CARD: Card = Card {

@@ -1,5 +1,7 @@
 //! What could be missing: every effect of the catalogue in each accepted form, alone or several together.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::starting_values::{SPREAD, median, phase, quarters, spread, starts};
 use super::version::{ModelVersion, parameter};
 use super::{EffectSet, Hypothesis};
@@ -27,6 +29,8 @@ pub(in crate::learn) struct Candidate {
     pub(in crate::learn) starts: Vec<Vec<f64>>,
     /// Weak waves in pairs a quarter of a wave apart, between which every phase lies.
     pub(in crate::learn) quarters: Vec<[Vec<f64>; 2]>,
+    /// Where these join other waves, the values with those alone.
+    pub(in crate::learn) without_wave: Option<Vec<f64>>,
     /// Of the added parameters: lower bound, upper bound, and value without effect where that is finite.
     strengths: Vec<(f64, f64, Option<f64>)>,
 }
@@ -57,6 +61,7 @@ impl Candidate {
             version,
             starts: vec![Vec::new()],
             quarters: Vec::new(),
+            without_wave: None,
             strengths: Vec::new(),
         }
     }
@@ -128,6 +133,7 @@ impl Candidate {
             version,
             starts: Vec::new(),
             quarters: Vec::new(),
+            without_wave: None,
             strengths: Vec::new(),
         }
     }
@@ -145,14 +151,29 @@ impl Candidate {
         let forms = card.forms.iter().filter(|form| !form.grown.is_empty());
         forms
             .filter_map(|form| {
-                let (candidate, _) = of_form(card, Some(form), base, study)?;
-                let starts = form.grown.iter().map(|place| [values, place].concat());
-                Some(Self {
-                    starts: starts.collect(),
-                    ..candidate
-                })
+                let (mut candidate, fitted) = of_form(card, Some(form), base, study)?;
+                let places = form.grown.iter().map(|place| [values, place].concat());
+                match phase(&fitted).filter(|&at| at >= values.len()) {
+                    Some(phase) => candidate.add_wave(places.collect(), phase, values.len()),
+                    None => candidate.starts = places.collect(),
+                }
+                Some(candidate)
             })
             .collect()
+    }
+
+    /// Starts of a form that adds a wave, whose `phase` it is, to `own` fitted values: for each of the places two waves a quarter of a wave apart.
+    fn add_wave(&mut self, places: Vec<Vec<f64>>, phase: usize, own: usize) {
+        for (_, _, neutral) in &mut self.strengths[..own] {
+            *neutral = None;
+        }
+        self.without_wave = places.first().map(|place| self.scaled(place, 0.0));
+        let turned = |place: Vec<f64>| {
+            let mut quarter = place.clone();
+            quarter[phase] += FRAC_PI_2;
+            [place, quarter]
+        };
+        self.quarters = places.into_iter().map(turned).collect();
     }
 
     /// Values of a start with `amplitude` times the effect, as far as that is linear in the parameters that have a value without
@@ -202,7 +223,9 @@ impl Candidate {
     /// Whether the analytic model may not see it at all: it does not know how fast wear takes weak waves of the profile away, nor the
     /// corners with which a tooth's neighbours touch where it stands back, nor anything across the face.
     pub(in crate::learn) fn may_be_unseen(&self) -> bool {
-        self.is_free_shape() || self.acts_on_single_teeth() || self.acts_across_the_face()
+        self.is_free_shape() && self.without_wave.is_none()
+            || self.acts_on_single_teeth()
+            || self.acts_across_the_face()
     }
 
     /// Whether it is a sum of waves along the flank, which follows whatever is smooth there.
@@ -312,6 +335,7 @@ fn of_form(
         version,
         starts: Vec::new(),
         quarters: Vec::new(),
+        without_wave: None,
         strengths: (fitted.iter())
             .map(|f| (f.lower, f.upper, f.neutral.filter(|none| none.is_finite())))
             .collect(),

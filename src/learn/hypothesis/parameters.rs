@@ -158,7 +158,10 @@ impl Parameter {
             }
             Prior::Normal { mean, sd } => NaturalPrior::normal(mean, sd, lower, upper),
             Prior::HalfNormal { sd } => NaturalPrior::normal(0.0, sd, lower.max(0.0), upper),
-            Prior::Uniform { low, high } => NaturalPrior::uniform(lower.max(low), upper.min(high)),
+            Prior::Uniform { low, high } => NaturalPrior {
+                turns: self.is_angle(),
+                ..NaturalPrior::uniform(lower.max(low), upper.min(high))
+            },
         }
     }
 
@@ -239,6 +242,8 @@ pub(in crate::learn) struct NaturalPrior {
     pub(in crate::learn) upper: f64,
     /// Logarithm of the factor that makes the density's integral between the bounds 1.
     log_norm: f64,
+    /// Whether both bounds are one place: an angle that may take any value of a turn.
+    turns: bool,
 }
 
 impl NaturalPrior {
@@ -250,6 +255,7 @@ impl NaturalPrior {
             lower,
             upper,
             log_norm: -(sd * (2.0 * PI).sqrt()).ln() - mass,
+            turns: false,
         }
     }
 
@@ -260,6 +266,38 @@ impl NaturalPrior {
             lower,
             upper,
             log_norm: -(upper - lower).ln(),
+            turns: false,
+        }
+    }
+
+    /// How far a step from `at` may go down and up: to the bounds, an angle half a turn either way.
+    pub(in crate::learn) fn room(&self, at: f64) -> [f64; 2] {
+        if self.turns {
+            let half = 0.5 * (self.upper - self.lower);
+            [-half, half]
+        } else {
+            [(self.lower - at).min(0.0), (self.upper - at).max(0.0)]
+        }
+    }
+
+    /// Where a step from `at` ends: within the bounds, an angle on the other side of them.
+    pub(in crate::learn) fn moved(&self, at: f64, step: f64) -> f64 {
+        let next = at + step;
+        if self.turns && !(self.lower..=self.upper).contains(&next) {
+            self.lower + (next - self.lower).rem_euclid(self.upper - self.lower)
+        } else {
+            next.clamp(self.lower, self.upper)
+        }
+    }
+
+    /// The step from one value to another, of an angle the shorter way round.
+    pub(in crate::learn) fn step(&self, from: f64, to: f64) -> f64 {
+        let step = to - from;
+        if self.turns {
+            let turn = self.upper - self.lower;
+            step - turn * (step / turn).round()
+        } else {
+            step
         }
     }
 

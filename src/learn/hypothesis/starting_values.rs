@@ -72,9 +72,9 @@ pub(super) fn spread(
     places
 }
 
-/// Which of the parameters is the phase of a wave.
+/// Which of the parameters is the phase of a wave; of several waves that of the last one.
 pub(super) fn phase(fitted: &[FreeParameter]) -> Option<usize> {
-    fitted.iter().position(|f| f.role == ParamRole::WavePhase)
+    fitted.iter().rposition(|f| f.role == ParamRole::WavePhase)
 }
 
 /// Weak waves a quarter of a wave apart, their other parameters spread over the priors.

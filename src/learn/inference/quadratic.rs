@@ -103,7 +103,7 @@ impl Layout {
             at = 1;
         }
         for (prior, theta) in self.parameters.iter().zip(&mut next.theta) {
-            *theta = (*theta + step[at]).clamp(prior.lower, prior.upper);
+            *theta = prior.moved(*theta, step[at]);
             at += 1;
         }
         if scatter > 0.0 {
@@ -141,7 +141,7 @@ impl Quadratic {
         for (at, (prior, &x)) in scale.zip(place.into_iter().chain(&state.theta)).enumerate() {
             prior_gradient[at] = prior.precision * (x - prior.mean);
             curvature[at] = prior.curvature();
-            bounds[at] = [(prior.lower - x).min(0.0), (prior.upper - x).max(0.0)];
+            bounds[at] = prior.room(x);
         }
         for p in 0..params {
             map[(p, k + p)] = 1.0;

@@ -285,8 +285,10 @@ impl Search<'_> {
 
     /// Whether two states are no farther apart than a forward difference, in any unknown.
     fn near(&self, a: &State, b: &State) -> bool {
-        let theta = self.parameters.iter().zip(a.theta.iter().zip(&b.theta));
-        let mut theta = theta.map(|(p, (a, b))| (a - b).abs() <= p.difference(*a).abs());
+        let priors = self.parameters.iter().zip(&self.layout.parameters);
+        let theta = priors.zip(a.theta.iter().zip(&b.theta));
+        let mut theta =
+            theta.map(|((p, prior), (a, b))| prior.step(*a, *b).abs() <= p.difference(*a).abs());
         let tests = a.epsilon.iter().zip(&b.epsilon);
         let mut tests = tests.map(|(e, f)| (a.log_k + e - b.log_k - f).abs() <= DIFFERENCE_K);
         theta.all(|near| near) && tests.all(|near| near)
@@ -299,7 +301,7 @@ impl Search<'_> {
             .parameters
             .iter()
             .zip(a.theta.iter().zip(&b.theta));
-        let theta = theta.map(|(prior, (a, b))| (a - b).abs() / prior.scale());
+        let theta = theta.map(|(prior, (a, b))| prior.step(*a, *b).abs() / prior.scale());
         let tests = a.epsilon.iter().zip(&b.epsilon);
         let tests = tests.map(|(e, f)| (a.log_k + e - b.log_k - f).abs());
         theta.chain(tests).fold(0.0, f64::max)

@@ -103,6 +103,7 @@ impl Context<'_> {
     ) -> Vec<(f64, State)> {
         let seen = |values: &[f64]| self.seen(base, candidate, predictor, values);
         let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
+            .into_iter()
             .map(|(gain, values)| (gain, base.added(candidate, &values)))
             .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -194,20 +195,32 @@ pub(in crate::learn) fn scaled_starts(
     candidate: &Candidate,
     seen: impl Fn(&[f64]) -> Option<DVector<f64>>,
     left: &DVector<f64>,
-) -> impl Iterator<Item = (f64, Vec<f64>)> {
+) -> Vec<(f64, Vec<f64>)> {
     let alone = candidate.starts.iter().map(|values| (values, None));
     let quarters = candidate.quarters.iter();
     let waves = quarters.map(|[first, second]| (first, Some(second)));
-    alone.chain(waves).filter_map(move |(first, second)| {
-        let along = seen(first)?;
+    // a wave that joins others is held against what those leave
+    let others = candidate.without_wave.as_deref().and_then(&seen);
+    let of_others = |seen: DVector<f64>| match &others {
+        Some(others) => seen - others,
+        None => seen,
+    };
+    let gain_of_others =
+        (others.as_ref()).map_or(0.0, |others| others.dot(left) - 0.5 * others.norm_squared());
+    let left = others
+        .as_ref()
+        .map_or_else(|| left.clone(), |others| left - others);
+    let all = alone.chain(waves).filter_map(|(first, second)| {
+        let along = of_others(seen(first)?);
         let Some(second) = second else {
-            let (gain, amplitude) = linear_gain(&along, left, amplitudes(candidate));
+            let (gain, amplitude) = linear_gain(&along, &left, amplitudes(candidate));
             let amplitude = amplitude.max(LEAST_AMPLITUDE);
             return Some((gain, candidate.scaled(first, amplitude)));
         };
-        let (gain, shares) = plane_gain([&along, &seen(second)?], left)?;
-        Some((gain, candidate.turned(first, shares)))
-    })
+        let (gain, shares) = plane_gain([&along, &of_others(seen(second)?)], &left)?;
+        Some((gain_of_others + gain, candidate.turned(first, shares)))
+    });
+    all.collect()
 }
 
 /// Amplitudes of a start's change between which the linearised model is trusted.

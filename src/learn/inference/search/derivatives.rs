@@ -275,7 +275,9 @@ impl Search<'_> {
         let params = self.layout.parameters.len();
         let log_k = |s: &State| s.log_k + s.epsilon[test];
         let own = (params + test, log_k(states[1]) - log_k(states[0]));
-        let common = (0..params).map(|p| (p, states[1].theta[p] - states[0].theta[p]));
+        let priors = self.layout.parameters.iter().enumerate();
+        let common =
+            priors.map(|(p, prior)| (p, prior.step(states[0].theta[p], states[1].theta[p])));
         common.chain([own]).collect()
     }
 
