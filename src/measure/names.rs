@@ -1,14 +1,16 @@
 //! Names that people give to columns of tables and to what stands in them, in English, German, Italian, French and Spanish, and what
-//! they are in a measurement file. [`folded`] says what does not count in a name; the words themselves stand in `vocabulary`.
+//! they are in a measurement file. [`folded`] says what does not count in a name; the words themselves stand in `vocabulary`, those for counts,
+//! times and speeds in `counting`.
 
+mod counting;
 mod vocabulary;
 
 use super::quantity::{Quantity, Subject};
 
+use counting::{AROUND_POWER, CYCLES, HOURS, MULTIPLES, PER_MINUTE, POWERS, SPEEDS, TIMES};
 use vocabulary::{
-    AFTER, AROUND_POWER, BEFORE, CHORDS, COLUMNS, CYCLES, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
-    FOR_PEOPLE, HINTS, HOURS, LOSSES, MASSES, MEMBERS, MULTIPLES, PER_MINUTE, POWERS, QUANTITIES,
-    SPANS, SPEEDS, STOPS, TIMES,
+    AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, EXPANDED, FILLERS, FLANKS, FOR_PEOPLE, HINTS,
+    LOSSES, MASSES, MEMBERS, QUANTITIES, SPANS, STOPS,
 };
 
 /// Which of two measurements of a part.

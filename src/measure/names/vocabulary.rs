@@ -1,5 +1,7 @@
-//! The words of five languages for columns of tables and for what stands in them, each as [`super::folded`] leaves it.
+//! The words of five languages for columns of tables and for what stands in them, each as [`super::folded`] leaves it; those for counts,
+//! times and speeds stand in `counting`.
 
+use super::counting::CYCLES;
 use crate::measure::quantity::{Quantity, Subject};
 
 /// Columns by their names in a measurement file.
@@ -132,72 +134,6 @@ pub(super) const EXPANDED: [&str; 7] = [
     "incertidumbreexpandida",
 ];
 
-/// Names of counts of revolutions.
-pub(super) const CYCLES: &[&str] = &[
-    "cycle",
-    "loadcycles",
-    "rev",
-    "revs",
-    "revolution",
-    "revolutions",
-    "turns",
-    "lastspiele",
-    "lastwechsel",
-    "lw",
-    "umdrehung",
-    "umdrehungen",
-    "zyklen",
-    "cicli",
-    "giri",
-    "tours",
-    "ciclos",
-    "revoluciones",
-    "vueltas",
-];
-
-/// Names of running times.
-pub(super) const TIMES: [&str; 19] = [
-    "time",
-    "runningtime",
-    "runtime",
-    "testtime",
-    "operatingtime",
-    "hours",
-    "zeit",
-    "laufzeit",
-    "betriebszeit",
-    "versuchszeit",
-    "tempo",
-    "tempofunzionamento",
-    "temps",
-    "tempsmarche",
-    "tempsfonctionnement",
-    "duree",
-    "tiempo",
-    "tiempofuncionamiento",
-    "duracion",
-];
-
-/// Names of speeds of rotation.
-pub(super) const SPEEDS: [&str; 11] = [
-    "speed",
-    "rotationalspeed",
-    "inputspeed",
-    "testspeed",
-    "drehzahl",
-    "antriebsdrehzahl",
-    "velocita",
-    "velocitarotazione",
-    "vitesse",
-    "vitesserotation",
-    "velocidad",
-];
-
-/// Units of speeds of rotation: revolutions per minute.
-pub(super) const PER_MINUTE: [&str; 9] = [
-    "rpm", "1/min", "/min", "min-1", "min^-1", "u/min", "r/min", "tr/min", "giri/min",
-];
-
 /// Names of one of the two flanks of a tooth, or of what it looks to.
 pub(super) const FLANKS: [&str; 9] = [
     "flank",
@@ -209,76 +145,6 @@ pub(super) const FLANKS: [&str; 9] = [
     "flanc",
     "flanco",
     "lato",
-];
-
-/// Multiples of counts.
-pub(super) const MULTIPLES: [&str; 17] = [
-    "million",
-    "millions",
-    "mio",
-    "mill",
-    "millionen",
-    "milioni",
-    "milione",
-    "millones",
-    "thousand",
-    "thousands",
-    "tausend",
-    "tsd",
-    "migliaia",
-    "mila",
-    "milliers",
-    "mille",
-    "miles",
-];
-
-/// Powers of ten behind counts, as people write them, without blanks.
-pub(super) const POWERS: [&str; 7] = [
-    "1e3",
-    "1e6",
-    "10^3",
-    "10^6",
-    "10\u{b3}",
-    "10\u{2076}",
-    "1000",
-];
-
-/// What stands before and behind a power of ten that multiplies.
-pub(super) const AROUND_POWER: [(&str, &str); 6] = [
-    ("x", ""),
-    ("\u{d7}", ""),
-    ("*", ""),
-    ("in", ""),
-    ("[", "]"),
-    ("(", ")"),
-];
-
-/// Hours of each unit of time.
-pub(super) const HOURS: [(&str, f64); 24] = [
-    ("h", 1.0),
-    ("hr", 1.0),
-    ("hrs", 1.0),
-    ("hour", 1.0),
-    ("hours", 1.0),
-    ("std", 1.0),
-    ("stunden", 1.0),
-    ("ore", 1.0),
-    ("heures", 1.0),
-    ("horas", 1.0),
-    ("min", 1.0 / 60.0),
-    ("minutes", 1.0 / 60.0),
-    ("s", 1.0 / 3600.0),
-    ("sec", 1.0 / 3600.0),
-    ("d", 24.0),
-    ("day", 24.0),
-    ("days", 24.0),
-    ("tage", 24.0),
-    ("wk", 168.0),
-    ("week", 168.0),
-    ("weeks", 168.0),
-    ("runninghours", 1.0),
-    ("operatinghours", 1.0),
-    ("betriebsstunden", 1.0),
 ];
 
 /// Names of columns for people.
