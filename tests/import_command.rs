@@ -2390,7 +2390,7 @@ fn times_of_single_intervals_are_refused() {
     for (hours, says) in [
         (
             ["1,00", "1,00", "1,00"],
-            "row 3: `1,00` below `run time [h]` is not more than the `1,00` of row 2, although its weighing goes on where that one ended: running times since the start of the test are wanted, not those of each stop. Add them up: 1,00; 2,00; 3,00",
+            "row 3: `1,00` below `run time [h]` is not more than the `1,00` of row 2, although its weighing goes on where that one ended: running times since the start of the test are wanted, not those of each stop. Add them up: 1,00; 2,00; 3,00, or say --per-interval cycles",
         ),
         (
             ["2", "1", "3"],
@@ -2491,7 +2491,7 @@ fn a_long_table_that_lacks_something_is_told_what() {
             &[
                 "not understood: `stop`, `interval [h]`",
                 "missing: member, cycles",
-                "If `interval [h]` is the running time since the start of the test, call it `time [h]`; add up the times of single intervals first",
+                "If `interval [h]` is the running time since the start of the test, call it `time [h]`; if it is that of each interval alone, say --per-interval cycles",
             ],
         ),
         (
@@ -2771,4 +2771,184 @@ fn a_table_without_uncertainties_is_shown_before_it_is_refused() {
         "{message}"
     );
     rows(&home, table, "--sigma 0.1");
+}
+
+/// Claim: durations and losses of single intervals are added up, sigmas as √Σσ². By hand: at 2000 rpm an hour has 120,000 revolutions, 2 h, 2 h and
+/// 1.5 h end after 240,000, 480,000 and 660,000; 3, 2.5 and 2 mg are 3, 5.5 and 7.5 mg, each known to 0.3 mg: 0.3, 0.3 √2 = 0.4243, 0.3 √3 = 0.5196.
+#[test]
+fn durations_and_losses_of_intervals_are_added_up() {
+    let home = home();
+    let both = "--per-interval cycles,mass_loss";
+    let weighed = "run;wheel;interval;duration of interval [h];loss in interval [mg]\nA;small;1;2;3\nA;big;1;2;1\nA;small;2;2;2,5\nA;big;2;2;1\n\
+                   A;small;3;1,5;2\nA;big;3;1,5;1\n";
+    let of_pinion = "A,pinion,240000,mass_loss,,3,0.3,\n|A,pinion,480000,mass_loss,,5.5,0.4243,\n|A,pinion,660000,mass_loss,,7.5,0.5196,\n";
+    let (shown, written) = rows(&home, weighed, &format!("{both} --sigma 0.3"));
+    for row in of_pinion.split('|') {
+        assert!(written.contains(row), "no `{row}` in {written}");
+    }
+    assert!(written.contains("A,gear,660000,mass_loss,,3,0.5196,\n"));
+    for part in [
+        "layout   `duration of interval [h]`: read as `time [h]` of each interval\n",
+        "layout   `loss in interval [mg]`: read as `loss [mg]` of each interval\n",
+        "`time [h]` is that of each interval alone: added up to totals since the start of the test; the intervals are those of the numbers in `interval`",
+        "mass_loss: the losses of the intervals of each test and member are added up to totals since the start; their sigmas are combined as the root of the sum of their squares",
+        "sigma    0.3 mg for each interval alone\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    // without numbers the rows are in order; a column of sigmas; one of the two only
+    let plain = "time [h];loss [mg];u [mg]\n2;3;0,3\n2;2,5;0,4\n1,5;2;0,5\n";
+    let options = "--test A --member pinion";
+    let (_, written) = rows(&home, plain, &format!("{both} {options}"));
+    assert!(
+        written.contains("A,pinion,480000,mass_loss,,5.5,0.5,\n")
+            && written.contains("A,pinion,660000,mass_loss,,7.5,0.7071,\n"),
+        "{written}"
+    );
+    let (_, written) = rows(&home, plain, &format!("--per-interval cycles {options}"));
+    assert!(written.contains("A,pinion,660000,mass_loss,,2,0.5,\n"));
+    let totals = "cycles;loss [mg]\n100000;3\n250000;2,5\n";
+    let (_, written) = rows(
+        &home,
+        totals,
+        &format!("--per-interval mass_loss {options} --sigma 0.3"),
+    );
+    assert!(written.contains("A,pinion,250000,mass_loss,,5.5,0.4243,\n"));
+    // the parts of a member, side by side, in revolutions of the gear; the new part's row of nothing
+    let sides = "run,interval,gear revolutions in interval,pinion loss in interval [mg],gear loss in interval [mg]\nA,0,0,0,0\nA,1,27000,3,1\nA,2,54000,2,1\n";
+    let (_, written) = rows(&home, sides, &format!("{both} --sigma 0.3"));
+    assert!(
+        written.contains("A,pinion,159000,mass_loss,,5,")
+            && written.contains("A,gear,53000,mass_loss,,1,"),
+        "{written}"
+    );
+    // weighings go from stop to stop as before, only their times are of each
+    let masses = "run;run time [h];mass before [g];mass after [g]\nA;2;14,7174;14,7168\nA;1;14,7168;14,7159\nA;2;14,7159;14,7144\n";
+    let (_, written) = rows(
+        &home,
+        masses,
+        "--per-interval cycles --member pinion --sigma 0.2",
+    );
+    assert_eq!(
+        written,
+        "A,pinion,240000,mass_loss,,0.6,0.2,\nA,pinion,360000,mass_loss,,1.5,0.2,\nA,pinion,600000,mass_loss,,3,0.2,\n"
+    );
+    // curves: each place by itself, and wide tables, whose checkpoints are totals
+    let curves = "test,member,interval,cycles,radius,depth [um]\nA,pinion,1,1e5,26,1\nA,pinion,1,1e5,27,2\nA,pinion,2,1e5,26,0.5\nA,pinion,2,1e5,27,0.25\n";
+    let (_, written) = rows(
+        &home,
+        curves,
+        "--per-interval cycles,wear_depth --sigma 0.1",
+    );
+    assert!(
+        written.contains("A,pinion,200000,wear_depth,27,2.25,0.1414,A-pinion-200000\n"),
+        "{written}"
+    );
+    let wide = "radius [mm],100000,250000\n26,1,0.5\n27,2,0.25\n";
+    let (shown, written) = rows(
+        &home,
+        wide,
+        &format!("--per-interval wear_depth {options} --sigma 0.1"),
+    );
+    assert!(
+        written.contains("A,pinion,250000,wear_depth,27,2.25,0.1414,"),
+        "{written}"
+    );
+    assert!(shown.contains("layout   wear_depth: the losses of the intervals"));
+}
+
+#[test]
+fn intervals_that_cannot_be_added_up_are_refused_with_their_row() {
+    let home = home();
+    let options = "--test A --member pinion --sigma 0.3";
+    let numbered = |rows: &str| format!("interval;time [h];loss [mg]\n{rows}");
+    let both = "cycles,mass_loss";
+    for (what, table, says) in [
+        (
+            both,
+            numbered("1;2;3\n2;2;2\n2;2;2\n"),
+            "table.csv: row 4: interval 2 stands in row 3 already: take one out",
+        ),
+        (
+            both,
+            numbered("2;2;3\n1;2;2\n"),
+            "table.csv: row 3: interval 1 stands below interval 2 of row 2",
+        ),
+        (
+            both,
+            numbered("1;2;3\n3;2;2\n"),
+            "row 3: interval 3 below `interval`, and interval 2 is not there",
+        ),
+        (
+            both,
+            numbered("1;2;3\nsum;4;5\n"),
+            "A3: `sum` below `interval`: write the number of the interval there",
+        ),
+        (
+            both,
+            numbered("1;2;3\n2;-2;2\n"),
+            "B3: `-2` below `time [h]`: an interval has no negative length",
+        ),
+        (
+            both,
+            numbered("1;2;3\n2;2;\n3;2;1\n"),
+            "C3: nothing stands here below `loss [mg]`: without the loss of this interval the total of row 4 is not known",
+        ),
+        (
+            both,
+            "time [h];loss [mg]\n2;3\n;2\n2;1\n".to_owned(),
+            "A3: nothing stands here below `time [h]`",
+        ),
+        (
+            both,
+            numbered("1;2;3\n"),
+            "the table holds no second interval of anything",
+        ),
+        (
+            "mass_loss",
+            "cycles;loss [mg]\n100000;3\n100000;2\n".to_owned(),
+            "B2 and B3 both hold the loss of the pinion in test A until 100000 pinion revolutions",
+        ),
+        (
+            "mass_loss",
+            "cycles;loss [mg]\n200000;3\n100000;2\n".to_owned(),
+            "B2 and B3 are not in the order of the intervals",
+        ),
+        (
+            "wear_depth",
+            "cycles;radius;depth\n100000;26;1\n100000;27;1\n200000;26;1\n200000;26.5;2\n"
+                .to_owned(),
+            "C5: the total of the pinion in test A at 26.5 is not known: its loss in the interval until 100000 pinion revolutions is missing",
+        ),
+        (
+            "cycles",
+            "cycles;radius;depth\n100000;26;1\n100000;27;1\n100000;26;1\n".to_owned(),
+            "add a column `interval` that numbers them",
+        ),
+        (
+            "cycles",
+            "radius [mm];100000;200000\n26;1;2\n27;1;2\n".to_owned(),
+            "--per-interval cycles is for tables with a row for each value",
+        ),
+        (
+            "wear_depth",
+            numbered("1;2;3\n2;4;2\n"),
+            "--per-interval wear_depth: the table holds no wear_depth",
+        ),
+        (
+            "mass_loss",
+            "cycles;mass before [g];mass after [g]\n1e5;9.5;9.4\n2e5;9.4;9.2\n".to_owned(),
+            "--per-interval mass_loss: the table has measurements of the new and of the worn part",
+        ),
+    ] {
+        let message = refused(&home, &table, &format!("--per-interval {what} {options}"));
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    // the lengths of one interval are the same for both members
+    let two = "wheel,interval,cycles,loss [mg]\npinion,1,1e5,3\ngear,1,2e5,1\n";
+    let message = refused(&home, two, "--per-interval cycles --test A --sigma 0.3");
+    assert!(
+        message.contains("row 3: interval 1 lasts `2e5`, in row 2 it lasts `1e5`"),
+        "{message}"
+    );
 }

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::Path;
 
 pub(super) use args::ImportArgs;
-use args::{Across, On, PositionKind, ShareOf};
+use args::{Across, On, PerInterval, PositionKind, ShareOf};
 use taken::Taken;
 
 use super::init::Example;
@@ -149,6 +149,17 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         face: args.face,
         traces: !args.no_traces,
         repeat: args.repeat,
+        per_interval: import::PerInterval {
+            cycles: args.per_interval.contains(&PerInterval::Cycles),
+            losses: import::PerInterval::LOSSES
+                .into_iter()
+                .filter(|loss| {
+                    args.per_interval
+                        .iter()
+                        .any(|what| what.loss() == Some(*loss))
+                })
+                .collect(),
+        },
     })
 }
 

@@ -11,7 +11,7 @@ use crate::measure::import::Decimal;
 /// Arguments of `import`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "A wide table has a column for each checkpoint and positions in its first column, or the other way round. A long table has a\nrow for each value and columns of tests, members, cycles, positions and values, under the usual names in English, German,\nItalian, French or Spanish. A file or a sheet may be of one curve, with test, member and cycles in lines above its header.\nNothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2\n  gearwear import profiles.csv --study study.toml -o measurements.csv\n  gearwear import profiles/*.txt --study study.toml --turn-sign -o measurements.csv\n  gearwear import weighing.xlsx --study study.toml --quantity mass_loss -o measurements.csv --append"
+    after_help = "A wide table has a column for each checkpoint and positions in its first column, or the other way round. A long table has a\nrow for each value and columns of tests, members, cycles, positions and values, under the usual names in English, German,\nItalian, French or Spanish. A file or a sheet may be of one curve, with test, member and cycles in lines above its header.\nNothing is written without -o.\n\nExamples:\n  gearwear import pinion.xlsx --study study.toml --test A --member pinion --sigma 0.2\n  gearwear import rig.xlsx --sheet gear --study study.toml --test A --member gear --sigma 0.2 -o measurements.csv --append\n  gearwear import depth.csv --study study.toml --test A --member pinion --unit mm --turn-sign --position roll-angle --sigma 0.2\n  gearwear import profiles.csv --study study.toml -o measurements.csv\n  gearwear import profiles/*.txt --study study.toml --turn-sign -o measurements.csv\n  gearwear import weighing.xlsx --study study.toml --quantity mass_loss -o measurements.csv --append\n  gearwear import weighing.csv --study study.toml --per-interval cycles,mass_loss --sigma 0.3"
 )]
 pub struct ImportArgs {
     /// Tables: .xlsx, or text with commas, semicolons or tabs
@@ -53,6 +53,11 @@ pub struct ImportArgs {
     /// Reverse the sign: lost material is negative in the table
     #[arg(long)]
     pub(super) turn_sign: bool,
+    /// What the table gives for each interval alone, not since the start of the test: the lengths of the intervals (revolutions or running times),
+    /// a loss, or both with a comma between them (cycles,mass_loss). Each is added up along the rows of a test and member, the first interval on
+    /// top; sigmas are combined as the root of the sum of their squares
+    #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',')]
+    pub(super) per_interval: Vec<PerInterval>,
     /// One standard deviation of every value, in the quantity's own unit (um of depth); with --all-sheets of the sheets without a column of it
     /// [default: left empty, and estimated from the scatter of neighbouring points wherever the file is read]
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, value_parser = sigma)]
@@ -108,6 +113,34 @@ pub(super) enum Across {
     Checkpoints,
     /// Positions
     Positions,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+pub(super) enum PerInterval {
+    /// Revolutions or running times
+    Cycles,
+    /// Wear depths
+    WearDepth,
+    /// Masses lost
+    MassLoss,
+    /// What spans over several teeth lost
+    SpanLoss,
+    /// What chordal thicknesses lost
+    ChordalLoss,
+}
+
+impl PerInterval {
+    /// The quantity of a loss.
+    pub(super) fn loss(self) -> Option<Quantity> {
+        Some(match self {
+            PerInterval::Cycles => return None,
+            PerInterval::WearDepth => Quantity::WearDepth,
+            PerInterval::MassLoss => Quantity::MassLoss,
+            PerInterval::SpanLoss => Quantity::SpanLoss,
+            PerInterval::ChordalLoss => Quantity::ChordalLoss,
+        })
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

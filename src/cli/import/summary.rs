@@ -297,11 +297,19 @@ fn stated_sigma(args: &ImportArgs, unit: &str) -> String {
         ShareOf::Largest => "the largest value of its curve",
     };
     let share = format!("{} % of {of}", rounded_percent(args.relative_sigma));
+    let is_loss = args.per_interval.iter().any(|what| what.loss().is_some());
+    let of_each = match is_loss {
+        true => " for each interval alone",
+        false => "",
+    };
     match (args.sigma, args.relative_sigma > 0.0) {
         (None, false) => LEFT_EMPTY.to_owned(),
-        (None, true) => share,
-        (Some(sigma), false) => format!("{sigma} {unit} for each"),
-        (Some(sigma), true) => format!("{sigma} {unit} and {share}, as the root of their squares"),
+        (None, true) => format!("{share}{of_each}"),
+        (Some(sigma), false) if of_each.is_empty() => format!("{sigma} {unit} for each"),
+        (Some(sigma), false) => format!("{sigma} {unit}{of_each}"),
+        (Some(sigma), true) => {
+            format!("{sigma} {unit} and {share}, as the root of their squares{of_each}")
+        }
     }
 }
 

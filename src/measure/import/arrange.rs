@@ -3,6 +3,7 @@
 //! mass, a span or a chord before and one after as a loss, a deviation before and one after as a depth. Cells keep their places, so messages name them as they stand in the table.
 
 mod alone;
+mod durations;
 mod gauges;
 mod intervals;
 mod labels;
@@ -16,6 +17,7 @@ use std::collections::BTreeSet;
 
 use super::columns::{Column, What, columns};
 use super::{ImportError, Sheet, Wanted, decimal_commas, nameless};
+use crate::measure::Quantity;
 
 pub(super) use labels::{flank_above, stated_above};
 pub(super) use sides::side;
@@ -65,12 +67,19 @@ fn with_header(
     head: usize,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
-    if let Some(both) = sides::apart(sheet, head)
-        && let Some(found) = completed(both, sheet, head, wanted)?
-    {
-        return Ok(Some(found));
-    }
-    completed(vec![sheet.clone()], sheet, head, wanted)
+    let (sheet, named) = durations::named(sheet, head, wanted);
+    let both = match sides::apart(&sheet, head) {
+        Some(both) => completed(both, &sheet, head, wanted)?,
+        None => None,
+    };
+    let found = match both {
+        Some(both) => Some(both),
+        None => completed(vec![sheet.clone()], &sheet, head, wanted)?,
+    };
+    Ok(found.map(|found| Arranged {
+        said: [named, found.said].concat(),
+        ..found
+    }))
 }
 
 /// The tables with what the whole sheet says of them; none if they are not long ones.
@@ -86,7 +95,11 @@ fn completed(
     }
     let mut differences = false;
     let mut stops = Vec::new();
+    let mut added_up = true;
     for table in &mut sheets {
+        if wanted.per_interval.cycles {
+            added_up &= durations::as_totals(table, head, wanted, &mut said)?;
+        }
         let header = columns(&table.rows[head]);
         let of_masses = weighings::could_be(&header);
         let of_gauges = !of_masses && gauges::could_be(&header, wanted);
@@ -99,8 +112,17 @@ fn completed(
             (_, true) => gauges::as_losses(table, head, &header, wanted, &mut said)?,
             _ => Vec::new(),
         });
-        differences |= of_gauges;
-        differences |= profiles::as_depths(table, head, &header, wanted, &mut said)?;
+        let of_profiles = profiles::as_depths(table, head, &header, wanted, &mut said)?;
+        differences |= of_gauges || of_profiles;
+        let since_new = [
+            (of_masses, Quantity::MassLoss),
+            (of_gauges, Quantity::SpanLoss),
+            (of_gauges, Quantity::ChordalLoss),
+            (of_profiles, Quantity::WearDepth),
+        ];
+        let since_new = since_new.into_iter().filter(|(is_so, _)| *is_so);
+        let since_new: Vec<Quantity> = since_new.map(|(_, quantity)| quantity).collect();
+        wanted.per_interval.refuse_differences(&since_new)?;
     }
     if sheets.len() > 1 && !sheets.iter().all(|own| sides::is_table(own, whole, head)) {
         return Ok(None);
@@ -110,6 +132,12 @@ fn completed(
         if !has_cycles_and_values(&columns(&table.rows[head])) {
             return Ok(None);
         }
+    }
+    if !added_up {
+        return Err(ImportError(format!(
+            "--per-interval cycles: the header in row {} has no column of the lengths of the intervals (`time [h]`, `duration [h]`, `cycles`)",
+            head + 1
+        )));
     }
     let mut met = BTreeSet::new();
     said.retain(|words| met.insert(words.clone()));

@@ -236,7 +236,7 @@ pub(super) fn state_face(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<(
 }
 
 /// As many as a standard deviation is ever known to.
-fn four_digits(sigma: f64) -> f64 {
+pub(super) fn four_digits(sigma: f64) -> f64 {
     format!("{sigma:.3e}").parse().unwrap_or(sigma)
 }
 

@@ -143,6 +143,7 @@ fn of_columns(
         wanted,
     };
     let mut empty = 0;
+    let mut without_value = Vec::new();
     let mut entries = Vec::new();
     for (row, cells) in sheet.rows.iter().enumerate().skip(head + 1) {
         if cells.iter().all(String::is_empty) {
@@ -150,6 +151,7 @@ fn of_columns(
         }
         if cells.get(read.value.at).is_none_or(String::is_empty) {
             empty += 1;
+            without_value.push(row);
             continue;
         }
         entries.push(line(row).entry(single, &titles, turned)?);
@@ -160,12 +162,19 @@ fn of_columns(
             head + 1
         )));
     }
+    if !wanted.per_interval.losses.is_empty() {
+        read.no_interval_missing(sheet, &without_value, &entries)?;
+    }
     let mut arranged: Vec<String> =
         stops::refuse_times_of_each(&entries, sheet, (&read, &columns), stops)?
             .into_iter()
+            .filter(|_| !wanted.per_interval.cycles)
             .collect();
-    if read.quantity.is_none() {
-        arranged.extend(weights::as_losses(&mut entries, &read, wanted)?);
+    if read.quantity.is_none()
+        && let Some(of_masses) = weights::as_losses(&mut entries, &read, wanted)?
+    {
+        (wanted.per_interval).refuse_differences(&[Quantity::MassLoss])?;
+        arranged.push(of_masses);
     }
     let left_out = off_flank::leave_out(&mut entries, line)?;
     arranged.extend(checkpoints::join(&mut entries));
@@ -181,6 +190,7 @@ fn of_columns(
     if read.sigma.is_none() {
         state_sigma(&mut entries, wanted)?;
     }
+    arranged.extend(wanted.per_interval.add_up(&mut entries, false)?);
     Ok(Long {
         row: head + 1,
         arranged,
@@ -292,6 +302,36 @@ impl<'t> Read<'t> {
             return Ok(());
         }
         Err(ImportError(said(self.head, columns, &missing)))
+    }
+
+    /// Refuses rows without a value above others of the same part: a loss that nobody measured cannot be added up.
+    fn no_interval_missing(
+        &self,
+        sheet: &Sheet,
+        without_value: &[usize],
+        entries: &[Entry],
+    ) -> Result<()> {
+        let of = [
+            self.test,
+            self.member,
+            self.quantity,
+            self.position,
+            self.face,
+            self.tooth,
+        ];
+        let part = |row: usize| of.map(|column| sheet.rows[row].get(column?.at));
+        for &row in without_value {
+            let is_later = |entry: &&Entry| entry.cell.0 > row && part(entry.cell.0) == part(row);
+            if let Some(later) = entries.iter().find(is_later) {
+                return Err(ImportError(format!(
+                    "{}: nothing stands here below `{}`: without the loss of this interval the total of row {} is not known",
+                    cell_name(row, self.value.at),
+                    self.value.written,
+                    later.cell.0 + 1
+                )));
+            }
+        }
+        Ok(())
     }
 
     /// The columns as written, each with what it is.

@@ -15,6 +15,13 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     half_understood::refuse(sheet, wanted)?;
+    if wanted.per_interval.cycles {
+        return Err(ImportError(
+            "--per-interval cycles is for tables with a row for each value: the columns or rows of this one are checkpoints, which count since the \
+             start of the test"
+                .to_owned(),
+        ));
+    }
     let above = stated_above(sheet, wanted)?;
     let wanted = &Wanted {
         test: wanted.test.or(above.test),

@@ -87,7 +87,10 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
             );
         }
     }
-    in_order(&mut entries, wanted)?;
+    if !arranged.is_empty() {
+        (wanted.per_interval).refuse_differences(&[Quantity::MassLoss])?;
+    }
+    arranged.extend(in_order(&mut entries, wanted)?);
     let mut checkpoints: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
     checkpoints.dedup();
     Ok(Wide {

@@ -110,7 +110,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         of_gear,
     };
     let (mut entries, empty) = reading.entries(&grid)?;
-    in_order(&mut entries, wanted)?;
+    let arranged = in_order(&mut entries, wanted)?;
     let [column_numbers, row_numbers] = grid.numbers();
     let (on_flank, checkpoints) = match across {
         Across::Checkpoints => (row_numbers, column_numbers),
@@ -132,7 +132,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         titles,
         turned,
         flank: flank_above(sheet, head)?,
-        arranged: Vec::new(),
+        arranged,
         passed_over,
         left_out,
         empty,
@@ -142,7 +142,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
 }
 
 /// Sorts entries by time and place and names their traces.
-pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<()> {
+pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec<String>> {
     let place = |entry: &Entry| entry.position.unwrap_or(0.0);
     entries.sort_by(|a, b| {
         let by_time = a.cycles.total_cmp(&b.cycles);
@@ -159,7 +159,8 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<()>
     }
     state_face(entries, wanted)?;
     name_repeat(entries, wanted);
-    state_sigma(entries, wanted)
+    state_sigma(entries, wanted)?;
+    wanted.per_interval.add_up(entries, true)
 }
 
 /// The columns with the number in the header of each.

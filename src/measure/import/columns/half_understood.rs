@@ -157,7 +157,7 @@ fn on_time(columns: &[Column], missing: &[&str]) -> String {
     };
     match columns.iter().find(is_time) {
         Some(column) if missing.contains(&"cycles") => format!(
-            ". If `{}` is the running time since the start of the test, call it `time [h]`; add up the times of single intervals first",
+            ". If `{}` is the running time since the start of the test, call it `time [h]`; if it is that of each interval alone, say --per-interval cycles",
             column.written
         ),
         _ => String::new(),

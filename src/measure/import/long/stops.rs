@@ -35,7 +35,7 @@ pub(super) fn refuse_times_of_each(
         let texts: Vec<&str> = stops.iter().map(|&row| cell(row, read.cycles)).collect();
         Err(ImportError(format!(
             "row {}: `{}` below `{written}` is not more than the `{}` of row {}, although {why}: {what} since the start of the test are wanted, not \
-             those of each stop. Add them up{}",
+             those of each stop. Add them up{}, or say --per-interval cycles",
             b + 1,
             cell(b, read.cycles),
             cell(a, read.cycles),
@@ -85,7 +85,7 @@ pub(super) fn refuse_times_of_each(
         chains.iter().any(|rows| rows.len() > 1) || parts.values().any(|stops| stops.len() > 1);
     Ok(several.then(|| {
         format!(
-            "`{written}` is taken as the total since the start of the test at each stop; if it is that of each interval alone, add the values up first"
+            "`{written}` is taken as the total since the start of the test at each stop; if it is that of each interval alone, say --per-interval cycles"
         )
     }))
 }
