@@ -2952,3 +2952,69 @@ fn intervals_that_cannot_be_added_up_are_refused_with_their_row() {
         "{message}"
     );
 }
+
+/// Claim: curves that come behind others of nearly the same cycles are of their checkpoint, from another table as from an earlier file.
+#[test]
+fn rows_behind_others_take_their_checkpoints() {
+    let home = home();
+    fs::write(
+        home.path().join("m.csv"),
+        "test,member,cycles,quantity,position,value,sigma\nA,pinion,100000,wear_depth,26,1,0.1\nA,pinion,250000,wear_depth,26,2,0.1\n\
+         A,pinion,300000,mass_loss,,2,0.1\nB,pinion,500000,wear_depth,26,2,0.1\n",
+    )
+    .unwrap();
+    let table = "test,member,cycles,radius,depth\nA,gear,100004,52,1\nA,gear,100004,53,2\nA,gear,249990,52,2\nA,gear,299990,52,3\nA,gear,500001,52,3\n";
+    let (code, shown, message) = import(&home, table, "--sigma 0.1 -o m.csv --append");
+    assert_eq!(code, Some(0), "{message}");
+    assert!(
+        shown.contains(
+            "joined   test A: 100004, 249990 read as the checkpoints 100000, 250000 of the rows that are there, within 0.1 % of them\n"
+        ),
+        "{shown}"
+    );
+    let written = read(&home, "m.csv");
+    assert!(
+        written.contains("A,gear,100000,wear_depth,53,2,0.1,A-gear-100000\n")
+            && written.contains("A,gear,250000,wear_depth,52,2,0.1,\n"),
+        "{written}"
+    );
+    // a mass has no curve, and test B is another one
+    assert!(written.contains("A,gear,299990,") && written.contains("A,gear,500001,"));
+    // the same table again is the same
+    let again = refused(&home, table, "--sigma 0.1 -o m.csv --append");
+    assert!(again.contains("is there already"), "{again}");
+    // several tables, of which the second is read like the first; wide ones too
+    for (name, member, cycles, at) in [
+        ("a.csv", "pinion", "400000", 26),
+        ("b.csv", "gear", "399995", 52),
+    ] {
+        let text = format!(
+            "Run: A\nPart: {member}\nCycles: {cycles}\nradius,depth\n{at},3\n{},4\n",
+            at + 1
+        );
+        fs::write(home.path().join(name), text).unwrap();
+    }
+    let shown = succeed(
+        &home,
+        "import a.csv b.csv --study study.toml --sigma 0.1 -o n.csv",
+    );
+    assert!(
+        shown.contains("joined   test A: 399995 read as the checkpoint 400000 of the rows that are there, within 0.1 % of it\n"),
+        "{shown}"
+    );
+    assert!(read(&home, "n.csv").contains("A,gear,400000,wear_depth,53,4,0.1,A-gear-400000\n"));
+    let wide = "radius,399990,400000,500000\n52,3,4,5\n53,3.1,4.1,5.1\n";
+    let (code, shown, message) = import(
+        &home,
+        wide,
+        "--test A --member gear --sigma 0.1 -o n.csv --append",
+    );
+    assert_eq!(code, Some(0), "{message}");
+    // two columns of one table are not made one
+    assert!(!shown.contains("joined"), "{shown}");
+    let wide = "radius,400010\n52,5\n53,5.1\n";
+    let options = "--test A --member gear --sigma 0.1 --repeat 2 -o n.csv --append";
+    let (_, shown, _) = import(&home, wide, options);
+    assert!(shown.contains("joined   test A: 400010 read as"), "{shown}");
+    assert!(read(&home, "n.csv").contains("A,gear,400000,wear_depth,52,5,0.1,A-gear-400000-r2\n"));
+}

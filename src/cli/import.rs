@@ -149,6 +149,7 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         face: args.face,
         traces: !args.no_traces,
         repeat: args.repeat,
+        there: import::There::default(),
         per_interval: import::PerInterval {
             cycles: args.per_interval.contains(&PerInterval::Cycles),
             losses: import::PerInterval::LOSSES

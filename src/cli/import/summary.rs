@@ -243,6 +243,15 @@ pub(super) fn like_the_first(
     text
 }
 
+/// What the rows that are there already say of these: checkpoints of theirs.
+pub(super) fn of_others(joined: &[String]) -> String {
+    let mut text = String::new();
+    for words in joined {
+        line(&mut text, "joined", words);
+    }
+    text
+}
+
 /// The number of rows and the first ones.
 pub(super) fn rows(header: &str, rows: &[String]) -> String {
     let mut text = format!("rows     {}, the first:\n  {header}\n", rows.len());

@@ -11,7 +11,7 @@ use super::summary;
 use super::understood::Understood;
 use crate::cli::{CliError, Outcome};
 use crate::measure::Dataset;
-use crate::measure::import::{self, Sheet, Titles, Wanted};
+use crate::measure::import::{self, Sheet, There, Titles, Wanted};
 use crate::report::write_file;
 use crate::study::{Fault, Study, StudyError};
 
@@ -54,6 +54,11 @@ impl Taken {
         sheet: &Sheet,
         wanted: &Wanted<'_>,
     ) -> Result<(), CliError> {
+        let there = self.file.as_deref().map(There::of).unwrap_or_default();
+        let wanted = &Wanted {
+            there,
+            ..wanted.clone()
+        };
         let understood = Understood::of(sheet, wanted)
             .map_err(|error| CliError::Unusable(format!("{name}: {error}")))?;
         self.flanks.agree(name, &understood)?;
@@ -61,6 +66,7 @@ impl Taken {
         let source = source(args, self.file.is_some(), name);
         let whole = with_rows(args, name, self.file.as_deref(), &header, &rows)?;
         self.show(args, name, &understood, (&header, &rows));
+        self.text += &summary::of_others(understood.joined());
         // what cannot be read back is not written
         if let Err(error) = Dataset::parse(&whole, &source, &study.known()) {
             // the place within the table's own rows, where these alone are wrong

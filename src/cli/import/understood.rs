@@ -26,6 +26,14 @@ impl Understood {
         }
     }
 
+    /// What is said of checkpoints that are those of rows that are there already.
+    pub(super) fn joined(&self) -> &[String] {
+        match self {
+            Understood::Long(long) => &long.joined,
+            Understood::Wide(wide) => &wide.joined,
+        }
+    }
+
     pub(super) fn titles(&self) -> &Titles {
         match self {
             Understood::Long(long) => &long.titles,
@@ -91,6 +99,7 @@ impl Understood {
                 "columns": long.columns,
                 "passed_over": long.passed_over,
                 "titles_passed_over": titles(&long.titles),
+                "checkpoints_joined": long.joined,
                 "left_out": long.left_out,
                 "sign_turned": long.turned,
                 "empty": long.empty,
@@ -107,6 +116,7 @@ impl Understood {
                 "from_to": wide.position.map(|(_, from_to)| from_to),
                 "passed_over": wide.passed_over,
                 "titles_passed_over": titles(&wide.titles),
+                "checkpoints_joined": wide.joined,
                 "left_out": wide.left_out,
                 "sign_turned": wide.turned,
                 "empty": wide.empty,

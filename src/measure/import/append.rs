@@ -20,7 +20,6 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
             "it has semicolons or tabs between its columns: import it into a file of its own first, and append to that".to_owned(),
         ));
     }
-    let is_record = |line: &&str| !line.trim().is_empty() && !line.starts_with('#');
     let Some(own_header) = before.lines().find(is_record) else {
         return Ok(format!("{before}{header}\n{}", ended(rows)));
     };
@@ -77,6 +76,37 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
         ))),
         _ => Ok(text),
     }
+}
+
+/// The records of a measurement file with commas, by the names of its columns.
+pub(super) struct Rows<'t> {
+    text: &'t str,
+    names: Vec<Option<usize>>,
+}
+
+impl<'t> Rows<'t> {
+    /// None for a file without a header.
+    pub(super) fn of(text: &'t str) -> Option<Self> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let header = text.lines().find(is_record)?;
+        let names = record(header).iter().map(column_named).collect();
+        Some(Self { text, names })
+    }
+
+    /// Those below the header.
+    pub(super) fn records(&self) -> impl Iterator<Item = StringRecord> {
+        self.text.lines().filter(is_record).skip(1).map(record)
+    }
+
+    /// What stands in a record's column.
+    pub(super) fn field(&self, row: &StringRecord, name: &str) -> String {
+        field(row, &self.names, name)
+    }
+}
+
+/// Whether a line of a measurement file is its header or a row.
+fn is_record(line: &&str) -> bool {
+    !line.trim().is_empty() && !line.starts_with('#')
 }
 
 /// The rows that a file has: what each says but its sigma, and without face and trace the faces at which it is said.

@@ -20,6 +20,7 @@ use super::{ImportError, Sheet, cell_name, counts, decimal_commas, nameless, uni
 use crate::measure::{Place, Quantity, names};
 use line::Line;
 
+pub(super) use checkpoints::SAME;
 pub(super) use weights::from_start;
 
 /// What was understood of a long table, and its rows.
@@ -29,6 +30,8 @@ pub struct Long {
     pub row: usize,
     /// What was made of the table before it was read, in words.
     pub arranged: Vec<String>,
+    /// What is said of checkpoints that are those of rows that are there already.
+    pub joined: Vec<String>,
     /// The columns that are read, as written, each with what it is.
     pub columns: Vec<(String, String)>,
     /// The columns that are passed over, each with the reason.
@@ -177,6 +180,7 @@ fn of_columns(
         arranged.push(of_masses);
     }
     let left_out = off_flank::leave_out(&mut entries, line)?;
+    let joined = wanted.there.join(&mut entries, false);
     arranged.extend(checkpoints::join(&mut entries));
     let flank = flanks::only(sheet, head, &columns, &entries)?;
     let traces = traces::name(&mut entries, &read, wanted)?;
@@ -194,6 +198,7 @@ fn of_columns(
     Ok(Long {
         row: head + 1,
         arranged,
+        joined,
         left_out,
         columns: read.in_words(&columns, single, &titles, wanted)?,
         passed_over: passed_over(sheet, head, &columns, read.value),
@@ -223,6 +228,7 @@ impl Long {
                 self.arranged.push(words);
             }
         }
+        self.joined.extend(other.joined);
         self.left_out.extend(other.left_out);
         self.empty += other.empty;
         self.has_sigma |= other.has_sigma;

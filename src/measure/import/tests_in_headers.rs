@@ -131,6 +131,7 @@ fn joined(mut all: Wide, next: Wide) -> Result<Wide> {
     all.checkpoints.extend(next.checkpoints);
     all.checkpoints.sort_by(f64::total_cmp);
     all.checkpoints.dedup();
+    all.joined.extend(next.joined);
     all.empty += next.empty;
     all.entries.extend(next.entries);
     Ok(all)

@@ -2,7 +2,7 @@
 
 use super::numbers::rounded;
 use super::place::PositionKind;
-use super::{Across, Decimal, ImportError, PerInterval, Sheet, units};
+use super::{Across, Decimal, ImportError, PerInterval, Sheet, There, units};
 use crate::gear::{Gear, Member};
 use crate::measure::{Quantity, Subject, names};
 use crate::source_text::is_misspelt;
@@ -52,6 +52,8 @@ pub struct Wanted<'a> {
     pub repeat: Option<u32>,
     /// What the table gives for each interval alone, not since the start of the test.
     pub per_interval: PerInterval,
+    /// The rows behind which those of the table come.
+    pub there: There,
 }
 
 /// Of what a relative standard deviation is a share.

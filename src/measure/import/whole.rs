@@ -107,6 +107,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         turned,
         flank: None,
         arranged,
+        joined: Vec::new(),
         passed_over,
         left_out: Vec::new(),
         empty,

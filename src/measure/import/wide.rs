@@ -54,6 +54,8 @@ pub struct Wide {
     pub flank: Option<String>,
     /// What was made of the values, in words.
     pub arranged: Vec<String>,
+    /// What is said of checkpoints that are those of rows that are there already.
+    pub joined: Vec<String>,
     /// Headers of the columns that are passed over.
     pub passed_over: Vec<String>,
     /// The rows or columns that are left out because the flank does not reach there, in words.
@@ -110,6 +112,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         of_gear,
     };
     let (mut entries, empty) = reading.entries(&grid)?;
+    let joined = wanted.there.join(&mut entries, true);
     let arranged = in_order(&mut entries, wanted)?;
     let [column_numbers, row_numbers] = grid.numbers();
     let (on_flank, checkpoints) = match across {
@@ -133,6 +136,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         turned,
         flank: flank_above(sheet, head)?,
         arranged,
+        joined,
         passed_over,
         left_out,
         empty,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::measure::import::entry::Entry;
 
 /// Part of a count by which two of one checkpoint may differ: far less than wear can show.
-const SAME: f64 = 1e-3;
+pub(in crate::measure::import) const SAME: f64 = 1e-3;
 
 /// Gives the curves of a test that were measured at the same checkpoint the same cycles, those that most of them state, and says which. What has
 /// no place may be a record of many times and stays as it is.
