@@ -3018,3 +3018,42 @@ fn rows_behind_others_take_their_checkpoints() {
     assert!(shown.contains("joined   test A: 400010 read as"), "{shown}");
     assert!(read(&home, "n.csv").contains("A,gear,400000,wear_depth,52,5,0.1,A-gear-400000-r2\n"));
 }
+
+/// Claim: rows of a member that lie apart from its own and among the other member's get a warning. The gears are nearly of one size, so the flanks
+/// (z 39 and 41, module 2: form to tip circle about 37.5 to 41 and 39.5 to 43 mm) reach over each other.
+#[test]
+fn members_that_may_be_swapped_are_warned_of() {
+    let home = home();
+    let alike = STUDY.replace("teeth = 27", "teeth = 39");
+    assert_ne!(alike, STUDY);
+    fs::write(
+        home.path().join("study.toml"),
+        alike.replace("teeth = 53", "teeth = 41"),
+    )
+    .unwrap();
+    let rows =
+        |member: &str, [a, b]: [f64; 2]| format!("{member},100000,{a},1\n{member},100000,{b},2\n");
+    let table = |rows: &str| format!("member,cycles,radius,depth\n{rows}");
+    let options = "--test A --sigma 0.1 -o m.csv";
+    let there = [rows("pinion", [38.2, 39.8]), rows("gear", [40.2, 42.5])].concat();
+    let (code, shown, message) = import(&home, &table(&there), options);
+    assert_eq!(code, Some(0), "{message}");
+    assert!(!shown.contains("warning"), "{shown}");
+    let appended = |rows: &str| {
+        let rows = rows.replace(",100000,", ",200000,");
+        let (code, shown, message) = import(&home, &table(&rows), &format!("{options} --append"));
+        assert_eq!(code, Some(0), "{message}");
+        shown
+    };
+    // its own place, and a place that neither has
+    for good in [rows("pinion", [39.0, 40.5]), rows("gear", [42.6, 42.8])] {
+        let shown = appended(&good);
+        assert!(!shown.contains("warning"), "{shown}");
+    }
+    fs::remove_file(home.path().join("m.csv")).unwrap();
+    import(&home, &table(&there), options);
+    let shown = appended(&rows("pinion", [40.4, 40.8]));
+    let says = "warning  the radii of the pinion, 40.4 to 40.8 mm, lie apart from those of its rows that are there, 38.2 to 39.8 mm, and among the gear's, 40.2 to 42.5 mm: are the members swapped?";
+    assert_eq!(shown.matches("warning").count(), 1, "{shown}");
+    assert!(shown.contains(says), "{shown}");
+}

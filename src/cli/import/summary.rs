@@ -243,11 +243,14 @@ pub(super) fn like_the_first(
     text
 }
 
-/// What the rows that are there already say of these: checkpoints of theirs.
-pub(super) fn of_others(joined: &[String]) -> String {
+/// What the rows that are there already say of these: checkpoints of theirs, and a warning of members that may be swapped.
+pub(super) fn of_others(joined: &[String], swapped: &[String]) -> String {
     let mut text = String::new();
     for words in joined {
         line(&mut text, "joined", words);
+    }
+    for words in swapped {
+        line(&mut text, "warning", words);
     }
     text
 }

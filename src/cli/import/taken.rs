@@ -65,8 +65,9 @@ impl Taken {
         let (header, rows) = import::lines(understood.entries());
         let source = source(args, self.file.is_some(), name);
         let whole = with_rows(args, name, self.file.as_deref(), &header, &rows)?;
+        let swapped = wanted.there.swapped(understood.entries());
         self.show(args, name, &understood, (&header, &rows));
-        self.text += &summary::of_others(understood.joined());
+        self.text += &summary::of_others(understood.joined(), &swapped);
         // what cannot be read back is not written
         if let Err(error) = Dataset::parse(&whole, &source, &study.known()) {
             // the place within the table's own rows, where these alone are wrong
@@ -76,7 +77,11 @@ impl Taken {
             return Err(cannot_be_read(error, (name, &understood), &self.text));
         }
         self.count += rows.len();
-        self.documents.push(understood.document());
+        let mut document = understood.document();
+        if !swapped.is_empty() {
+            document["warnings"] = json!(swapped);
+        }
+        self.documents.push(document);
         self.file = Some(whole);
         Ok(())
     }

@@ -1,16 +1,19 @@
-//! What the rows that are there already say of those that come behind them: the checkpoints they share.
+//! What the rows that are there already say of those that come behind them: the checkpoints they share, and the flank they should lie on.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::append::Rows;
 use super::entry::Entry;
 use super::long::SAME;
+use crate::measure::{Place, Quantity, Subject};
 
 /// The rows with a place that are there already; nothing where there are none.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct There {
     /// Cycles of each test.
     checkpoints: BTreeMap<String, Vec<f64>>,
+    /// Radii on the flank of each member, the least and the largest.
+    flanks: BTreeMap<Subject, [f64; 2]>,
 }
 
 impl There {
@@ -22,8 +25,8 @@ impl There {
         };
         for row in rows.records() {
             let field = |name: &str| rows.field(&row, name);
-            let has_place = field("position").parse::<f64>().is_ok();
-            let Some(cycles) = field("cycles").parse().ok().filter(|_| has_place) else {
+            let (Ok(cycles), Ok(position)) = (field("cycles").parse(), field("position").parse())
+            else {
                 continue;
             };
             there
@@ -31,6 +34,15 @@ impl There {
                 .entry(field("test"))
                 .or_default()
                 .push(cycles);
+            let quantity = Quantity::ALL
+                .into_iter()
+                .find(|known| known.name() == field("quantity"));
+            let member = Subject::ALL
+                .into_iter()
+                .find(|known| known.name() == field("member"));
+            if let (Some(member), true) = (member, quantity.is_some_and(lies_on_flank)) {
+                widen(&mut there.flanks, member, position);
+            }
         }
         for counts in there.checkpoints.values_mut() {
             counts.sort_by(f64::total_cmp);
@@ -83,6 +95,51 @@ impl There {
         }
         said
     }
+
+    /// What is said of members whose rows lie apart from those that are there, and among those of the other member.
+    pub fn swapped(&self, entries: &[Entry]) -> Vec<String> {
+        let mut flanks = BTreeMap::new();
+        for entry in entries.iter().filter(|entry| lies_on_flank(entry.quantity)) {
+            if let Some(position) = entry.position {
+                widen(&mut flanks, entry.member, position);
+            }
+        }
+        let meet = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[1] && b[0] <= a[1];
+        let other = |member: Subject| match member {
+            Subject::Pinion => Subject::Gear,
+            _ => Subject::Pinion,
+        };
+        let is_swapped = |(member, own): (&Subject, &[f64; 2])| {
+            let same = self.flanks.get(member)?;
+            let others = self.flanks.get(&other(*member))?;
+            (!meet(own, same) && meet(own, others)).then(|| {
+                format!(
+                    "the radii of the {member}, {} to {} mm, lie apart from those of its rows that are there, {} to {} mm, and among the {other}'s, {} \
+                     to {} mm: are the members swapped? --member or a column of members says whose they are",
+                    own[0],
+                    own[1],
+                    same[0],
+                    same[1],
+                    others[0],
+                    others[1],
+                    member = member.name(),
+                    other = other(*member).name()
+                )
+            })
+        };
+        flanks.iter().filter_map(is_swapped).collect()
+    }
+}
+
+/// Whether places of a quantity show which part of a flank was measured; a chord stands at a circle of its own.
+fn lies_on_flank(quantity: Quantity) -> bool {
+    quantity.place() == Place::Flank && quantity != Quantity::ChordalLoss
+}
+
+fn widen(flanks: &mut BTreeMap<Subject, [f64; 2]>, member: Subject, radius: f64) {
+    let [least, most] = flanks.entry(member).or_insert([radius, radius]);
+    *least = least.min(radius);
+    *most = most.max(radius);
 }
 
 /// The nearest of several counts, if it is within a thousandth.
