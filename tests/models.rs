@@ -646,7 +646,7 @@ fn the_document_has_its_keys_and_no_gaps() {
         "lower_double",
         "tip contact",
         "report.html",
-        "1000 rpm as the paper prints it",
+        "1000 rpm, as printed in the paper",
     ] {
         assert!(said.contains(part), "{part} not in\n{said}");
     }

@@ -157,7 +157,7 @@ impl Corrections {
         let none = Self::default();
         [
             (
-                "sliding over the Hertz contact instead of over the way from the pitch point",
+                "each point slides while the contact passes over it",
                 Self {
                     hertz_dwell: true,
                     ..none

@@ -52,8 +52,9 @@ fn mounting(mounted: &Mounted) -> Section {
         section.tables.extend(differences(mounted, quantity));
     }
     section.plots(plots::of_models(mounted)).note(
-        "First tables: the models' means, and between them what each replaced assumption changes. Then the differences: of \
-         the means, and after the stroke the largest at one place, both over the mean of the model named second.",
+        "In the tables of means, the rows between two models show how much each replaced assumption changes the mean. In the \
+         tables of differences, the first figure is the difference of the means and the one after the stroke the largest \
+         difference at any one point, both in percent of the mean of the model named second.",
     )
 }
 
@@ -124,7 +125,7 @@ fn ladder(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
 /// Relative differences of one quantity by region: of the means, and at the worst place.
 fn differences(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
     let heads = heads(mounted);
-    let mut head = vec!["model, reference"];
+    let mut head = vec!["model against reference"];
     head.extend(heads.iter().map(String::as_str));
     let mut table = Table::new(&format!("Differences in {}, %", quantity.label()), head);
     let relative = |value: Option<f64>| {
@@ -140,7 +141,7 @@ fn differences(mounted: &Mounted, quantity: Quantity) -> Option<Table> {
         .filter(|d| d.quantity == quantity);
     for difference in all {
         let first = Cell::text(format!(
-            "{}, {}",
+            "{} against {}",
             difference.model.name(),
             difference.reference.name()
         ));
@@ -165,7 +166,7 @@ fn one_at_a_time(comparison: &Comparison) -> Option<Section> {
     let mut head = vec!["cause", "correction"];
     head.extend(heads.iter().map(String::as_str));
     let mut table = Table::new(
-        "Change of the pinion's mean worn depth when this alone is corrected, µm and % of the model's depth, by misalignment",
+        "Change in the pinion's mean worn depth when only this step is corrected, in µm and in % of the published model's depth, by misalignment",
         head,
     );
     for (row, alone) in first.alone.iter().enumerate() {
@@ -210,9 +211,9 @@ fn rungs(comparison: &Comparison) -> Section {
     }
     Section::new("What each cause replaces")
         .paragraph(
-            "Between two models one assumption after the other is replaced, from top to bottom; each line of the tables above \
-             is the change that one replacement makes. The changes add up to the difference of the two models; where two \
-             assumptions act on each other their order matters.",
+            "From one model to the next, assumptions are replaced one at a time, from top to bottom; each row between the models in the \
+             tables above is the change that one replacement makes. The changes add up to the difference between the two \
+             models; where assumptions affect each other, their shares depend on this order.",
         )
         .table(table)
 }
@@ -226,8 +227,8 @@ fn assumptions(comparison: &Comparison) -> Section {
         ]);
     }
     let mut section = Section::new("What each model assumes").table(table).note(
-        "All models are run without the study's effects. A to E is the path of contact with the pitch point C: lower_double \
-         is A to B, single_lower B to C, single_upper C to D, upper_double D to E; means are taken along it. Under a sharp \
+        "All models are run without the study's effects. A to E is the path of contact and C the pitch point: lower_double \
+         is A to B, single_lower B to C, single_upper C to D, upper_double D to E; means are taken along the path. Under a sharp \
          tip corner the pressure grows without limit as the mesh is refined; load share and wear do not.",
     );
     for out in &comparison.left_out {

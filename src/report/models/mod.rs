@@ -46,7 +46,7 @@ pub fn published_gear_speed(comparison: &Comparison) -> String {
     let true_speed = significant(comparison.conditions.speed * z1 / z2, 6);
     match comparison.printed_gear_speed {
         Some(printed) => format!(
-            "{} rpm as the paper prints it for this pair; its tooth numbers give {true_speed} rpm",
+            "{} rpm, as printed in the paper for this pair; the tooth numbers give {true_speed} rpm",
             significant(printed, 4)
         ),
         None => format!("{true_speed} rpm from the tooth numbers"),

@@ -1,5 +1,5 @@
 //! What a comparison shows, in sentences.
-use super::signed;
+use super::{fixed, signed};
 use crate::numeric::written::{percent, significant};
 use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity};
 
@@ -7,6 +7,7 @@ use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity}
 pub fn conclusions(comparison: &Comparison) -> Vec<String> {
     let all = &comparison.mounted;
     let mut sentences = Vec::new();
+    let mut told = Vec::new();
     for (quantity, member) in [
         (Quantity::DepthPinion, "pinion"),
         (Quantity::DepthGear, "gear"),
@@ -15,13 +16,13 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
             .iter()
             .filter_map(|m| ratio(m, quantity, Kind::Hertz))
             .map(|r| r - 1.0);
-        if let Some(range) = range(off, |v| format!("{} %", signed(100.0 * v, 1))) {
+        if let Some(off) = off_by(off) {
             let ways = all
                 .iter()
                 .map(|m| m.causes(quantity, Kind::Hertz, Kind::Fem));
             sentences.push(format!(
-                "On the {member} the Hertz model's mean depth is {range} off that of finite elements, {}.",
-                blame(ways)
+                "On the {member}, the Hertz model's mean worn depth is {off} that of the finite-element model{}.",
+                blame(ways, &mut told)
             ));
         }
     }
@@ -31,7 +32,7 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
         .map(|s| s.largest_difference.abs());
     if let Some(largest) = single.max_by(f64::total_cmp) {
         sentences.push(format!(
-            "Where one pair alone carries the load, peak pressures by finite elements and by Hertz agree within {}.",
+            "Where a single pair of teeth carries the load, the peak pressures of the finite-element and Hertz models agree within {}.",
             percent(largest, 2)
         ));
     }
@@ -47,8 +48,8 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
             .iter()
             .map(|m| m.causes(Quantity::DepthPinion, Kind::Paper, Kind::Fem));
         sentences.push(format!(
-            "The published model wears the pinion {range} times as deep as finite elements do, {}.",
-            blame(ways)
+            "The published model's mean worn depth of the pinion is {range} times that of the finite-element model{}.",
+            blame(ways, &mut told)
         ));
     }
     for out in &comparison.left_out {
@@ -71,8 +72,8 @@ pub fn of_mounting(mounted: &Mounted) -> Vec<String> {
     if let Some(single) = mounted.single {
         let [_, b, d, _] = mounted.geometry.path_limits;
         sentences.push(format!(
-            "One pair alone carries the load from {} to {} mm along the path of contact (nominally {} to {} mm); there the \
-             finite elements' peak pressure is within {} of Hertz's, {} on average.",
+            "A single pair of teeth carries the load from {} to {} mm along the path of contact (nominally {} to {} mm); there, the \
+             finite-element peak pressure is within {} of the Hertz value ({} on average).",
             significant(single.from, 3),
             significant(single.to, 3),
             significant(b, 3),
@@ -138,15 +139,17 @@ fn of_way(mounted: &Mounted, quantity: Quantity, from: Kind, member: &str) -> Op
         })
         .collect();
     let what = format!(
-        "The {} model's mean depth on {member} is {} µm, that of finite elements {} µm",
+        "The {} model's mean worn depth of {member} is {} µm, that of the finite-element model {} µm",
         if turned { "published" } else { "Hertz" },
         significant(start.whole, 3),
         significant(end.whole, 3)
     );
-    Some(match (parts.is_empty(), turned) {
-        (true, _) => format!("{what}."),
-        (false, true) => format!("{what}. Parts of the difference: {}.", parts.join(", ")),
-        (false, false) => format!("{what}; on the way there: {}.", parts.join(", ")),
+    Some(match parts.is_empty() {
+        true => format!("{what}."),
+        false => format!(
+            "{what}. Main contributions to the difference: {}.",
+            parts.join(", ")
+        ),
     })
 }
 
@@ -171,8 +174,28 @@ fn range(values: impl Iterator<Item = f64>, written: impl Fn(f64) -> String) -> 
     })
 }
 
-/// The cause that changes the mean most at most misalignments.
-fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>) -> String {
+/// How far values are off a reference, as relative differences: `2.0 to 3.7 % below`.
+fn off_by(values: impl Iterator<Item = f64>) -> Option<String> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+        (l.min(v), h.max(v))
+    });
+    let written = |v: f64| fixed(100.0 * v.abs(), 1);
+    let side = |v: f64| if v < 0.0 { "below" } else { "above" };
+    low.is_finite().then(|| {
+        let [a, b] = [low, high].map(written);
+        if a == b && (low < 0.0) == (high < 0.0) {
+            format!("{a} % {}", side(low))
+        } else if (low < 0.0) == (high < 0.0) {
+            let (least, most) = if low < 0.0 { (b, a) } else { (a, b) };
+            format!("{least} to {most} % {}", side(low))
+        } else {
+            format!("between {a} % below and {b} % above")
+        }
+    })
+}
+
+/// The cause that changes the mean most at most misalignments, explained where it has not been `told` yet.
+fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>, told: &mut Vec<Cause>) -> String {
     let mut sums: Vec<(Cause, f64)> = Vec::new();
     for (cause, change) in ways.flatten() {
         match sums.iter_mut().find(|(c, _)| *c == cause) {
@@ -181,16 +204,38 @@ fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>) -> String {
         }
     }
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let mut name = |cause: Cause| {
+        if told.contains(&cause) {
+            return cause.label();
+        }
+        told.push(cause);
+        cause.explained()
+    };
     match sums.as_slice() {
         [] => String::new(),
-        [(first, _)] => format!("because of {}", first.label()),
+        [(first, _)] => format!(", because of {}", name(*first)),
         [(first, most), (second, next), ..] if *next > 0.25 * most => {
-            format!(
-                "above all because of {} and {}",
-                first.label(),
-                second.label()
-            )
+            format!(", mainly because of {} and {}", name(*first), name(*second))
         }
-        [(first, _), ..] => format!("above all because of {}", first.label()),
+        [(first, _), ..] => format!(", mainly because of {}", name(*first)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::off_by;
+
+    #[test]
+    fn differences_say_on_which_side_they_are() {
+        for (values, says) in [
+            (&[-0.037][..], "3.7 % below"),
+            (&[0.02], "2.0 % above"),
+            (&[-0.037, -0.021], "2.1 to 3.7 % below"),
+            (&[0.021, 0.037], "2.1 to 3.7 % above"),
+            (&[-0.037, 0.021], "between 3.7 % below and 2.1 % above"),
+        ] {
+            assert_eq!(off_by(values.iter().copied()).as_deref(), Some(says));
+        }
+        assert_eq!(off_by(std::iter::empty()), None);
     }
 }

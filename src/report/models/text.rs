@@ -81,7 +81,7 @@ fn table(lines: &mut Vec<String>, mounted: &Mounted, quantity: Quantity) {
         .iter()
         .map(|s| s.region.name().to_owned())
         .collect();
-    head.push("whole".to_owned());
+    head.push("whole path".to_owned());
     lines.push(row(
         format!("  {}, {}", quantity.label(), quantity.unit()),
         head,

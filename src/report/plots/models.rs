@@ -10,7 +10,7 @@ pub fn of_models(mounted: &Mounted) -> Vec<Plot> {
             mounted,
             (
                 "pressure",
-                "Peak pressure away from the tip corners, unworn",
+                "Peak pressure away from the tip corners, unworn flanks",
                 "peak pressure, MPa",
             ),
             false,
@@ -20,7 +20,7 @@ pub fn of_models(mounted: &Mounted) -> Vec<Plot> {
             mounted,
             (
                 "load_share",
-                "Share of the torque that one pair carries, unworn",
+                "Share of the torque carried by one pair, unworn flanks",
                 "load share, -",
             ),
             true,
@@ -30,7 +30,7 @@ pub fn of_models(mounted: &Mounted) -> Vec<Plot> {
             mounted,
             (
                 "wear_pinion",
-                "Worn depth of the pinion, finite elements and Hertz",
+                "Worn depth of the pinion, finite-element and Hertz models",
             ),
             elastic,
             |model| Some(&model.pinion),
@@ -39,7 +39,7 @@ pub fn of_models(mounted: &Mounted) -> Vec<Plot> {
             mounted,
             (
                 "wear_gear",
-                "Worn depth of the gear, finite elements and Hertz",
+                "Worn depth of the gear, finite-element and Hertz models",
             ),
             elastic,
             |model| model.gear.as_ref(),
@@ -48,7 +48,7 @@ pub fn of_models(mounted: &Mounted) -> Vec<Plot> {
             mounted,
             (
                 "pressure_corners",
-                "Peak pressure with the sharp tip corners, unworn",
+                "Peak pressure including the sharp tip corners, unworn flanks",
                 "peak pressure, MPa",
             ),
             true,

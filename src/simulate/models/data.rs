@@ -152,16 +152,16 @@ impl Kind {
     pub fn assumptions(self) -> &'static str {
         match self {
             Kind::Paper => {
-                "half of the load wherever two pairs touch; Hertz pressure at 50 points, the tip not among them; a point is \
-                 rubbed for the time the contact takes from the pitch point to it; wear changes the profile angle; pinion only"
+                "half the load on each pair wherever two pairs are in contact; Hertzian pressure at 50 points, without the tip; each point slides \
+                 for as long as the contact takes to reach it from the pitch point; wear changes the profile angle; pinion only"
             }
             Kind::Hertz => {
-                "teeth as springs along the path of contact, wear opening them; Hertz pressure over the contact's width; \
-                 contact on the line of action only"
+                "each pair of teeth as a spring along the path of contact, with a gap where it has worn; Hertzian pressure over the width of \
+                 the contact; contact on the line of action only"
             }
             Kind::Fem => {
-                "elastic gears by finite elements, contact solved at every mesh position on the flanks as worn, tip corners \
-                 outside the line of action included"
+                "elastic gears by finite elements, contact solved at every mesh position on the flanks as worn, including tip corners \
+                 that touch off the line of action"
             }
         }
     }
@@ -396,6 +396,22 @@ impl Cause {
             Cause::PressureShape => "pressure shape",
             Cause::Feedback => "feedback",
             Cause::Friction => "friction",
+        }
+    }
+
+    /// Its name with what it is, where the name alone does not say it.
+    pub fn explained(self) -> &'static str {
+        match self {
+            Cause::AngleUpdate => "angle update (profile angle changed by wear)",
+            Cause::Dwell => "dwell (how long each point is taken to slide)",
+            Cause::Grid => "grid (the points at which wear is computed)",
+            Cause::TipContact => "tip contact (tip corners touching off the line of action)",
+            Cause::Feedback => "feedback (wear changing the load and pressure)",
+            Cause::GearSpeed
+            | Cause::ContactWidth
+            | Cause::LoadShare
+            | Cause::PressureShape
+            | Cause::Friction => self.label(),
         }
     }
 }

@@ -155,20 +155,20 @@ fn steps_to_hertz(hertz: &ByHertz) -> Vec<Step> {
     vec![
         Step {
             cause: Cause::ContactWidth,
-            replaced: "wear at the nominal contact point alone",
-            by: "Hertz's ellipse over the width of the contact",
+            replaced: "wear at the nominal contact point only",
+            by: "Hertzian pressure over the width of the contact",
             state: hertz.equal.clone(),
         },
         Step {
             cause: Cause::LoadShare,
-            replaced: "equal parts for the pairs in contact",
-            by: "springs of the teeth",
+            replaced: "load shared equally between the pairs in contact",
+            by: "load shared as by springs, one for each pair of teeth",
             state: hertz.springs.clone(),
         },
         Step {
             cause: Cause::Feedback,
             replaced: "load shares of the unworn flanks",
-            by: "load shares that follow the wear",
+            by: "load shares updated as the flanks wear",
             state: State::of(&hertz.worn),
         },
     ]
@@ -179,32 +179,32 @@ fn steps_to_fem(hertz: &ByHertz, unworn: Unworn, fem: &ModelResult) -> Vec<Step>
     vec![
         Step {
             cause: Cause::Feedback,
-            replaced: "load shares of the Hertz model that follow the wear",
-            by: "those of the unworn flanks",
+            replaced: "load shares of the Hertz model, updated as the flanks wear",
+            by: "load shares of the unworn flanks",
             state: hertz.springs.clone(),
         },
         Step {
             cause: Cause::LoadShare,
-            replaced: "springs of the teeth",
-            by: "load shares by finite elements, contact held to the line of action",
+            replaced: "load shared as by springs, one for each pair of teeth",
+            by: "finite-element load shares, contact confined to the line of action",
             state: hertz.shares.clone(),
         },
         Step {
             cause: Cause::TipContact,
             replaced: "contact on the line of action only",
-            by: "load shares by finite elements with tip corners that touch outside it",
+            by: "finite-element load shares, tip corners also touching off the line of action",
             state: unworn.corners,
         },
         Step {
             cause: Cause::PressureShape,
-            replaced: "Hertz's ellipse",
-            by: "pressures by finite elements, ends of the flanks included",
+            replaced: "Hertzian pressure",
+            by: "finite-element pressures, including those at the ends of the flanks",
             state: unworn.pressures,
         },
         Step {
             cause: Cause::Feedback,
             replaced: "pressures of the unworn flanks",
-            by: "pressures by finite elements that follow the wear",
+            by: "finite-element pressures, updated as the flanks wear",
             state: State::of(fem),
         },
     ]

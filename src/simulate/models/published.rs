@@ -124,31 +124,31 @@ fn steps(inputs: &Inputs, pair: &Pair, cycles: f64) -> Result<Vec<Step>, Absent>
     };
     let mut steps = vec![Step {
         cause: Cause::AngleUpdate,
-        replaced: "wear that changes the profile angle, point by point",
-        by: "an involute that stays one",
+        replaced: "profile angle changed by wear, point by point",
+        by: "profile angle of the involute, unchanged",
         state: steady(corrected, inputs.points)?,
     }];
     if gear_speed_as_printed(inputs).is_some() {
         corrected.true_speed_ratio = true;
         steps.push(Step {
             cause: Cause::GearSpeed,
-            replaced: "the printed 1000 rpm of the gear",
-            by: "the speed from the tooth numbers",
+            replaced: "gear speed of 1000 rpm, as printed",
+            by: "gear speed from the tooth numbers",
             state: steady(corrected, inputs.points)?,
         });
     }
     corrected.hertz_dwell = true;
     steps.push(Step {
         cause: Cause::Dwell,
-        replaced: "sliding for the time from the pitch point to the place",
-        by: "sliding while the contact passes the place",
+        replaced: "each point slides for as long as the contact takes to reach it from the pitch point",
+        by: "each point slides while the contact passes over it",
         state: steady(corrected, inputs.points)?,
     });
     corrected.tip_point = true;
     steps.push(Step {
         cause: Cause::Grid,
-        replaced: "50 points, the tip not among them",
-        by: "2001 points with the tip",
+        replaced: "50 points, without the tip",
+        by: "2001 points, including the tip",
         state: steady(corrected, FINE)?,
     });
     Ok(steps)
