@@ -2944,6 +2944,14 @@ fn intervals_that_cannot_be_added_up_are_refused_with_their_row() {
         let message = refused(&home, &table, &format!("--per-interval {what} {options}"));
         assert!(message.contains(says), "no `{says}` in: {message}");
     }
+    // names of intervals are a hint where nobody asked
+    let message = refused(
+        &home,
+        "duration of interval [h];loss in interval [mg]\n2;3\n2;2\n",
+        options,
+    );
+    let says = "if `duration of interval [h]` and `loss in interval [mg]` hold what each interval alone gave, say --per-interval cycles,mass_loss";
+    assert!(message.contains(says), "{message}");
     // the lengths of one interval are the same for both members
     let two = "wheel,interval,cycles,loss [mg]\npinion,1,1e5,3\ngear,1,2e5,1\n";
     let message = refused(&home, two, "--per-interval cycles --test A --sigma 0.3");

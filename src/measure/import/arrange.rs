@@ -19,6 +19,7 @@ use super::columns::{Column, What, columns};
 use super::{ImportError, Sheet, Wanted, decimal_commas, nameless};
 use crate::measure::Quantity;
 
+pub(super) use durations::hint;
 pub(super) use labels::{flank_above, stated_above};
 pub(super) use sides::side;
 

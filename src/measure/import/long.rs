@@ -201,7 +201,13 @@ fn of_columns(
         joined,
         left_out,
         columns: read.in_words(&columns, single, &titles, wanted)?,
-        passed_over: passed_over(sheet, head, &columns, read.value),
+        passed_over: passed_over(
+            sheet,
+            head,
+            &columns,
+            read.value,
+            wanted.per_interval.cycles,
+        ),
         titles,
         turned,
         flank,
@@ -444,6 +450,7 @@ fn passed_over(
     head: usize,
     columns: &[Column],
     value: &Column,
+    numbers_intervals: bool,
 ) -> Vec<(String, &'static str)> {
     let uses_speeds = columns
         .iter()
@@ -455,6 +462,9 @@ fn passed_over(
                     "a running time beside the revolutions, which are read"
                 }
                 What::ForPeople => "a comment column",
+                What::Unknown if names::is_stop(&column.name()) && numbers_intervals => {
+                    "the number of the interval, by which the lengths are added up"
+                }
                 What::Unknown if names::is_stop(&column.name()) => "the number of the stop",
                 What::Unknown => "not known",
                 What::Weighing(_) => "a weighing",

@@ -5,7 +5,7 @@ mod reading;
 
 use self::grid::{Grid, Places};
 use self::reading::Reading;
-use super::arrange::flank_above;
+use super::arrange::{self, flank_above};
 use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, with_points, without_thousands,
@@ -316,9 +316,13 @@ pub(super) fn no_header(sheet: &Sheet) -> ImportError {
         },
         |said| format!("read as a table with a row for each value, {said}"),
     );
+    let hint = match arrange::hint(sheet) {
+        Some(hint) if !long.contains("--per-interval") => format!("; {hint}"),
+        _ => String::new(),
+    };
     ImportError(format!(
         "no header row: in a table with a column for each checkpoint or place the first cell names what stands below it (such as `radius \
-         [mm]`), the others begin with a number each (cycles, or a radius); {long}"
+         [mm]`), the others begin with a number each (cycles, or a radius); {long}{hint}"
     ))
 }
 

@@ -8,7 +8,7 @@ use crate::measure::import::numbers::{
 };
 use crate::measure::import::per_interval::one_interval;
 use crate::measure::import::{Decimal, ImportError, Sheet, Wanted, cell_name};
-use crate::measure::names;
+use crate::measure::{Quantity, names};
 
 /// Words that make the name of a total one of an interval, beside those for stops.
 const OF_EACH: [&str; 12] = [
@@ -29,12 +29,12 @@ pub(super) fn named(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> (Sheet, 
     };
     let has_cycles = is_counted(&sheet.rows[head]);
     for cell in &mut sheet.rows[head] {
-        let Some((name, is_count)) = of_total(cell) else {
+        let Some((name, of)) = of_total(cell) else {
             continue;
         };
-        let is_asked = match is_count {
-            true => per_interval.cycles && !has_cycles,
-            false => !per_interval.losses.is_empty(),
+        let is_asked = match of {
+            None => per_interval.cycles && !has_cycles,
+            Some(loss) => per_interval.losses.contains(&loss),
         };
         if is_asked {
             said.push(format!("`{cell}`: read as `{name}` of each interval"));
@@ -44,8 +44,29 @@ pub(super) fn named(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> (Sheet, 
     (sheet, said)
 }
 
-/// The name of a total behind that of an interval, and whether it is one of cycles; none for other names.
-fn of_total(cell: &str) -> Option<(String, bool)> {
+/// What is said of columns whose names are those of intervals, where nobody asked for them.
+pub(in crate::measure::import) fn hint(sheet: &Sheet) -> Option<String> {
+    let mut cells = Vec::new();
+    let mut words = Vec::new();
+    for cell in sheet.rows.iter().flatten() {
+        if let Some((_, of)) = of_total(cell) {
+            cells.push(format!("`{cell}`"));
+            words.push(of.map_or("cycles", Quantity::name));
+        }
+    }
+    words.sort_unstable();
+    words.dedup();
+    (!cells.is_empty()).then(|| {
+        format!(
+            "if {} hold what each interval alone gave, say --per-interval {}",
+            cells.join(" and "),
+            words.join(",")
+        )
+    })
+}
+
+/// The name of a total behind that of an interval, and the loss that it is, none inside for cycles; none for other names.
+fn of_total(cell: &str) -> Option<(String, Option<Quantity>)> {
     let only = |text: &str| with_sides(&[text.to_owned()]).pop();
     let own = only(cell)?;
     if own.what != What::Unknown {
@@ -56,12 +77,12 @@ fn of_total(cell: &str) -> Option<(String, bool)> {
     let kept = cell.split_whitespace().filter(|word| !says_each(word));
     let kept = kept.collect::<Vec<_>>().join(" ");
     match only(&kept)?.what {
-        What::Own("cycles") => return Some((kept, true)),
-        What::Values(_) => return Some((kept, false)),
+        What::Own("cycles") => return Some((kept, None)),
+        What::Values(loss) => return Some((kept, Some(loss))),
         _ => {}
     }
     let unit = own.unit.as_deref()?;
-    names::hours_of_unit(unit).map(|_| (format!("time [{unit}]"), true))
+    names::hours_of_unit(unit).map(|_| (format!("time [{unit}]"), None))
 }
 
 /// Adds up what stands in the column of cycles, and says so; false where the header has none, or no values.
