@@ -199,7 +199,7 @@ fn headers_with_units_other_marks_and_repeated_measurements_are_read() {
         "radius;100000\n26,5;1,0\n",
     );
     assert!(
-        told.contains("0.2 um and 30 % of the value, as the root of their squares"),
+        told.contains("0.2 µm and 30 % of the value, as the root of their squares"),
         "{told}"
     );
     assert!(read(&home, "rel.csv").contains("26.5,1,0.3606,"));
@@ -1096,7 +1096,7 @@ fn headers_of_a_wide_table_name_the_tests() {
          B,pinion,140000,wear_depth,26.5,0.8,0.1,B-pinion-140000\n"
     );
     assert!(
-        shown.contains("of the pinion in tests A, B (the headers say so), in um"),
+        shown.contains("of the pinion in tests A, B (the headers say so), in µm"),
         "{shown}"
     );
     assert!(shown.contains("1 cell without a value"), "{shown}");
@@ -1357,7 +1357,7 @@ fn a_stated_sigma_is_of_the_sheets_without_a_column_of_it() {
     let all = "import tables.xlsx --all-sheets --study study.toml --test A --sigma 0.3 -o m.csv";
     let shown = succeed(&home, all);
     for part in [
-        "sigma    0.3 um for each\n",
+        "sigma    0.3 µm for each\n",
         "sigma    as the column says (what the options say is of the sheets without one)\n",
     ] {
         assert!(shown.contains(part), "no `{part}` in:\n{shown}");
@@ -1684,14 +1684,14 @@ fn an_expanded_uncertainty_is_divided_by_its_k() {
         (
             "U [um] (k=3)",
             "0.1",
-            "an expanded uncertainty in um, sigma is it over k = 3",
+            "an expanded uncertainty in µm, sigma is it over k = 3",
         ),
         (
             "expanded uncertainty (k = 1.5)",
             "0.2",
             "sigma is it over k = 1.5",
         ),
-        ("u (k=1) [um]", "0.3", "sigma in um"),
+        ("u (k=1) [um]", "0.3", "sigma in µm"),
     ] {
         let (shown, written) = rows(&home, &table(header), "");
         assert_eq!(
@@ -1866,7 +1866,7 @@ fn a_sigma_in_another_unit_than_its_own_is_said_to_be_wrong() {
     let message = refused(&home, &table(11), "--test A --sigma 70");
     assert!(
         message.contains(
-            "--sigma 70: this is 50 times the largest wear_depth of the table, 1.4 um; --sigma takes one standard deviation in um"
+            "--sigma 70: this is 50 times the largest wear_depth of the table, 1.4 µm; --sigma takes one standard deviation in µm"
         ) && !message.contains("looks like"),
         "{message}"
     );

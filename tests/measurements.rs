@@ -122,13 +122,13 @@ refusals! {
     another_unit_in_the_header: with("position,value", "position [m],value")
         => Inconsistent "position" at 3:28, "`26.31`", "position of wear_depth in mm", "the header says position in m";
     one_unit_for_two: with("value,sigma", "value (µm),sigma")
-        => Inconsistent "value" at 6:39, "`-14.2`", "value of transmission_error in urad", "if rows of several quantities stand below it";
+        => Inconsistent "value" at 6:39, "`-14.2`", "value of transmission_error in µrad", "if rows of several quantities stand below it";
     short_row: with("182.0,4.0,", "182.0,4.0")
         => Syntax "" at 7:1, "7 fields", "8 fields", "empty fields at the end need their commas";
     decimal_comma: with("3.42", "3,42")
         => Syntax "" at 3:1, "9 fields", "8 fields", "decimals are written with a point";
     quoted_decimal_comma: with("3.42", "\"3,42\"")
-        => WrongType "value" at 3:34, "`3,42`", "a number, um", "decimals are written with a point";
+        => WrongType "value" at 3:34, "`3,42`", "a number, µm", "decimals are written with a point";
     open_quote: with("A,gear", "\"A,gear")
         => Syntax "" at 4:1, "a line break in quotes", "a row on each line", "never closed";
     open_quote_in_the_last_column: with("53.5,2.1,0.15,A-g-1", "53.5,2.1,0.15,\"A-g-1")
@@ -170,15 +170,15 @@ refusals! {
     rotation_outside_the_pitch: with("0.25,-14.2", "1.25,-14.2")
         => BadValue "position" at 6:34, "`1.25`", "0 to 1", "outside the base pitch";
     nan: with("3.42", "NaN")
-        => BadValue "value" at 3:34, "`NaN`", "a number, um", "not a finite number";
+        => BadValue "value" at 3:34, "`NaN`", "a number, µm", "not a finite number";
     infinite: with("3.42", "-inf")
-        => BadValue "value" at 3:34, "`-inf`", "a number, um", "not a finite number";
+        => BadValue "value" at 3:34, "`-inf`", "a number, µm", "not a finite number";
     beyond_doubles: with("3.42", "1e400")
-        => BadValue "value" at 3:34, "`1e400`", "a number, um", "not a finite number";
+        => BadValue "value" at 3:34, "`1e400`", "a number, µm", "not a finite number";
     value_with_unit: with("3.42", "3.42 um")
-        => WrongType "value" at 3:34, "`3.42 um`", "a number, um", "value is not a number";
+        => WrongType "value" at 3:34, "`3.42 um`", "a number, µm", "value is not a number";
     value_missing: with("3.42", "")
-        => MissingKey "value" at 3:34, "nothing", "a number, um", "value is missing";
+        => MissingKey "value" at 3:34, "nothing", "a number, µm", "value is missing";
     sigma_zero: with("182.0,4.0", "182.0,0.0")
         => BadValue "sigma" at 7:35, "`0.0`", "at least 1e-9, mg", "sigma is not above 0";
     sigma_negative: with("182.0,4.0", "182.0,-4.0")
@@ -188,13 +188,13 @@ refusals! {
     sigma_missing: with("182.0,4.0", "182.0,")
         => MissingKey "sigma" at 7:35, "nothing", "at least 1e-9, mg", "sigma is missing";
     nanometres: with("3.42", "3420")
-        => BadValue "value" at 3:34, "`3420`", "at most 1000 um", "looks like nm";
+        => BadValue "value" at 3:34, "`3420`", "at most 1000 µm", "looks like nm";
     millimetres: GOOD.replace("3.42,0.15", "0.00342,0.00015").replace("2.1,0.15", "0.0021,0.00015").replace("0.1,0.15", "0.0001,0.00015")
-        => BadValue "value" at 3:34, "`0.00342`, the largest", "wear_depth in um", "looks like mm";
+        => BadValue "value" at 3:34, "`0.00342`, the largest", "wear_depth in µm", "looks like mm";
     millimetres_beside_sigmas_in_micrometres: (0..8).fold("test,member,cycles,quantity,position,value,sigma\n".to_owned(), |text, i| format!("{text}A,pinion,250000,wear_depth,26.{i},0.00{i}42,0.15\n"))
-        => BadValue "value" at 9:33, "`0.00742`, the largest, with a sigma of 0.15", "wear_depth and sigma in um", "looks like mm beside sigmas in um";
+        => BadValue "value" at 9:33, "`0.00742`, the largest, with a sigma of 0.15", "wear_depth and sigma in µm", "looks like mm beside sigmas in µm";
     radians: with("-14.2,0.5", "-14.2e-6,5e-7")
-        => BadValue "value" at 6:39, "`-14.2e-6`, the largest", "in urad", "looks like rad";
+        => BadValue "value" at 6:39, "`-14.2e-6`, the largest", "in µrad", "looks like rad";
     percent: with("wear_depth,26.31,3.42,0.15,A-p-1", "load_share,26.31,63,1,")
         => BadValue "value" at 3:34, "`63`", "at most 2 1", "looks like percent";
     pascals: with("wear_depth,26.31,3.42,0.15,A-p-1", "contact_pressure,26.31,8e8,1e7,")
@@ -204,11 +204,11 @@ refusals! {
     face_off_the_gear: "test,member,cycles,quantity,position,value,sigma,face\nA,gear,0,wear_depth,54,1,0.1,17\n"
         => BadValue "face" at 2:30, "`17`", "-16.5 to 16.5", "off the face width";
     windows_lines: with("3.42", "x").replace('\n', "\r\n")
-        => WrongType "value" at 3:34, "`x`", "a number, um", "value is not a number";
+        => WrongType "value" at 3:34, "`x`", "a number, µm", "value is not a number";
     byte_order_mark: format!("\u{feff}{}", with("test,member", "test,mumber"))
         => UnknownKey "mumber" at 2:6, "`mumber`", "member", "the nearest column is `member`";
     letters_of_two_bytes: with("A-p-1", "Zähne-1").replace("3.42", "\u{b5}")
-        => WrongType "value" at 3:34, "`µ`", "a number, um", "value is not a number";
+        => WrongType "value" at 3:34, "`µ`", "a number, µm", "value is not a number";
 }
 
 #[test]
@@ -219,7 +219,7 @@ error: value is not a number
  --> some/measurements.csv:3:34
   |
 3 | A,pinion,250000,wear_depth,26.31,x,0.15,A-p-1
-  |                                  ^ found `x`, allowed: a number, um";
+  |                                  ^ found `x`, allowed: a number, µm";
     assert_eq!(message.trim_end(), expected);
 }
 

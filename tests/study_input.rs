@@ -108,15 +108,15 @@ refusals! {
     a_pitch_chart_of_words: format!("{SHORT}[teeth.pinion]\npitch_deviations = [\"a\", \"b\"]\n")
         => WrongType "teeth.pinion.pitch_deviations" at 22:21, "\"a\"", "list of numbers", "not a list";
     a_pitch_chart_in_mm: format!("{SHORT}[teeth.pinion]\npitch_pattern = [0.0, 2000.0]\n")
-        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 um", "out of range";
+        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 µm", "out of range";
     a_pattern_longer_than_the_teeth: format!("{SHORT}[teeth.pinion]\npitch_pattern = [1.0]\n")
         => Inconsistent "teeth.pinion.pitch_pattern" at 22:17, "[1.0]", "2 to 27 numbers", "1 deviations";
     two_pitch_charts: format!("{SHORT}[teeth.gear]\npitch_pattern = [1.0, 0.0]\npitch_file = \"p.csv\"\n")
         => Inconsistent "teeth.gear.pitch_file" at 23:14, "\"p.csv\"", "one of them", "pitch_pattern says";
     a_negative_eccentricity: format!("{SHORT}[teeth.gear]\neccentricity = -3.0\n")
-        => BadValue "teeth.gear.eccentricity" at 22:16, "-3.0", "0 to 1000 um", "out of range";
+        => BadValue "teeth.gear.eccentricity" at 22:16, "-3.0", "0 to 1000 µm", "out of range";
     a_phase_without_eccentricity: format!("{SHORT}[teeth.gear]\neccentricity_phase = 30.0\n")
-        => MissingKey "teeth.gear.eccentricity" at 21:1, "no key", "0 to 1000 um", "state both or none";
+        => MissingKey "teeth.gear.eccentricity" at 21:1, "no key", "0 to 1000 µm", "state both or none";
     no_class_of_teeth: format!("{SHORT}[teeth.gear]\nclasses = 0\n")
         => BadValue "teeth.gear.classes" at 22:11, "0", "1 to 64", "out of range";
     unknown_hunting: format!("{SHORT}[teeth]\nhunting = \"all\"\n")
@@ -822,7 +822,7 @@ fn faults_in_a_pitch_file_name_its_line_and_column() {
         (
             whole.replace("\n5,2\n", "\n5,2000\n"),
             Some((6, 3)),
-            "200 um",
+            "200 µm",
         ),
     ] {
         let error = read(&format!("tooth,deviation\n{rows}")).expect_err(&rows);

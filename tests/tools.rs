@@ -209,7 +209,7 @@ fn faulty_profiles_are_refused_with_file_and_line() {
             "52 mm after 53 mm",
             "flank.csv:3:1",
         ),
-        ("radius,deviation\n52,1\n53,900\n", "out of range", "200 um"),
+        ("radius,deviation\n52,1\n53,900\n", "out of range", "200 µm"),
         (
             "radius,deviation\n52,0.002\n53,0.02\n",
             "look like millimetres",

@@ -9,6 +9,7 @@ use super::text::wrap;
 use super::{CliError, Outcome};
 use crate::effects::formula::FUNCTIONS;
 use crate::effects::{CATALOGUE, Card, Param, find};
+use crate::numeric::written;
 
 /// Arguments of `effects`.
 #[derive(Debug, Args)]
@@ -156,7 +157,9 @@ fn symbols(text: &mut String, card: &Card) {
         for variable in formula.variables() {
             let line = format!(
                 "{} ({}): {}",
-                variable.name, variable.unit, variable.meaning
+                variable.name,
+                written::unit(variable.unit),
+                variable.meaning
             );
             wrap(text, "  ", "      ", &line);
         }
@@ -170,7 +173,12 @@ fn symbols(text: &mut String, card: &Card) {
 }
 
 fn parameter(text: &mut String, param: &Param) {
-    let line = format!("{} ({}): {}", param.name, param.unit, param.meaning);
+    let line = format!(
+        "{} ({}): {}",
+        param.name,
+        written::unit(param.unit),
+        param.meaning
+    );
     wrap(text, "  ", "      ", &line);
     let mut line = format!(
         "{} ({} to {}); prior {}",

@@ -102,7 +102,7 @@ fn title(study: &Study, position: f64, solved: &OnePosition, name: &str) -> Stri
     let (peak, _) = solved.peak();
     format!(
         "gearwear {}: {}\nmesh position {position:.4} base pitches from the pitch point, torque per width {} N mm/mm; units mm, N, MPa\n\
-         expected: turn of the pinion {:.3} urad, largest pressure {peak:.2} MPa\nwritten for CalculiX: ccx {name}",
+         expected: turn of the pinion {:.3} µrad, largest pressure {peak:.2} MPa\nwritten for CalculiX: ccx {name}",
         env!("CARGO_PKG_VERSION"),
         study.title.replace('\n', " "),
         solved.torque,

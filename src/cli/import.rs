@@ -93,7 +93,7 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         .filter(|sigma| !(*sigma > 0.0 && sigma.is_finite()))
     {
         return Err(unusable(format!(
-            "--sigma {sigma}: one standard deviation of the values in the quantity's own unit (um of depth, mg of mass), above 0. How well does a \
+            "--sigma {sigma}: one standard deviation of the values in the quantity's own unit (µm of depth, mg of mass), above 0. How well does a \
              repeated measurement agree? A share alone is --relative-sigma without --sigma; without both it is estimated from the scatter of \
              neighbouring points"
         )));

@@ -103,7 +103,7 @@ fn measurements(study: &Study, synthetic: &Synthetic, args: &SynthesizeArgs) -> 
         env!("CARGO_PKG_VERSION")
     ));
     say(format!(
-        "seed {}; sigma = {} of the trace's largest value + 0.02 um; datums: {} um; scatter of k: {}",
+        "seed {}; sigma = {} of the trace's largest value + 0.02 µm; datums: {} µm; scatter of k: {}",
         args.seed,
         args.noise,
         study.noise.datum_um,

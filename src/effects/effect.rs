@@ -55,12 +55,12 @@ impl Hook {
     pub fn meaning(self) -> &'static str {
         match self {
             Hook::WearFactor => "factor on the wear coefficient",
-            Hook::AddedDepth => "um of depth per contact of that member",
+            Hook::AddedDepth => "µm of depth per contact of that member",
             Hook::LoadFactor => "factor on the load of a tooth pair",
-            Hook::Profile => "um of material removed before the start",
-            Hook::ToothOffset => "um that a tooth stands back from its place",
+            Hook::Profile => "µm of material removed before the start",
+            Hook::ToothOffset => "µm that a tooth stands back from its place",
             Hook::Operation => "mm added to the centre distance",
-            Hook::Compliance => "mm um/N added to the flexibility of each tooth pair",
+            Hook::Compliance => "mm·µm/N added to the flexibility of each tooth pair",
             Hook::Friction => "coefficient of friction between the flanks, added to the study's",
         }
     }

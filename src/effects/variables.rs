@@ -104,7 +104,7 @@ const BULK: &[&str] = &["thermal.bulk_temperature"];
 #[rustfmt::skip]
 pub static VARIABLES: &[Variable] = &[
     Variable::new("p", "MPa", "contact pressure here and now").local(|at| at.pressure),
-    Variable::new("p_max", "MPa", "largest pressure the point sees in the passage, averaged over about 30 um").local(|at| at.peak_pressure),
+    Variable::new("p_max", "MPa", "largest pressure the point sees in the passage, averaged over about 30 µm").local(|at| at.peak_pressure),
     Variable::new("p_hertz", "MPa", "largest pressure of Hertz's ellipse under the load of this tooth pair on the unworn flanks").local(|at| at.hertz_pressure),
     Variable::new("v_slide", "m/s", "sliding speed, without sign").early(Local::sliding_speed),
     Variable::new("v_roll", "m/s", "mean rolling speed (u1 + u2)/2").early(Local::entraining_speed),

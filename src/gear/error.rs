@@ -160,7 +160,7 @@ pub enum PairError {
     },
     /// The teeth jam: no backlash left.
     #[error(
-        "centre distance {centre_distance:.4} mm is too small, the teeth jam (backlash {backlash_um:.2} um): at least {min:.4} mm is \
+        "centre distance {centre_distance:.4} mm is too small, the teeth jam (backlash {backlash_um:.2} µm): at least {min:.4} mm is \
          needed, a misalignment of at least {min_misalignment:.4} mm"
     )]
     Jam {

@@ -210,7 +210,7 @@ fn without_sigma(
     while let Some(row) = table.next()? {
         if row.line == observation.line {
             let cell = row.cell("sigma", columns.of("sigma"));
-            let unit = observation.quantity.unit();
+            let unit = observation.quantity.shown_unit();
             let allowed = format!("one standard deviation, at least {LEAST_SIGMA:e}, {unit}");
             let fault = cell.fault(Fault::MissingKey, "sigma is missing", &allowed);
             return Ok(fault.with_hint(

@@ -161,7 +161,7 @@ impl Dataset {
         let one = |outlier: &Outlier| {
             let o = &self.observations[outlier.row];
             let (value, expected) = (o.value, outlier.expected);
-            let unit = o.quantity.unit();
+            let unit = o.quantity.shown_unit();
             format!(
                 "{} ({value:.4} {unit} where {expected:.4} is expected, {:.0} standard deviations)",
                 self.place(o),

@@ -1,6 +1,7 @@
 //! What is measured, on what, and where.
 
 use crate::gear::Member;
+use crate::numeric::written;
 
 /// What a row was measured on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -120,6 +121,11 @@ impl Quantity {
             Quantity::SpanLoss => "span_loss",
             Quantity::ChordalLoss => "chordal_loss",
         }
+    }
+
+    /// Its unit as people read it.
+    pub fn shown_unit(self) -> String {
+        written::unit(self.unit())
     }
 
     /// Its unit.

@@ -9,6 +9,7 @@ use super::known::{Known, KnownTest};
 use super::observation::{FacePlace, Observation};
 use super::quantity::{Place, Quantity, Subject};
 use crate::gear::Member;
+use crate::numeric::written;
 use crate::source_text::{Diagnostic, Fault, list};
 
 /// The word of [`FacePlace::Mean`] in measurement files.
@@ -176,14 +177,16 @@ impl<'k> Reader<'k> {
         match self.columns.unit_of(column) {
             Some(unit) if differs(unit, allowed) => {
                 let name = quantity.name();
-                let message =
-                    format!("the header says {column} in {unit}; rows of {name} have another unit");
+                let message = format!(
+                    "the header says {column} in {}; rows of {name} have another unit",
+                    written::unit(unit)
+                );
                 let cell = row.cell(column, self.columns.of(column));
                 Err(cell
                     .fault(
                         Fault::Inconsistent,
                         message,
-                        &format!("{column} of {name} in {}", allowed[0]),
+                        &format!("{column} of {name} in {}", written::unit(allowed[0])),
                     )
                     .with_hint(
                         "convert the numbers (`gearwear import` does it), or take the unit out of the header if rows of several quantities stand below it",
@@ -269,7 +272,7 @@ impl<'k> Reader<'k> {
     }
 
     fn value(&self, cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
-        let unit = quantity.unit();
+        let unit = quantity.shown_unit();
         let value = cell.number(&format!("a number, {unit}"))?;
         let limits = quantity.magnitude(self.known.depth_limit_um());
         if value.abs() <= limits.above {
@@ -410,7 +413,7 @@ fn sigma(cell: Cell<'_, '_>, quantity: Quantity) -> Result<f64> {
     }
     let allowed = format!(
         "one standard deviation, at least {LEAST_SIGMA:e}, {}",
-        quantity.unit()
+        quantity.shown_unit()
     );
     let sigma = cell.number(&allowed)?;
     if sigma < LEAST_SIGMA {

@@ -31,7 +31,7 @@ pub(super) fn check(
         if largest.value == 0.0 {
             continue;
         }
-        let (name, unit) = (quantity.name(), quantity.unit());
+        let (name, unit) = (quantity.name(), quantity.shown_unit());
         let silent = |o: &Observation| o.value.abs() < NOISE_PART * o.sigma;
         let (message, found, allowed, hint) = if own().count() >= FEWEST && own().all(silent) {
             let hint = match limits.smaller {

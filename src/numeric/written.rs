@@ -35,6 +35,29 @@ pub fn plain(value: f64) -> String {
     format!("{number}{power}")
 }
 
+/// A unit as people read it, of one that is written with the letters of a keyboard: `µm`, `N/(mm·µm)`.
+pub fn unit(plain: &str) -> String {
+    let mut shown = String::new();
+    let mut rest = plain;
+    while !rest.is_empty() {
+        let letters = rest.chars().take_while(|c| c.is_ascii_alphabetic()).count();
+        let (word, behind) = rest.split_at(letters);
+        shown += match word {
+            "um" => "µm",
+            "urad" => "µrad",
+            other => other,
+        };
+        let mut others = behind.chars();
+        if let Some(sign) = others.next() {
+            // `mm um` is a product, `um per contact` a sentence
+            let is_product = sign == ' ' && word == "mm" && others.as_str().starts_with("um");
+            shown.push(if is_product { '·' } else { sign });
+        }
+        rest = others.as_str();
+    }
+    shown
+}
+
 /// A whole number, thousands apart.
 pub fn whole(value: usize) -> String {
     grouped(&value.to_string())
@@ -140,6 +163,25 @@ fn superscript(exponent: i32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_are_shown_with_their_letters() {
+        for (plain, shown) in [
+            ("um", "µm"),
+            ("urad", "µrad"),
+            ("N/(mm um)", "N/(mm·µm)"),
+            ("mm um/N", "mm·µm/N"),
+            ("um per 1e6 contacts", "µm per 1e6 contacts"),
+            ("mm2/N", "mm2/N"),
+            ("MPa", "MPa"),
+            ("N m", "N m"),
+            ("1", "1"),
+            ("cumulated", "cumulated"),
+            ("", ""),
+        ] {
+            assert_eq!(unit(plain), shown);
+        }
+    }
 
     #[test]
     fn numbers_as_people_write_them() {

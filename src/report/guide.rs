@@ -7,6 +7,7 @@ use std::fmt::Write;
 use crate::effects::formula::FUNCTIONS;
 use crate::effects::variables::{VARIABLES, Variable};
 use crate::effects::{CATALOGUE, Card, Hook, Param};
+use crate::numeric::written;
 use crate::study::{KEY_DOCS, KeyDoc, Without};
 
 const EFFECTS: &str = "# The catalogue of effects
@@ -30,7 +31,7 @@ const STUDY: &str = "# The study file
 
 Written from the code by `cargo run --example write_guide`; do not edit.
 
-A study is one TOML file. Inside it lengths are mm, torques N m, speeds rpm, angles degrees, wear and relief um, temperatures degC; what
+A study is one TOML file. Inside it lengths are mm, torques N m, speeds rpm, angles degrees, wear and relief µm, temperatures degC; what
 is *in modules* is a length divided by the module. `gearwear init` writes a commented one to start from. A mistake gives one message with
 its place, what was found and what is allowed, and nothing is written. **needed** means: without it the study is refused.
 ";
@@ -150,7 +151,7 @@ pub fn effects() -> String {
             text,
             "| `{}` | {} | {} | {} | {} |",
             variable.name,
-            cell(variable.unit),
+            cell(&written::unit(variable.unit)),
             hooks(variable),
             cell(variable.meaning),
             code_list(variable.needs)
@@ -226,7 +227,7 @@ fn parameter(text: &mut String, param: &Param) {
         text,
         "| `{}` | {} | {} | {} to {} | {} | {meaning} |",
         param.name,
-        cell(param.unit),
+        cell(&written::unit(param.unit)),
         param.default,
         param.range.0,
         param.range.1,

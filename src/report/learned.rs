@@ -3,6 +3,7 @@
 use super::html::{Cell, Section, Table};
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::LearnedAnswer;
+use crate::numeric::written;
 
 /// Standard deviations of the band.
 const BAND: f64 = 2.0;
@@ -18,7 +19,7 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
     };
     let unit = match learned.unit.as_str() {
         "-" => String::new(),
-        unit => format!(", {}", unit.replace("um", "µm")),
+        unit => format!(", {}", written::unit(unit)),
     };
     let on = match learned.member.as_str() {
         "both" => "both members".to_owned(),

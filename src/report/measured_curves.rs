@@ -6,7 +6,7 @@ use super::html::Section;
 use super::plots::{Plot, Style};
 use crate::learn::diagnose::{DRIVER_KINDS, DriverRow, Hypothesis, ResidualDrivers};
 use crate::measure::Quantity;
-use crate::numeric::written::count;
+use crate::numeric::written::{self, count};
 
 /// Curves that are shown.
 const SHOWN: usize = 6;
@@ -90,10 +90,7 @@ fn plot(
 ) -> Plot {
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
     let unit = Quantity::ALL.into_iter().find(|q| q.name() == quantity);
-    let unit = unit
-        .map_or("-", Quantity::unit)
-        .replace("um", "µm")
-        .replace("urad", "µrad");
+    let unit = written::unit(unit.map_or("-", Quantity::unit));
     let what = quantity.replace('_', " ");
     let flank = member != "pair";
     let x = if flank {

@@ -1,5 +1,6 @@
 //! What a number of a study file may be: unit, bounds with their reason, and the unit mistakes that are recognised.
 
+use crate::numeric::written;
 use std::fmt;
 
 /// A physical number of the study file.
@@ -67,7 +68,7 @@ impl fmt::Display for Quantity {
         if self.unit == "-" {
             Ok(())
         } else {
-            write!(f, " {}", self.unit)
+            write!(f, " {}", written::unit(self.unit))
         }
     }
 }
@@ -89,7 +90,7 @@ impl fmt::Display for Short {
 
 /// A range of numbers for a sentence.
 pub(super) fn span_of_numbers(from: f64, to: f64, unit: &str) -> String {
-    format!("{} to {} {unit}", Short(from), Short(to))
+    format!("{} to {} {}", Short(from), Short(to), written::unit(unit))
 }
 
 const fn quantity(unit: &'static str, least: Bound, most: f64, reason: &'static str) -> Quantity {
@@ -169,7 +170,7 @@ pub(super) const RELIEF_AMOUNT: Quantity = quantity(
     "um",
     From(0.0),
     1000.0,
-    "material taken off at the tip; 5 to 50 um is usual",
+    "material taken off at the tip; 5 to 50 µm is usual",
 );
 pub(super) const RELIEF_LENGTH: Quantity = quantity(
     "mm",
@@ -181,7 +182,7 @@ pub(super) const LEAD: Quantity = quantity(
     "um",
     From(-1000.0),
     1000.0,
-    "material missing across the face; 5 to 30 um is usual",
+    "material missing across the face; 5 to 30 µm is usual",
 );
 pub(super) const HELIX_ANGLE: Quantity = quantity(
     "deg",
@@ -199,13 +200,13 @@ pub(super) const PITCH: Quantity = quantity(
     "um",
     From(-1000.0),
     1000.0,
-    "how far a tooth stands back; 3 to 15 um are classes 5 to 8 of ISO 1328",
+    "how far a tooth stands back; 3 to 15 µm are classes 5 to 8 of ISO 1328",
 );
 pub(super) const ECCENTRICITY: Quantity = quantity(
     "um",
     From(0.0),
     1000.0,
-    "half of the run-out; 5 to 40 um is usual",
+    "half of the run-out; 5 to 40 µm is usual",
 );
 pub(super) const ECCENTRICITY_PHASE: Quantity = quantity(
     "deg",

@@ -83,7 +83,7 @@ fn stated(table: &Table<'_>, count: usize) -> Result<Vec<f64>> {
     if let Some(chart) = deviations(table, "pitch_deviations")? {
         if chart.len() != count {
             let says = format!("has {} deviations for {count} teeth", chart.len());
-            let allowed = format!("{count} numbers in um, in the order of coming into mesh");
+            let allowed = format!("{count} numbers in µm, in the order of coming into mesh");
             let mut refusal = table.refuse("pitch_deviations", &says, allowed);
             refusal.fault = Fault::Inconsistent;
             return Err(Box::new(refusal));
@@ -93,7 +93,7 @@ fn stated(table: &Table<'_>, count: usize) -> Result<Vec<f64>> {
     if let Some(pattern) = deviations(table, "pitch_pattern")? {
         if !(2..=count).contains(&pattern.len()) {
             let says = format!("has {} deviations", pattern.len());
-            let allowed = format!("2 to {count} numbers in um, repeated around the teeth");
+            let allowed = format!("2 to {count} numbers in µm, repeated around the teeth");
             let mut refusal = table.refuse("pitch_pattern", &says, allowed);
             refusal.fault = Fault::Inconsistent;
             return Err(Box::new(refusal));
@@ -109,7 +109,7 @@ fn deviations(table: &Table<'_>, key: &'static str) -> Result<Option<Vec<f64>>> 
         return Ok(None);
     };
     if let Some(bad) = chart.iter().find(|um| !q::PITCH.allows(**um)) {
-        let says = format!("holds {} um, which is out of range", q::Short(*bad));
+        let says = format!("holds {} µm, which is out of range", q::Short(*bad));
         let refusal = table.refuse(key, &says, q::PITCH.to_string());
         return Err(Box::new(refusal.with_hint(q::PITCH.reason)));
     }

@@ -68,7 +68,7 @@ fn wanted(args: &AddArgs) -> Result<WantedLaw, CliError> {
             .find(|hook| hook.name() == form)
             .ok_or_else(|| {
                 CliError::Unusable(format!(
-                    "a learned law has no form `{form}`, allowed: \"wear_factor\" (a factor on k), \"profile\" (um of material removed before the start)"
+                    "a learned law has no form `{form}`, allowed: \"wear_factor\" (a factor on k), \"profile\" (µm of material removed before the start)"
                 ))
             })?,
     };
@@ -126,7 +126,7 @@ fn law_in_words(found: &LearnedAddition, wanted: &WantedLaw) -> String {
             format!("{:.3}", most.exp()),
             "times k".to_owned(),
         ],
-        _ => [format!("{least:.2}"), format!("{most:.2}"), "um".to_owned()],
+        _ => [format!("{least:.2}"), format!("{most:.2}"), "µm".to_owned()],
     };
     format!(
         "{least} to {most} {unit}, at {} knots from {first} to {last}; size {}, length {}",

@@ -100,7 +100,7 @@ fn row(study: &Study, (test, member, quantity): Key, own: &[&Observation]) -> [S
         distinct(positions.map(f64::to_bits).collect()),
         significant(values().fold(f64::INFINITY, f64::min), 3),
         significant(values().fold(f64::NEG_INFINITY, f64::max), 3),
-        format!("{} {}", significant(sigma, 2), own[0].quantity.unit()),
+        format!("{} {}", significant(sigma, 2), own[0].quantity.shown_unit()),
         distinct(traces.map(|t| t as u64).collect()),
     ]
 }

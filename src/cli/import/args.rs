@@ -58,7 +58,7 @@ pub struct ImportArgs {
     /// top; sigmas are combined as the root of the sum of their squares
     #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',')]
     pub(super) per_interval: Vec<PerInterval>,
-    /// One standard deviation of every value, in the quantity's own unit (um of depth); with --all-sheets of the sheets without a column of it
+    /// One standard deviation of every value, in the quantity's own unit (µm of depth); with --all-sheets of the sheets without a column of it
     /// [default: left empty, and estimated from the scatter of neighbouring points wherever the file is read]
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, value_parser = sigma)]
     pub(super) sigma: Option<f64>,

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use super::{ImportArgs, ShareOf};
 use crate::measure::import::{Across, Entry, Long, Titles, UnitFrom, Wide};
 use crate::measure::{Quantity, Subject};
+use crate::numeric::written;
 
 /// Rows that are shown of the mapping.
 const SHOWN: usize = 3;
@@ -50,9 +51,9 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         Across::Positions => (times, places),
     };
     let unit = match &wide.unit {
-        (unit, UnitFrom::Header) => format!("{unit} (the header says so)"),
-        (unit, UnitFrom::Title) => format!("{unit} (the title says so)"),
-        (unit, _) => unit.clone(),
+        (unit, UnitFrom::Header) => format!("{} (the header says so)", written::unit(unit)),
+        (unit, UnitFrom::Title) => format!("{} (the title says so)", written::unit(unit)),
+        (unit, _) => written::unit(unit),
     };
     let tests = of_tests(&wide.entries);
     let tests = match wide.test.1 {
@@ -78,7 +79,7 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
     line(
         &mut text,
         "sigma",
-        &stated_sigma(args, wide.quantity.unit()),
+        &stated_sigma(args, &wide.quantity.shown_unit()),
     );
     face(&mut text, args);
     let traces = match (args.no_traces, wide.position) {
@@ -165,15 +166,15 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
     let unit = entries
         .first()
         .map_or(Quantity::WearDepth, |entry| entry.quantity)
-        .unit();
+        .shown_unit();
     let states_sigma = args.sigma.is_some() || args.relative_sigma > 0.0;
     let sigma = match entries.iter().filter(|entry| entry.sigma.is_none()).count() {
         _ if long.has_sigma && states_sigma => {
             "as the column says (what the options say is of the sheets without one)".to_owned()
         }
-        _ if states_sigma => stated_sigma(args, unit),
+        _ if states_sigma => stated_sigma(args, &unit),
         0 => "as the column says".to_owned(),
-        n if n == entries.len() => stated_sigma(args, unit),
+        n if n == entries.len() => stated_sigma(args, &unit),
         n => format!("as the column says; empty in {n} rows, where it is estimated"),
     };
     line(&mut text, "sigma", &sigma);

@@ -223,7 +223,7 @@ fn cannot_be_read(
                  each value with --relative-sigma, or add a column `sigma`; it may be left out only behind rows that show the \
                  scatter (-o FILE --append)",
                 entry.quantity.name(),
-                entry.quantity.unit()
+                entry.quantity.shown_unit()
             ),
         },
         None => {

@@ -3,6 +3,7 @@
 use serde_json::json;
 
 use crate::measure::import::{self, Entry, Long, Sheet, Titles, UnitFrom, Wanted, Wide};
+use crate::numeric::written;
 
 /// Either kind of table, as it was understood.
 pub(super) enum Understood {
@@ -83,7 +84,10 @@ impl Understood {
                 UnitFrom::Title => "the title says so",
                 _ => "--unit",
             };
-            said.push(format!("the values were read in {unit} ({by})"));
+            said.push(format!(
+                "the values were read in {} ({by})",
+                written::unit(unit)
+            ));
         }
         said
     }

@@ -10,7 +10,7 @@ pub(super) const CARD: Card = Card {
     name: "bearing_compliance",
     hook: Hook::Operation,
     formula: "added_centre_distance = (flexibility*normal_force*sin(working_pressure_angle) + clearance*(1 - exp(-normal_force/closing_force)))/1000",
-    source: "the separating force F sin(alpha_w) on springs; stiffness of 50 to 500 N/um per side and clearances of 10 to 60 um are engineering judgement, as is the exponential with which the clearance closes.",
+    source: "the separating force F sin(alpha_w) on springs; stiffness of 50 to 500 N/µm per side and clearances of 10 to 60 µm are engineering judgement, as is the exponential with which the clearance closes.",
     signature: "a radial misalignment that grows with torque; at one torque it is a radial misalignment",
     confounded_with: &["radial_misalignment", "thermal_expansion"],
     separated_by: "two torques at the same temperature",

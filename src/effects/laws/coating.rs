@@ -10,7 +10,7 @@ pub(super) const CARD: Card = Card {
     name: "coating",
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + (ratio - 1)*min(max(0.5 + (depth/thickness - 1)/(2*width), 0), 1)",
-    source: "two coefficients in series, Archard's law for each layer; the short ramp is ours and represents the scatter of thickness. Thicknesses of 0.5 to 5 um for DLC, phosphate, MoS2 are engineering judgement, and the prior is wider.",
+    source: "two coefficients in series, Archard's law for each layer; the short ramp is ours and represents the scatter of thickness. Thicknesses of 0.5 to 5 µm for DLC, phosphate, MoS2 are engineering judgement, and the prior is wider.",
     signature: "depth stalls, then breaks through at the root first; a map of two levels",
     confounded_with: &["surface_layer", "running_in"],
     separated_by: "depth over cycles at points with different rates; friction rising between inspections",

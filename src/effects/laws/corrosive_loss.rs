@@ -16,7 +16,7 @@ pub(super) const CARD: Card = Card {
     name: "corrosive_loss",
     hook: Hook::AddedDepth,
     formula: "added_depth = rate/100*contact_hours*(1 + sqrt(1 + 100/protective_hours))/2/sqrt(1 + hours/protective_hours)",
-    source: "uniform corrosion at a constant rate per time, plain kinematics: contact_hours = 1/(60 n) of the pinion and z2/z1 times that of the gear. The range of 0.01 to 1 um per 100 h is engineering judgement. Slowing by a layer of products, linear first and parabolic later: B.E. Deal, A.S. Grove, J. Appl. Phys. 36 (1965) 3770-3778, for oxide on silicon; not re-read.",
+    source: "uniform corrosion at a constant rate per time, plain kinematics: contact_hours = 1/(60 n) of the pinion and z2/z1 times that of the gear. The range of 0.01 to 1 µm per 100 h is engineering judgement. Slowing by a layer of products, linear first and parabolic later: B.E. Deal, A.S. Grove, J. Appl. Phys. 36 (1965) 3770-3778, for oxide on silicon; not re-read.",
     signature: "depth everywhere, also at the pitch point and on the unloaded flank; per cycle as 1/n; no dependence on torque; more mass than profile lost",
     confounded_with: &["roughness_polish", "micropitting", "oxidative"],
     separated_by: "the unloaded flank and the root as a datum; weighing; two checkpoints. A trace whose level is unknown hides it altogether",

@@ -10,7 +10,7 @@ pub(super) const CARD: Card = Card {
     name: "extra_flexibility",
     hook: Hook::Compliance,
     formula: "compliance = flexibility",
-    source: "springs in series; up to 0.05 mm um/N, as much as a tooth pair of steel itself (c' about 14 N/(mm um), ISO 6336-1), is engineering judgement.",
+    source: "springs in series; up to 0.05 mm·µm/N, as much as a tooth pair of steel itself (c' about 14 N/(mm·µm), ISO 6336-1), is engineering judgement.",
     signature: "load shared more evenly, more wear at both ends of the path; the single contact zone unchanged",
     confounded_with: &["tip_relief", "pitch_error"],
     separated_by: "several torques, since a relief acts as its height times stiffness over torque; the transmission error over torque",

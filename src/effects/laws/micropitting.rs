@@ -14,7 +14,7 @@ pub(super) const CARD: Card = Card {
     name: "micropitting",
     hook: Hook::AddedDepth,
     formula: "added_depth = rate*1e-6*(min(p_max, 2000)/reference_pressure)^exponent*max(0, 1 - film_ratio/lambda_c)*(1 + asymmetry*dedendum)*(1 - step(onset - contacts))",
-    source: "that micropitting goes with pressure and a low specific film thickness: ISO/TS 6336-22:2018 (scope and method read of, not its text); profile deviations of 7.5 to 20 um in the FZG micropitting test, FVA information sheet 54. The power law and the linear film term are a parametric form, not a formula of either.",
+    source: "that micropitting goes with pressure and a low specific film thickness: ISO/TS 6336-22:2018 (scope and method read of, not its text); profile deviations of 7.5 to 20 µm in the FZG micropitting test, FVA information sheet 54. The power law and the linear film term are a parametric form, not a formula of either.",
     signature: "loss at and just below the pitch line; dedendum of both members; a high power of the load; base wear gives none there",
     confounded_with: &["roughness_polish", "plastic_deformation", "corrosive_loss", "pressure_exponent"],
     separated_by: "the depth at the pitch line over cycles; the unloaded flank; pictures of the flank",

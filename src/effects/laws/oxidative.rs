@@ -17,7 +17,7 @@ pub(super) const CARD: Card = Card {
     name: "oxidative",
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 - part + part*(reference_speed/max(v_slide, 0.02))^speed_exponent*exp(min(max(activation_energy/0.008314462618*(1/(reference_temperature + 273.15) - 1/max(bulk_temperature + flash_temperature + 273.15, 100)), -30), 30))",
-    source: "T.F.J. Quinn, Review of oxidational wear, Tribol. Int. 16 (1983) 257-271 and 305-315, and Quinn (1971): oxide to a critical thickness of 1 to 3 um, Arrhenius growth; abstract read, and the Arrhenius term as Eq. (3.63) of R.G. Bayer, Mechanical Wear Fundamentals and Testing. Linear growth (wear as 1/v) is taken; parabolic growth gives the square root of the exponential.",
+    source: "T.F.J. Quinn, Review of oxidational wear, Tribol. Int. 16 (1983) 257-271 and 305-315, and Quinn (1971): oxide to a critical thickness of 1 to 3 µm, Arrhenius growth; abstract read, and the Arrhenius term as Eq. (3.63) of R.G. Bayer, Mechanical Wear Fundamentals and Testing. Linear growth (wear as 1/v) is taken; parabolic growth gives the square root of the exponential.",
     signature: "the same loss per contact wherever there is sliding; Arrhenius in the oil temperature; wear per cycle as 1/n",
     confounded_with: &[
         "sliding_speed_exponent",

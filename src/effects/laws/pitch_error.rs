@@ -14,7 +14,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::ToothOffset,
     // of the measured tooth
     formula: "tooth_offset = deviation",
-    source: "single pitch deviation f_pt of ISO 1328-1; 3 to 15 um are classes 5 to 8.",
+    source: "single pitch deviation f_pt of ISO 1328-1; 3 to 15 µm are classes 5 to 8.",
     signature: "the measured tooth wears more or less in both double contact zones; until the deviation has worn in; teeth of one member differ; once per turn, or every second mesh, in the transmission error",
     confounded_with: &["run_out", "profile_slope", "extra_flexibility", "tip_relief"],
     separated_by: "measuring four teeth or more",

@@ -28,7 +28,7 @@ pub(super) const CARD: Card = Card {
     name: "profile_form",
     hook: Hook::Profile,
     formula: "profile = pinion*(amplitude*cos(2*pi*waves*along + phase) + second_amplitude*cos(2*pi*second_waves*along + second_phase))",
-    source: "profile form deviation f_falpha of ISO 1328-1 as one wave, or two; 1 to 5 um is engineering judgement.",
+    source: "profile form deviation f_falpha of ISO 1328-1 as one wave, or two; 1 to 5 µm is engineering judgement.",
     signature: "waves printed into the wear of both members, mirrored, then worn off",
     confounded_with: &["plastic_deformation", "dynamic_load", "profile_slope"],
     separated_by: "the profile as made",

@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     name: "profile_slope",
     hook: Hook::Profile,
     formula: "profile = pinion*(slope*(along - 0.5) + crowning*(2*along - 1)^2)",
-    source: "profile slope deviation f_Halpha and crowning as defined in ISO 1328-1 and ISO 21771; 3 to 15 um are classes 5 to 8.",
+    source: "profile slope deviation f_Halpha and crowning as defined in ISO 1328-1 and ISO 21771; 3 to 15 µm are classes 5 to 8.",
     signature: "one end of the path carries more until it has worn off; then the base shape returns; crowning relieves both ends",
     confounded_with: &["tip_relief", "profile_form", "pitch_error"],
     separated_by: "the profile as made. A tilt of the measuring machine does not wear off",

@@ -16,7 +16,7 @@ pub(super) const CARD: Card = Card {
     hook: Hook::ToothOffset,
     // of the measured tooth
     formula: "tooth_offset = amplitude*cos(phase)",
-    source: "cumulative pitch deviation F_p of ISO 1328-1 as one wave over the turn, of which the amplitude is half; 5 to 40 um.",
+    source: "cumulative pitch deviation F_p of ISO 1328-1 as one wave over the turn, of which the amplitude is half; 5 to 40 µm.",
     signature: "teeth of one member differ, once per turn; the measured tooth carries a little more or less than its neighbours in both double contact zones; once per turn in the transmission error",
     confounded_with: &[
         "pitch_error",

@@ -10,7 +10,7 @@ pub(super) const CARD: Card = Card {
     name: "surface_layer",
     hook: Hook::WearFactor,
     formula: "wear_factor = 1 + (ratio - 1)*(1 - exp(-(depth/thickness)^steepness))",
-    source: "our own smooth form of wear inverse to a hardness that changes with depth (Archard, J. Appl. Phys. 24 (1953) 981: k = K/H). Layer thicknesses of 3 to 20 um are engineering judgement, and the prior is wider; a carburised case changes by less than 1 % over 10 um.",
+    source: "our own smooth form of wear inverse to a hardness that changes with depth (Archard, J. Appl. Phys. 24 (1953) 981: k = K/H). Layer thicknesses of 3 to 20 µm are engineering judgement, and the prior is wider; a carburised case changes by less than 1 % over 10 µm.",
     signature: "a kink at the same depth everywhere, the pinion's root first; so at other cycles for each point, member and torque",
     confounded_with: &["running_in", "coating", "debris_abrasion"],
     separated_by: "depth over cycles at points that wear three to ten times apart; two torques",

@@ -12,7 +12,7 @@ pub(super) const CARD: Card = Card {
     name: "thermal_expansion",
     hook: Hook::Operation,
     formula: "added_centre_distance = centre_distance*expansion*((1 - warm)*(bulk_temperature - reference_temperature) + heating*power)",
-    source: "linear expansion: aluminium 23e-6 against steel 11.5e-6 1/K, so an aluminium housing 40 K warm opens 80 mm by 37 um. Heating in proportion to the power is the simplest balance of loss and cooling; 1 to 3 % of the power lost and 1 to 20 W/K given off by a small housing (engineering judgement) make 0.5 to 30 K/kW.",
+    source: "linear expansion: aluminium 23e-6 against steel 11.5e-6 1/K, so an aluminium housing 40 K warm opens 80 mm by 37 µm. Heating in proportion to the power is the simplest balance of loss and cooling; 1 to 3 % of the power lost and 1 to 20 W/K given off by a small housing (engineering judgement) make 0.5 to 30 K/kW.",
     signature: "a radial misalignment that changes with power or oil temperature; of either sign",
     confounded_with: &["radial_misalignment", "bearing_compliance"],
     separated_by: "hot and cold at the same torque; three times the speed",

@@ -298,7 +298,7 @@ impl Measured<'_> {
         let (test, least) = all.min_by(|a, b| a.1.total_cmp(&b.1))?;
         (-least > JAM_TOLERANCE * bench.set().gears[0].rack.module).then(|| {
             format!(
-                "the effects bring the axes so close in test {} that teeth of full thickness would overlap by {:.1} um: the model takes \
+                "the effects bring the axes so close in test {} that teeth of full thickness would overlap by {:.1} µm: the model takes \
                  them to be thinner; state thickness_reduction if they are",
                 self.study().tests[test].id,
                 -1e3 * least

@@ -9,7 +9,7 @@ use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
 use crate::learn::fitting::region::{FlankRegions, words};
 use crate::measure::{Quantity, Subject};
-use crate::numeric::written::count;
+use crate::numeric::written::{self, count};
 
 /// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
 const SIGNIFICANT: f64 = 5.0;
@@ -135,10 +135,8 @@ fn when(key: &CellKey, cell: &Cell, map: &FlankRegions) -> String {
 /// Sign and size of the error; its root mean square where it has no one sign.
 fn size(cell: &Cell) -> String {
     let unit = match cell.unit.as_str() {
-        "um" => " µm",
-        "urad" => " µrad",
         "1" => "",
-        unit => &format!(" {unit}"),
+        unit => &format!(" {}", written::unit(unit)),
     };
     if either_sign(cell) {
         return format!(
@@ -298,7 +296,7 @@ fn others(
 
 fn signed(cell: &Cell) -> String {
     let sign = if cell.bias < 0.0 { "−" } else { "+" };
-    let unit = if cell.unit == "um" { "µm" } else { &cell.unit };
+    let unit = written::unit(&cell.unit);
     format!("{sign}{} {unit}", short(cell.bias.abs()))
 }
 

@@ -16,6 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::residual_statistics::{FittedRow, fitted};
 use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
+use crate::numeric::written;
 use crate::study::Study;
 
 /// Standard deviations by which a negative loss of mass is no noise.
@@ -360,8 +361,8 @@ fn other_units(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
             quantity.name(),
             rounded(found.factor),
             match quantity.unit() {
-                "1" => "parts of 1",
-                unit => unit,
+                "1" => "parts of 1".to_owned(),
+                unit => written::unit(unit),
             }
         ));
     }

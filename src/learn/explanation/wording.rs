@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::ranked::parameters;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::numeric::written::{significant, uncertain};
+use crate::numeric::written::{self, significant, uncertain};
 
 /// The verdict in words.
 pub(super) struct Explanation {
@@ -44,7 +44,7 @@ pub(super) fn values(j: &FittedCandidate) -> String {
             let unit = if p.unit == "-" {
                 String::new()
             } else {
-                format!(" {}", p.unit)
+                format!(" {}", written::unit(&p.unit))
             };
             match p.skewed_interval() {
                 Some([low, high]) => format!(

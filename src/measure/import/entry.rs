@@ -203,7 +203,7 @@ fn refuse_far_too_large(entries: &[Entry], sigma: f64) -> Result<(), ImportError
         let largest = own().map(|entry| entry.value.abs()).fold(0.0, f64::max);
         let is_far_too_large = largest > 0.0 && 2.0 * largest < sigma;
         if is_far_too_large && own().count() >= FEWEST {
-            let (name, unit) = (quantity.name(), quantity.unit());
+            let (name, unit) = (quantity.name(), quantity.shown_unit());
             return Err(ImportError(format!(
                 "--sigma {sigma}: this is {:.0} times the largest {name} of the table, {} {unit}; --sigma takes one standard deviation in {unit}, \
                  whatever the unit of the table",

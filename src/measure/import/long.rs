@@ -18,6 +18,7 @@ use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{ImportError, Sheet, cell_name, counts, decimal_commas, nameless, units};
 use crate::measure::{Place, Quantity, names};
+use crate::numeric::written;
 use line::Line;
 
 pub(super) use checkpoints::SAME;
@@ -368,7 +369,7 @@ impl<'t> Read<'t> {
                             UnitFrom::Quantity => " (no unit is stated)",
                             _ => "",
                         };
-                        format!("{} in {unit}{from}", quantity.name())
+                        format!("{} in {}{from}", quantity.name(), written::unit(&unit))
                     }
                     None => "value".to_owned(),
                 },
@@ -405,7 +406,7 @@ impl<'t> Read<'t> {
 /// What a column of standard deviations is.
 fn of_sigma(column: &Column) -> String {
     let unit = column.unit.as_deref();
-    let unit = unit.map_or_else(String::new, |unit| format!(" in {unit}"));
+    let unit = unit.map_or_else(String::new, |unit| format!(" in {}", written::unit(unit)));
     match column.coverage.filter(|k| *k != 1.0) {
         Some(k) => format!("an expanded uncertainty{unit}, sigma is it over k = {k}"),
         None => format!("sigma{unit}"),

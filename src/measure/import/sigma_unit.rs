@@ -28,7 +28,7 @@ pub(super) fn factor(
     let to_own = match (unit, value.unit.as_deref(), wanted.unit) {
         (Some("%"), _, _) if quantity != Quantity::LoadShare => refuse(format!(
             "a share of each value is no sigma; write it in {}, or leave the column out and say --sigma and --relative-sigma 0.03",
-            quantity.unit()
+            quantity.shown_unit()
         )),
         (Some(unit), _, _) => match units::factor(unit, quantity) {
             Ok(factor) => Ok(factor),

@@ -2,7 +2,7 @@
 use std::path::Path;
 
 use crate::learn::{Comparison, ParameterRecord, TestRecord};
-use crate::numeric::written::{percent, significant, uncertain, whole};
+use crate::numeric::written::{self, percent, significant, uncertain, whole};
 use crate::study::Study;
 
 /// χ² per point above which the model is reported to lack something: three standard deviations √(2/n) above 1.
@@ -201,10 +201,8 @@ pub(crate) fn interval(parameter: &ParameterRecord) -> [String; 2] {
 pub(crate) fn with_unit(figure: String, unit: &str) -> String {
     match unit {
         "" | "-" | "1" => figure,
-        "um" => format!("{figure} µm"),
-        "urad" => format!("{figure} µrad"),
         "mm2/N" => format!("{figure} mm²/N"),
-        unit => format!("{figure} {unit}"),
+        unit => format!("{figure} {}", written::unit(unit)),
     }
 }
 

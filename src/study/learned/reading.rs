@@ -110,12 +110,12 @@ fn check_values(table: &Table<'_>, law: &Learned, values: &[f64]) -> Result<()> 
         Hook::AddedDepth => (
             0.0..=f64::MAX,
             "0 or more".to_owned(),
-            "um per contact of that member",
+            "µm per contact of that member",
         ),
         _ => (
             f64::MIN..=f64::MAX,
             "any finite number".to_owned(),
-            "um of material removed before the start",
+            "µm of material removed before the start",
         ),
     };
     if let Some(n) = values.iter().position(|v| !range.contains(v)) {

@@ -54,7 +54,7 @@ impl Rows<'_> {
                 let name = self.along.columns()[column];
                 let message = format!("{name} {text:?} is not a finite number");
                 let wanted = match (&self.along, column) {
-                    (_, 1) => "a number in um",
+                    (_, 1) => "a number in µm",
                     (Along::Teeth(_), _) => "the number of a tooth",
                     _ => "a number in mm",
                 };
@@ -95,12 +95,12 @@ pub(super) fn check_unit(rows: &[[f64; 2]], end: usize) -> Result<()> {
         .fold(0.0, |m: f64, row| m.max(1e3 * row[1].abs()));
     if largest > 0.0 && largest < LEAST_UM {
         let message = format!(
-            "the largest deviation is {} um: these look like millimetres",
+            "the largest deviation is {} µm: these look like millimetres",
             Short(largest)
         );
         return Err(fault(Fault::BadValue, "deviation", message, end..end)
-            .with_values(format!("{} um at most", Short(largest)), "micrometres")
-            .with_hint("1 mm = 1000 um: write 12 for 0.012 mm")
+            .with_values(format!("{} µm at most", Short(largest)), "micrometres")
+            .with_hint("1 mm = 1000 µm: write 12 for 0.012 mm")
             .into());
     }
     Ok(())
@@ -110,11 +110,11 @@ pub(super) fn check_unit(rows: &[[f64; 2]], end: usize) -> Result<()> {
 fn check_size(deviation: f64, gear: &Gear, span: Range<usize>) -> Result<()> {
     let most = 1e3 * LARGEST * gear.rack.module;
     if deviation.abs() > most {
-        let message = format!("deviation {} um is out of range", Short(deviation));
+        let message = format!("deviation {} µm is out of range", Short(deviation));
         return Err(fault(Fault::BadValue, "deviation", message, span)
             .with_values(
-                format!("{} um", Short(deviation)),
-                format!("-{most} to {most} um, a tenth of the module"),
+                format!("{} µm", Short(deviation)),
+                format!("-{most} to {most} µm, a tenth of the module"),
             )
             .with_hint("deviations are in micrometres, positive with material missing")
             .into());

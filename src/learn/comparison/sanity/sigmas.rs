@@ -66,7 +66,7 @@ fn too_sure(quantity: Quantity, stated: &[Stated]) -> Option<String> {
     let sigma = median(stated.iter().map(|s| s.sigma).collect())?;
     let all = stated.iter().all(|s| s.sigma < TOO_SURE * largest);
     all.then(|| {
-        let (name, unit) = (quantity.name(), quantity.unit());
+        let (name, unit) = (quantity.name(), quantity.shown_unit());
         format!(
             "sigma of {name} is about {} {unit} where values go up to {} {unit}: is it in another unit than the values?",
             significant(sigma, 2),
@@ -91,7 +91,7 @@ fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> O
         quantity.name(),
         names.join(", "),
         significant(first.sigma, 2),
-        quantity.unit(),
+        quantity.shown_unit(),
         rounded(first.largest),
         100.0 * usual
     ))
