@@ -300,8 +300,8 @@ impl<'t> Numbered<'t> {
         for (test, intervals) in &self.tests {
             let mut sum = 0.0;
             // a 0 may be the new part
-            let mut next = u32::from(!intervals.contains_key(&0));
-            for (stop, (length, _, row)) in intervals {
+            let first = u32::from(!intervals.contains_key(&0));
+            for (next, (stop, (length, _, row))) in (first..).zip(intervals) {
                 if *stop != next {
                     let of = match test.as_str() {
                         "" => String::new(),
@@ -314,7 +314,6 @@ impl<'t> Numbered<'t> {
                 }
                 sum += length;
                 totals.insert((test, *stop), sum);
-                next += 1;
             }
         }
         if self.tests.values().all(|intervals| intervals.len() == 1) {
