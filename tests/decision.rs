@@ -575,6 +575,24 @@ fn one_of_two_look_alikes_in_every_leading_hypothesis_is_established() {
     assert_eq!(decision.group, beside);
 }
 
+/// Figures like those of a made-up campaign of twelve plastic gears, weighed alone: nothing smooth stands out of the noise, and what is more probable than any
+/// effect by itself is still only a guess.
+#[test]
+fn something_unknown_is_not_claimed_where_nothing_stands_out_of_the_noise() {
+    let by = |attainable, unknown| {
+        decided(&evidence(
+            (0..8).map(|i| candidate(&[i], 4.0, 12.0)).collect(),
+            attainable,
+            unknown,
+        ))
+    };
+    // 6 is one standard deviation of what may be attained
+    let open = by(9.3, 3.5);
+    assert_eq!(open.verdict, Verdict::Ambiguous, "{open:?}");
+    assert!(open.group.contains(&Hypothesis::Unknown));
+    assert_eq!(by(9.3, 9.0).verdict, Verdict::Unknown);
+}
+
 #[test]
 fn what_an_effect_leaves_is_said_where_its_form_does_not_excuse_it() {
     let with = |drop: f64, remaining: f64| {

@@ -144,7 +144,7 @@ fn diagnosed_by(base: &Study, data: Dataset) -> Diagnosis {
     assert!((total - 1.0).abs() < 1e-9, "{total}");
     for one in &found.screened {
         // no fit's evidence may rise by much more than the misfit that it explains
-        let explained = 0.5 * one.chi2_drop;
+        let explained = 0.5 * one.chi2_drop + one.scatter_gain;
         let most = if explained > 0.0 {
             1.2 * explained + 5.0
         } else {

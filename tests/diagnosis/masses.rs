@@ -1,7 +1,10 @@
 //! Campaigns that weigh the gears and measure nothing else.
 
+use std::path::Path;
+
 use gearwear::learn::diagnose::Verdict;
-use gearwear::measure::{Dataset, Observation, Quantity};
+use gearwear::measure::{Dataset, Observation, Quantity, Subject};
+use gearwear::study::Study;
 
 /// Every test's masses at so many equal times, exact, each with the σ of 3 % of the last.
 fn weighed(times: u32) -> Dataset {
@@ -56,4 +59,68 @@ fn noise_of_single_readings_is_no_cause() {
     );
     let unknown = found.probabilities.get("unknown").copied().unwrap_or(0.0);
     assert!(unknown < 0.2, "{unknown}");
+}
+
+/// The study's gears in ten tests that differ in the oil's temperature alone, 30 to 75 °C, with effects added.
+fn warmed(effects: &str) -> Study {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join(crate::LAYOUT)
+        .join("study.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let gears = text.split("[[test]]").next().unwrap().replace(
+        "contact = \"fem\"",
+        "contact = \"hertz\"\n[numerics]\npositions = 40\nelements_per_half_width = 3",
+    );
+    let test = |i: u32| {
+        let kelvin = 30 + 5 * i;
+        format!("[[test]]\nid = \"W{i}\"\nbulk_temperature = {kelvin}.0\ncycles = 1e6\n")
+    };
+    let tests: String = (0..10).map(test).collect();
+    let rows = "[measurements]\nfile = \"measurements.csv\"";
+    let text = format!("{gears}\n{tests}\n{rows}\n{effects}");
+    Study::parse(&text, &path.display().to_string()).unwrap()
+}
+
+/// Only k of whole tests shows what grows with the oil's temperature, by 2.5 % per kelvin, and their scatter would excuse it. The law is found, and the
+/// scatter falls.
+#[test]
+fn what_acts_on_whole_tests_is_seen_against_their_scatter() {
+    let hidden =
+        "[[effect]]\nkind = \"formula\"\nwear_factor = \"exp(0.025*(bulk_temperature - 60))\"";
+    let (truth, base) = (warmed(hidden), warmed(""));
+    let mut data = crate::layout(&crate::study(""));
+    let of_masses = |o: &&Observation| o.quantity == Quantity::MassLoss;
+    let row = data.observations.iter().find(of_masses).unwrap().clone();
+    data.tests = truth.tests.iter().map(|test| test.id.clone()).collect();
+    data.traces.clear();
+    data.observations = (0..data.tests.len())
+        .flat_map(|test| {
+            [Subject::Pinion, Subject::Gear].map(|member| Observation {
+                test,
+                member,
+                cycles: 1e6,
+                ..row.clone()
+            })
+        })
+        .collect();
+    let mut random = crate::Random(7);
+    let k: Vec<f64> = (data.tests.iter())
+        .map(|_| 5e-10 * (0.05 * random.normal()).exp())
+        .collect();
+    let mut data = crate::exact(&truth, data, &k);
+    for o in &mut data.observations {
+        o.sigma = 0.02 * o.value;
+        o.value += o.sigma * random.normal();
+    }
+    let found = crate::diagnosed_by(&base, data);
+    let flash = (found.screened.iter())
+        .filter(|one| one.effects == ["flash_temperature"])
+        .max_by(|a, b| a.evidence_gain.total_cmp(&b.evidence_gain))
+        .unwrap();
+    assert!(flash.converged, "{flash:?}");
+    assert!(flash.evidence_gain > 5.0, "{flash:?}");
+    assert!(flash.scatter_gain > 5.0, "{flash:?}");
+    let best = found.screened.iter().map(|one| one.evidence_gain);
+    let best = best.fold(f64::NEG_INFINITY, f64::max);
+    assert!(flash.evidence_gain > best - 1.0, "{flash:?}, best {best}");
 }

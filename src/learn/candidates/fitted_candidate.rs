@@ -12,6 +12,8 @@ use crate::learn::prediction::fidelity::Fidelity;
 /// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond.
 const EXCUSED: f64 = 1.2;
 const EXCUSED_AT_LEAST: f64 = 5.0;
+/// Scatter of k below which less is none.
+const LEAST_SCATTER: f64 = 0.01;
 
 /// A fitted candidate.
 #[derive(Clone)]
@@ -28,17 +30,22 @@ pub(in crate::learn) struct FittedCandidate {
     pub(in crate::learn) change: Vec<f64>,
     /// χ² with the whole covariance.
     pub(in crate::learn) square: f64,
+    /// How much more probable the tests' own deviations of k are under their scatter than with the base model, ln of the density.
+    pub(in crate::learn) scatter_gain: f64,
     /// By what it was fitted.
     pub(in crate::learn) fidelity: Fidelity,
     pub(in crate::learn) converged: bool,
 }
 
 /// The base model's fit with what the screening projects out.
+///
+/// Where k scatters between tests, each test's own deviation is measured too, by its prior: behind the whitened rows stands one more for each test,
+/// 0 = ε_t/σ_k ± 1. So what an effect does to a test as a whole is seen against the scatter.
 pub(in crate::learn) struct BaseFit {
     pub(in crate::learn) fitted: FittedCandidate,
-    /// Orthonormal columns: whitened changes by which k and the base model's own parameters adjust.
-    pub(in crate::learn) adjustable: DMatrix<f64>,
-    /// Whitened residual.
+    /// Orthonormal columns: changes by which k, each test's deviation from it and the base model's own parameters adjust.
+    adjustable: DMatrix<f64>,
+    /// Whitened residual, and −ε_t/σ_k.
     pub(in crate::learn) residual: DVector<f64>,
     /// Exact minus analytic model at the fit, per test of the data set.
     pub(in crate::learn) hertz_offset: Vec<Vec<f64>>,
@@ -64,9 +71,13 @@ impl FittedCandidate {
         let (mut log_evidence, covariance) =
             likelihood.evidence(&found, &candidate.parameters, own);
         let square = likelihood.square(&found.model);
+        let before = base.map(|base| &base.fitted);
+        let scatter_gain = before.map_or(0.0, |before| {
+            scatter_log_density(&found) - scatter_log_density(&before.found)
+        });
         // the tolerance of a large change may excuse some of what a fit leaves, but not stand for what it does not explain
-        if let Some(before) = base.map(|base| &base.fitted) {
-            let explained = 0.5 * (before.square - square);
+        if let Some(before) = before {
+            let explained = 0.5 * (before.square - square) + scatter_gain;
             let most = if explained > 0.0 {
                 EXCUSED * explained + EXCUSED_AT_LEAST
             } else {
@@ -78,6 +89,7 @@ impl FittedCandidate {
         }
         Self {
             square,
+            scatter_gain,
             converged: found.converged,
             candidate,
             offset,
@@ -97,15 +109,34 @@ impl BaseFit {
         fitted: FittedCandidate,
         hertz_offset: Vec<Vec<f64>>,
     ) -> Self {
-        let mut adjustable = (likelihood.covariance).whiten_all(&fitted.found.jacobian);
-        orthonormalise(&mut adjustable);
-        let residual = likelihood.residual(&fitted.found.model);
-        Self {
+        let whitened = (likelihood.covariance).whiten_all(&fitted.found.jacobian);
+        let mut base = Self {
             hertz_offset,
-            residual: DVector::from_vec(likelihood.covariance.whiten(&residual)),
-            adjustable,
+            residual: DVector::zeros(0),
+            adjustable: adjustable(likelihood, &whitened, fitted.found.scatter),
             fitted,
+        };
+        base.residual = base.left(
+            likelihood,
+            &base.fitted.found.model,
+            &base.fitted.found.state,
+        );
+        base
+    }
+
+    /// What a model in a state leaves: the whitened residual, and −ε_t/σ_k with the base model's σ_k.
+    pub(in crate::learn) fn left(
+        &self,
+        likelihood: &Likelihood<'_>,
+        model: &[f64],
+        state: &State,
+    ) -> DVector<f64> {
+        let mut left = likelihood.covariance.whiten(&likelihood.residual(model));
+        let scatter = self.fitted.found.scatter;
+        if scatter > 0.0 {
+            left.extend(state.epsilon.iter().map(|epsilon| -epsilon / scatter));
         }
+        DVector::from_vec(left)
     }
 
     /// The part of a whitened change that k and the base model's own parameters cannot make, by row values.
@@ -114,7 +145,9 @@ impl BaseFit {
         likelihood: &Likelihood<'_>,
         change: &[f64],
     ) -> DVector<f64> {
-        let v = DVector::from_vec(likelihood.covariance.whiten(change));
+        let mut v = likelihood.covariance.whiten(change);
+        v.resize(self.adjustable.nrows(), 0.0);
+        let v = DVector::from_vec(v);
         let along = self.adjustable.tr_mul(&v);
         v - &self.adjustable * along
     }
@@ -129,6 +162,38 @@ impl BaseFit {
             ..known.clone()
         }
     }
+}
+
+/// Orthonormal columns of what adjusts, from the whitened derivatives with respect to (θ, ln k_t): θ, the common ln k, and with a scatter each ln k_t
+/// at the price of its prior.
+fn adjustable(likelihood: &Likelihood<'_>, whitened: &DMatrix<f64>, scatter: f64) -> DMatrix<f64> {
+    let (rows, tests) = (likelihood.len(), likelihood.tests.len());
+    let params = whitened.ncols() - tests;
+    let own = if scatter > 0.0 { tests } else { 0 };
+    let mut columns = DMatrix::zeros(rows + own, params + 1 + own);
+    let of_tests = whitened.columns(params, tests);
+    columns
+        .view_mut((0, 0), (rows, params))
+        .copy_from(&whitened.columns(0, params));
+    columns
+        .view_mut((0, params), (rows, 1))
+        .copy_from(&of_tests.column_sum());
+    columns
+        .view_mut((0, params + 1), (rows, own))
+        .copy_from(&of_tests.columns(0, own));
+    for test in 0..own {
+        columns[(rows + test, params + 1 + test)] = scatter.recip();
+    }
+    orthonormalise(&mut columns);
+    columns
+}
+
+/// ln of the density of the tests' deviations under their scatter, but for constants.
+fn scatter_log_density(found: &SearchEnd) -> f64 {
+    let epsilon = &found.state.epsilon;
+    let scatter = found.scatter.max(LEAST_SCATTER);
+    let squares: f64 = epsilon.iter().map(|e| (e / scatter).powi(2)).sum();
+    -0.5 * squares - epsilon.len() as f64 * scatter.ln()
 }
 
 /// Gram and Schmidt's columns of length 1, twice for rounding; dependent ones become 0.

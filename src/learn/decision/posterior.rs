@@ -33,8 +33,8 @@
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
 //! Where two effects were fitted beside a discrepancy, they have a v of their own, o_R/n their prior as pairs have it, which is lent to the single
-//! effects: one of the two is there, and the other may but follow the unknown. It is divided by their own shares; of the part of a free shape, of
-//! which o/(1 + o) would be unknown's, that goes to the other one.
+//! effects: one of the two is there, and the other may but follow the unknown. Each gets a half; of the half of a free shape, of which o/(1 + o) would
+//! be unknown's, that goes to the other one.
 //!
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
@@ -196,8 +196,8 @@ fn share_with_remainders(
 }
 
 /// ln of what pairs beside something unknown lend to each single effect, as a share of what all beside something unknown have. A pair says that one of
-/// its effects is missing: the other one may but follow the unknown. Which it is, their own shares tell; of a free shape's part what `free_shape_odds`
-/// takes from it is the other one's.
+/// its effects is missing: the other one may but follow the unknown, and it cannot say which. Each gets a half; of a free shape's half what
+/// `free_shape_odds` takes from it is the other one's.
 fn lent_by_pairs(
     remainders: &[&RemainderEvidence],
     shares: &[f64],
@@ -214,10 +214,8 @@ fn lent_by_pairs(
             .filter(|&i| remainders[i].effects.single().is_some())
             .filter(|&i| pair.effects.contains(&remainders[i].effects))
             .collect();
-        let own: Vec<f64> = members.iter().map(|&i| shares[i]).collect();
-        let both = log_sum_exp(&own);
+        let part = share - (members.len() as f64).ln();
         for &i in &members {
-            let part = share + shares[i] - both;
             lent[i].push(part + ln_kept(remainders[i]));
             if remainders[i].free_shape {
                 for &other in members.iter().filter(|&&other| other != i) {

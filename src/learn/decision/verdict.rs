@@ -8,7 +8,7 @@
 //! partial           p(0) < doubt, and what holds the most probable effect beside something unknown (that, the effect alone, and every set
 //!                   with it) ≥ claim, unless its own is at most alike · p₁; or the same of all those beside something unknown that are alike (> alike ·
 //!                   the most probable of them), and not of several of them alone, or all those beside something unknown together: then they are a group
-//! unknown           p(u) ≥ Σ and p(u) ≥ p(0), unless what holds the most probable effect beside something unknown is more probable than
+//! unknown           p(u) ≥ Σ and p(u) ≥ p(0), and p(u) ≥ claim where nothing smooth stands out of the noise, unless what holds the most probable effect beside something unknown is more probable than
 //!                   something unknown alone                   p(u): with all that stands beside something unknown
 //! ambiguous         else: all with p > alike · p₁, and nothing or unknown where ≥ doubt (the larger of them if the leader stands alone);
 //!                   if that exception holds, the effect beside something unknown and something unknown alone
@@ -103,7 +103,14 @@ pub fn decide(evidence: &Evidence, rule: &DecisionRule) -> Decision {
         leading: log_of.first().map_or(0.0, |log| log.exp()),
         partial: remainders.iter().map(|(_, p)| p).sum(),
     };
-    let verdict = verdict(&mass, &effects, &remainders, &log_probabilities, rule);
+    let verdict = verdict(
+        evidence,
+        &mass,
+        &effects,
+        &remainders,
+        &log_probabilities,
+        rule,
+    );
     let group = match verdict {
         Verdict::NothingMissing | Verdict::Unknown => Vec::new(),
         Verdict::Effect | Verdict::Effects | Verdict::Ambiguous => match remainders.first() {
@@ -158,6 +165,7 @@ impl Mass {
 
 /// The first verdict of which the condition holds.
 fn verdict(
+    evidence: &Evidence,
     mass: &Mass,
     effects: &[EffectSet],
     remainders: &[(&EffectSet, f64)],
@@ -202,7 +210,8 @@ fn verdict(
         }
     }
     let alone_is_less = |&(effect, _): &(&EffectSet, f64)| held(logs, &[effect]) > mass.unknown;
-    if mass.is_unnamed() && !remainders.first().is_some_and(alone_is_less) {
+    let is_shown = evidence.is_discrepant() || unknown >= rule.claim;
+    if mass.is_unnamed() && is_shown && !remainders.first().is_some_and(alone_is_less) {
         Verdict::Unknown
     } else {
         Verdict::Ambiguous

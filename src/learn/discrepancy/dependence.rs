@@ -70,6 +70,10 @@ pub(in crate::learn) fn drivers(
     };
     let condition = |of: &dyn Fn(&crate::study::Operation) -> f64| {
         let values = by(&|o| of(&tests[o.test].conditions));
+        // what is the same in all tests is no driver, and its share that of a constant
+        if values.iter().all(|value| *value == values[0]) {
+            return 0.0;
+        }
         seen.share(&all, &polynomials(&seen.kinds, &values, OVER_CONDITIONS))
     };
     let member = seen.share(&members, &constant(rows));

@@ -112,6 +112,9 @@ pub struct Screened {
     pub evidence_gain: f64,
     /// Fall of the whole χ² against the base model.
     pub chi2_drop: f64,
+    /// How much more probable the tests' own deviations of k are than with the base model, ln of the density under their scatter: an effect of the
+    /// tests' conditions makes the scatter smaller.
+    pub scatter_gain: f64,
     /// Whether the deciding model was used.
     pub decided: bool,
     /// Whether it was fitted to the end; what a first look leaves far behind is not, and its χ² is that of the look.
@@ -230,6 +233,7 @@ fn screened(context: &Context<'_>, posterior: &JudgedCandidates) -> Vec<Screened
         accepted_forms: figures.accepted_forms,
         identified: figures.identified,
         evidence_gain: figures.evidence_gain,
+        scatter_gain: fitted.scatter_gain,
         chi2_drop: figures.chi2_drop,
         decided: fitted.fidelity == context.fidelity,
         converged: fitted.found.converged,

@@ -1,6 +1,5 @@
 //! Other partners for an effect of a fitted pair.
 
-use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::context::Context;
@@ -78,8 +77,7 @@ pub(in crate::learn) fn fit(
         return Vec::new();
     };
     let anchor = offset(likelihood, &alone, &analytic);
-    let left = likelihood.residual(&likelihood.joined(&alone));
-    let left = DVector::from_vec(likelihood.covariance.whiten(&left));
+    let left = base.left(likelihood, &likelihood.joined(&alone), &state);
     let analytic = likelihood.rescaled(&likelihood.joined(&analytic));
     let known = |s: &FittedCandidate| fitted.iter().any(|f| is_part(s, f) && is_part(kept, f));
     let mut gains: Vec<(f64, Candidate, State)> = (singles.par_iter())

@@ -126,8 +126,7 @@ fn promising(
         .iter()
         .position(|s| std::ptr::eq(s, best))
         .unwrap_or(0);
-    let left = context.likelihood.residual(&best.found.model);
-    let left = DVector::from_vec(context.likelihood.covariance.whiten(&left));
+    let left = base.left(&context.likelihood, &best.found.model, &best.found.state);
     let direction = &seen[leader];
     let length = direction.norm_squared();
     for b in (0..singles.len()).filter(|&b| singles[b].candidate.effects != best.candidate.effects)

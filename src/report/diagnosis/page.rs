@@ -75,7 +75,18 @@ fn ranking(diagnosis: &Diagnosis) -> Section {
         " over unknown: ln evidence of an effect with something unknown beside it over something unknown alone; the probability of \
          these lines follows this figure, for something unknown may account for what an effect gains over the base.",
     );
-    let of_unknown = of_unknown.unwrap_or_default();
+    let of_pairs = (diagnosis.beside_unknown.iter())
+        .filter(|beside| beside.effects.len() > 1)
+        .map(|beside| {
+            format!(
+                " With something unknown, {} together gain {:.1}: each has a half of what that weighs, for the other may merely follow the unknown.",
+                beside.effects.in_words(),
+                beside.gain_over_unknown
+            )
+        });
+    let of_unknown = of_unknown.map_or_else(String::new, |text| {
+        text.to_owned() + &of_pairs.collect::<String>()
+    });
     Section::new("Ranking").table(table).note(format!(
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
          its free parameters counted against it.{of_unknown} angle: between what a line and the leading one change in these measurements, \
