@@ -756,6 +756,40 @@ fn faults_in_a_table_of_tests_name_its_line_and_column() {
         assert_eq!(found, key, "{message}");
         assert!(message.contains(says), "{message}");
     }
+    for (table, position, says) in [
+        (
+            "id;torque;speed\nA;2,5;1.000\n",
+            (2, 7),
+            "may have a thousands mark",
+        ),
+        (
+            "id;torque\nA;2,5\nB;1.5\n",
+            (3, 3),
+            "decimal points and decimal commas stand in one file",
+        ),
+        (
+            "id;torque\nA;1.5\nB;2,5 N m\n",
+            (3, 3),
+            "decimal points and decimal commas stand in one file",
+        ),
+        (
+            "id;torque;cycles\nA;2,5;1.000.000\n",
+            (2, 7),
+            "has thousands marks",
+        ),
+        ("id;torque\nA;1.000,5\n", (2, 3), "has thousands marks"),
+        ("id,cycles\nA,1.000.000\n", (2, 3), "has thousands marks"),
+    ] {
+        let (at, _, message) = refusal(table);
+        assert_eq!(at, Some(position), "{table}: {message}");
+        assert!(
+            message.contains(says) && message.contains("help: "),
+            "{message}"
+        );
+        assert!(!message.contains("unit"), "{message}");
+    }
+    let with_unit = tabled(TABLED, "id;torque\nA;2,5 N m\n").unwrap();
+    assert_eq!(with_unit.tests[1].conditions.torque_nmm, 2500.0);
     let study = tabled(TABLED, "id,torque\nA,60\n").unwrap();
     let later = study.refuse("test[1].torque", "is too much", "less", "");
     assert_eq!(later.position(), Some((2, 3)));

@@ -157,7 +157,7 @@ fn stated(line: &str) -> Option<u8> {
 }
 
 /// Whether a number looks like one with marks between its thousands: `250.000`.
-pub(in crate::measure) fn in_thousands(text: &str) -> bool {
+pub(crate) fn in_thousands(text: &str) -> bool {
     let mut groups = text.split(['.', ',']);
     let digits = |group: &str| group.bytes().all(|b| b.is_ascii_digit());
     let first = groups.next().unwrap_or_default();

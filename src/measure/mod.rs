@@ -38,6 +38,8 @@ pub use outliers::Outlier;
 pub use quantity::{Place, Quantity, Subject};
 pub use surface::{Surface, surfaces};
 
+pub(crate) use dialect::in_thousands;
+
 use dialect::Dialect;
 use header::Columns;
 use row_reader::{LEAST_SIGMA, Reader};

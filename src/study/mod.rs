@@ -19,6 +19,7 @@ mod free;
 mod gears;
 mod key_docs;
 mod learned;
+mod marks;
 mod materials;
 mod named_files;
 mod numerics;

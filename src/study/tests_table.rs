@@ -7,6 +7,8 @@
 //! ```
 //! Each row is read as the `[[test]]` that it stands for, by the reader of those; what it finds is told at the cell in the table.
 
+mod decimals;
+
 use std::ops::Range;
 use std::path::Path;
 
@@ -90,6 +92,8 @@ impl TestsTable {
         };
         let separator = separator(&whole[header.clone()]);
         let columns = columns(&whole, header, separator)?;
+        let below = super::profile::lines(&whole).skip(1);
+        let decimal_comma = decimals::decimal_comma(&whole, below, &columns, separator)?;
         let mut rows = 0;
         for line in lines {
             let cells = cells(&whole, line.clone(), separator);
@@ -111,7 +115,7 @@ impl TestsTable {
                 let (Some(column), false) = (column, cell.is_empty()) else {
                     continue;
                 };
-                let value = column.value(&whole[cell.clone()], separator != b',');
+                let value = column.value(&whole[cell.clone()], decimal_comma);
                 self.put(&column.key, column.place.clone());
                 self.text.push_str(" = ");
                 self.put(&value, cell);
@@ -141,6 +145,11 @@ struct Column {
 }
 
 impl Column {
+    /// Whether numbers stand in it, with or without a unit.
+    fn is_of_numbers(&self) -> bool {
+        !["id", "role", "reversed"].contains(&self.key.as_str())
+    }
+
     /// A cell as it stands in a study file.
     fn value(&self, cell: &str, decimal_comma: bool) -> String {
         if ["id", "role"].contains(&self.key.as_str()) {
@@ -160,7 +169,7 @@ impl Column {
             (Ok(value), None) if value.is_finite() => format!("{value:?}"),
             (Ok(_), Some(unit)) => quoted(&format!("{point} {unit}")),
             // what it should be the reader of tests knows
-            _ => quoted(cell),
+            _ => quoted(&point),
         }
     }
 }
