@@ -384,6 +384,35 @@ fn a_check_tells_what_was_understood_and_what_could_be_concluded() {
 }
 
 /// Rows of a measurement file, changed one by one, the header as it is.
+/// Where tests are told apart by their temperature, the temperature is said with their torque and speed; elsewhere it is not.
+#[test]
+fn temperatures_that_differ_are_told() {
+    let home = home();
+    succeed(&home, "synthesize study.toml -o data --seed 2");
+    fs::copy(
+        home.path().join("data/measurements.csv"),
+        home.path().join("m.csv"),
+    )
+    .unwrap();
+    let page = || read(&home, "study.out/compare/report.html");
+    for (second, is_told) in [("81.25", true), ("60.0", false)] {
+        let warm = STUDY
+            .replace("id = \"A\"", "id = \"A\"\nbulk_temperature = 60.0")
+            .replace(
+                "id = \"B\"",
+                &format!("id = \"B\"\nbulk_temperature = {second}"),
+            );
+        fs::write(home.path().join("study.toml"), warm).unwrap();
+        let told = succeed(&home, "check study.toml");
+        succeed(&home, "compare study.toml --force");
+        for part in ["rpm, 60 °C", "rpm, 81.3 °C"] {
+            let told = told.contains(part) && page().contains(part);
+            assert_eq!(told, is_told, "{part}");
+        }
+        assert!(is_told || !page().contains("rpm, 60 °C"));
+    }
+}
+
 fn changed(text: &str, change: impl Fn(&mut Vec<String>)) -> String {
     let rows = text.lines().map(|row| {
         let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();

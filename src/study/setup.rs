@@ -115,6 +115,12 @@ impl Study {
         effect.needs().iter().all(|key| self.states(key)) && !(of_teeth && self.face.slices > 1)
     }
 
+    /// Whether the bulk temperatures of the tests differ.
+    pub fn temperatures_differ(&self) -> bool {
+        let of = |test: &super::Test| test.conditions.bulk_temperature_c;
+        self.tests.windows(2).any(|two| of(&two[0]) != of(&two[1]))
+    }
+
     /// The study's effects with their stated values under some conditions; `None` if it has none.
     pub fn acting(&self, conditions: &Operation) -> Option<Acting> {
         let effects = self.effect_model().stated();

@@ -29,7 +29,7 @@ pub(super) fn summary(study: &Study, data: &Dataset, found: &Found<'_>, end: &st
     lines.push(String::new());
     for (number, test) in study.tests.iter().enumerate() {
         let is_bare = data.observations.iter().all(|o| o.test != number);
-        lines.push(operation(test, is_bare));
+        lines.push(operation(test, study.temperatures_differ(), is_bare));
     }
     lines.push(String::new());
     lines.extend(findings(data, found));
@@ -129,7 +129,7 @@ fn aligned(rows: &[[String; 10]]) -> Vec<String> {
 }
 
 /// How a test was run; `is_bare`: without a measurement.
-fn operation(test: &Test, is_bare: bool) -> String {
+fn operation(test: &Test, with_temperature: bool, is_bare: bool) -> String {
     let held = if test.role == Role::Holdout {
         ", held out"
     } else {
@@ -139,8 +139,13 @@ fn operation(test: &Test, is_bare: bool) -> String {
         0.0 => String::new(),
         mm => format!(", misalignment {} mm", plain(mm)),
     };
+    let temperature = test.conditions.bulk_temperature_c;
+    let warm = temperature.filter(|_| with_temperature);
+    let warm = warm.map_or(String::new(), |celsius| {
+        format!(", {} °C", plain(0.1 * (10.0 * celsius).round()))
+    });
     format!(
-        "test {}: {} N·m, {} rpm{misaligned}, {} cycles{held}{}",
+        "test {}: {} N·m, {} rpm{warm}{misaligned}, {} cycles{held}{}",
         test.id,
         plain(1e-3 * test.conditions.torque_nmm),
         plain(test.conditions.speed_rpm),

@@ -2,7 +2,7 @@
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::learn::{Cell as Place, Comparison, Group, TestRecord};
-use crate::numeric::written::{count, percent, significant, uncertain, whole};
+use crate::numeric::written::{count, percent, plain, significant, uncertain, whole};
 use crate::report::comparison::{self, Result, estimate, interval, with_unit};
 use crate::report::models::signed;
 use crate::report::plots;
@@ -20,7 +20,8 @@ pub fn comparison(result: &Result<'_>) -> Page {
     for (test, plots) in tests.zip(plots::of_comparison(result)) {
         let record = result.comparison.tests.iter().find(|r| r.test == test.id);
         if let Some(record) = record {
-            sections.push(of_test(test, record).plots(plots));
+            let with_temperature = result.study.temperatures_differ();
+            sections.push(of_test(test, with_temperature, record).plots(plots));
         }
     }
     sections.push(groups(result.comparison));
@@ -181,7 +182,7 @@ fn places(result: &Result<'_>) -> Section {
     ))
 }
 
-fn of_test(test: &Test, record: &TestRecord) -> Section {
+fn of_test(test: &Test, with_temperature: bool, record: &TestRecord) -> Section {
     let o = &test.conditions;
     let mut conditions = vec![
         format!("{} N·m", significant(1e-3 * o.torque_nmm, 4)),
@@ -189,6 +190,9 @@ fn of_test(test: &Test, record: &TestRecord) -> Section {
         format!("misalignment {} mm", o.misalignment_mm),
         format!("{} cycles", count(o.cycles)),
     ];
+    if let Some(celsius) = o.bulk_temperature_c.filter(|_| with_temperature) {
+        conditions.insert(2, format!("{} °C", plain(0.1 * (10.0 * celsius).round())));
+    }
     if o.reversed {
         conditions.push("driven the other way".to_owned());
     }
