@@ -125,6 +125,20 @@ refusals! {
         => Inconsistent "teeth.hunting" at 22:11, "\"full\"", "256", "1431 different meetings";
     slices_with_teeth: format!("{SHORT}[face]\nslices = 5\n[teeth.gear]\npitch_pattern = [5.0, 0.0]\n")
         => Inconsistent "face.slices" at 22:10, "5", "1", "one section";
+    a_decimal_comma_before_a_unit: with("module = 2.0", "module = \"2,5 mm\"")
+        => BadValue "gears.module" at 2:10, "\"2,5 mm\"", "0.05 to 100 mm", "decimals are written with a point: \"2.5 mm\"";
+    a_decimal_comma_in_quotes: with("face_width = 33.0", "face_width = \"16,5\"")
+        => BadValue "gears.face_width" at 4:14, "\"16,5\"", "0.1 to 5000 mm", "decimals are written with a point: 16.5, without quotes";
+    thousands_marks_in_quotes: with("cycles = 50000", "cycles = \"1.000.000\"")
+        => BadValue "wear.cycles" at 20:10, "\"1.000.000\"", "pinion revolutions", "marks between thousands are not read";
+    a_kinematic_viscosity: format!("{SHORT}[lubricant]\nviscosity = \"20 cSt\"\n")
+        => BadValue "lubricant.viscosity" at 22:13, "\"20 cSt\"", "mPa s", "dynamic viscosity = kinematic viscosity × density";
+    degrees_fahrenheit: format!("{SHORT}[thermal]\nbulk_temperature = \"32 °F\"\n")
+        => BadValue "thermal.bulk_temperature" at 22:20, "\"32 °F\"", "degC, K", "write it in °C or K";
+    a_crushing_torque_with_its_unit: with("torque = 100.0", "torque = \"100 kN m\"")
+        => Inconsistent "operation.torque" at 16:10, "\"100 kN m\"", "for this pair", "operation.torque = \"100 kN m\" crushes the teeth";
+    a_crushing_torque_on_a_narrow_face: with("torque = 100.0", "torque = 100000.0")
+        => Inconsistent "operation.torque" at 16:10, "100000.0", "for this pair", "face_width in [gears] is 33 mm, this torque needs";
     negative_module: with("module = 2.0", "module = -2.0")
         => BadValue "gears.module" at 2:10, "-2.0", "0.05 to 100 mm", "out of range";
     nan: with("module = 2.0", "module = nan")

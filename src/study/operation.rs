@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use toml::de::DeValue;
+
 use super::gears::{Gears, check_pair};
 use super::materials::{Lubricant, Materials, Thermal};
 use super::quantity::{self as q, Short};
@@ -95,12 +97,26 @@ impl Limits<'_> {
             }
             return self.temperatures.check(table, conditions);
         }
+        let has_unit = matches!(table.get("torque"), Some((DeValue::String(_), _)));
+        let (says, slip) = if has_unit {
+            ("crushes the teeth", "")
+        } else {
+            (
+                "N m crushes the teeth",
+                "is it in N mm? 1 N m = 1000 N mm: write 100 for 100000 N mm",
+            )
+        };
         let mut diagnostic = table
-            .refuse("torque", "N m crushes the teeth", format!("above 0, up to {} N m for this pair", Short((most * 1e-3).floor())))
+            .refuse("torque", says, format!("above 0, up to {} N m for this pair", Short((most * 1e-3).floor())))
             .with_hint(format!(
                 "above, the contact would be wider than {LARGEST_RELATIVE_WIDTH} of its radius of curvature: no small strains"
             ))
-            .with_hint("is it in N mm? 1 N m = 1000 N mm: write 100 for 100000 N mm");
+            .with_hint(slip)
+            .with_hint(format!(
+                "or is the face too narrow? face_width in [gears] is {} mm, this torque needs {} mm",
+                Short(self.gears.face_width),
+                Short((self.gears.face_width * conditions.torque_nmm / most).ceil())
+            ));
         diagnostic.fault = Fault::Inconsistent;
         Err(Box::new(diagnostic))
     }

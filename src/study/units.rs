@@ -137,6 +137,18 @@ pub(super) enum UnitFault {
         /// The nearest that the quantity takes.
         near: String,
     },
+    /// The number goes on where a unit should stand: a decimal comma or a mark between thousands.
+    Marks {
+        /// The mark.
+        mark: char,
+    },
+    /// The unit is known and not taken.
+    Foreign {
+        /// What is the matter: "is a kinematic viscosity".
+        says: &'static str,
+        /// What to do.
+        hint: &'static str,
+    },
     /// The unit measures something else.
     Other {
         /// The unit as written.
@@ -150,10 +162,17 @@ pub(super) enum UnitFault {
 pub(super) fn value(text: &str, quantity: &Quantity) -> Result<f64, UnitFault> {
     let (number, written) = split(text).ok_or(UnitFault::NoUnit)?;
     let named = spelled(written);
+    let mut begin = written.chars();
+    if let (Some(mark @ (',' | '.')), Some('0'..='9')) = (begin.next(), begin.next()) {
+        return Err(UnitFault::Marks { mark });
+    }
     let own = UNITS.iter().find(|unit| unit.name == quantity.unit);
     let fits = |unit: &&Unit| unit.name == named && own.is_some_and(|own| own.kind == unit.kind);
     if let (Some(from), Some(to)) = (UNITS.iter().find(fits), own) {
         return Ok(converted(number, from, to));
+    }
+    if let Some(fault) = own.and_then(|own| foreign(&named, own.kind)) {
+        return Err(fault);
     }
     let written = written.to_owned();
     match UNITS.iter().find(|unit| unit.name == named) {
@@ -186,6 +205,23 @@ pub(super) fn known(quantity: &Quantity) -> impl Iterator<Item = &'static str> +
         .iter()
         .filter(move |unit| Some(unit.kind) == kind)
         .map(|unit| unit.name)
+}
+
+/// What is said of a unit that people use and that does not lead to a quantity of this kind by a factor.
+fn foreign(named: &str, kind: Kind) -> Option<UnitFault> {
+    let (says, hint) = match (kind, named) {
+        (Viscosity, "cSt" | "St" | "mm2/s" | "cm2/s" | "m2/s") => (
+            "is a kinematic viscosity, where a dynamic one is asked for",
+            "dynamic viscosity = kinematic viscosity × density: 20 cSt of an oil of 870 kg/m3 are 17.4 mPa s, \
+             both at the operating temperature",
+        ),
+        (Temperature, "degF" | "F" | "Fahrenheit") => (
+            "is in degrees Fahrenheit",
+            "write it in °C or K; °C = (°F - 32)/1.8",
+        ),
+        _ => return None,
+    };
+    Some(UnitFault::Foreign { says, hint })
 }
 
 fn converted(number: f64, from: &Unit, to: &Unit) -> f64 {

@@ -24,6 +24,22 @@ pub(super) fn plain_number(value: &DeValue<'_>) -> Option<f64> {
     }
 }
 
+/// How a number with a decimal comma is written.
+fn point_hint(value: &DeValue<'_>, quantity: &Quantity) -> String {
+    let says = "decimals are written with a point";
+    let DeValue::String(text) = value else {
+        return says.to_owned();
+    };
+    let point = text.trim().replace(',', ".");
+    if point.parse::<f64>().is_ok() {
+        format!("{says}: {point}, without quotes")
+    } else if units::value(&point, quantity).is_ok() {
+        format!("{says}: \"{point}\"")
+    } else {
+        says.to_owned()
+    }
+}
+
 impl<'a> Table<'a> {
     /// A number that may be absent.
     pub(super) fn number(&self, key: &str, quantity: &Quantity) -> Result<Option<f64>> {
@@ -107,6 +123,21 @@ impl<'a> Table<'a> {
                     .wrong_type(key, value, span, &format!("a number, {quantity}"))
                     .into();
             }
+            UnitFault::Marks { mark: ',' } => (
+                format!("{path} = {written} has a decimal comma"),
+                written,
+                point_hint(value, quantity),
+            ),
+            UnitFault::Marks { .. } => (
+                format!("{path} = {written} has several decimal points"),
+                written,
+                "marks between thousands are not read: write 1000000, not 1.000.000".to_owned(),
+            ),
+            UnitFault::Foreign { says, hint } => (
+                format!("{path} = {written} {says}"),
+                written,
+                hint.to_owned(),
+            ),
             UnitFault::Unknown {
                 written: unit,
                 near,
