@@ -125,6 +125,10 @@ refusals! {
         => Inconsistent "teeth.hunting" at 22:11, "\"full\"", "256", "1431 different meetings";
     slices_with_teeth: format!("{SHORT}[face]\nslices = 5\n[teeth.gear]\npitch_pattern = [5.0, 0.0]\n")
         => Inconsistent "face.slices" at 22:10, "5", "1", "one section";
+    the_beginning_of_a_key: format!("{SHORT}[face]\nhelix = 18\n")
+        => UnknownKey "face.helix" at 22:1, "`helix`", "helix_angle", "the nearest valid key is `helix_angle`";
+    the_beginning_of_a_key_of_another_table: with("module = 2.0", "module = 2.0\nhelix = 18")
+        => UnknownKey "gears.helix" at 3:1, "`helix`", "module", "`helix_angle` stands in [face]";
     a_decimal_comma_before_a_unit: with("module = 2.0", "module = \"2,5 mm\"")
         => BadValue "gears.module" at 2:10, "\"2,5 mm\"", "0.05 to 100 mm", "decimals are written with a point: \"2.5 mm\"";
     a_decimal_comma_in_quotes: with("face_width = 33.0", "face_width = \"16,5\"")

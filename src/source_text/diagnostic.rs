@@ -126,12 +126,23 @@ impl Diagnostic {
     }
 }
 
-/// The candidate that looks most like `word` (smallest edit distance, transpositions count once; the first wins a tie).
+/// Letters from which on a word may be the beginning of another one.
+const BEGINNING: usize = 4;
+
+/// The candidate that looks most like `word`: one that begins with it, then that of the smallest edit distance (transpositions count once; the
+/// first wins a tie).
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let word = word.to_lowercase();
-    candidates
-        .into_iter()
-        .min_by_key(|candidate| strsim::damerau_levenshtein(&word, &candidate.to_lowercase()))
+    let low = word.to_lowercase();
+    candidates.into_iter().min_by_key(|candidate| {
+        let distance = strsim::damerau_levenshtein(&low, &candidate.to_lowercase());
+        (!begins(word, candidate), distance)
+    })
+}
+
+/// Whether a word is the beginning of another one.
+pub fn begins(word: &str, other: &str) -> bool {
+    let is_long = word.chars().count() >= BEGINNING;
+    is_long && other.to_lowercase().starts_with(&word.to_lowercase())
 }
 
 /// Whether a word may be another one misspelt: at most half its letters differ.
@@ -154,5 +165,10 @@ mod tests {
         assert_eq!(nearest("modul", ["teeth", "module"]), Some("module"));
         assert_eq!(nearest("toruqe", ["speed", "torque"]), Some("torque"));
         assert_eq!(nearest("x", []), None);
+        assert_eq!(
+            nearest("helix", ["gear", "helix_angle"]),
+            Some("helix_angle")
+        );
+        assert_eq!(nearest("tes", ["test_of_wear", "yes"]), Some("yes"));
     }
 }

@@ -6,7 +6,7 @@ mod error;
 mod file;
 mod source;
 
-pub use diagnostic::{Diagnostic, Fault, is_misspelt, list, nearest};
+pub use diagnostic::{Diagnostic, Fault, begins, is_misspelt, list, nearest};
 pub use error::TextError;
 pub use file::{Wanted, read};
 pub use source::Source;

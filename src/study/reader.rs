@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use toml::de::{DeTable, DeValue};
 
-use crate::source_text::{Diagnostic, Fault, Source, list, nearest};
+use crate::source_text::{Diagnostic, Fault, Source, begins, list, nearest};
 
 pub(super) type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
@@ -288,6 +288,8 @@ impl<'a> Table<'a> {
         .with_span(span);
         if let Some((_, why)) = NOT_MODELLED.iter().find(|(name, _)| *name == key) {
             diagnostic = diagnostic.with_hint(*why);
+        } else if let Some((home, near)) = self.begun_elsewhere(key, keys) {
+            diagnostic = diagnostic.with_hint(format!("`{near}` stands in [{home}]"));
         } else if let Some(near) = nearest(key, keys.iter().copied()) {
             diagnostic = diagnostic.with_hint(format!("the nearest valid key is `{near}`"));
         }
@@ -300,6 +302,18 @@ impl<'a> Table<'a> {
             diagnostic = diagnostic.with_hint(format!("`{key}` stands {home}"));
         }
         Err(diagnostic.into())
+    }
+
+    /// A key of another table, and that table, of which a word is the beginning that begins none of `keys` and is no key itself.
+    fn begun_elsewhere(&self, word: &str, keys: &[&str]) -> Option<(&'a str, &'a str)> {
+        let is_key = |(_, keys): &(&str, &[&str])| keys.contains(&word);
+        if keys.iter().any(|key| begins(word, key)) || self.elsewhere.iter().any(is_key) {
+            return None;
+        }
+        self.elsewhere.iter().find_map(|(home, keys)| {
+            let key = keys.iter().find(|key| begins(word, key))?;
+            (!home.is_empty()).then_some((*home, *key))
+        })
     }
 
     pub(super) fn wrong_type(
