@@ -129,6 +129,10 @@ refusals! {
         => UnknownKey "face.helix" at 22:1, "`helix`", "helix_angle", "the nearest valid key is `helix_angle`";
     the_beginning_of_a_key_of_another_table: with("module = 2.0", "module = 2.0\nhelix = 18")
         => UnknownKey "gears.helix" at 3:1, "`helix`", "module", "`helix_angle` stands in [face]";
+    end_relief_longer_than_the_face: format!("{SHORT}[face]\nslices = 3\n[face.gear]\nend_relief_amount = 10.0\nend_relief_length = 20\n")
+        => Inconsistent "face.gear.end_relief_length" at 25:21, "20", "up to 16.5 mm: half of the face", "end_relief_length = 20 mm is too long for a face of 33 mm";
+    end_relief_of_no_length: format!("{SHORT}[face]\nslices = 3\n[face.gear]\nend_relief_amount = 10.0\nend_relief_length = 0\n")
+        => Inconsistent "face.gear.end_relief_length" at 25:21, "0", "above 0", "leaves no length to the relief";
     a_decimal_comma_before_a_unit: with("module = 2.0", "module = \"2,5 mm\"")
         => BadValue "gears.module" at 2:10, "\"2,5 mm\"", "0.05 to 100 mm", "decimals are written with a point: \"2.5 mm\"";
     a_decimal_comma_in_quotes: with("face_width = 33.0", "face_width = \"16,5\"")

@@ -115,7 +115,15 @@ fn lead(table: &Table<'_>, folder: &Path, width: f64) -> Result<(Lead, Option<Pa
             q::Short(0.5 * width)
         );
         let mut fault = match stated {
-            Some(_) => table.refuse("end_relief_length", "", allowed),
+            Some(0.0) => table.refuse(
+                "end_relief_length",
+                "leaves no length to the relief",
+                allowed,
+            ),
+            Some(_) => {
+                let says = format!("mm is too long for a face of {} mm", q::Short(width));
+                table.refuse("end_relief_length", &says, allowed)
+            }
             None => table.missing("end_relief_length", &allowed),
         };
         fault.fault = Fault::Inconsistent;
