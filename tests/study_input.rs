@@ -839,6 +839,12 @@ fn faults_in_a_lead_file_name_its_line_and_column() {
         ("-10,1\n-12,2", (3, 1), "ascend"),
         ("-10,1\n10,deep", (3, 4), "not a finite number"),
         ("-10000,1\n10000,2", (2, 1), "micrometres"),
+        (
+            "-10;1\n10;2",
+            (2, 1),
+            "a comma stands between the two, as in the header",
+        ),
+        ("-10,5,1\n10,2", (2, 1), "decimals are written with a point"),
     ] {
         let (at, message) = refusal(&format!("face,deviation\n{rows}\n"));
         assert_eq!(at, Some(position), "{message}");
@@ -849,6 +855,31 @@ fn faults_in_a_lead_file_name_its_line_and_column() {
     }
     let (_, message) = refusal("face,deviation\n-20,1\n12,2\n");
     assert!(!message.contains("micrometres"), "{message}");
+}
+
+/// A lead file with semicolons or tabs is that with commas, with decimal commas too; both marks in one file are refused.
+#[test]
+fn a_lead_file_may_be_a_spreadsheets() {
+    let study = format!("{SHORT}[face]\nslices = 3\n[face.pinion]\nlead_file = \"lead.csv\"\n");
+    let load = |table: &str| {
+        let home = tempfile::tempdir().unwrap();
+        std::fs::write(home.path().join("lead.csv"), table).unwrap();
+        let path = home.path().join("study.toml");
+        std::fs::write(&path, &study).unwrap();
+        Study::load(&path)
+    };
+    let plain = load("face,deviation\n-10.5,1\n10,2.5\n").unwrap().face;
+    for table in [
+        "face;deviation\n-10,5;1\n10;2,5\n",
+        "face;deviation\n-10.5;1\n10;2.5\n",
+        "face\tdeviation\n-10,5\t1\n10\t2,5\n",
+    ] {
+        let face = load(table).unwrap_or_else(|e| panic!("{table}: {e}")).face;
+        assert_eq!(face, plain, "{table}");
+    }
+    let error = load("face;deviation\n-10,5;1\n10;2.5\n").unwrap_err();
+    assert_eq!(error.position(), Some((3, 4)), "{error}");
+    assert!(error.to_string().contains("stand in one file"), "{error}");
 }
 
 /// A pitch file is refused at its row where a tooth is left out, is one too many or has no number, and at its end where teeth are missing.

@@ -7,6 +7,7 @@
 //! ```
 //! `lead_file` of [face.pinion] and [face.gear] is the same over the place across the face (`face,deviation`, mm from mid-face), and
 //! `pitch_file` of [teeth.pinion] and [teeth.gear] over the teeth (`tooth,deviation`), one row for each from 1 on.
+//! Semicolons or tabs may stand between the cells, as in the header, and numbers have decimal commas then if the spreadsheet writes them so.
 //! Between the rows the deviation is a straight line over the curvature radius (steps of the path of contact); beyond the
 //! first and last row it stays as there.
 
@@ -16,6 +17,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use self::rows::{Rows, check_unit};
+use super::marks::Marks;
 use crate::gear::Gear;
 use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted, nearest};
 
@@ -120,10 +122,21 @@ fn rows(source: &Source, along: Along<'_>) -> Result<Vec<[f64; 2]>> {
             )
             .into());
     };
+    let separator = separator(&source.text[header.clone()]);
+    let order = columns(&source.text, header, names, separator)?;
+    let mut marks = Marks::default();
+    if separator != ',' {
+        let below = self::lines(&source.text).skip(1);
+        for cell in below.flat_map(|line| cells(&source.text, line, separator)) {
+            marks.see(&source.text, &cell);
+        }
+    }
     let rows = Rows {
         text: &source.text,
         along,
-        order: columns(&source.text, header, names)?,
+        order,
+        separator,
+        decimal_comma: marks.decimal_comma(&source.text)?,
     };
     let mut out = Vec::new();
     for line in lines {
@@ -134,9 +147,20 @@ fn rows(source: &Source, along: Along<'_>) -> Result<Vec<[f64; 2]>> {
     Ok(out)
 }
 
+/// What stands between the cells, as the header has it.
+fn separator(header: &str) -> char {
+    let stands = |separator: &char| header.contains(*separator);
+    [';', '\t'].into_iter().find(stands).unwrap_or(',')
+}
+
 /// Which cell of a row holds the place and which the deviation.
-fn columns(text: &str, header: Range<usize>, names: [&'static str; 2]) -> Result<[usize; 2]> {
-    let cells = cells(text, header.clone());
+fn columns(
+    text: &str,
+    header: Range<usize>,
+    names: [&'static str; 2],
+    separator: char,
+) -> Result<[usize; 2]> {
+    let cells = cells(text, header.clone(), separator);
     for cell in &cells {
         let name = &text[cell.clone()];
         if !names.contains(&name) {
@@ -184,10 +208,10 @@ pub(super) fn lines(text: &str) -> impl Iterator<Item = Range<usize>> + '_ {
     })
 }
 
-fn cells(text: &str, line: Range<usize>) -> Vec<Range<usize>> {
+fn cells(text: &str, line: Range<usize>, separator: char) -> Vec<Range<usize>> {
     let mut at = line.start;
     text[line]
-        .split(',')
+        .split(separator)
         .map(|cell| {
             let start = at;
             at += cell.len() + 1;

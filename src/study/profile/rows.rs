@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{Along, Result, cells, fault};
 use crate::gear::Gear;
-use crate::source_text::Fault;
+use crate::source_text::{Diagnostic, Fault};
 use crate::study::quantity::Short;
 
 /// Largest deviation over the module; as for tip relief.
@@ -22,17 +22,17 @@ pub(super) struct Rows<'a> {
     pub(super) along: Along<'a>,
     /// Which cell of a row holds the place and which the deviation.
     pub(super) order: [usize; 2],
+    /// What stands between the cells.
+    pub(super) separator: char,
+    pub(super) decimal_comma: bool,
 }
 
 impl Rows<'_> {
     /// Place and missing material (mm) of the row `line`, after those `before` it.
     pub(super) fn read(&self, line: Range<usize>, before: &[[f64; 2]]) -> Result<[f64; 2]> {
-        let cells = cells(self.text, line.clone());
+        let cells = cells(self.text, line.clone(), self.separator);
         if cells.len() != 2 {
-            let message = format!("{} cells in a row of two", cells.len());
-            return Err(fault(Fault::BadValue, "", message, line)
-                .with_values("", self.along.columns().join(","))
-                .into());
+            return Err(self.miscounted(cells.len(), line));
         }
         let [at, deviating] = self.order.map(|cell| cells[cell].clone());
         let place = self.number(0, at.clone())?;
@@ -46,9 +46,41 @@ impl Rows<'_> {
         Ok([place, 1e-3 * deviation])
     }
 
+    /// Refuses a row of `count` cells.
+    fn miscounted(&self, count: usize, line: Range<usize>) -> Box<Diagnostic> {
+        let written = &self.text[line.clone()];
+        let between = match self.separator {
+            ';' => "a semicolon",
+            '\t' => "a tab",
+            _ => "a comma",
+        };
+        let message = match count {
+            1 => format!("the row `{written}` has one cell, not two"),
+            count => format!("the row `{written}` has {count} cells, not two"),
+        };
+        let hint = if count > 2 && self.separator == ',' {
+            "; decimals are written with a point then, or semicolons stand between all columns"
+        } else {
+            ""
+        };
+        let wanted = self.along.columns().join(&self.separator.to_string());
+        Box::new(
+            fault(Fault::BadValue, "", message, line)
+                .with_values("", wanted)
+                .with_hint(format!(
+                    "{between} stands between the two, as in the header{hint}"
+                )),
+        )
+    }
+
     fn number(&self, column: usize, span: Range<usize>) -> Result<f64> {
         let text = &self.text[span.clone()];
-        match text.parse::<f64>() {
+        let point = if self.decimal_comma {
+            text.replace(',', ".")
+        } else {
+            text.to_owned()
+        };
+        match point.parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             _ => {
                 let name = self.along.columns()[column];
