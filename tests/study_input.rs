@@ -125,6 +125,8 @@ refusals! {
         => Inconsistent "teeth.hunting" at 22:11, "\"full\"", "256", "1431 different meetings";
     slices_with_teeth: format!("{SHORT}[face]\nslices = 5\n[teeth.gear]\npitch_pattern = [5.0, 0.0]\n")
         => Inconsistent "face.slices" at 22:10, "5", "1", "one section";
+    helical_teeth_that_differ: format!("{SHORT}[face]\nhelix_angle = 12.0\nslices = 11\n[teeth.gear]\npitch_pattern = [5.0, 0.0]\n")
+        => Inconsistent "teeth.gear.pitch_pattern" at 25:17, "[5.0, 0.0]", "without this key", "not computed for helical gears";
     the_beginning_of_a_key: format!("{SHORT}[face]\nhelix = 18\n")
         => UnknownKey "face.helix" at 22:1, "`helix`", "helix_angle", "the nearest valid key is `helix_angle`";
     the_beginning_of_a_key_of_another_table: with("module = 2.0", "module = 2.0\nhelix = 18")

@@ -309,15 +309,18 @@ impl Study {
         if self.face.slices < 2 {
             return Ok(());
         }
-        let hint = if self.gears.pinion.helix_angle == 0.0 {
-            "leave [face] away for it"
+        let (allowed, hint) = if self.gears.pinion.helix_angle == 0.0 {
+            ("1", "leave [face] away for it")
         } else {
-            "it is not for helical gears: without [face] they would be a spur pair of another size"
+            (
+                "1, of spur gears",
+                "it is not for helical gears: without [face] they would be a spur pair of another size",
+            )
         };
         Err(self.refuse(
             "face.slices",
             &format!("{what} works on one section of the face"),
-            "1",
+            allowed,
             hint,
         ))
     }

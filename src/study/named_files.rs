@@ -61,13 +61,38 @@ impl Study {
             self.teeth_alike("contact = \"paper\"")?;
         }
         if !self.teeth.are_alike() {
-            self.one_section("teeth that differ ([teeth])")?;
+            self.differ_in_one_section()?;
         }
         let of_teeth = |spec: &&EffectSpec| spec.acts_on_teeth();
         if let Some(spec) = self.effects.specs().iter().find(of_teeth) {
             self.one_section(&format!("the effect {}", spec.name))?;
         }
         Ok(self)
+    }
+
+    /// Refuses teeth that differ in a face of slices: at the key that sets them apart where the slices cannot be left away.
+    fn differ_in_one_section(&self) -> Result<(), StudyError> {
+        let key = self.sets_teeth_apart();
+        if self.face.slices < 2 || self.gears.pinion.helix_angle == 0.0 {
+            return self.one_section(&format!("{key}: a study with teeth that differ"));
+        }
+        Err(self.refuse(
+            &key,
+            "teeth that differ are not computed for helical gears",
+            "spur gears, or helical gears without this key",
+            "with helix_angle in [face] all teeth of a member are alike: leave the key away",
+        ))
+    }
+
+    /// The key by which teeth differ.
+    fn sets_teeth_apart(&self) -> String {
+        let of = |member: &str| {
+            let keys = ["pitch_file", "pitch_deviations", "pitch_pattern"];
+            keys.map(|key| format!("teeth.{member}.{key}"))
+        };
+        let mut keys = ["pinion", "gear"].into_iter().flat_map(of);
+        let stated = keys.find(|key| self.spans.contains_key(key));
+        stated.unwrap_or_else(|| "teeth".to_owned())
     }
 
     /// Refuses a key that names a file of this kind where there is none.
