@@ -404,7 +404,7 @@ fn temperatures_that_differ_are_told() {
             );
         fs::write(home.path().join("study.toml"), warm).unwrap();
         let told = succeed(&home, "check study.toml");
-        succeed(&home, "compare study.toml --force");
+        succeed(&home, "compare study.toml");
         for part in ["rpm, 60 °C", "rpm, 81.3 °C"] {
             let told = told.contains(part) && page().contains(part);
             assert_eq!(told, is_told, "{part}");
@@ -852,6 +852,39 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
             "test,member,cycles,quantity,position,value [g],sigma [g]\nA,pinion,1e5,wear_depth,26.5,1.5,3\n".to_owned(),
             "",
             "F1: `value [g]`, with row 2 of wear_depth: unit g: units of wear_depth are um, mm",
+        ),
+    ] {
+        let message = refused(&home, &text, options);
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+/// Two weighings of one member, which their headers name, are that member's loss; a multiple of cycles is named as such.
+#[test]
+fn weighings_of_one_member_may_name_it() {
+    let home = home();
+    let header = "Versuch;Lastwechsel;Masse Ritzel vorher [g];Masse Ritzel nachher [g]";
+    let text = format!("{header}\nA;1E5;26,5;26,4\nA;2E5;26,4;26,2\n");
+    for options in ["--sigma 1", "--sigma 1 --member pinion"] {
+        let (shown, written) = rows(&home, &text, options);
+        assert!(written.contains("A,pinion,200000,mass_loss,,"), "{written}");
+        assert!(shown.contains("the columns of the pinion alone"), "{shown}");
+    }
+    for (text, options, says) in [
+        (
+            text.clone(),
+            "--sigma 1 --member gear",
+            "--member says gear",
+        ),
+        (
+            text.replace("Lastwechsel", "Lastwechsel [1E6]"),
+            "--sigma 1",
+            "B1: `Lastwechsel [1E6]`: cycles in 1E6 are not read; write plain pinion revolutions",
+        ),
+        (
+            format!("Rad;{header}\nRitzel;A;1E5;26,5;26,4\n"),
+            "--sigma 1",
+            "missing: nothing, but `Masse Ritzel vorher [g]`, `Masse Ritzel nachher [g]` with the name of a member are not read here",
         ),
     ] {
         let message = refused(&home, &text, options);

@@ -69,6 +69,8 @@ fn with_header(
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
     let (sheet, named) = durations::named(sheet, head, wanted);
+    let (sheet, of_one) = sides::of_one(&sheet, head, wanted);
+    let named = [named, of_one].concat();
     let both = match sides::apart(&sheet, head) {
         Some(both) => completed(both, &sheet, head, wanted)?,
         None => None,

@@ -1,8 +1,9 @@
 //! Both members' columns side by side: `radius pinion | wear pinion | radius gear | wear gear`.
 
 use super::{is_curve, put_column};
-use crate::measure::import::Sheet;
-use crate::measure::import::columns::{Column, What, columns};
+use crate::measure::import::columns::half_understood::has_pair;
+use crate::measure::import::columns::{Column, What, columns, with_sides};
+use crate::measure::import::{Sheet, Wanted};
 use crate::measure::{Place, Subject, names};
 
 /// The table of each member, with the columns of the other one emptied and a column of members; none where not both have columns of their own.
@@ -32,6 +33,35 @@ pub(super) fn apart(sheet: &Sheet, head: usize) -> Option<Vec<Sheet>> {
         own
     };
     Some(members.map(of).into())
+}
+
+/// The table in which one member alone has columns of two measurements, without its name in them and with a column of members; as it is where
+/// there is one already. Also what was made of it, in words.
+pub(super) fn of_one(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> (Sheet, Vec<String>) {
+    let as_it_is = || (sheet.clone(), Vec::new());
+    let header = &sheet.rows[head];
+    let sides: Vec<Option<(Subject, String)>> = header.iter().map(|text| side(text)).collect();
+    let mut members = sides.iter().flatten().map(|side| side.0);
+    let Some(member) = members.next() else {
+        return as_it_is();
+    };
+    let is_alone = members.all(|other| other == member);
+    if !is_alone || super::has(&columns(header), "member") || !has_pair(&with_sides(header)) {
+        return as_it_is();
+    }
+    let mut own = sheet.clone();
+    for (cell, side) in own.rows[head].iter_mut().zip(sides) {
+        if let Some((_, name)) = side {
+            *cell = name;
+        }
+    }
+    if wanted.member != Some(member) {
+        put_column(&mut own, head, "member", member.name());
+    }
+    (
+        own,
+        vec![format!("the columns of the {} alone", member.name())],
+    )
 }
 
 /// Whether a member's columns make a table of their own where the whole header makes none.

@@ -1,6 +1,7 @@
 //! How much of a header is understood, and what is said of the rest.
 
 use super::{Column, What, has, known_by_content, with_sides};
+use crate::measure::import::arrange::side;
 use crate::measure::import::numbers::pointed;
 use crate::measure::import::wanted::Wanted;
 use crate::measure::import::{ImportError, Sheet};
@@ -21,7 +22,7 @@ pub(in crate::measure::import) fn best_header(sheet: &Sheet) -> Option<String> {
 }
 
 /// Whether a header has two measurements of something, one of the new part and one of the worn.
-fn has_pair(columns: &[Column]) -> bool {
+pub(in crate::measure::import) fn has_pair(columns: &[Column]) -> bool {
     let is_there = |what: What| columns.iter().any(|column| column.what == what);
     let is_pair = |of: fn(When) -> What| {
         let mut times = [When::Before, When::After].into_iter();
@@ -143,10 +144,30 @@ pub(in crate::measure::import) fn said(
          values (`depth [um]`, `mass loss [mg]`), optional `sigma` and `trace`; --test and --member stand for such a column{}{}",
         head + 1,
         written.join("; "),
-        missing.join(", "),
+        match missing {
+            [] => nothing_missing(columns),
+            some => some.join(", "),
+        },
         on_time(columns, missing),
         on_values(columns, missing),
     )
+}
+
+/// What is said where every column is there: a member's name in some keeps them from being read.
+fn nothing_missing(columns: &[Column]) -> String {
+    let sided = columns
+        .iter()
+        .filter(|column| side(&column.written).is_some());
+    let sided: Vec<String> = sided
+        .map(|column| format!("`{}`", column.written))
+        .collect();
+    match sided.as_slice() {
+        [] => "nothing, but its columns do not make a table together".to_owned(),
+        some => format!(
+            "nothing, but {} with the name of a member are not read here: leave the name out and let a column `member` or --member say it",
+            some.join(", ")
+        ),
+    }
 }
 
 /// What is said of a column that may be the times of intervals, where cycles are missing.
