@@ -85,8 +85,7 @@ fn warmed(effects: &str) -> Study {
 /// scatter falls.
 #[test]
 fn what_acts_on_whole_tests_is_seen_against_their_scatter() {
-    let hidden =
-        "[[effect]]\nkind = \"formula\"\nwear_factor = \"exp(0.025*(bulk_temperature - 60))\"";
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"warm_oil\"\nwear_factor = \"exp(0.025*(bulk_temperature - 60))\"";
     let (truth, base) = (warmed(hidden), warmed(""));
     let mut data = crate::layout(&crate::study(""));
     let of_masses = |o: &&Observation| o.quantity == Quantity::MassLoss;

@@ -45,10 +45,10 @@ fn one_effect_in_detail() {
             assert!(flat.contains(text), "{}: {text}\n{flat}", card.name);
         }
         for param in card.params {
-            assert!(flat.contains(&format!(
-                "{} ({}): {}",
-                param.name, param.unit, param.meaning
-            )));
+            // as people write it
+            let unit = param.unit.replace("mm um", "mm·um").replace("um", "µm");
+            let text = format!("{} ({unit}): {}", param.name, param.meaning);
+            assert!(flat.contains(&text), "{text}\n{flat}");
         }
         for other in card.confounded_with {
             assert!(flat.contains(other));
