@@ -35,6 +35,15 @@ pub fn plain(value: f64) -> String {
     format!("{number}{power}")
 }
 
+/// The beginning of a sentence.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
 /// A unit as people read it, of one that is written with the letters of a keyboard: `µm`, `N/(mm·µm)`.
 pub fn unit(plain: &str) -> String {
     let mut shown = String::new();

@@ -10,7 +10,7 @@ use super::{html, ladder};
 use crate::learn::climb::ClimbStep;
 use crate::learn::diagnose::{Diagnosis, Fidelity};
 use crate::learn::{self, Comparison, Version};
-use crate::numeric::written::significant;
+use crate::numeric::written::{capitalised, significant};
 
 /// All that `climb` shows.
 #[derive(Debug, Clone)]
@@ -224,14 +224,6 @@ fn conclusion(result: &Result<'_>) -> String {
     } else {
         found
     }
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters
-        .next()
-        .map(|letter| letter.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
 }
 
 /// A step in a line, as it is made.

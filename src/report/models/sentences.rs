@@ -1,6 +1,6 @@
 //! What a comparison shows, in sentences.
 use super::{fixed, signed};
-use crate::numeric::written::{percent, significant};
+use crate::numeric::written::{capitalised, percent, significant};
 use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity};
 
 /// What holds over all misalignments.
@@ -52,6 +52,10 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
             blame(ways, &mut told)
         ));
     }
+    sentences.extend(told.into_iter().filter_map(|cause| {
+        let name = capitalised(cause.label());
+        Some(format!("{name} means {}.", cause.meaning()?))
+    }));
     for out in &comparison.left_out {
         sentences.push(format!(
             "A misalignment of {} mm is left out: {}.",
@@ -194,7 +198,7 @@ fn off_by(values: impl Iterator<Item = f64>) -> Option<String> {
     })
 }
 
-/// The cause that changes the mean most at most misalignments, explained where it has not been `told` yet.
+/// The causes that change the mean most at most misalignments, each noted as `told`.
 fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>, told: &mut Vec<Cause>) -> String {
     let mut sums: Vec<(Cause, f64)> = Vec::new();
     for (cause, change) in ways.flatten() {
@@ -205,11 +209,10 @@ fn blame(ways: impl Iterator<Item = Vec<(Cause, Means)>>, told: &mut Vec<Cause>)
     }
     sums.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut name = |cause: Cause| {
-        if told.contains(&cause) {
-            return cause.label();
+        if !told.contains(&cause) {
+            told.push(cause);
         }
-        told.push(cause);
-        cause.explained()
+        cause.label()
     };
     match sums.as_slice() {
         [] => String::new(),

@@ -399,19 +399,19 @@ impl Cause {
         }
     }
 
-    /// Its name with what it is, where the name alone does not say it.
-    pub fn explained(self) -> &'static str {
+    /// What it is, where the name alone does not say it.
+    pub fn meaning(self) -> Option<&'static str> {
         match self {
-            Cause::AngleUpdate => "angle update (profile angle changed by wear)",
-            Cause::Dwell => "dwell (how long each point is taken to slide)",
-            Cause::Grid => "grid (the points at which wear is computed)",
-            Cause::TipContact => "tip contact (tip corners touching off the line of action)",
-            Cause::Feedback => "feedback (wear changing the load and pressure)",
+            Cause::AngleUpdate => Some("the profile angle changed by wear"),
+            Cause::Dwell => Some("how long each point is taken to slide"),
+            Cause::Grid => Some("the points at which wear is computed"),
+            Cause::TipContact => Some("tip corners touching off the line of action"),
+            Cause::Feedback => Some("wear changing the load and pressure"),
             Cause::GearSpeed
             | Cause::ContactWidth
             | Cause::LoadShare
             | Cause::PressureShape
-            | Cause::Friction => self.label(),
+            | Cause::Friction => None,
         }
     }
 }
