@@ -542,6 +542,42 @@ fn a_pair_beside_something_unknown_lends_its_weight_to_what_is_no_free_shape() {
     assert_eq!(by(&all).group.first(), Some(&of(pitting)));
 }
 
+/// Figures like those of a made-up set with another exponent of the pressure on a rig that runs in blocks: what follows the blocks differs between the
+/// two leading pairs, the exponent is in both and gains nearly as much without them.
+#[test]
+fn an_effect_that_gains_nearly_all_of_its_pairs_is_established() {
+    let [exponent, ageing, debris] =
+        ["pressure_exponent", "lubricant_ageing", "debris_abrasion"].map(place);
+    let with = |other: usize, gain| RemainderEvidence {
+        effects: EffectSet::new([CATALOGUE[exponent], CATALOGUE[other]]),
+        ..beside(exponent, gain, 2600.0, 950.0)
+    };
+    let made = Evidence {
+        beside_unknown: vec![
+            beside(exponent, 243.1, 588.0, 2798.0),
+            beside(debris, 47.0, 1817.0, 1574.0),
+            beside(ageing, 40.6, 1730.0, 1615.0),
+            with(ageing, 275.9),
+            with(debris, 275.3),
+        ],
+        ..evidence(
+            vec![
+                candidate(&[exponent, debris], 1326.7, 2635.0),
+                candidate(&[exponent, ageing], 1284.4, 2535.0),
+                candidate(&[debris], 900.0, 1817.0),
+                candidate(&[ageing], 850.0, 1730.0),
+                candidate(&[exponent], 280.0, 588.0),
+            ],
+            3112.0,
+            1465.8,
+        )
+    };
+    let decision = decided(&made);
+    assert_eq!(decision.verdict, Verdict::Partial, "{decision:?}");
+    let only = Hypothesis::EffectsAndUnknown(EffectSet::new([CATALOGUE[exponent]]));
+    assert_eq!(decision.group, [only], "{decision:?}");
+}
+
 /// Figures like those of a made-up set with a worn coating and a cause of no name: two effects that the data cannot tell apart stand beside something
 /// unknown, or each beside a third that comes near. One of the two is missing in nearly every hypothesis, so this is established.
 #[test]

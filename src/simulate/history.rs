@@ -102,6 +102,8 @@ pub struct WearLaw<'a> {
     pub acting: Option<&'a Acting>,
     /// Allowed step error relative to the largest depth.
     pub tolerance: f64,
+    /// Depth below which it is absolute, modules.
+    pub floor: f64,
     /// How the worn area is held against the line loads.
     pub balance: Balancing,
 }
@@ -118,9 +120,6 @@ pub enum Balancing {
     History,
 }
 
-/// Depth below which the step tolerance is absolute, modules.
-const DEPTH_FLOOR: f64 = 5e-5;
-
 /// Depth above which the step tolerance is absolute where areas are balanced over the history, modules: what the teeth give and how
 /// contacts pass over worn flanks does not grow with the depth, and in proportion to it steps of a flank worn by a fifth of its tooth left
 /// areas by law and geometry 1.5 % apart. (In a fit's analytic histories, which try any coefficient, it made hundreds of thousands of steps.)
@@ -135,12 +134,12 @@ impl WearLaw<'_> {
         let fastest = rate.iter().fold(f64::MIN_POSITIVE, |m, r| m.max(*r));
         StepControl {
             tolerance: self.tolerance,
-            floor: DEPTH_FLOOR * module,
+            floor: self.floor * module,
             ceiling: match self.balance {
                 Balancing::History => DEPTH_CEILING * module,
                 Balancing::Off | Balancing::Steps => f64::INFINITY,
             },
-            first_step: 0.1 * DEPTH_FLOOR * module / fastest,
+            first_step: 0.1 * self.floor * module / fastest,
             // corners that come into contact refuse a step much longer than those before, again and again; the steps of single runs, whose
             // areas are balanced too, stay as they were validated
             hesitates: self.balance == Balancing::Off,

@@ -17,6 +17,8 @@ pub struct Numerics {
     pub positions: usize,
     /// Error allowed in a wear step, relative to the largest depth.
     pub step_tolerance: f64,
+    /// Depth below which that error is absolute, modules.
+    pub step_floor: f64,
     /// Coulomb friction (full slip) in the contact.
     pub friction: f64,
     /// Wear since the last condensation after which the members are condensed again, modules.
@@ -32,6 +34,9 @@ pub struct Numerics {
 /// by 0.44 % next to worn tips; condensing every 4 µm would change the depth after the same cycles by 0.011 % inside the
 /// flank (the validation's case `recondensation`). The bound is 0.5 % of the pressure.
 pub const CONDENSE_AFTER: f64 = 0.007;
+
+/// Depth below which the error of a wear step is absolute, modules.
+pub const STEP_FLOOR: f64 = 5e-5;
 
 /// Unknowns on the flanks of one member up to which a half width gets the edges it should: beyond, the wear steps' full matrices
 /// would take most of a run's time.
@@ -49,6 +54,7 @@ impl Default for Numerics {
             gives_way: false,
             positions: 100,
             step_tolerance: 2e-3,
+            step_floor: STEP_FLOOR,
             friction: 0.0,
             condense_after: CONDENSE_AFTER,
             room: 1.0,

@@ -33,8 +33,8 @@
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```
 //! Where two effects were fitted beside a discrepancy, they have a v of their own, o_R/n their prior as pairs have it, which is lent to the single
-//! effects: one of the two is there, and the other may but follow the unknown. Each gets a half; of the half of a free shape, of which o/(1 + o) would
-//! be unknown's, that goes to the other one.
+//! effects: one of the two is there, and the other may but follow the unknown. Each gets a part in proportion to the square of its own Δ ln Z_R alone (a half where
+//! both gain nothing); of a free shape's part, of which o/(1 + o) would be unknown's, that goes to the other one.
 //!
 //! Δ ln Z_R is the smaller of two figures: with the discrepancy that is most probable without the effect, and with every kind and size of it. By the
 //! first the discrepancy has taken what it can of the effect already, by the second anything that mends the discrepancy is an effect. The share w of
@@ -49,6 +49,9 @@ use crate::numeric::logarithm::{log_sum_exp, softplus};
 
 /// Fall of χ² by which another form of an effect may be behind and leave as much.
 const LEAVES_AS_MUCH: f64 = 1.0;
+
+/// Gain of ln evidence beside something unknown below which effects gain alike.
+const LEAST_GAIN: f64 = 1.0;
 
 /// Posterior probabilities of all hypotheses.
 pub(super) fn log_probabilities(
@@ -196,7 +199,7 @@ fn share_with_remainders(
 }
 
 /// ln of what pairs beside something unknown lend to each single effect, as a share of what all beside something unknown have. A pair says that one of
-/// its effects is missing: the other one may but follow the unknown, and it cannot say which. Each gets a half; of a free shape's half what
+/// its effects is missing: the other one may but follow the unknown. Each gets a part in proportion to the square of what it gains alone; of a free shape's part what
 /// `free_shape_odds` takes from it is the other one's.
 fn lent_by_pairs(
     remainders: &[&RemainderEvidence],
@@ -214,8 +217,10 @@ fn lent_by_pairs(
             .filter(|&i| remainders[i].effects.single().is_some())
             .filter(|&i| pair.effects.contains(&remainders[i].effects))
             .collect();
-        let part = share - (members.len() as f64).ln();
+        let alone = |i: usize| remainders[i].gain_over_unknown.max(LEAST_GAIN).powi(2);
+        let all: f64 = members.iter().map(|&i| alone(i)).sum();
         for &i in &members {
+            let part = share + (alone(i) / all).ln();
             lent[i].push(part + ln_kept(remainders[i]));
             if remainders[i].free_shape {
                 for &other in members.iter().filter(|&&other| other != i) {

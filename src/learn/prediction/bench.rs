@@ -63,10 +63,12 @@ const ROOM: f64 = 1.4;
 /// Misalignments around each test's own for which teeth are meshed finely, mm.
 const MISALIGNMENT_MARGIN: f64 = 0.2;
 
-/// Resolution of the analytic model where it only looks for what may matter: flank edges per half width, positions, error of a wear step.
+/// Resolution of the analytic model where it only looks for what may matter: flank edges per half width, positions, error of a wear step, depth
+/// below which that is absolute (modules; with module 2, half a micrometre).
 const LOOK_EDGES: f64 = 2.0;
-const LOOK_POSITIONS: usize = 48;
-const LOOK_STEP: f64 = 0.02;
+const LOOK_POSITIONS: usize = 36;
+const LOOK_STEP: f64 = 0.04;
+const LOOK_FLOOR: f64 = 2.5e-4;
 
 /// The resolution with which the analytic model looks at changes and for places to start from, where a study asks for `fine`.
 pub(in crate::learn) fn for_looks(fine: Numerics) -> Numerics {
@@ -74,6 +76,7 @@ pub(in crate::learn) fn for_looks(fine: Numerics) -> Numerics {
         elements_per_half_width: fine.elements_per_half_width.min(LOOK_EDGES),
         positions: fine.positions.min(LOOK_POSITIONS),
         step_tolerance: fine.step_tolerance.max(LOOK_STEP),
+        step_floor: fine.step_floor.max(LOOK_FLOOR),
         ..fine
     }
 }

@@ -68,6 +68,7 @@ impl Forward<'_> {
             coefficient: self.conditions.coefficient,
             acting: self.acting,
             tolerance: self.numerics.step_tolerance,
+            floor: self.numerics.step_floor,
             // of several runs only the depths are asked for, and the mass that is not lost with them
             balance: match self.kind {
                 _ if self.shares && !self.acting.is_some_and(|a| a.effects.displaces()) => {
