@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use gearwear::learn::diagnose::Verdict;
+use gearwear::learn::Measured;
+use gearwear::learn::diagnose::{Fidelity, Screened, Verdict, diagnose};
 use gearwear::measure::{Dataset, Observation, Quantity, Subject};
 use gearwear::study::Study;
 
@@ -122,4 +123,73 @@ fn what_acts_on_whole_tests_is_seen_against_their_scatter() {
     let best = found.screened.iter().map(|one| one.evidence_gain);
     let best = best.fold(f64::NEG_INFINITY, f64::max);
     assert!(flash.evidence_gain > best - 1.0, "{flash:?}, best {best}");
+}
+
+/// A pinion of soft plastic, which finite elements let wear otherwise than the analytic model does, weighed in four tests whose k differ.
+const PLASTIC: &str = r#"
+[gears]
+module = 1.5
+pressure_angle = 20
+face_width = 12
+[gears.pinion]
+teeth = 20
+thickness_reduction = 0.05
+bore_diameter = 8
+[gears.gear]
+teeth = 40
+thickness_reduction = 0.05
+bore_diameter = 12
+[material.pinion]
+youngs_modulus = 1800
+poisson_ratio = 0.38
+density = 1410
+[material.gear]
+youngs_modulus = 2.1e5
+poisson_ratio = 0.3
+density = 7850
+[operation]
+torque = 2.5
+speed = 1000
+[wear]
+coefficient = 2e-9
+cycles = 1e6
+[model]
+contact = "fem"
+[measurements]
+file = "measurements.csv"
+"#;
+
+/// An effect that changes nothing has the evidence of the base model, whichever model it was fitted by.
+#[test]
+fn what_changes_nothing_gains_no_evidence() {
+    let test = |i: u32| format!("[[test]]\nid = \"M{i}\"\ntorque = {}\n", 1.5 + f64::from(i));
+    let text = format!("{PLASTIC}{}", (0..4).map(test).collect::<String>());
+    let path = (Path::new(env!("CARGO_MANIFEST_DIR")).join(crate::LAYOUT)).join("study.toml");
+    let base = Study::parse(&text, &path.display().to_string()).unwrap();
+    let mut data = crate::layout(&crate::study(""));
+    let of_masses = |o: &&Observation| o.quantity == Quantity::MassLoss;
+    let row = data.observations.iter().find(of_masses).unwrap().clone();
+    data.tests = base.tests.iter().map(|test| test.id.clone()).collect();
+    data.traces.clear();
+    data.observations = (0..data.tests.len())
+        .map(|test| Observation {
+            test,
+            member: Subject::Pinion,
+            cycles: 1e6,
+            ..row.clone()
+        })
+        .collect();
+    let mut data = crate::exact(&base, data, &[1.3e-9, 2.2e-9, 1.6e-9, 2.7e-9]);
+    for o in &mut data.observations {
+        o.sigma = 0.02 * o.value;
+    }
+    let measured = Measured::new(&base, data);
+    let found = diagnose(&measured, Fidelity::Middle, &|_, _| {}).unwrap();
+    let idle: Vec<&Screened> = (found.screened.iter())
+        .filter(|one| one.chi2_drop.abs() < 0.1 && one.scatter_gain.abs() < 0.1)
+        .collect();
+    assert!(idle.len() > 10, "{}", idle.len());
+    let gains = idle.iter().filter(|one| one.evidence_gain > 0.15);
+    let gains: Vec<_> = gains.collect();
+    assert!(gains.is_empty(), "{gains:#?}");
 }

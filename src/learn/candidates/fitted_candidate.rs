@@ -9,7 +9,7 @@ use crate::learn::inference::quadratic::State;
 use crate::learn::inference::search::SearchEnd;
 use crate::learn::prediction::fidelity::Fidelity;
 
-/// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond.
+/// Most log evidence that a fit may gain, over half its fall of χ²; and what any may gain beyond that explains as much as this itself.
 const EXCUSED: f64 = 1.2;
 const EXCUSED_AT_LEAST: f64 = 5.0;
 /// Scatter of k below which less is none.
@@ -49,6 +49,8 @@ pub(in crate::learn) struct BaseFit {
     pub(in crate::learn) residual: DVector<f64>,
     /// Exact minus analytic model at the fit, per test of the data set.
     pub(in crate::learn) hertz_offset: Vec<Vec<f64>>,
+    /// Log evidence of the same fit with the analytic model's derivatives, which the candidates of the screening are fitted by.
+    screened_evidence: f64,
 }
 
 impl FittedCandidate {
@@ -78,12 +80,8 @@ impl FittedCandidate {
         // the tolerance of a large change may excuse some of what a fit leaves, but not stand for what it does not explain
         if let Some(before) = before {
             let explained = 0.5 * (before.square - square) + scatter_gain;
-            let most = if explained > 0.0 {
-                EXCUSED * explained + EXCUSED_AT_LEAST
-            } else {
-                explained
-            };
-            let gain = (log_evidence - before.log_evidence).min(most);
+            let by_same_means = base.map_or(before.log_evidence, |base| base.evidence_by(fidelity));
+            let gain = (log_evidence - by_same_means).min(most_gain(explained));
             let more = strength_prior::regained(&candidate, &found.state, gain, 2.0 * explained);
             log_evidence = before.log_evidence + gain + more;
         }
@@ -103,15 +101,18 @@ impl FittedCandidate {
 }
 
 impl BaseFit {
-    /// `hertz_offset`: exact minus analytic model at the fit, per test of the data set.
+    /// `hertz_offset`: exact minus analytic model at the fit, per test of the data set; `screened_evidence`: log evidence with the analytic
+    /// model's derivatives on it.
     pub(in crate::learn) fn new(
         likelihood: &Likelihood<'_>,
         fitted: FittedCandidate,
         hertz_offset: Vec<Vec<f64>>,
+        screened_evidence: f64,
     ) -> Self {
         let whitened = (likelihood.covariance).whiten_all(&fitted.found.jacobian);
         let mut base = Self {
             hertz_offset,
+            screened_evidence,
             residual: DVector::zeros(0),
             adjustable: adjustable(likelihood, &whitened, fitted.found.scatter),
             fitted,
@@ -122,6 +123,17 @@ impl BaseFit {
             &base.fitted.found.state,
         );
         base
+    }
+
+    /// Its log evidence by the derivatives that a candidate of some fidelity is fitted with.
+    ///
+    /// The analytic model's values are brought to those of finite elements by what is added to them, which no k scales: where it wears less, its
+    /// derivatives are smaller, each test's k is known less well, and the integral over it is larger, whether an effect does something or not.
+    fn evidence_by(&self, fidelity: Fidelity) -> f64 {
+        match fidelity {
+            Fidelity::Screening => self.screened_evidence,
+            Fidelity::Middle | Fidelity::Full => self.fitted.log_evidence,
+        }
     }
 
     /// What a model in a state leaves: the whitened residual, and −ε_t/σ_k with the base model's σ_k.
@@ -161,6 +173,15 @@ impl BaseFit {
             theta: known.theta.iter().copied().chain(added).collect(),
             ..known.clone()
         }
+    }
+}
+
+/// The most log evidence that a fit may gain that explains so much of ln likelihood: none where it explains nothing.
+fn most_gain(explained: f64) -> f64 {
+    if explained > 0.0 {
+        EXCUSED * explained + EXCUSED_AT_LEAST.min(explained * explained / EXCUSED_AT_LEAST)
+    } else {
+        explained
     }
 }
 
@@ -214,5 +235,21 @@ pub(in crate::learn) fn orthonormalise(columns: &mut DMatrix<f64>) {
             0.0
         };
         columns.column_mut(i).scale_mut(scale);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::most_gain;
+
+    /// What explains nothing gains nothing, and next to nothing next to it; what explains much is excused for as much as ever.
+    #[test]
+    fn what_explains_nothing_gains_nothing() {
+        assert!(most_gain(0.0) == 0.0 && most_gain(-0.3) == -0.3);
+        assert!(most_gain(1e-9) < 1e-8 && most_gain(0.3) < 0.4);
+        assert!((most_gain(5.0) - 11.0).abs() < 1e-12 && (most_gain(50.0) - 65.0).abs() < 1e-12);
+        let rises =
+            (0..100).map(|i| most_gain(0.1 * f64::from(i + 1)) - most_gain(0.1 * f64::from(i)));
+        assert!(rises.into_iter().all(|rise| rise > 0.0));
     }
 }

@@ -2,11 +2,12 @@
 
 use super::context::Context;
 use super::high_fidelity::DECIDE;
-use crate::learn::candidates::candidate_model::{model, offset, predictions};
+use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::BaseFit;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::noise_level;
 use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::inference::search::Effort;
 use crate::learn::noise::NoiseModel;
 use crate::learn::prediction::predictor::PredictError;
 use crate::study::Role;
@@ -38,6 +39,14 @@ impl Context<'_> {
         let state = &fitted.found.state;
         let of = |bench| predictions(likelihood, &model(bench, &candidate), &candidate, state);
         let hertz_offset = offset(likelihood, &of(self.exact)?, &of(self.hertz)?);
-        Ok(BaseFit::new(likelihood, fitted, hertz_offset))
+        let anchored = Anchored::new(model(self.hertz, &candidate), hertz_offset.clone());
+        let screened = likelihood.fit(&anchored, parameters, state.clone(), &Effort::STAY)?;
+        let (screened_evidence, _) = likelihood.evidence(&screened, parameters, None);
+        Ok(BaseFit::new(
+            likelihood,
+            fitted,
+            hertz_offset,
+            screened_evidence,
+        ))
     }
 }

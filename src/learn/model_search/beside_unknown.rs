@@ -217,10 +217,13 @@ impl Context<'_> {
             None,
             fitted.fidelity,
         );
+        // all that is held against it is fitted as it is
+        let evidence = fitted.log_evidence;
         Some(BaseFit::new(
             &self.likelihood,
             fitted,
             base.hertz_offset.clone(),
+            evidence,
         ))
     }
 }
