@@ -1,7 +1,8 @@
 //! Rows that stand apart from their neighbours along a curve: dust, burrs, slipped decimal points.
 //!
 //! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). A place
-//! where several curves of a member do alike is a feature of the flank and no outlier.
+//! where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value between those beside it: the edge of
+//! what is worn.
 
 use std::collections::BTreeMap;
 
@@ -56,6 +57,26 @@ impl Curve {
     fn all_apart(&self) -> Vec<f64> {
         let each = (0..self.points.len()).filter_map(|at| self.apart(at));
         each.map(|(apart, _)| apart.abs()).collect()
+    }
+
+    /// Whether a point's value lies between those of its neighbours, one on each side or two at an end, or outside by no more than noise: then the
+    /// curve bends there, as at the edge of what is worn, and what its neighbours lead one to expect is not to be expected.
+    fn is_a_corner(&self, at: usize) -> bool {
+        let asked = |i: &usize| !self.passed_over[*i];
+        let before: Vec<usize> = (0..at).rev().filter(asked).take(2).collect();
+        let after: Vec<usize> = (at + 1..self.points.len()).filter(asked).take(2).collect();
+        let near = match (&before[..], &after[..]) {
+            ([left, ..], [right, ..]) => vec![*left, *right],
+            (one, []) | ([], one) => one.to_vec(),
+        };
+        let values = near.iter().map(|&i| self.points[i][1]);
+        let (low, high) = (
+            values.clone().fold(f64::INFINITY, f64::min),
+            values.fold(f64::NEG_INFINITY, f64::max),
+        );
+        let [_, value, sigma] = self.points[at];
+        let outside = (low - value).max(value - high).max(0.0);
+        outside < ALIKE * sigma * self.scale
     }
 
     /// Standard deviations at the point nearest to a place, if the curve has one within half the distance of its points.
@@ -134,7 +155,8 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
                 .iter()
                 .filter(|z| **z * apart.signum() > ALIKE)
                 .count();
-            if same > 0 && same as f64 >= FEATURE * others.len() as f64 {
+            let is_shared = same > 0 && same as f64 >= FEATURE * others.len() as f64;
+            if is_shared || curve.is_a_corner(at) {
                 kept[at] = true;
                 continue;
             }
@@ -151,13 +173,33 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
     found
 }
 
-/// Rows that are named one by one in a message.
-const NAMED: usize = 5;
-
 impl Dataset {
-    /// The rows that stand apart from their neighbours, in a sentence; None where none does.
-    pub fn outliers_in_words(&self) -> Option<String> {
+    /// How many rows stand apart from their neighbours, and where they are listed, in a sentence; None where none does.
+    pub fn outliers_counted(&self) -> Option<String> {
+        let rows = self.rows_apart()?;
+        Some(format!("{rows}; gearwear check lists them"))
+    }
+
+    /// How many rows stand apart from their neighbours, and how they count.
+    fn rows_apart(&self) -> Option<String> {
         let first = self.outliers.first()?;
+        let rows = match self.outliers.len() {
+            1 => "1 row stands".to_owned(),
+            n => format!("{n} rows stand"),
+        };
+        let counted = if self.observations[first.row].sigma > first.stated_sigma {
+            "counted with a sigma as large as they stand apart"
+        } else {
+            "counted as they are: correct them, or state [noise] outliers = \"robust\""
+        };
+        Some(format!(
+            "{rows} apart from the neighbours along the trace, {counted}"
+        ))
+    }
+
+    /// All rows that stand apart from their neighbours, in a sentence; None where none does.
+    pub fn outliers_in_words(&self) -> Option<String> {
+        let rows = self.rows_apart()?;
         let one = |outlier: &Outlier| {
             let o = &self.observations[outlier.row];
             let (value, expected) = (o.value, outlier.expected);
@@ -168,24 +210,8 @@ impl Dataset {
                 outlier.apart
             )
         };
-        let named: Vec<String> = self.outliers.iter().take(NAMED).map(one).collect();
-        let more = match self.outliers.len().saturating_sub(NAMED) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let rows = match self.outliers.len() {
-            1 => "1 row stands".to_owned(),
-            n => format!("{n} rows stand"),
-        };
-        let counted = if self.observations[first.row].sigma > first.stated_sigma {
-            "they count with a sigma as large as they stand apart"
-        } else {
-            "they count as they are; correct them, or state [noise] outliers = \"robust\""
-        };
-        Some(format!(
-            "{rows} apart from the neighbours along the trace: {}{more}; {counted}",
-            named.join(", ")
-        ))
+        let all: Vec<String> = self.outliers.iter().map(one).collect();
+        Some(format!("{rows}: {}", all.join(", ")))
     }
 
     /// Finds the rows that stand apart from their neighbours; if `robust`, they count with a σ as large as they stand apart.

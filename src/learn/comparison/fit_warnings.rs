@@ -26,15 +26,19 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
         ));
     }
     warnings.extend(act_together(&fit.parameters, &correlation(fit)));
-    warnings.extend(data_warnings(data));
+    warnings.extend(of_measurements(data, data.outliers_counted()));
     warnings
 }
 
-/// What there is to say of the measurements alone.
+/// What there is to say of the measurements alone, all rows that stand apart among it.
 pub fn data_warnings(data: &Dataset) -> Vec<String> {
+    of_measurements(data, data.outliers_in_words())
+}
+
+fn of_measurements(data: &Dataset, outliers: Option<String>) -> Vec<String> {
     let mut warnings: Vec<String> = wide_traces(data).into_iter().collect();
     warnings.extend(repeated(data));
-    warnings.extend(data.outliers_in_words());
+    warnings.extend(outliers);
     warnings
 }
 
