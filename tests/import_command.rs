@@ -501,7 +501,8 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
     });
     let said = told(&masses);
     assert!(
-        said.contains("% of the misfit is that of") && said.contains("rows of mass_loss"),
+        said.contains("% of the misfit of the fit tests is that of")
+            && said.contains("rows of mass_loss"),
         "{said}"
     );
 }

@@ -17,6 +17,8 @@ const BINS: &str = "residual_drivers.csv";
 const ROWS: &str = "residual_rows.csv";
 /// The driver that is no number.
 const MEMBER: &str = "member";
+/// The driver whose column stands last.
+const TEMPERATURE: &str = "bulk_temperature";
 /// Where the distance along the path of contact stands in the values of a row.
 const PATH: usize = 0;
 
@@ -54,15 +56,23 @@ pub fn bins(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
 /// `residual_rows.csv`: every fitted row with what it felt and what either model leaves of it.
 ///
 /// Columns `test,member,quantity,where`, the drivers (units in `residual_drivers.csv`; `member` once), `before,after`; then, with
-/// units in their names, where it was measured (`radius_mm` or `rotation_base_pitches`) and the driver `position` again (`path_mm`).
+/// units in their names, where it was measured (`radius_mm` or `rotation_base_pitches`) and the driver `position` again (`path_mm`); last
+/// `bulk_temperature`.
 ///
 /// # Errors
 /// [`OutputError`] for a number that is not finite.
 pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
-    let kinds = || DRIVER_KINDS.iter().filter(|kind| kind.name != MEMBER);
-    let names: Vec<&str> = kinds().map(|kind| kind.name).collect();
+    let apart = [MEMBER, TEMPERATURE];
+    let kinds = || {
+        let all = DRIVER_KINDS.iter().enumerate();
+        all.filter(|(_, kind)| !apart.contains(&kind.name))
+    };
+    let temperature = DRIVER_KINDS
+        .iter()
+        .position(|kind| kind.name == TEMPERATURE);
+    let names: Vec<&str> = kinds().map(|(_, kind)| kind.name).collect();
     let head = format!(
-        "test,member,quantity,where,{},before,after,radius_mm,rotation_base_pitches,path_mm",
+        "test,member,quantity,where,{},before,after,radius_mm,rotation_base_pitches,path_mm,{TEMPERATURE}",
         names.join(",")
     );
     let mut table = Csv::new(ROWS, &head);
@@ -71,8 +81,8 @@ pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
         table.text(row.member);
         table.text(row.quantity);
         optional(&mut table, "where", row.position)?;
-        for (kind, value) in kinds().zip(row.values) {
-            optional(&mut table, kind.name, value)?;
+        for (number, kind) in kinds() {
+            optional(&mut table, kind.name, row.values[number])?;
         }
         table.number("before", row.before)?;
         optional(&mut table, "after", row.after)?;
@@ -84,6 +94,8 @@ pub fn rows(left: &ResidualDrivers) -> Result<Vec<u8>, OutputError> {
         optional(&mut table, "radius_mm", at(Place::Flank))?;
         optional(&mut table, "rotation_base_pitches", at(Place::Rotation))?;
         optional(&mut table, "path_mm", row.values[PATH])?;
+        let celsius = temperature.and_then(|number| row.values[number]);
+        optional(&mut table, TEMPERATURE, celsius)?;
         table.end_row();
     }
     Ok(table.into_bytes())
@@ -363,15 +375,15 @@ mod tests {
         assert_eq!(
             table[0],
             "test,member,quantity,where,position,sliding_speed,contact_pressure,film_ratio,flash_temperature,depth_worn,cycles,\
-             torque,speed,misalignment,before,after,radius_mm,rotation_base_pitches,path_mm"
+             torque,speed,misalignment,before,after,radius_mm,rotation_base_pitches,path_mm,bulk_temperature"
         );
         assert_eq!(
             table[1],
-            "\"A, first\",pair,mass_loss,,,,,,,,100000,,,,2.5,-0.5,,,"
+            "\"A, first\",pair,mass_loss,,,,,,,,100000,,,,2.5,-0.5,,,,"
         );
         assert!(table[2].contains(",wear_depth,26.5,-1.5,"));
-        assert!(table[2].ends_with(",2.5,-0.5,26.5,,-1.5"));
-        assert!(table[3].ends_with(",2.5,-0.5,,0.25,-1.5"));
+        assert!(table[2].ends_with(",2.5,-0.5,26.5,,-1.5,"));
+        assert!(table[3].ends_with(",2.5,-0.5,,0.25,-1.5,"));
         assert_eq!(DRIVER_KINDS[PATH].name, "position");
     }
 

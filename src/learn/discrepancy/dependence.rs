@@ -37,10 +37,17 @@ const LEAST_ATTAINABLE: f64 = 1.0;
 /// How much of a discrepancy one driver explains.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Driver {
-    /// position, member, cycles, depth, torque, speed, misalignment or trace.
+    /// position, member, cycles, depth, torque, speed, misalignment, `bulk_temperature` or trace.
     pub name: String,
     /// Share of the discrepancy (of the χ² that it makes) that follows it alone.
     pub variance_share: f64,
+}
+
+impl Driver {
+    /// Its name for people.
+    pub(in crate::learn) fn in_words(&self) -> String {
+        self.name.replace('_', " ")
+    }
 }
 
 /// Shares of the discrepancy between measurements and `model` by driver, the largest first; `attainable`: the fall of χ² that
@@ -76,6 +83,13 @@ pub(in crate::learn) fn drivers(
         }
         seen.share(&all, &polynomials(&seen.kinds, &values, OVER_CONDITIONS))
     };
+    // of which every test must have one
+    let at = |test: usize| tests[test].conditions.bulk_temperature_c;
+    let temperature = if (0..rows).all(|i| at(likelihood.observation(i).test).is_some()) {
+        condition(&|at| at.bulk_temperature_c.unwrap_or_default())
+    } else {
+        0.0
+    };
     let member = seen.share(&members, &constant(rows));
     let place = by(&|o| map.path(o).or(o.position).unwrap_or(0.0));
     let waves = waves(&seen.kinds, &place, ALONG);
@@ -98,6 +112,7 @@ pub(in crate::learn) fn drivers(
         ("torque", condition(&|at| at.torque_nmm.ln())),
         ("speed", condition(&|at| at.speed_rpm.ln())),
         ("misalignment", condition(&|at| at.misalignment_mm)),
+        ("bulk_temperature", temperature),
     ];
     let most = others.iter().fold(0.0, |most, (_, share)| share.max(most));
     let traces = seen.share_of_traces(&by(&|o| o.cycles), most);

@@ -32,7 +32,7 @@ pub struct DriverKind {
 }
 
 /// Number of drivers.
-pub const DRIVERS: usize = 11;
+pub const DRIVERS: usize = 12;
 
 /// All of them, in the order of [`DriverRow::values`].
 #[rustfmt::skip]
@@ -48,6 +48,7 @@ pub static DRIVER_KINDS: [DriverKind; DRIVERS] = [
     DriverKind { name: "speed", label: "speed of the pinion, rpm", unit: "rpm" },
     DriverKind { name: "misalignment", label: "radial misalignment, mm", unit: "mm" },
     DriverKind { name: "member", label: "member", unit: "1 pinion, 2 gear, 3 both" },
+    DriverKind { name: "bulk_temperature", label: "bulk temperature of the teeth, °C", unit: "degC" },
 ];
 
 /// What is left, by driver.
@@ -191,6 +192,7 @@ fn values(
         Some(conditions.speed_rpm),
         Some(conditions.misalignment_mm),
         Some(1.0 + f64::from(o.member as u8)),
+        conditions.bulk_temperature_c,
     ]
 }
 
@@ -335,6 +337,22 @@ mod tests {
             let expected = 2.0 * (PI * bin.centre / 4.0).sin();
             assert!((bin.before.mean - expected).abs() < 0.4, "{bin:?}");
         }
+    }
+
+    /// A test's own temperature is a driver like its torque.
+    #[test]
+    fn what_follows_the_temperature_of_the_tests_is_seen_there() {
+        let warm = |mut row: DriverRow, i: usize| {
+            let celsius = 40.0 + 10.0 * (i % 4) as f64;
+            row.values[11] = Some(celsius);
+            row.before += 0.1 * (celsius - 55.0);
+            row
+        };
+        let rows = rows(400, |_, _, e| e).into_iter().zip(0..);
+        let found = against(None, rows.map(|(row, i)| warm(row, i)).collect());
+        assert_eq!(found.drivers[0].name, "bulk_temperature");
+        assert_eq!(found.drivers[0].unit, "degC");
+        assert_eq!(found.drivers[0].bins.len(), 4);
     }
 
     #[test]

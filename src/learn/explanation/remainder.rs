@@ -67,6 +67,20 @@ fn second_cause(findings: &Findings<'_>, established: &EffectSet) -> Option<Stri
     })
 }
 
+/// What is missing beside something else; established only where the fit that this rests on `converged`.
+fn missing(effects: &EffectSet, probability: f64, converged: bool) -> String {
+    let (effects, probability) = (effects.in_words(), percent(probability));
+    if converged {
+        format!(
+            "Established: {effects} is missing (probability {probability}), but it is not all that is."
+        )
+    } else {
+        format!(
+            "Most likely {effects} is missing (probability {probability}), and not all that is; but the fit that decides did not converge, so this is not established."
+        )
+    }
+}
+
 /// The verdict `partial` in words.
 pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let posterior = findings.posterior;
@@ -96,11 +110,9 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
                     values(beside)
                 )
             });
-            format!(
-                "Established: {} is missing (probability {}), but it is not all that is.{with}",
-                effects.in_words(),
-                percent(posterior.decision.probability_in_all(effects))
-            )
+            let converged = beside_fit(effects).is_none_or(|beside| beside.converged);
+            let probability = posterior.decision.probability_in_all(effects);
+            missing(effects, probability, converged) + &with
         }
         _ => {
             let list: Vec<String> = (group.iter())
@@ -129,7 +141,7 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
         if let Some(driver) = remainder.driver {
             reasons.push(format!(
                 "With the effect in, what remains depends most on {}: {} of its variance.",
-                driver.name,
+                driver.in_words(),
                 percent(driver.variance_share)
             ));
         }
@@ -145,5 +157,23 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
         sentence,
         reasons,
         next_step,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effects::find;
+
+    #[test]
+    fn a_fit_that_did_not_converge_establishes_nothing() {
+        let effects = EffectSet::new([find("tip_relief").unwrap()]);
+        assert!(missing(&effects, 0.99, true).starts_with("Established: tip_relief is missing"));
+        let rough = missing(&effects, 0.99, false);
+        assert!(
+            rough.starts_with("Most likely tip_relief is missing"),
+            "{rough}"
+        );
+        assert!(rough.ends_with("so this is not established."), "{rough}");
     }
 }

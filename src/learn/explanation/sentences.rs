@@ -220,6 +220,16 @@ fn common_to_pairs(by_probability: &[EffectSet]) -> Option<&'static Card> {
     common.next().filter(|_| !others.is_empty()).copied()
 }
 
+/// How what is named begins; a fit that did not converge makes it likely and no more.
+fn missing(several: bool, converged: bool) -> &'static str {
+    match (several, converged) {
+        (false, true) => "One effect is",
+        (true, true) => "These effects are",
+        (false, false) => "Most likely, by a fit that did not converge, one effect is",
+        (true, false) => "Most likely, by a fit that did not converge, these effects are",
+    }
+}
+
 fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     let candidate = &leader.candidate;
     let several = candidate.effects.len() > 1;
@@ -231,11 +241,7 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     Explanation {
         sentence: format!(
             "{} missing: {} (probability {}). With {} χ² per point falls from {:.2} to {:.2}; {}.",
-            if several {
-                "These effects are"
-            } else {
-                "One effect is"
-            },
+            missing(several, leader.converged),
             candidate.effects.in_words(),
             percent((findings.posterior.decision).probability_of(&candidate.effects)),
             if several { "them" } else { "it" },
@@ -276,7 +282,7 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
     let rivals = rivals(decision);
     let common = common_to(&rivals, decision);
     let list: Vec<String> = (rivals.iter())
-        .map(|(hypothesis, p)| format!("{} ({})", hypothesis.in_words(), percent(*p)))
+        .map(|(hypothesis, p)| format!("{} ({})", rival(hypothesis), percent(*p)))
         .collect();
     let doubted = decision.group.contains(&Hypothesis::Unknown);
     let leader = decision.leading_effects().filter(|_| doubted);
@@ -359,10 +365,19 @@ fn rivals(decision: &Decision) -> Vec<(&Hypothesis, f64)> {
     all
 }
 
+/// A rival as the end of "the data cannot tell apart".
+fn rival(hypothesis: &Hypothesis) -> String {
+    match hypothesis {
+        Hypothesis::Unknown => "a cause that is not in the catalogue".to_owned(),
+        Hypothesis::NothingMissing => "nothing missing".to_owned(),
+        effects => effects.in_words(),
+    }
+}
+
 fn depends_on(driver: &Driver) -> Vec<String> {
     let mut reasons = vec![format!(
         "The discrepancy depends most on {}: {} of its variance.",
-        driver.name,
+        driver.in_words(),
         percent(driver.variance_share)
     )];
     if driver.name == "trace" {
@@ -450,6 +465,20 @@ mod tests {
         // nothing else is left: the two most probable stand there all the same
         let few = [(effects("running_in"), 0.9), (Hypothesis::Unknown, 4e-4)];
         assert_eq!(rivals(&decided(&few, &group)).len(), 2);
+    }
+
+    #[test]
+    fn a_cause_outside_the_catalogue_is_not_called_by_its_key() {
+        assert_eq!(
+            rival(&Hypothesis::Unknown),
+            "a cause that is not in the catalogue"
+        );
+        assert_eq!(rival(&Hypothesis::NothingMissing), "nothing missing");
+        let set = EffectSet::new([find("tip_relief").unwrap()]);
+        assert_eq!(
+            rival(&Hypothesis::EffectsAndUnknown(set)),
+            "tip_relief beside something unknown"
+        );
     }
 
     #[test]

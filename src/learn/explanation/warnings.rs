@@ -6,8 +6,8 @@ use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
-use crate::learn::decision::Verdict;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
+use crate::learn::decision::{Decision, Verdict};
 use crate::learn::fitting::collinear::act_together;
 use crate::learn::fitting::quantity_misfit::carried_by;
 use crate::learn::hypothesis::Hypothesis;
@@ -32,8 +32,7 @@ pub(in crate::learn) fn warnings(
             "decided by the analytic contact model, whose curves differ by 1 to 2 % from finite elements and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
         );
     }
-    let leading = posterior.leading_fit(base).unwrap_or(&base.fitted);
-    warnings.extend(of_sigma(likelihood, base, leading));
+    warnings.extend(of_sigma(likelihood, base, spoken_of(base, posterior)));
     warnings.extend(likelihood.measured.data.places_not_used());
     warnings.extend(of_scarcity(likelihood, base));
     warnings.extend(of_curves(likelihood, base, posterior));
@@ -46,6 +45,22 @@ pub(in crate::learn) fn warnings(
         ));
     }
     warnings
+}
+
+/// The model that the verdict leaves: the study's own or, where effects lead, these. Without anything unknown beside them: what a fit beside it
+/// leaves is not the misfit of any model.
+fn spoken_of<'p>(base: &'p BaseFit, posterior: &'p JudgedCandidates) -> &'p FittedCandidate {
+    let alone = leads_alone(&posterior.decision);
+    let fitted = alone.and_then(|alone| posterior.fitted(base, &alone));
+    fitted.unwrap_or(&base.fitted)
+}
+
+/// The effects that lead, by themselves; None where the study's own model is spoken of.
+fn leads_alone(decision: &Decision) -> Option<Hypothesis> {
+    match decision.verdict {
+        Verdict::NothingMissing | Verdict::Unknown => None,
+        _ => Some(Hypothesis::Effects(decision.leading_effects()?.clone())),
+    }
 }
 
 /// Where the scatter is not as stated, or a few rows carry the misfit.
@@ -61,10 +76,14 @@ fn of_sigma(likelihood: &Likelihood<'_>, base: &BaseFit, leading: &FittedCandida
     }
     let standardised = likelihood.standardised(&leading.found.model);
     let rows = (0..likelihood.len()).map(|row| likelihood.observation(row));
-    warnings.extend(carried_by(rows.zip(standardised)));
+    let with = match leading.candidate.effects.is_empty() {
+        true => String::new(),
+        false => format!(" with {}", leading.candidate.effects.in_words()),
+    };
+    warnings.extend(carried_by(rows.zip(standardised), &with));
     // rows stand apart by so many stated sigmas
     if matches!(sigma, SigmaModel::Stated { .. }) {
-        warnings.extend(likelihood.measured.data.outliers_in_words());
+        warnings.extend(likelihood.measured.data.outliers_counted());
     }
     warnings
 }
@@ -137,12 +156,14 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
             .push("the fit of the base model did not converge: probabilities are rough".to_owned());
     }
     if let Some(leader) = posterior.leader() {
-        if !leader.converged {
-            warnings.push(format!(
-                "the fit with {} did not converge: its parameters are rough",
-                leader.candidate.hypothesis()
-            ));
-        }
+        let deciding = posterior.decision.group.first();
+        let beside = deciding.filter(|first| matches!(first, Hypothesis::EffectsAndUnknown(_)));
+        let beside = beside.and_then(|first| posterior.fitted(base, first));
+        warnings.extend(not_converged(
+            &leader.candidate.effects.in_words(),
+            leader.converged,
+            beside.map(|beside| beside.converged),
+        ));
         for p in parameters(leader).iter().filter(|p| p.at_bound) {
             warnings.push(format!(
                 "{} of {} lies on its bound, {}",
@@ -162,6 +183,22 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// Which fits with `effects` did not converge: that with them alone, and the one beside something unknown where the verdict rests on that.
+fn not_converged(effects: &str, alone: bool, beside: Option<bool>) -> Option<String> {
+    match (alone, beside) {
+        (true, None | Some(true)) => None,
+        (false, None) => Some(format!(
+            "the fit with {effects} did not converge: its parameters are rough"
+        )),
+        (false, Some(true)) => Some(format!(
+            "the fit with {effects} alone did not converge: its χ² and what it leaves are rough; the one beside something unknown, on which the verdict rests, did"
+        )),
+        (_, Some(false)) => Some(format!(
+            "the fit with {effects} beside something unknown, on which the verdict rests, did not converge: the verdict and its parameters are rough"
+        )),
+    }
 }
 
 /// Which of its effects' parameters the data know only together.
@@ -202,4 +239,51 @@ fn unheard_of(leader: &FittedCandidate) -> impl Iterator<Item = String> {
             )
         })
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{leads_alone, not_converged};
+    use crate::effects::find;
+    use crate::learn::decision::{Decision, Verdict};
+    use crate::learn::hypothesis::{EffectSet, Hypothesis};
+
+    /// What a fit beside something unknown leaves is no model's misfit: that of the effect alone is told, as `add` and `compare` would find it.
+    #[test]
+    fn the_misfit_told_is_that_of_the_effects_by_themselves() {
+        let set = EffectSet::new([find("tip_relief").unwrap()]);
+        let told = |verdict| {
+            leads_alone(&Decision {
+                verdict,
+                log_probabilities: [].into(),
+                effects: vec![set.clone()],
+                group: vec![Hypothesis::EffectsAndUnknown(set.clone())],
+            })
+        };
+        assert_eq!(
+            told(Verdict::Partial),
+            Some(Hypothesis::Effects(set.clone()))
+        );
+        assert_eq!(told(Verdict::Unknown), None);
+        assert_eq!(told(Verdict::NothingMissing), None);
+    }
+
+    #[test]
+    fn it_is_said_which_fit_did_not_converge() {
+        let said = |alone, beside| not_converged("tip_relief", alone, beside);
+        assert!(said(true, None).is_none() && said(true, Some(true)).is_none());
+        let alone = said(false, Some(true)).unwrap();
+        assert!(
+            alone.starts_with("the fit with tip_relief alone did not"),
+            "{alone}"
+        );
+        assert!(alone.contains("on which the verdict rests, did"), "{alone}");
+        let deciding = said(true, Some(false)).unwrap();
+        assert!(
+            deciding.contains("on which the verdict rests, did not"),
+            "{deciding}"
+        );
+        let plain = said(false, None).unwrap();
+        assert!(plain.contains("tip_relief did not converge"), "{plain}");
+    }
 }

@@ -15,12 +15,14 @@ const SHARE: f64 = 0.3;
 pub fn misfit_of_one_quantity(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
     let rows = data.observations.iter().zip(&fit.rows);
     let rows = rows.filter(|(o, _)| study.tests[o.test].role == Role::Fit);
-    carried_by(rows.map(|(o, row)| (o, row.standardised)))
+    carried_by(rows.map(|(o, row)| (o, row.standardised)), "")
 }
 
-/// The quantity that carries the misfit of some rows, each with its standardised residual, in words; None if none does.
+/// The quantity that carries the misfit of the fit tests' rows, each with its standardised residual, in words; None if none does. `with`: what
+/// stands in the model beside the study's own, in words.
 pub(in crate::learn) fn carried_by<'d>(
     rows: impl Iterator<Item = (&'d Observation, f64)>,
+    with: &str,
 ) -> Option<String> {
     let rows: Vec<(Quantity, f64)> = rows.map(|(o, z)| (o.quantity, z * z)).collect();
     let sum = |of: &dyn Fn(Quantity) -> bool| {
@@ -37,7 +39,7 @@ pub(in crate::learn) fn carried_by<'d>(
         let share = square / (square + rest);
         (own > LARGE && own > OVER_OTHERS * other && share > SHARE).then(|| {
             format!(
-                "{:.0} % of the misfit is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): either their sigma is too small, or \
+                "{:.0} % of the misfit of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): either their sigma is too small, or \
                  what is missing acts on them alone. Look at that sigma first, of small values above all: a share of each value leaves them almost none",
                 100.0 * share,
                 quantity.name()
@@ -69,11 +71,14 @@ mod tests {
         let (mass, depth) = (row(Quantity::MassLoss), row(Quantity::WearDepth));
         let said = |mass_off: f64, depth_off: f64| {
             let masses = (0..8).map(|_| (&mass, mass_off));
-            carried_by(masses.chain((0..400).map(|_| (&depth, depth_off))))
+            carried_by(
+                masses.chain((0..400).map(|_| (&depth, depth_off))),
+                " with tip_relief",
+            )
         };
         assert!(
             said(9.0, 1.2).is_some_and(
-                |s| s.contains("8 rows of mass_loss (χ² 81 per point, the others 1.4)")
+                |s| s.contains("of the misfit of the fit tests with tip_relief is that of 8 rows of mass_loss (χ² 81 per point, the others 1.4)")
             )
         );
         // both are off alike, or hardly

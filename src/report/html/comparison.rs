@@ -235,7 +235,13 @@ fn groups(c: &Comparison) -> Section {
             depth(group.rms_um),
         ]);
     }
-    Section::new("By quantity, member, region and life").table(table)
+    let section = Section::new("By quantity, member, region and life").table(table);
+    if c.holdout.points == 0 {
+        return section;
+    }
+    section.note(
+        "All tests, held-out ones included; a diagnosis, and warnings of one quantity's misfit, count the fit tests alone.",
+    )
 }
 
 fn validation(c: &Comparison) -> Section {
