@@ -27,6 +27,11 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
             .map(|&t| of(&study.tests[t].conditions).to_bits());
         values.collect::<BTreeSet<u64>>().len()
     };
+    let temperatures: BTreeSet<u64> = (measured.iter())
+        .filter_map(|&t| study.tests[t].conditions.bulk_temperature_c)
+        .map(f64::to_bits)
+        .collect();
+    let temperatures = temperatures.len();
     let has = |quantity: Quantity| rows(Role::Fit).any(|o| o.quantity == quantity);
     let members =
         [Subject::Pinion, Subject::Gear].map(|member| rows(Role::Fit).any(|o| o.member == member));
@@ -73,6 +78,11 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
         "laws of the speed (film thickness, flash temperature, dynamic load) apart from k: a second speed",
     );
     judge(
+        temperatures >= 2,
+        "laws of the temperature (thermal expansion, flash temperature, plastics), as far as it does not go with torque or speed",
+        "laws of the temperature (thermal expansion, flash temperature, plastics) apart from k: a second bulk_temperature",
+    );
+    judge(
         members == [true, true],
         "whether both members wear by one k",
         "whether both members wear by one k: measure the other member too",
@@ -95,4 +105,59 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
         },
     );
     said
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_depends_on_temperature_takes_tests_at_two() {
+        let text = include_str!("../../cli/examples/hidden-effect.toml");
+        let mut study = Study::parse(text, "study.toml").unwrap();
+        let row = Observation {
+            test: 0,
+            member: Subject::Pinion,
+            cycles: 1e5,
+            quantity: Quantity::MassLoss,
+            position: None,
+            value: 1.0,
+            sigma: 0.1,
+            trace: None,
+            face: None,
+            tooth: None,
+            line: 1,
+        };
+        let fit: Vec<usize> = (0..study.tests.len())
+            .filter(|&test| study.tests[test].role == Role::Fit)
+            .take(2)
+            .collect();
+        let data = Dataset {
+            observations: (fit.iter())
+                .map(|&test| Observation {
+                    test,
+                    ..row.clone()
+                })
+                .collect(),
+            name: "measurements.csv".to_owned(),
+            tests: study.tests.iter().map(|test| test.id.clone()).collect(),
+            traces: Vec::new(),
+            reading: String::new(),
+            outliers: Vec::new(),
+            estimated_sigmas: 0,
+        };
+        let has = |list: &[String]| {
+            list.iter()
+                .any(|s| s.starts_with("laws of the temperature"))
+        };
+        let mut at = |celsius: [f64; 2]| {
+            for (&test, celsius) in fit.iter().zip(celsius) {
+                study.tests[test].conditions.bulk_temperature_c = Some(celsius);
+            }
+            let found = prospects(&study, &data);
+            [has(&found.can), has(&found.cannot)]
+        };
+        assert_eq!(at([60.0, 60.0]), [false, true]);
+        assert_eq!(at([60.0, 80.0]), [true, false]);
+    }
 }
