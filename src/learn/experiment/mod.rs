@@ -6,6 +6,7 @@ pub(in crate::learn) mod decided;
 mod discrimination;
 mod measurement_design;
 pub(in crate::learn) mod next;
+mod order;
 mod plan;
 mod table;
 mod wording;

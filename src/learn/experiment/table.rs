@@ -3,11 +3,12 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::candidate_tests::{ENOUGH, NextTest, grid, ranked, shown};
+use super::candidate_tests::{ENOUGH, grid, shown};
 use super::decided::Decided;
 use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
 use super::measurement_design::MeasurementDesign;
 use super::next::{Place, plain};
+use super::order::{in_order, made};
 use super::plan::{LEADERS, LEADING, Leader, NextTests, Plan, RankedTest, Separated};
 use super::wording::{self, Repetition};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
@@ -30,9 +31,6 @@ const QUANTITIES: [Quantity; 3] = [
     Quantity::TransmissionError,
     Quantity::MassLoss,
 ];
-
-/// Relative difference of χ² up to which two tests show the same.
-const SAME: f64 = 1e-6;
 
 /// The table of feasible tests for a study's measurements: for the leading candidates of a finished diagnosis of them, without one for
 /// those that lead by the analytic model.
@@ -96,19 +94,10 @@ pub fn plan_after(
                 .map(|told| row(&context, *changes, operation, told, &leaders)),
         );
     }
-    let scores: Vec<(f64, usize)> = rows.iter().map(|r| (r.expected_chi2, r.changes)).collect();
-    let mut tests: Vec<RankedTest> = Vec::new();
-    for i in ranked(&scores) {
-        if !tests
-            .iter()
-            .any(|test| differs_in_speed_only(test, &rows[i]))
-        {
-            tests.push(rows[i].clone());
-        }
-    }
+    let tests = in_order(rows, &made(&study.tests, &measured.data));
     Ok(Plan::NextTests(NextTests {
         sentence: tests.first().map_or_else(
-            || "No feasible test could be computed.".to_owned(),
+            || "No feasible test that is new could be computed.".to_owned(),
             |best| {
                 wording::left_open(decided, from_diagnosis)
                     + &wording::sentence(best, &plainest, repetition.as_ref())
@@ -124,18 +113,6 @@ pub fn plan_after(
         repetition_chi2: repetition.map_or(0.0, |best| best.chi2),
         tests,
     }))
-}
-
-/// Whether two tests show the same at two speeds: what is measured does not feel the speed.
-fn differs_in_speed_only(a: &RankedTest, b: &RankedTest) -> bool {
-    let without_speed = |test: &RankedTest| NextTest {
-        speed: 0.0,
-        ..test.test.clone()
-    };
-    let mut chi2 = a.separates.iter().zip(&b.separates);
-    a.quantity == b.quantity
-        && without_speed(a) == without_speed(b)
-        && chi2.all(|(a, b)| (a.chi2 - b.chi2).abs() <= SAME * a.chi2.abs())
 }
 
 /// The repetition of a test made already that says most of the leaders, with all that was measured in the test with most rows.

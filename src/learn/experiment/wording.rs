@@ -4,6 +4,7 @@ use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose, shown};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
+use crate::numeric::written::probability;
 use crate::study::{Operation, Role, Test};
 
 /// Relative difference up to which two conditions are the same.
@@ -130,8 +131,15 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             100.0 * first.probability
         ),
         Verdict::Effect | Verdict::Effects => format!(
-            "The diagnosis has decided for {}: what follows would confirm it against its nearest rivals. ",
-            first.effect
+            "The diagnosis has decided for {} already ({}): no test is needed for that, and what follows would only confirm it against its nearest rivals. ",
+            first.effect,
+            probability(first.probability)
+        ),
+        Verdict::Partial if holds(decided, &first.effect) >= SETTLED => format!(
+            "The diagnosis has settled already that {} is missing: no test is needed for that. What stands beside it this table cannot tell; next, by the \
+             diagnosis: {}. What follows would only confirm the effect against its nearest rivals. ",
+            first.effect.trim_end_matches("+unknown"),
+            decided.next_step.trim_end_matches('.')
         ),
         Verdict::NothingMissing => format!(
             "The diagnosis finds nothing missing ({:.0} %): what follows would show whether {} hides below the noise after all. ",
@@ -143,6 +151,17 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
         ),
         _ => String::new(),
     }
+}
+
+/// Probability of an effect, whatever stands beside it, from which it is settled that it is missing.
+const SETTLED: f64 = 0.85;
+
+/// The probability of all that holds the effects of a hypothesis.
+fn holds(decided: &Decided, hypothesis: &str) -> f64 {
+    let own: Vec<&str> = hypothesis.trim_end_matches("+unknown").split('+').collect();
+    let all = decided.probabilities.iter();
+    let holding = all.filter(|(name, _)| own.iter().all(|own| name.split('+').any(|n| n == *own)));
+    holding.map(|(_, p)| p).sum()
 }
 
 /// What a settled diagnosis needs more than another comparison of rivals: a test that nothing was fitted to.
@@ -218,7 +237,19 @@ mod tests {
             "{open}"
         );
         let done = left_open(Some(&decided(Verdict::Effect, 0.99, 0.01)), true);
-        assert!(done.contains("has decided for dynamic_load"), "{done}");
+        assert!(
+            done.contains("has decided for dynamic_load already (99.0 %): no test is needed"),
+            "{done}"
+        );
+        let mut remains = decided(Verdict::Partial, 0.99, 0.01);
+        // one of several
+        assert_eq!(left_open(Some(&remains), true), "");
+        (remains.probabilities).insert("dynamic_load+unknown".to_owned(), 0.99);
+        let partial = left_open(Some(&remains), true);
+        assert!(
+            partial.contains("settled already that dynamic_load"),
+            "{partial}"
+        );
         assert!(left_open(Some(&decided(Verdict::Ambiguous, 0.6, 0.01)), true).is_empty());
         assert!(left_open(None, false).is_empty());
         let none = left_open(Some(&decided(Verdict::NothingMissing, 0.93, 0.01)), true);

@@ -1,0 +1,154 @@
+//! In which order feasible tests are told, and which are not told at all.
+
+use super::candidate_tests::{ENOUGH, NextTest, ranked, shown};
+use super::plan::RankedTest;
+use crate::measure::{Dataset, Quantity};
+use crate::study::Test;
+
+/// Relative difference up to which two conditions are nearly the same, and that of misalignments, mm.
+const ALIKE: f64 = 0.05;
+const ALIKE_MM: f64 = 0.02;
+/// Relative difference of χ² up to which two tests show the same.
+const SAME: f64 = 1e-6;
+
+/// A made test, with what was measured in it.
+pub(super) struct MadeTest {
+    test: NextTest,
+    quantities: Vec<Quantity>,
+}
+
+/// The tests of a study that have rows.
+pub(super) fn made(tests: &[Test], data: &Dataset) -> Vec<MadeTest> {
+    let of = |(number, test): (usize, &Test)| {
+        let own = data.observations.iter().filter(|o| o.test == number);
+        let mut quantities: Vec<Quantity> = own.map(|o| o.quantity).collect();
+        quantities.sort();
+        quantities.dedup();
+        MadeTest {
+            test: shown(&test.conditions),
+            quantities,
+        }
+    };
+    tests.iter().enumerate().map(of).collect()
+}
+
+impl MadeTest {
+    /// Whether a row would measure (nearly) here once more what was measured here.
+    fn is_repeated_by(&self, row: &RankedTest) -> bool {
+        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
+        let (own, other) = (&self.test, &row.test);
+        near(own.torque, other.torque)
+            && near(own.speed, other.speed)
+            && near(own.cycles, other.cycles)
+            && (own.misalignment - other.misalignment).abs() <= ALIKE_MM
+            && own.reversed == other.reversed
+            && self.quantities.iter().any(|q| q.name() == row.quantity)
+    }
+}
+
+/// The rows in the order in which they are told.
+///
+/// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer cycles, then fewer
+/// changes, then what takes less measuring. Then the others by what they separate. What does not feel the speed is told at one speed.
+pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
+    let is_new = |row: &RankedTest| !made.iter().any(|made| made.is_repeated_by(row));
+    let new: Vec<RankedTest> = rows.into_iter().filter(is_new).collect();
+    let (mut enough, rest): (Vec<_>, Vec<_>) =
+        (new.into_iter()).partition(|row| row.expected_chi2 >= ENOUGH);
+    enough.sort_by(|a, b| {
+        let cycles = a.test.cycles.total_cmp(&b.test.cycles);
+        cycles.then_with(|| (a.changes, effort(a)).cmp(&(b.changes, effort(b))))
+    });
+    let scores: Vec<(f64, usize)> = rest.iter().map(|r| (r.expected_chi2, r.changes)).collect();
+    let rest = ranked(&scores).into_iter().map(|i| rest[i].clone());
+    let mut told: Vec<RankedTest> = Vec::new();
+    for row in enough.into_iter().chain(rest) {
+        if !told.iter().any(|other| differs_in_speed_only(other, &row)) {
+            told.push(row);
+        }
+    }
+    told
+}
+
+/// What a quantity takes to measure: a balance, a run on the rig, traces along flanks.
+fn effort(row: &RankedTest) -> usize {
+    let all = [
+        Quantity::MassLoss,
+        Quantity::TransmissionError,
+        Quantity::WearDepth,
+    ];
+    let place = all
+        .iter()
+        .position(|quantity| quantity.name() == row.quantity);
+    place.unwrap_or(all.len())
+}
+
+/// Whether two tests show the same at two speeds: what is measured does not feel the speed.
+fn differs_in_speed_only(a: &RankedTest, b: &RankedTest) -> bool {
+    let without_speed = |test: &RankedTest| NextTest {
+        speed: 0.0,
+        ..test.test.clone()
+    };
+    let mut chi2 = a.separates.iter().zip(&b.separates);
+    a.quantity == b.quantity
+        && without_speed(a) == without_speed(b)
+        && chi2.all(|(a, b)| (a.chi2 - b.chi2).abs() <= SAME * a.chi2.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::candidate_tests::tests::plain;
+    use super::*;
+
+    fn row(torque: f64, cycles: f64, quantity: &str, changes: usize, chi2: f64) -> RankedTest {
+        RankedTest {
+            test: NextTest {
+                torque,
+                cycles,
+                ..shown(&plain())
+            },
+            quantity: quantity.to_owned(),
+            changes,
+            expected_chi2: chi2,
+            separates: Vec::new(),
+            why: String::new(),
+        }
+    }
+
+    /// Of tests that all separate more than enough the first is the cheapest.
+    #[test]
+    fn the_cheapest_that_settles_it_stands_first() {
+        let rows = vec![
+            row(100.0, 3e6, "mass_loss", 1, 60.0),
+            row(50.0, 1e6, "wear_depth", 1, 60.0),
+            row(200.0, 1e6, "mass_loss", 1, 60.0),
+            row(100.0, 1e6, "transmission_error", 0, 40.0),
+        ];
+        let told = in_order(rows, &[]);
+        let order: Vec<f64> = told.iter().map(|r| r.test.torque).collect();
+        assert_eq!(order, [200.0, 50.0, 100.0, 100.0]);
+        assert_eq!(told[3].quantity, "transmission_error");
+    }
+
+    /// What was measured at (nearly) these conditions is not proposed again, what was not measured there is.
+    #[test]
+    fn a_test_that_was_made_is_no_new_one() {
+        let made = MadeTest {
+            test: NextTest {
+                torque: 102.0,
+                ..shown(&plain())
+            },
+            quantities: vec![Quantity::WearDepth],
+        };
+        let rows = vec![
+            row(100.0, 1e6, "wear_depth", 0, 60.0),
+            row(100.0, 1e6, "mass_loss", 0, 50.0),
+            row(50.0, 1e6, "wear_depth", 1, 45.0),
+        ];
+        let told = in_order(rows, &[made]);
+        let order: Vec<(f64, &str)> = (told.iter())
+            .map(|r| (r.test.torque, r.quantity.as_str()))
+            .collect();
+        assert_eq!(order, [(100.0, "mass_loss"), (50.0, "wear_depth")]);
+    }
+}
