@@ -7,6 +7,7 @@
 mod alike;
 mod ascent;
 mod kept;
+mod pace;
 mod steps;
 mod version;
 
@@ -66,7 +67,8 @@ pub(super) fn execute(args: &ClimbArgs, context: &Context) -> Result<Outcome, Cl
         },
         kept: &kept,
         context,
-        progress: context.progress("climb"),
+        progress: context.progress("climb").without_end(),
+        pace: pace::Pace::new(usize::from(args.most)),
         most: usize::from(args.most),
     };
     let mut state = climb.begin(args.resume)?;

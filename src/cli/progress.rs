@@ -13,6 +13,8 @@ pub(crate) struct Progress {
     bar: ProgressBar,
     /// Where standard error is no terminal: lines instead of a bar.
     log: Option<Log>,
+    /// Whether no one knows how much there is to do: no share is shown, and no time left but what the work says itself.
+    open_ended: bool,
 }
 
 /// Lines of progress for a file or a pipe: none of short work, and of long work few.
@@ -57,7 +59,18 @@ impl Progress {
         Self {
             bar: bar.with_style(style),
             log: is_log.then(Log::default),
+            open_ended: false,
         }
+    }
+
+    /// Of work that goes on until nothing more is found.
+    pub(super) fn without_end(mut self) -> Self {
+        let style = ProgressStyle::with_template("{prefix} {spinner}  {wide_msg}");
+        if let Ok(style) = style {
+            self.bar.set_style(style);
+        }
+        self.open_ended = true;
+        self
     }
 
     /// Whether somebody may look at it: standard error is a terminal.
@@ -92,12 +105,25 @@ impl Progress {
         if self.log.as_ref().is_some_and(|log| log.is_due(elapsed)) {
             let done = self.bar.position() as f32 / 1000.0;
             let what = self.bar.prefix();
+            if self.open_ended {
+                eprintln!("{what}: {doing}");
+                return;
+            }
             eprintln!(
                 "{what}: {:.0} %, {}: {doing}",
                 100.0 * done,
                 left(done, elapsed)
             );
         }
+    }
+}
+
+/// Seconds in words.
+pub(super) fn in_words(seconds: f32) -> String {
+    match seconds.ceil() {
+        ..120.0 => format!("{seconds:.0} s"),
+        ..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.1} h", seconds / 3600.0),
     }
 }
 
@@ -110,11 +136,7 @@ fn left(done: f32, elapsed: Duration) -> String {
         return "time left not known yet".to_owned();
     }
     let left = elapsed.as_secs_f32() * (1.0 - done) / done;
-    match left.ceil() {
-        ..120.0 => format!("{left:.0} s left"),
-        ..7200.0 => format!("{:.0} min left", left / 60.0),
-        _ => format!("{:.1} h left", left / 3600.0),
-    }
+    format!("{} left", in_words(left))
 }
 
 impl Drop for Progress {

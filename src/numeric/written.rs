@@ -20,6 +20,11 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// A figure with so many decimals, never a minus before a zero.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    grouped(&format!("{value:.decimals$}"))
+}
+
 /// Up to six significant digits without trailing zeros, for figures that were put in rather than computed.
 pub fn plain(value: f64) -> String {
     let text = significant(value, 6);
@@ -133,7 +138,9 @@ pub fn duration(seconds: f64) -> String {
 
 /// Puts narrow no-break spaces between thousands of five and more digits and a true minus sign in front.
 pub fn grouped(number: &str) -> String {
+    let is_zero = |rest: &str| rest.bytes().all(|digit| matches!(digit, b'0' | b'.'));
     let (sign, rest) = match number.strip_prefix('-') {
+        Some(rest) if is_zero(rest) => ("", rest),
         Some(rest) => ("\u{2212}", rest),
         None => ("", number),
     };
@@ -190,6 +197,16 @@ mod tests {
         ] {
             assert_eq!(unit(plain), shown);
         }
+    }
+
+    #[test]
+    fn a_zero_has_no_minus() {
+        assert_eq!(fixed(-0.04, 1), "0.0");
+        assert_eq!(fixed(-0.06, 1), "\u{2212}0.1");
+        assert_eq!(fixed(-0.4, 0), "0");
+        assert_eq!(grouped("-0.00"), "0.00");
+        assert_eq!(uncertain(-0.000_04, 0.012), "0.000 ± 0.012");
+        assert_eq!(significant(-0.0, 3), "0");
     }
 
     #[test]

@@ -37,13 +37,13 @@ pub(super) fn section(learned: &LearnedAnswer) -> Section {
     .logarithmic();
     let mut table = Table::new("", ["law", "ln evidence over the model without it", "by"]).row([
         Cell::text(learned.name.clone()),
-        Cell::number(format!("{:.1}", learned.evidence_gain)),
+        Cell::number(written::fixed(learned.evidence_gain, 1)),
         Cell::text(learned.decided_by.name()),
     ]);
     for other in learned.others.iter().take(OTHERS) {
         table = table.row([
             Cell::text(other.name.clone()),
-            Cell::number(format!("{:.1}", other.evidence_gain)),
+            Cell::number(written::fixed(other.evidence_gain, 1)),
             Cell::text(other.decided_by.name()),
         ]);
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
-use crate::numeric::written::{count, plain, probability, significant};
+use crate::numeric::written::{count, fixed, plain, probability, significant};
 
 /// Rows of the table shown on the terminal.
 const SHOWN: usize = 12;
@@ -45,7 +45,7 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
                     }
                 );
             }
-            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough. Of tests that do nearly as well (within a fifth) those with fewer changes stand first.\n";
+            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough; of tests that reach that the cheapest stands first (fewer cycles, fewer changes, less to measure), of others that do nearly as well\n(within a fifth) those with fewer changes. What was measured already, or nearly, is left out.\n";
             let _ = writeln!(
                 text,
                 "repetition of the best test made already, with all that was measured: χ² mean {}",
@@ -269,7 +269,7 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
     vec![
         Section::new("What is to be separated").paragraph(separated(next, study)),
         Section::new("Feasible tests")
-            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to 60, which is more than enough; mean: by how probable the rivals are. Among near-equals the plainest test stands first.")
+            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to 60, which is more than enough; mean: by how probable the rivals are. Of tests that reach that the cheapest stands first: fewer cycles, fewer changes, less to measure; among other near-equals the plainest. What was measured already, or nearly, is left out.")
             .table(table),
     ]
 }
@@ -302,8 +302,8 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
     for effect in &campaign.effects {
         effects = effects.row([
             Cell::text(effect.effect.clone()),
-            Cell::number(format!("{:.1}", effect.detection_chi2)),
-            Cell::number(format!("{:.1}", effect.nearest_chi2)),
+            Cell::number(fixed(effect.detection_chi2, 1)),
+            Cell::number(fixed(effect.nearest_chi2, 1)),
             Cell::text(effect.nearest.clone()),
         ]);
     }

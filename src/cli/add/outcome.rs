@@ -40,6 +40,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let parameters = comparison.parameters.iter();
     let mut lines: Vec<String> = parameters.map(|p| parameter(p, comparison)).collect();
     lines.extend(no_end(addition));
+    lines.extend(ends_early(comparison));
     lines.extend(chi2_with_and_without(addition));
     if addition.compared.given_up.is_none() && addition.betters_nothing() {
         lines.push("the effect betters nothing that noise would not: leave it out".to_owned());
@@ -126,6 +127,19 @@ fn no_end(addition: &Addition) -> Option<String> {
          the answer"
     };
     Some(format!("the fit did not converge: {why}"))
+}
+
+/// Where a fit ends as soon as what is left of it does not matter to whether the effect is the one, as `compare` and `ladder` do not.
+fn ends_early(comparison: &Comparison) -> Option<String> {
+    let told = comparison
+        .parameters
+        .iter()
+        .any(|p| p.interval_95.is_some());
+    (told && comparison.converged && !comparison.fit.is_within_noise()).then(|| {
+        "compare and ladder fit the new study on, to the end and with finer wear steps where these matter: quote their values and intervals, which may \
+         differ from these by some of the widths, for more than noise is left"
+            .to_owned()
+    })
 }
 
 /// χ² per point of the fit tests and of the held-out ones, beside those without the effect.

@@ -1,6 +1,7 @@
 //! A climb under way: diagnosis and step in turn, until none pays.
 
 use super::kept::{Kept, State};
+use super::pace::Pace;
 use super::steps::{names, step};
 use super::version::Fitter;
 use crate::cli::progress::Progress;
@@ -11,7 +12,7 @@ use crate::learn::diagnose::{Diagnosis, Fidelity, Verdict, diagnose};
 use crate::report;
 use crate::study::{self, Study};
 
-/// Share of a step's progress that its diagnosis takes; the fits take the rest.
+/// Share of a step that its diagnosis takes; the fits take the rest.
 const DIAGNOSED: f64 = 0.6;
 
 /// What a climb goes up from, where its steps are kept, and who is told of them.
@@ -20,6 +21,7 @@ pub(super) struct Climb<'a> {
     pub(super) kept: &'a Kept,
     pub(super) context: &'a Context,
     pub(super) progress: Progress,
+    pub(super) pace: Pace,
     /// Most effects to add.
     pub(super) most: usize,
 }
@@ -55,7 +57,9 @@ impl<'a> Climb<'a> {
         self.context
             .tell("note: the first step goes by the finished diagnosis of this study");
         let watch = |doing| self.show(0, DIAGNOSED, doing);
-        if step(state, &self.fitter, &answer, false, self.most, &watch)?.is_none() {
+        let none = step(state, &self.fitter, &answer, false, self.most, &watch)?;
+        self.pace.step(false);
+        if none.is_none() {
             self.kept.keep(state)?;
         } else {
             self.context
@@ -78,6 +82,7 @@ impl<'a> Climb<'a> {
             let sure = diagnosis.is_sure_of_nothing();
             match step(state, &self.fitter, &answer, sure, self.most, &watch)? {
                 None => {
+                    self.pace.step(true);
                     self.kept.keep(state)?;
                     self.tell(state);
                 }
@@ -101,8 +106,8 @@ impl<'a> Climb<'a> {
 
     /// Shows progress within the step above so many `rungs`, of which the share `done` is done.
     fn show(&self, rungs: usize, done: f64, what: String) {
-        let share = (rungs as f64 + done.min(1.0)) / (self.most as f64 + 1.0);
-        self.progress.show(share, what);
+        let stands = self.pace.at(rungs, done);
+        self.progress.show(0.0, format!("{stands}: {what}"));
     }
 }
 

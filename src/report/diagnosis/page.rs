@@ -4,7 +4,7 @@ use super::{figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
     Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
 };
-use crate::numeric::written::{count, plain, probability, significant};
+use crate::numeric::written::{count, fixed, plain, probability, significant};
 use crate::report::html::{Cell, Page, Section, Table};
 use crate::report::{drivers, learned, measured_curves};
 
@@ -79,9 +79,9 @@ fn ranking(diagnosis: &Diagnosis) -> Section {
         .filter(|beside| beside.effects.len() > 1)
         .map(|beside| {
             format!(
-                " With something unknown, {} together gain {:.1}: each has a half of what that weighs, for the other may merely follow the unknown.",
+                " With something unknown, {} together gain {}: each has a half of what that weighs, for the other may merely follow the unknown.",
                 beside.effects.in_words(),
-                beside.gain_over_unknown
+                fixed(beside.gain_over_unknown, 1)
             )
         });
     let of_unknown = of_unknown.map_or_else(String::new, |text| {
@@ -107,14 +107,11 @@ fn ranked(diagnosis: &Diagnosis, entry: &Ranked) -> Vec<Cell> {
     let angle = entry
         .angle_to_leader
         .map_or("–".to_owned(), |a| format!("{a:.0}°"));
-    let gain = gain_over_unknown(diagnosis, entry).map_or("–".to_owned(), |gain| {
-        // no minus before a zero
-        format!("{:.1}", (10.0 * gain).round() / 10.0 + 0.0)
-    });
+    let gain = gain_over_unknown(diagnosis, entry).map_or("–".to_owned(), |gain| fixed(gain, 1));
     let first = [
         Cell::text(name(entry)),
         Cell::Bar(entry.probability, probability(entry.probability)),
-        Cell::number(format!("{:.1}", entry.evidence_gain)),
+        Cell::number(fixed(entry.evidence_gain, 1)),
     ];
     let last = [
         Cell::number(fit),
@@ -180,7 +177,7 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         table = table.row([
             Cell::text(named),
             Cell::Bar(entry.chi2_drop / largest, format!("{:.0}", entry.chi2_drop)),
-            Cell::number(format!("{:.1}", entry.evidence_gain)),
+            Cell::number(fixed(entry.evidence_gain, 1)),
             Cell::text(match (entry.decided, entry.converged) {
                 (true, true) => "the deciding model",
                 (false, true) => "screening",
