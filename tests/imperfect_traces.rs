@@ -150,3 +150,20 @@ fn corners_of_values_without_noise_are_no_outliers() {
     let found = gearwear::measure::outliers::outliers(&data.observations);
     assert!(found.is_empty(), "{found:?}");
 }
+
+/// A flank is worn from an edge on, at another place in each curve: the last unworn row and the first worn one lie between their neighbours, whatever a
+/// smooth curve through these would be there.
+#[test]
+fn the_edge_of_what_is_worn_is_no_outlier() {
+    let mut data = study("").dataset().unwrap();
+    for o in &mut data.observations {
+        if let (Quantity::WearDepth, Some(radius)) = (o.quantity, o.position) {
+            let edge = 26.3 + 0.7 * (1e-5 * o.cycles + o.test as f64).sin();
+            let edge = if radius > 40.0 { edge + 26.5 } else { edge };
+            o.value = if radius < edge { 0.0 } else { 3.0 };
+            o.sigma = 0.1;
+        }
+    }
+    let found = gearwear::measure::outliers::outliers(&data.observations);
+    assert!(found.is_empty(), "{found:?}");
+}
