@@ -8,8 +8,8 @@ use crate::simulate::result::{Member, MeshSummary, Run, State, ToothClass};
 
 /// `summary.json`. Lengths mm, angles degrees, pressures MPa, stiffness N/(mm·µm); the unit stands in the key where another is meant.
 ///
-/// `contact` describes the first stored state, `contact_end` the last; `peak_pressure` is the largest on the flanks and
-/// `corner_pressure` the largest where a tip corner or the end of a flank touches (by finite elements the mean over 0.02 modules). A
+/// `contact` describes the first stored state, `contact_end` the last; `peak_pressure` is the largest on the flanks, `peak_pressure_elsewhere` that
+/// away from kinks of the flanks as made (the start of a linear tip relief), whose pressure depends on the mesh, and `corner_pressure` the largest where a tip corner or the end of a flank touches (by finite elements the mean over 0.02 modules). A
 /// figure that does not exist for a run (a mesh for a model without one, a single pair where two always touch) is null.
 pub fn summary(run: &Run) -> Result<Value, OutputError> {
     let g = &run.geometry;
@@ -122,10 +122,14 @@ fn member_wear(run: &Run, member: Member) -> Value {
 
 fn contact_of(state: &State) -> Value {
     let (peak, corner) = (state.peak_pressure(), state.corner_pressure());
+    let elsewhere = state.pressure_elsewhere();
     json!({
         "cycles": state.cycles,
         "peak_pressure": peak.map(|p| p.0),
         "peak_pressure_path": peak.map(|p| p.1),
+        "peak_pressure_over_kink": state.peak_is_over_kink(),
+        "peak_pressure_elsewhere": elsewhere.map(|p| p.0),
+        "peak_pressure_elsewhere_path": elsewhere.map(|p| p.1),
         "corner_pressure": corner.map(|p| p.0),
         "corner_pressure_path": corner.map(|p| p.1),
         "te_peak_to_peak_urad": state.te_peak_to_peak_urad(),

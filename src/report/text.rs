@@ -1,8 +1,10 @@
 //! What a run found, in words: the conclusion of its report and the summary in the terminal.
 
+mod peak;
 mod plausibility;
 mod summary;
 
+pub(super) use self::peak::{at_kinks, elsewhere};
 use self::plausibility::implausible;
 pub use self::summary::summary;
 use crate::gear::JAM_TOLERANCE;
@@ -90,7 +92,7 @@ pub fn conclusion(run: &Run) -> String {
     if run.last().cycles > 0.0 {
         sentences.extend(wear(run));
     }
-    sentences.extend(pressure(run));
+    sentences.extend(peak::sentence(run));
     sentences.extend(corner_pressure(run).map(|(new, worn)| {
         format!(
             "Where a tip corner touches, its mean over 0.02 modules is {}; under the sharp corner itself it has no bound.",
@@ -133,24 +135,6 @@ fn wear(run: &Run) -> Vec<String> {
         ));
     }
     sentences
-}
-
-/// The largest contact pressure on the flanks, new and worn.
-fn pressure(run: &Run) -> Option<String> {
-    let (new, worn) = (run.first().peak_pressure()?, run.last().peak_pressure()?);
-    Some(if run.states.len() > 1 {
-        format!(
-            "The largest contact pressure on the flanks went from {} to {} MPa.",
-            significant(new.0, 4),
-            significant(worn.0, 4)
-        )
-    } else {
-        let place = region(run, new.1);
-        format!(
-            "The largest contact pressure on the flanks is {} MPa ({place}).",
-            significant(new.0, 4)
-        )
-    })
 }
 
 /// The transmission error, new and worn.

@@ -238,6 +238,11 @@ impl<'a> Forward<'a> {
         }
     }
 
+    /// Material that effects leave missing before the start at the stations of pinion and gear, mm; none where no effect acts so.
+    pub(super) fn profile_by_effects(&self) -> Option<&[Vec<f64>; 2]> {
+        self.altered.as_ref()?.alteration.profile.as_ref()
+    }
+
     /// Effects that act, if any.
     pub fn acting(&self) -> Option<&'a Acting> {
         self.acting

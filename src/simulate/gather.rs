@@ -8,6 +8,7 @@ use crate::numeric::{Vec2, interpolate};
 use crate::simulate::blanks::DrawnMesh;
 use crate::simulate::fields::{MemberFields, Surfaces};
 use crate::simulate::forward::{ContactKind, Forward, ForwardError};
+use crate::simulate::kinks::Kinks;
 use crate::simulate::members::MemberError;
 use crate::simulate::oil_and_heat;
 use crate::simulate::result::{
@@ -118,13 +119,14 @@ pub fn state(plan: &Plan, forward: &Forward, state: &WearState) -> State {
             mass_loss_mg: 1e-3 * volume * plan.set.densities[side],
         }
     };
+    let kinks = Kinks::of(plan.kind, forward);
     State {
         cycles: state.cycles,
         pinion: profile(Member::Pinion),
         gear: profile(Member::Gear),
-        cycle: by_rotation(plan, forward, state),
+        cycle: by_rotation(plan, forward, &kinks, state),
         slices: (state.slices.iter())
-            .map(|slice| face_slice(plan, forward, slice))
+            .map(|slice| face_slice(plan, forward, &kinks, slice))
             .collect(),
         turn: over_a_turn(plan, forward, state),
         teeth: (state.teeth.iter())
@@ -176,9 +178,9 @@ fn slice_load(forward: &Forward, slice: &SliceState) -> f64 {
     all / (slice.contacts.len() as f64 * forward.torque())
 }
 
-fn face_slice(plan: &Plan, forward: &Forward, slice: &SliceState) -> FaceSlice {
+fn face_slice(plan: &Plan, forward: &Forward, kinks: &Kinks, slice: &SliceState) -> FaceSlice {
     let positions = slice.contacts.iter().enumerate();
-    let pairs = positions.flat_map(|(q, contact)| position(plan, forward, q, contact).pairs);
+    let pairs = positions.flat_map(|(q, contact)| position(plan, forward, kinks, q, contact).pairs);
     let on_flanks = pairs.filter(|pair| !pair.at_corner);
     let cycle = forward.cycle();
     let passage = Passage::new(cycle);
@@ -196,17 +198,25 @@ fn face_slice(plan: &Plan, forward: &Forward, slice: &SliceState) -> FaceSlice {
 }
 
 /// The mesh cycle by ascending rotation.
-fn by_rotation(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<PositionState> {
+fn by_rotation(
+    plan: &Plan,
+    forward: &Forward,
+    kinks: &Kinks,
+    state: &WearState,
+) -> Vec<PositionState> {
     let mut cycle: Vec<PositionState> = state
         .contacts
         .iter()
         .enumerate()
         .map(|(q, contact)| {
-            let mut mean = position(plan, forward, q, contact);
+            let mut mean = position(plan, forward, kinks, q, contact);
             let of_slices = state.slices.iter().map(|slice| &slice.contacts);
             for contacts in of_slices.chain(&state.passages) {
-                let own = position(plan, forward, q, &contacts[q]);
+                let own = position(plan, forward, kinks, q, &contacts[q]);
                 for (mean, own) in mean.pairs.iter_mut().zip(own.pairs) {
+                    if own.peak_pressure > mean.peak_pressure {
+                        mean.over_kink = own.over_kink;
+                    }
                     mean.peak_pressure = mean.peak_pressure.max(own.peak_pressure);
                     mean.half_width = mean.half_width.max(own.half_width);
                     mean.at_corner |= own.at_corner;
@@ -219,7 +229,13 @@ fn by_rotation(plan: &Plan, forward: &Forward, state: &WearState) -> Vec<Positio
     cycle
 }
 
-fn position(plan: &Plan, forward: &Forward, q: usize, contact: &PositionContact) -> PositionState {
+fn position(
+    plan: &Plan,
+    forward: &Forward,
+    kinks: &Kinks,
+    q: usize,
+    contact: &PositionContact,
+) -> PositionState {
     let position = &forward.cycle().positions[q];
     let torque = forward.torque();
     let pairs = position
@@ -240,6 +256,7 @@ fn position(plan: &Plan, forward: &Forward, q: usize, contact: &PositionContact)
                 half_width: strip.half_width,
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
                 at_corner: strip.at_corner,
+                over_kink: kinks.under(pair, pressure),
                 sliding,
             }
         })

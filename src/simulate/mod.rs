@@ -9,6 +9,7 @@ pub mod forward;
 pub mod gather;
 pub mod gear_set;
 pub mod history;
+mod kinks;
 pub mod members;
 pub mod models;
 pub mod numerics;

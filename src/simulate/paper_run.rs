@@ -146,6 +146,7 @@ fn mesh_cycle(
                     half_width: now.half_width,
                     off_line_of_action: false,
                     at_corner: false,
+                    over_kink: false,
                     sliding: Sliding::default(),
                 }],
             }

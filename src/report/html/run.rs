@@ -2,9 +2,11 @@
 
 mod geometry;
 mod mesh_and_cost;
+mod states;
 
 use self::geometry::geometry;
 use self::mesh_and_cost::mesh_and_cost;
+use self::states::states;
 use super::files;
 use super::oil_and_heat::oil_and_heat;
 use super::page::{Page, Section};
@@ -84,10 +86,20 @@ fn key_figures(run: &Run) -> Section {
             format!("{first} {unit}")
         })
     };
+    let kinks = text::at_kinks(run).is_some();
+    let peak = if kinks {
+        "peak pressure on the flanks away from kinks, new → worn"
+    } else {
+        "peak pressure on the flanks, new → worn"
+    };
     for (name, value) in [
+        (peak, from_to(&text::elsewhere, "MPa")),
         (
-            "peak pressure on the flanks, new → worn",
-            from_to(&|s| s.peak_pressure().map(|p| p.0), "MPa"),
+            "pressure at a kink of the flanks (depends on the mesh), new → worn",
+            from_to(
+                &|s| kinks.then(|| s.kink_pressure().map_or(0.0, |p| p.0)),
+                "MPa",
+            ),
         ),
         (
             "transmission error peak to peak, new → worn",
@@ -131,10 +143,16 @@ fn wear(run: &Run) -> Section {
 }
 
 fn contact(run: &Run) -> Section {
-    let section = Section::new("Contact over the mesh cycle").with_slider().plots(plots::contact_of_run(run)).note(
+    let mut section = Section::new("Contact over the mesh cycle").with_slider().plots(plots::contact_of_run(run)).note(
         "Load shares and pressures of every tooth pair as it passes along the path of contact; crosses: pairs that touch with a \
          tip corner, whose pressure is the mean over 0.02 modules.",
     );
+    if text::at_kinks(run).is_some() {
+        section = section.note(
+            "Where a linear tip relief begins, or a flank bends otherwise by a finite angle, the pressure of new flanks has no bound: what it comes to there \
+             depends on the mesh, until wear has rounded the kink off.",
+        );
+    }
     if run.geometry.helix.is_none() {
         return section;
     }
@@ -263,43 +281,6 @@ fn checks(run: &Run) -> Section {
     } else {
         section.table(table)
     }
-}
-
-fn states(run: &Run) -> Section {
-    let head = [
-        "pinion revolutions",
-        "pinion: largest depth, µm",
-        "at radius, mm",
-        "mass lost, mg",
-        "gear: largest depth, µm",
-        "at radius, mm",
-        "mass lost, mg",
-        "peak pressure on the flanks, MPa",
-        "at a tip corner, MPa",
-        "transmission error peak to peak, µrad",
-    ];
-    let mut table = Table::new("", head);
-    let or_dash = |value: Option<f64>| value.map_or("–".to_owned(), |v| significant(v, 4));
-    for state in &run.states {
-        let mut row = vec![Cell::number(count(state.cycles))];
-        for member in Member::BOTH {
-            let flank = state.profile(member);
-            let deepest = flank.deepest().filter(|_| flank.max_depth() > 0.0);
-            row.push(Cell::number(significant(flank.max_depth(), 4)));
-            row.push(Cell::number(
-                deepest.map_or("–".to_owned(), |i| significant(flank.radius[i], 5)),
-            ));
-            row.push(Cell::number(significant(flank.mass_loss_mg, 4)));
-        }
-        row.push(Cell::number(or_dash(state.peak_pressure().map(|p| p.0))));
-        row.push(Cell::number(or_dash(state.corner_pressure().map(|p| p.0))));
-        row.push(Cell::number(or_dash(state.te_peak_to_peak_urad())));
-        table = table.row(row);
-    }
-    Section::new("Stored states")
-        .paragraph("Depth is normal to the loaded flank of an average tooth; mass is that of the loaded flanks of all teeth. \
-                    Under a sharp tip corner the pressure has no bound: its figure is the mean over 0.02 modules.")
-        .table(table)
 }
 
 /// The files of the result folder, the last section of the page.

@@ -18,7 +18,11 @@ pub(super) fn implausible(run: &Run) -> Vec<String> {
     let [nu1, nu2] = run.conditions.poisson_ratio;
     let modulus = 1.0 / ((1.0 - nu1 * nu1) / e1 + (1.0 - nu2 * nu2) / e2);
     let most = MOST_PRESSURE.min(MOST_STRAIN * modulus);
-    if let Some((peak, _)) = run.first().peak_pressure().filter(|peak| peak.0 > most) {
+    if let Some((peak, _)) = run
+        .first()
+        .pressure_elsewhere()
+        .filter(|peak| peak.0 > most)
+    {
         sentences.push(format!(
             "a contact pressure of {} MPa on new flanks is more than such teeth carry elastically (about {} MPa), and the model knows no yielding: look at torque and face width, and their units",
             significant(peak, 4),

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::peak::{KINK, at_kinks, elsewhere};
 use super::plausibility::implausible;
 use super::{
     HELICAL_SLICES, asked_for, corner_pressure, deepest_on_the_face, failed_checks, jammed,
@@ -84,14 +85,17 @@ fn new_and_worn_figures(run: &Run) -> Vec<String> {
             &format!("{pressures} (mean over 0.02 modules)"),
         )
     });
+    let kinks = at_kinks(run).map(|(new, worn)| {
+        let pressures = new_and_worn(run, new, worn, "MPa");
+        row("  at a kink", &format!("{pressures} ({KINK})"))
+    });
     let face_load_factor = |state: &State| {
         let has_slices = !last.slices.is_empty();
         has_slices.then(|| state.face_load_factor())
     };
     [
-        change("peak pressure", "MPa", &|state| {
-            state.peak_pressure().map(|p| p.0)
-        }),
+        change("peak pressure", "MPa", &elsewhere),
+        kinks,
         corner,
         change("transmission error", "µrad p-p", &|state| {
             state.te_peak_to_peak_urad()

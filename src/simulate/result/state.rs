@@ -84,7 +84,23 @@ impl State {
     /// The largest contact pressure on the flanks over the mesh cycle, MPa, and the path coordinate of the pair that bears it,
     /// mm; pairs that touch with a tip corner are left to [`State::corner_pressure`].
     pub fn peak_pressure(&self) -> Option<(f64, f64)> {
-        self.largest_pressure(false)
+        self.largest_pressure(|pair| !pair.at_corner)
+    }
+
+    /// Whether [`State::peak_pressure`] stands over a kink of a flank as made, such as the start of a linear tip relief, and so depends on the mesh.
+    pub fn peak_is_over_kink(&self) -> bool {
+        let (all, elsewhere) = (self.peak_pressure(), self.pressure_elsewhere());
+        all.map(|p| p.0) > elsewhere.map(|p| p.0)
+    }
+
+    /// As [`State::peak_pressure`], of the pairs that do not stand over a kink.
+    pub fn pressure_elsewhere(&self) -> Option<(f64, f64)> {
+        self.largest_pressure(|pair| !pair.at_corner && !pair.over_kink)
+    }
+
+    /// As [`State::peak_pressure`], of the pairs that stand over a kink.
+    pub fn kink_pressure(&self) -> Option<(f64, f64)> {
+        self.largest_pressure(|pair| !pair.at_corner && pair.over_kink)
     }
 
     /// The largest pressure over the mesh cycle where a tip corner or the end of a flank touches, MPa, and the path coordinate
@@ -93,12 +109,12 @@ impl State {
     /// The pressure under a sharp corner of an elastic body has no bound: by finite elements this is the mean over 0.02 modules, which says how hard a
     /// corner digs in whatever the mesh.
     pub fn corner_pressure(&self) -> Option<(f64, f64)> {
-        self.largest_pressure(true)
+        self.largest_pressure(|pair| pair.at_corner)
     }
 
-    fn largest_pressure(&self, at_corner: bool) -> Option<(f64, f64)> {
+    fn largest_pressure(&self, of: impl Fn(&PairState) -> bool) -> Option<(f64, f64)> {
         self.pairs()
-            .filter(|pair| pair.line_load > 0.0 && pair.at_corner == at_corner)
+            .filter(|pair| pair.line_load > 0.0 && of(pair))
             .map(|pair| (pair.peak_pressure, pair.path))
             .max_by(|a, b| a.0.total_cmp(&b.0))
     }
@@ -227,6 +243,9 @@ pub struct PairState {
     /// True where the pressure does not fade out on both flanks: it reaches the tip corner (or the form circle) of a flank, or
     /// the pair touches outside the line of action.
     pub at_corner: bool,
+    /// True where a kink of a flank as made lies under the pressure, such as the start of a linear tip relief: until wear has rounded it off its largest value depends on
+    /// the mesh.
+    pub over_kink: bool,
     /// What slides, heats and is lost there.
     pub sliding: Sliding,
 }
