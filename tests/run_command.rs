@@ -20,6 +20,8 @@ mod files;
 mod friction;
 #[path = "run_command/home.rs"]
 mod home;
+#[path = "run_command/inputs.rs"]
+mod inputs;
 #[path = "run_command/kinks.rs"]
 mod kinks;
 #[path = "run_command/models.rs"]

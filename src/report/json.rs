@@ -4,7 +4,9 @@ use serde_json::{Map, Value, json};
 
 use super::csv::finite;
 use super::error::OutputError;
-use crate::simulate::result::{Member, MeshSummary, Run, State, ToothClass};
+use crate::simulate::result::{
+    Conditions, LossFriction, Member, MeshSummary, Run, State, ToothClass,
+};
 
 /// `summary.json`. Lengths mm, angles degrees, pressures MPa, stiffness N/(mm·µm); the unit stands in the key where another is meant.
 ///
@@ -72,11 +74,23 @@ pub fn summary(run: &Run) -> Result<Value, OutputError> {
         let first = run.first().te_over_a_turn_urad();
         document["transmission_error_over_a_turn_urad"] = json!({"first": first, "last": last});
     }
+    document["conditions"]["friction"] = friction(c);
     if c.wear_coefficient[1] != c.wear_coefficient[0] {
         document["conditions"]["coefficient_gear"] = json!(c.wear_coefficient[1]);
     }
     check_numbers(run)?;
     Ok(document)
+}
+
+/// Which friction was used: in the contact (a coefficient, 0 for none), and from which keys that of the losses follows.
+fn friction(c: &Conditions) -> Value {
+    let f = &c.friction;
+    let losses = match f.losses {
+        LossFriction::Unknown => Value::Null,
+        LossFriction::Stated => json!("lubricant.friction_coefficient"),
+        LossFriction::FromOil => json!("lubricant.viscosity, lubricant.roughness"),
+    };
+    json!({"contact": f.contact, "by_effects": f.by_effects, "losses_from": losses, "stated": f.stated})
 }
 
 /// Load, pressure and wear of every slice.

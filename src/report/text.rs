@@ -1,9 +1,14 @@
 //! What a run found, in words: the conclusion of its report and the summary in the terminal.
 
+mod friction;
 mod peak;
 mod plausibility;
 mod summary;
 
+pub(super) use self::friction::{
+    in_contact as friction_in_contact, of_flash as friction_of_flash,
+    of_losses as friction_of_losses,
+};
 pub(super) use self::peak::{at_kinks, elsewhere};
 use self::plausibility::implausible;
 pub use self::summary::summary;

@@ -16,6 +16,7 @@ use crate::simulate::result::{
     PositionState, Profile, State, ToothClass, WheelGeometry,
 };
 use crate::simulate::run::Plan;
+use crate::simulate::stated;
 use crate::simulate::touching_strip::TouchingStrip;
 use crate::simulate::turn::alike_over_a_turn;
 use crate::simulate::wear_state::{SliceState, WearState, line_load, worn_area};
@@ -41,6 +42,7 @@ pub fn conditions(plan: &Plan) -> Conditions {
         youngs_modulus: set.materials.map(|m| m.youngs_modulus),
         poisson_ratio: set.materials.map(|m| m.poisson_ratio),
         density: set.densities,
+        friction: stated::friction(plan),
     }
 }
 

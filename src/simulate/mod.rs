@@ -19,6 +19,7 @@ pub mod paper_run;
 pub mod result;
 pub mod root_stress;
 pub mod run;
+mod stated;
 pub mod touching_strip;
 mod turn;
 pub mod wear_state;

@@ -6,8 +6,11 @@ use crate::gear::Pair;
 use crate::paper::{self, Inputs, Outcome};
 use crate::simulate::forward::{Conditions, GearSet};
 use crate::simulate::gather;
-use crate::simulate::result::{Cost, PairState, PositionState, Profile, Run, Sliding, State};
+use crate::simulate::result::{
+    Cost, Friction, PairState, PositionState, Profile, Run, Sliding, State,
+};
 use crate::simulate::run::{Plan, RunError, pair_of};
+use crate::simulate::stated;
 
 /// Speeds the paper prints: its gear turns at half the pinion's speed, which its wear numbers need.
 const PRINTED: ([u32; 2], [f64; 2]) = ([27, 53], [2000.0, 1000.0]);
@@ -70,10 +73,12 @@ pub fn run(plan: &Plan) -> Result<Run, RunError> {
         .collect();
     let mut conditions = gather::conditions(plan);
     conditions.model = "paper".to_owned();
+    conditions.friction = Friction::default();
     Ok(Run {
         title: plan.title.to_owned(),
         conditions,
         geometry: gather::geometry(&pair, plan.set.face_width, 0.0),
+        made: stated::made(plan),
         mesh: None,
         states,
         fields: Vec::new(),

@@ -11,9 +11,11 @@
 //! Nothing here computes physics; the methods pick a value out of the data.
 
 mod fields;
+mod made;
 mod state;
 
 pub use fields::{FieldFrame, MemberField};
+pub use made::{Friction, LossFriction, Made, MadeWheel};
 pub use state::{FaceSlice, PairState, PositionState, Profile, Sliding, State, ToothClass};
 
 /// Which wheel of the pair.
@@ -47,6 +49,8 @@ pub struct Run {
     pub conditions: Conditions,
     /// Working geometry of the pair.
     pub geometry: Geometry,
+    /// How the gears are made.
+    pub made: Made,
     /// Pinion's and gear's mesh; none for a model without one.
     pub mesh: Option<[MeshSummary; 2]>,
     /// Stored wear states by ascending cycles; never empty, the first is where the run began.
@@ -123,6 +127,8 @@ pub struct Conditions {
     pub poisson_ratio: [f64; 2],
     /// Density of pinion and gear, kg/m³.
     pub density: [f64; 2],
+    /// Which friction was used.
+    pub friction: Friction,
 }
 
 /// Working geometry of the pair at the centre distance of the run.

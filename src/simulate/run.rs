@@ -20,6 +20,7 @@ use crate::simulate::history::StepReport;
 use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
 use crate::simulate::result::{Check, Cost, FieldFrame, MeshSummary, Run, State};
+use crate::simulate::stated;
 use crate::simulate::worn_away::WornAway;
 use crate::wear::acting::Acting;
 
@@ -158,6 +159,7 @@ pub fn run(
             plan.set.face_width,
             placed_within(&forward),
         ),
+        made: stated::made(plan),
         mesh,
         states,
         fields: frames.into_iter().flatten().collect(),

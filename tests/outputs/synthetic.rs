@@ -34,8 +34,10 @@ pub(crate) fn run() -> Run {
             youngs_modulus: [2.1e5; 2],
             poisson_ratio: [0.3; 2],
             density: [7850.0; 2],
+            friction: Friction::default(),
         },
         geometry: geometry(),
+        made: Made::default(),
         mesh: Some([mesh_summary(24_310), mesh_summary(31_877)]),
         states: cycles.iter().map(|&n| state(n)).collect(),
         fields: vec![

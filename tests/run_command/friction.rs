@@ -42,6 +42,23 @@ fn friction_changes_the_loads_and_keeps_the_torque() {
         }
     }
     assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+    assert_eq!(number(&summary, "/conditions/friction/contact"), 0.06);
+    assert_eq!(
+        number(&without.summary(), "/conditions/friction/contact"),
+        0.0
+    );
+    let in_contact = |folder: &super::home::Folder| {
+        let page = folder.text("report.html");
+        let row = page.split("friction in the contact").nth(1).unwrap();
+        row.split("</tr>").next().unwrap().to_owned()
+    };
+    let said = in_contact(&with);
+    assert!(
+        said.contains("Coulomb, coefficient 0.06 (lubricant.friction_coefficient"),
+        "{said}"
+    );
+    let said = in_contact(&without);
+    assert!(said.contains("none: contact forces are normal"), "{said}");
     let te =
         |folder: &super::home::Folder| number(&folder.summary(), "/contact/te_peak_to_peak_urad");
     assert!((te(&with) / te(&without) - 1.0).abs() > 1e-3);
@@ -61,6 +78,11 @@ fn the_effect_is_the_friction_of_the_contact() {
         home.succeed("run study.toml -o run");
     }
     let (own, by_effect) = (own.result("run"), by_effect.result("run"));
+    assert!(
+        by_effect
+            .text("report.html")
+            .contains("that of the added effects")
+    );
     for (file, column) in [
         ("contact.csv", "line_load"),
         ("contact.csv", "peak_pressure"),

@@ -2,7 +2,7 @@
 
 use super::page::Section;
 use crate::numeric::written::{percent, significant};
-use crate::report::plots;
+use crate::report::{plots, text};
 use crate::simulate::result::Run;
 
 /// What is missing in the study for each of the figures, with the keys that give it.
@@ -79,8 +79,12 @@ pub(super) fn oil_and_heat(run: &Run) -> Section {
     if !missing.is_empty() {
         section = section.paragraph(format!("Not stated in the study: {}.", missing.join("; ")));
     }
-    section.note(
-        "Film: Dowson and Higginson. Flash temperature: Blok's, with the stated friction coefficient. Losses: sliding between the teeth alone \
-         (no churning, no bearings), with the friction coefficient that follows from viscosity, roughness, load and speed, or the stated one.",
-    )
+    let flash =
+        text::friction_of_flash(run).map_or(String::new(), |words| format!(", friction {words}"));
+    section.note(format!(
+        "Film: Dowson and Higginson. Flash temperature: Blok's{flash}. Losses: sliding between the teeth alone \
+         (no churning, no bearings), friction {}. Friction in the contact itself: {}.",
+        text::friction_of_losses(run),
+        text::friction_in_contact(run)
+    ))
 }

@@ -1,10 +1,12 @@
 //! `report.html` of one run.
 
 mod geometry;
+mod inputs;
 mod mesh_and_cost;
 mod states;
 
 use self::geometry::geometry;
+use self::inputs::inputs;
 use self::mesh_and_cost::mesh_and_cost;
 use self::states::states;
 use super::files;
@@ -12,7 +14,7 @@ use super::oil_and_heat::oil_and_heat;
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
 use crate::gear::Pair;
-use crate::numeric::written::{count, percent, plain, significant};
+use crate::numeric::written::{count, percent, significant};
 use crate::report::drawings;
 use crate::report::error::OutputError;
 use crate::report::plots;
@@ -182,73 +184,6 @@ fn stress(run: &Run) -> Section {
          fields hold displacement, stress tensor, contact pressure and worn depth for ParaView.",
         run.fields.len()
     ))
-}
-
-fn inputs(run: &Run) -> Section {
-    let c = &run.conditions;
-    let both = |values: [f64; 2], unit: &str| {
-        let [pinion, gear] = values.map(plain);
-        if pinion == gear {
-            format!("{pinion} {unit}")
-        } else {
-            format!("{pinion} {unit} pinion, {gear} {unit} gear")
-        }
-    };
-    let effects = if c.effects.is_empty() {
-        "none".to_owned()
-    } else {
-        c.effects.join("; ")
-    };
-    let g = &run.geometry;
-    let table = Table::of_values(
-        "",
-        [
-            (
-                "conditions",
-                c.test
-                    .as_ref()
-                    .map_or("[operation]".to_owned(), |id| format!("test {id}")),
-            ),
-            ("contact model", c.model.clone()),
-            ("added effects", effects),
-            (
-                "torque on the pinion",
-                format!("{} N·m", plain(c.torque / 1000.0)),
-            ),
-            ("speed of the pinion", format!("{} rpm", plain(c.speed_rpm))),
-            (
-                "radial misalignment",
-                format!("{} mm", plain(c.misalignment)),
-            ),
-            ("pinion revolutions", count(c.cycles)),
-            (
-                "specific wear coefficient k",
-                coefficients(c.wear_coefficient),
-            ),
-            ("module", format!("{} mm", plain(g.module))),
-            (
-                "pressure angle",
-                format!("{}°", plain(g.pressure_angle_deg)),
-            ),
-            ("face width", format!("{} mm", plain(c.face_width))),
-            ("Young's modulus", both(c.youngs_modulus, "MPa")),
-            (
-                "Poisson's ratio",
-                both(c.poisson_ratio, "").trim_end().to_owned(),
-            ),
-            ("density", both(c.density, "kg/m³")),
-        ],
-    );
-    Section::new("Inputs").table(table)
-}
-
-/// One k, or those of pinion and gear.
-fn coefficients([pinion, gear]: [f64; 2]) -> String {
-    if pinion == gear {
-        format!("{} mm²/N", plain(pinion))
-    } else {
-        format!("{} mm²/N pinion, {} mm²/N gear", plain(pinion), plain(gear))
-    }
 }
 
 fn checks(run: &Run) -> Section {

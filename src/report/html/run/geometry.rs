@@ -10,7 +10,13 @@ pub(super) fn geometry(run: &Run) -> Section {
     let g = &run.geometry;
     let mut section = Section::new("Geometry").table(pair(run));
     if let Some(helical) = &g.helix {
-        section = section.table(helix(g, helical));
+        let shown = |ratio: f64| significant(ratio, 4);
+        section = section.table(helix(g, helical)).paragraph(format!(
+            "The total contact ratio {} is the transverse contact ratio {} plus the overlap ratio {}.",
+            shown(g.total_contact_ratio()),
+            shown(g.contact_ratio),
+            shown(helical.overlap_ratio)
+        ));
     }
     section.table(wheels(g))
 }
@@ -21,18 +27,32 @@ fn mm(value: f64) -> String {
 
 fn pair(run: &Run) -> Table {
     let g = &run.geometry;
+    let names = match g.helix {
+        Some(_) => [
+            "transverse working pressure angle",
+            "transverse contact ratio",
+            "transverse path of contact",
+            "transverse base pitch",
+        ],
+        None => [
+            "working pressure angle",
+            "contact ratio",
+            "path of contact",
+            "base pitch",
+        ],
+    };
     let [a, b, d, e] = g.path_limits.map(|limit| significant(limit, 5));
     Table::of_values(
         "The pair at its working centre distance",
         [
             ("centre distance", mm(g.centre_distance)),
             (
-                "working pressure angle",
+                names[0],
                 format!("{}°", significant(g.working_pressure_angle_deg, 6)),
             ),
-            ("contact ratio", significant(g.contact_ratio, 6)),
-            ("path of contact", mm(g.path_of_contact)),
-            ("base pitch", mm(g.base_pitch)),
+            (names[1], significant(g.contact_ratio, 6)),
+            (names[2], mm(g.path_of_contact)),
+            (names[3], mm(g.base_pitch)),
             (
                 "A, B, D, E from the pitch point",
                 format!("{a}, {b}, {d}, {e} mm"),
