@@ -13,6 +13,8 @@ use assert_cmd::Command;
 use tempfile::TempDir;
 
 mod common;
+#[path = "import_command/multiples.rs"]
+mod multiples;
 
 use common::{gears, line, succeed};
 
@@ -880,7 +882,7 @@ fn weighings_of_one_member_may_name_it() {
         (
             text.replace("Lastwechsel", "Lastwechsel [1E6]"),
             "--sigma 1",
-            "B1: `Lastwechsel [1E6]`: cycles in 1E6 are not read; write plain pinion revolutions",
+            "B1: `Lastwechsel [1E6]`: 100000 would be 1e11 revolutions: are they written in full below it?",
         ),
         (
             format!("Rad;{header}\nRitzel;A;1E5;26,5;26,4\n"),

@@ -53,18 +53,23 @@ pub fn wear(run: &Run) -> Result<Vec<u8>, OutputError> {
     Ok(table.into_bytes())
 }
 
+/// The columns of `contact.csv`.
+const OF_PAIRS: &str = "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner,\
+     sliding_speed_m_s,film_ratio,friction_coefficient,flash_temperature_k,friction_power_w";
+/// The same where the face has several slices.
+const OF_SLICES: &str = "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner,\
+     sliding_speed_m_s,film_ratio,friction_coefficient,flash_temperature_k,friction_power_w,face";
+
 /// `contact.csv`: every pair of every mesh position of every stored state.
 ///
 /// Columns `cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner`: position is
 /// the pinion rotation from the pitch point in base pitches; mm; -; N/mm; MPa; mm; 1 where the pair touches outside the nominal
 /// line of action; 1 where the end of a flank (a tip corner) is loaded, so that the mesh decides the peak pressure. Then
 /// `sliding_speed_m_s,film_ratio,friction_coefficient,flash_temperature_k,friction_power_w`, empty where they do not follow from the study.
+/// Where the face has several slices there is a further column `face`: the middle of the slice that `peak_pressure` is of, mm from mid-face, empty without load.
 pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
-    let mut table = Table::new(
-        "contact.csv",
-        "cycles,position,pair,path,load_share,line_load,peak_pressure,half_width,off_line_of_action,at_corner,\
-         sliding_speed_m_s,film_ratio,friction_coefficient,flash_temperature_k,friction_power_w",
-    );
+    let sliced = run.states.iter().any(|state| !state.slices.is_empty());
+    let mut table = Table::new("contact.csv", if sliced { OF_SLICES } else { OF_PAIRS });
     for state in &run.states {
         for position in &state.cycle {
             for pair in &position.pairs {
@@ -87,10 +92,10 @@ pub fn contact(run: &Run) -> Result<Vec<u8>, OutputError> {
                     ("flash_temperature_k", sliding.flash_temperature),
                     ("friction_power_w", sliding.power),
                 ] {
-                    match value {
-                        Some(value) => table.number(name, value)?,
-                        None => table.text(""),
-                    }
+                    table.number_or_nothing(name, value)?;
+                }
+                if sliced {
+                    table.number_or_nothing("face", pair.face)?;
                 }
                 table.end_row();
             }
@@ -204,6 +209,19 @@ impl Table {
     pub(super) fn number(&mut self, what: &str, value: f64) -> Result<(), OutputError> {
         let cell = exact(finite(self.file, what, value)?);
         self.text(&cell);
+        Ok(())
+    }
+
+    /// A number, or an empty cell where there is none.
+    pub(super) fn number_or_nothing(
+        &mut self,
+        what: &str,
+        value: Option<f64>,
+    ) -> Result<(), OutputError> {
+        match value {
+            Some(value) => self.number(what, value)?,
+            None => self.text(""),
+        }
         Ok(())
     }
 

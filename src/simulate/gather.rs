@@ -212,12 +212,16 @@ fn by_rotation(
         .enumerate()
         .map(|(q, contact)| {
             let mut mean = position(plan, forward, kinks, q, contact);
-            let of_slices = state.slices.iter().map(|slice| &slice.contacts);
-            for contacts in of_slices.chain(&state.passages) {
+            let of_slices = state.slices.iter();
+            let of_slices = of_slices.map(|slice| (Some(slice.face), &slice.contacts));
+            let of_passages = state.passages.iter().map(|contacts| (None, contacts));
+            let mut most = vec![0.0; mean.pairs.len()];
+            for (face, contacts) in of_slices.chain(of_passages) {
                 let own = position(plan, forward, kinks, q, &contacts[q]);
-                for (mean, own) in mean.pairs.iter_mut().zip(own.pairs) {
-                    if own.peak_pressure > mean.peak_pressure {
-                        mean.over_kink = own.over_kink;
+                for ((mean, own), most) in mean.pairs.iter_mut().zip(own.pairs).zip(&mut most) {
+                    if own.peak_pressure > *most {
+                        *most = own.peak_pressure;
+                        (mean.over_kink, mean.face) = (own.over_kink, face);
                     }
                     mean.peak_pressure = mean.peak_pressure.max(own.peak_pressure);
                     mean.half_width = mean.half_width.max(own.half_width);
@@ -259,6 +263,7 @@ fn position(
                 off_line_of_action: pair.frame.touch != Touch::Flanks,
                 at_corner: strip.at_corner,
                 over_kink: kinks.under(pair, pressure),
+                face: None,
                 sliding,
             }
         })

@@ -152,6 +152,7 @@ fn mesh_cycle(
                     off_line_of_action: false,
                     at_corner: false,
                     over_kink: false,
+                    face: None,
                     sliding: Sliding::default(),
                 }],
             }

@@ -196,6 +196,7 @@ fn position(position: f64, worn: f64) -> PositionState {
                 off_line_of_action: path < LIMITS[0] + 0.3,
                 at_corner: path < LIMITS[0] + 0.3,
                 over_kink: false,
+                face: None,
                 sliding: Sliding {
                     speed: 0.315 * path.abs(),
                     film_ratio: Some(0.2 + 0.01 * path),

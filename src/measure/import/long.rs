@@ -16,7 +16,7 @@ use super::numbers::with_points;
 use super::place::PositionKind;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, counts, decimal_commas, nameless, units};
+use super::{ImportError, Sheet, cell_name, counts, decimal_commas, multiples, nameless, units};
 use crate::measure::{Place, Quantity, names};
 use crate::numeric::written;
 use line::Line;
@@ -386,9 +386,14 @@ impl<'t> Read<'t> {
                         .to_owned()
                 }
                 Some("cycles") if column.of_gear => {
-                    "revolutions of the gear, turned into those of the pinion".to_owned()
+                    let factor = multiples::factor(&column.written);
+                    let each = factor.map_or(String::new(), |n| format!(", {n} each"));
+                    format!("revolutions of the gear, turned into those of the pinion{each}")
                 }
-                Some("cycles") => "cycles, pinion revolutions".to_owned(),
+                Some("cycles") => match multiples::factor(&column.written) {
+                    Some(factor) => format!("cycles, {factor} pinion revolutions each"),
+                    None => "cycles, pinion revolutions".to_owned(),
+                },
                 Some("sigma") => of_sigma(column),
                 Some("member") if column.numbered => {
                     "member, 1 the pinion and 2 the gear".to_owned()

@@ -16,6 +16,7 @@ mod decimal_commas;
 mod entry;
 mod flank;
 mod long;
+mod multiples;
 mod nameless;
 mod numbers;
 mod per_interval;

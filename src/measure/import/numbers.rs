@@ -73,6 +73,15 @@ pub(super) fn with_points(
     }
 }
 
+/// Whether a number below row `head` is written with a comma and nothing else.
+pub(super) fn has_decimal_commas(sheet: &Sheet, head: usize) -> bool {
+    let mut cells = sheet.rows.iter().skip(head + 1).flatten();
+    cells.any(|text| {
+        let marks = text.matches(['.', ',']).count();
+        marks == 1 && text.contains(',') && number_words(text) == [text.as_str()]
+    })
+}
+
 /// A number with a decimal point and without marks between its thousands.
 fn without_groups(text: &str, decimal: Decimal, cell: &str) -> Result<String> {
     let (mark, group, said) = match decimal {

@@ -1,6 +1,7 @@
 //! Wide tables of what a whole member has, a mass say: cycles in one direction, members in the other.
 
 use super::entry::Entry;
+use super::multiples::Multiple;
 use super::numbers::{number, plain_cycles, with_points, without_thousands};
 use super::titles::Titles;
 use super::wanted::Wanted;
@@ -22,6 +23,14 @@ struct Lines {
 }
 
 impl Lines {
+    /// With the revolutions that the counts of the table stand for.
+    fn times(mut self, multiple: &Multiple) -> Result<Self> {
+        for (_, cycles) in &mut self.cycles {
+            *cycles = multiple.revolutions(*cycles)?;
+        }
+        Ok(self)
+    }
+
     /// Row and column of the value where a member's line and a checkpoint's cross.
     fn crossing(&self, member: usize, checkpoint: usize) -> (usize, usize) {
         match self.across {
@@ -44,12 +53,20 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         row > head && column > 0
     })?;
     without_thousands(&mut sheet.rows[head]);
+    let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
+        sheet = without;
+        multiple
+    });
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     let sheet = &sheet;
     let lines = match members_across {
         Some(head) => members_in_header(sheet, head)?,
         None => members_in_rows(sheet, head, quantity, wanted)?,
+    };
+    let lines = match &multiple {
+        Some(multiple) => lines.times(multiple)?,
+        None => lines,
     };
     let corner = cell(sheet, head, 0);
     let headers: Vec<&str> = sheet.rows[head]
@@ -68,6 +85,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         Across::Checkpoints => counts_gear_revolutions(corner, &headers)?,
         Across::Positions => counts_gear_revolutions(corner, &[])?,
     };
+    let of_gear = of_gear || multiple.as_ref().is_some_and(Multiple::is_of_gear);
     let reading = Reading {
         wanted,
         test: &test.0,
@@ -76,18 +94,20 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         of_gear,
     };
     let (mut entries, empty) = reading.entries(sheet, &lines)?;
-    let mut arranged = Vec::new();
+    let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
+    let mut differences = false;
     if quantity == Quantity::MassLoss && !speaks_of_loss(sheet, head) {
         let way_out = "add those of the new parts, at 0, and the losses are taken from them; if the values are what was lost since the start, write \
                        `mass loss` into a row above the header";
         if long::from_start(&mut entries, way_out)? {
+            differences = true;
             arranged.push(
                 "mass loss: the mass at 0 less each one of the same member; those at 0 are not written themselves"
                     .to_owned(),
             );
         }
     }
-    if !arranged.is_empty() {
+    if differences {
         (wanted.per_interval).refuse_differences(&[Quantity::MassLoss])?;
     }
     arranged.extend(in_order(&mut entries, wanted)?);

@@ -7,6 +7,7 @@ use self::grid::{Grid, Places};
 use self::reading::Reading;
 use super::arrange::{self, flank_above};
 use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
+use super::multiples::{self, Multiple};
 use super::numbers::{
     header_number, number, number_words, plain_cycles, pointed, with_points, without_thousands,
 };
@@ -80,6 +81,10 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let member = (wanted.stated_member(sheet, quantity)?).unwrap_or(Subject::Pinion);
     let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
     without_thousands(&mut sheet.rows[head]);
+    let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
+        sheet = without;
+        multiple
+    });
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     name_first_column(&mut sheet, head);
@@ -89,7 +94,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
     let left_out = grid.leave_out(across, &places)?;
-    grid.refuse_unclear(across, quantity)?;
+    grid.refuse_unclear(across, quantity, multiple.is_some())?;
     counts::refuse_others_above(sheet, head)?;
     // beside positions the headers' unit is that of the positions
     let headers = match across {
@@ -100,7 +105,8 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let titles = Titles::of(sheet, head, quantity)?;
     let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
     let turned = titles.turns_sign(wanted.turn_sign)?;
-    let of_gear = counts_gear_revolutions(corner, &headers)?;
+    let of_gear = counts_gear_revolutions(corner, &headers)?
+        || multiple.as_ref().is_some_and(Multiple::is_of_gear);
     let factor = units::factor(&unit.0, quantity)?;
     let reading = Reading {
         wanted,
@@ -110,10 +116,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         places: &places,
         factor: if turned { -factor } else { factor },
         of_gear,
+        multiple: multiple.as_ref(),
     };
     let (mut entries, empty) = reading.entries(&grid)?;
     let joined = wanted.there.join(&mut entries, true);
-    let arranged = in_order(&mut entries, wanted)?;
+    let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
+    arranged.extend(in_order(&mut entries, wanted)?);
     let [column_numbers, row_numbers] = grid.numbers();
     let (on_flank, checkpoints) = match across {
         Across::Checkpoints => (row_numbers, column_numbers),
@@ -121,7 +129,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     };
     let mut checkpoints: Vec<f64> = (checkpoints.into_iter())
         .map(|cycles| reading.revolutions(cycles))
-        .collect();
+        .collect::<Result<_>>()?;
     checkpoints.sort_by(f64::total_cmp);
     Ok(Wide {
         members: vec![member],
@@ -291,7 +299,9 @@ pub(super) fn header(sheet: &Sheet) -> Result<usize> {
         let cells = row.iter().skip(1);
         let cells = cells.filter(|text| !text.is_empty() && !names::is_for_people(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
-            (all + 1, good + usize::from(!number_words(text).is_empty()))
+            // that of `Lastwechsel [1E6]` is no checkpoint
+            let is_number = !number_words(text).is_empty() && multiples::factor(text).is_none();
+            (all + 1, good + usize::from(is_number))
         });
         all > 0 && all == good
     };

@@ -246,6 +246,8 @@ pub struct PairState {
     /// True where a kink of a flank as made lies under the pressure, such as the start of a linear tip relief: until wear has rounded it off its largest value depends on
     /// the mesh.
     pub over_kink: bool,
+    /// Middle of the slice of the face that the largest pressure is of, mm from mid-face; none where the face has one or nothing is loaded.
+    pub face: Option<f64>,
     /// What slides, heats and is lost there.
     pub sliding: Sliding,
 }

@@ -117,6 +117,6 @@ pub(super) fn as_losses(
             "{name} loss: each `{before}` is `{after}` of the stop before it, so the losses are added up from the first `{before}` of each place"
         ));
     }
-    pair.put_losses(sheet, head, &format!("{name} loss"), &lost);
+    pair.put_losses(sheet, head, &format!("{name} loss"), &lost, wanted);
     Ok(stops)
 }

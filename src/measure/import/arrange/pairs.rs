@@ -2,7 +2,7 @@
 
 use super::intervals::{self, Weighed};
 use crate::measure::import::columns::{Column, What};
-use crate::measure::import::numbers::{number, pointed, with_points};
+use crate::measure::import::numbers::{has_decimal_commas, number, pointed, with_points};
 use crate::measure::import::{Decimal, ImportError, Sheet, Wanted};
 use crate::measure::names::When;
 
@@ -22,7 +22,6 @@ pub(super) struct Reading {
     pub(super) after: f64,
     /// Decimals as written, of the one that has more.
     pub(super) decimals: usize,
-    has_commas: bool,
 }
 
 /// What was lost since the new state.
@@ -125,11 +124,6 @@ impl Pair {
                 decimals: decimals(&before).max(decimals(&after)),
                 before: number(&before, row, self.before.at)?,
                 after: number(&after, row, self.after.at)?,
-                // with the mark of the others, by which all numbers of the table are read
-                has_commas: match wanted.decimal {
-                    Some(decimal) => decimal == Decimal::Comma,
-                    None => written.iter().any(|text| text.contains(',')),
-                },
             });
         }
         Ok(readings)
@@ -142,7 +136,13 @@ impl Pair {
         head: usize,
         name: &str,
         lost: &[(Reading, f64)],
+        wanted: &Wanted<'_>,
     ) {
+        // with the mark of the others, by which all numbers of the table are read
+        let has_commas = match wanted.decimal {
+            Some(decimal) => decimal == Decimal::Comma,
+            None => has_decimal_commas(sheet, head),
+        };
         for row in sheet.rows.iter_mut().skip(head) {
             for at in [self.before.at, self.after.at] {
                 if let Some(cell) = row.get_mut(at) {
@@ -153,7 +153,7 @@ impl Pair {
         for (reading, lost) in lost {
             let decimals = reading.decimals.max(DECIMALS);
             let text = format!("{lost:.decimals$}");
-            sheet.rows[reading.row][self.after.at] = match reading.has_commas {
+            sheet.rows[reading.row][self.after.at] = match has_commas {
                 true => text.replace('.', ","),
                 false => text,
             };

@@ -30,6 +30,6 @@ pub(super) fn as_depths(
         "wear depth: `{}` less `{}`, for a deviation is positive where there is more material",
         pair.before.written, pair.after.written
     ));
-    pair.put_losses(sheet, head, "wear depth", &lost);
+    pair.put_losses(sheet, head, "wear depth", &lost, wanted);
     Ok(true)
 }

@@ -53,6 +53,6 @@ pub(super) fn as_losses(
              member"
         ));
     }
-    pair.put_losses(sheet, head, "mass loss", &lost);
+    pair.put_losses(sheet, head, "mass loss", &lost, wanted);
     Ok(stops)
 }

@@ -4,6 +4,7 @@ use super::Read;
 use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
 use crate::measure::import::flank::Flank;
+use crate::measure::import::multiples::Multiple;
 use crate::measure::import::numbers::{number, plain_count, pointed, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
@@ -180,11 +181,13 @@ impl Line<'_> {
 
     fn cycles(&self, column: &Column, test: &str) -> Result<f64> {
         let text = self.text(Some(column));
+        let multiple = Multiple::of(&column.written, self.read.head, column.at);
         if let Some(unit) = &column.unit
             && column.hours.is_none()
             && !["1", "-"].contains(&unit.as_str())
             && names::member(unit).is_none()
             && names::revolutions(unit).is_none()
+            && multiple.is_none()
         {
             return Err(ImportError(format!(
                 "{}: cycles in {unit} are not read; write plain pinion revolutions",
@@ -197,10 +200,14 @@ impl Line<'_> {
                 "every row says after how many revolutions of the pinion it was measured",
             );
         }
-        if self.wanted.decimal.is_none() && column.hours.is_none() {
+        if self.wanted.decimal.is_none() && column.hours.is_none() && multiple.is_none() {
             plain_count(text, self.row, column.at, self.sheet.plain_decimals)?;
         }
         let cycles = number(text, self.row, column.at)?;
+        let cycles = match multiple {
+            Some(multiple) => multiple.revolutions(cycles)?,
+            None => cycles,
+        };
         Ok(match column.hours {
             Some(hours) => {
                 let decimals = pointed(text)

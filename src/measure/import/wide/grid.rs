@@ -184,11 +184,18 @@ impl<'s> Grid<'s> {
     }
 
     /// Refuses numbers that stand twice, and checkpoints that are no plain numbers of revolutions.
-    pub(super) fn refuse_unclear(&self, across: Across, quantity: Quantity) -> Result<()> {
+    /// `in_multiples`: of millions, say, which have decimals.
+    pub(super) fn refuse_unclear(
+        &self,
+        across: Across,
+        quantity: Quantity,
+        in_multiples: bool,
+    ) -> Result<()> {
         let head = self.head;
         refuse_twice_in_a_line(&self.across, |column| cell_name(head, column))?;
         refuse_twice_in_a_line(&self.down, |row| cell_name(row, 0))?;
         match across {
+            _ if in_multiples => Ok(()),
             Across::Checkpoints => (self.across.iter()).try_for_each(|&(column, _)| {
                 checkpoint(self.cell(head, column), quantity, head, column)
             }),

@@ -4,6 +4,7 @@ use super::grid::{Grid, Places};
 use super::{Across, Result};
 use crate::measure::Quantity;
 use crate::measure::import::entry::Entry;
+use crate::measure::import::multiples::Multiple;
 use crate::measure::import::numbers::{number, rounded};
 use crate::measure::import::wanted::Wanted;
 
@@ -19,6 +20,8 @@ pub(super) struct Reading<'a> {
     pub(super) factor: f64,
     /// Whether the checkpoints are revolutions of the gear.
     pub(super) of_gear: bool,
+    /// The revolutions that their numbers stand for, if it is not one each.
+    pub(super) multiple: Option<&'a Multiple>,
 }
 
 impl Reading<'_> {
@@ -38,19 +41,19 @@ impl Reading<'_> {
                     Across::Checkpoints => (in_header, first),
                     Across::Positions => (first, in_header),
                 };
-                entries.push(self.entry((row, column), cycles, place, value));
+                entries.push(self.entry((row, column), cycles, place, value)?);
             }
         }
         Ok((entries, empty))
     }
 
-    fn entry(&self, cell: (usize, usize), cycles: f64, place: f64, value: f64) -> Entry {
+    fn entry(&self, cell: (usize, usize), cycles: f64, place: f64, value: f64) -> Result<Entry> {
         let places = self.places;
         let position = places.kind.position(places.scale * place, places.gear);
-        Entry {
+        Ok(Entry {
             test: self.test.to_owned(),
             member: places.member,
-            cycles: self.revolutions(cycles),
+            cycles: self.revolutions(cycles)?,
             quantity: self.quantity,
             position: Some(rounded(position)),
             value,
@@ -59,14 +62,18 @@ impl Reading<'_> {
             face: String::new(),
             tooth: self.wanted.tooth.clone().unwrap_or_default(),
             cell,
-        }
+        })
     }
 
     /// Revolutions of the pinion at a checkpoint of the table.
-    pub(super) fn revolutions(&self, cycles: f64) -> f64 {
-        match self.of_gear {
+    pub(super) fn revolutions(&self, cycles: f64) -> Result<f64> {
+        let cycles = match self.multiple {
+            Some(multiple) => multiple.revolutions(cycles)?,
+            None => cycles,
+        };
+        Ok(match self.of_gear {
             true => self.wanted.pinion_revolutions(self.test, cycles),
             false => cycles,
-        }
+        })
     }
 }

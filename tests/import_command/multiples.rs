@@ -1,0 +1,76 @@
+//! Powers of ten in headers of cycles, and the decimal mark of depths that the program works out itself.
+
+use super::{home, refused, rows};
+
+const OPTIONS: &str = "--test A --member pinion --sigma 0.1";
+
+/// `Lastwechsel [1E6]` is the unit of the checkpoints, wherever these stand, and no checkpoint itself.
+#[test]
+fn a_power_of_ten_beside_cycles_is_their_unit() {
+    let home = home();
+    let down = "26,5;0,5;1,0;2,0\n27,0;0,4;0,8;1,5\n";
+    for text in [
+        // above the header, in the first cell, and as the name of the first column
+        format!(";Lastwechsel [1E6];;\nRadius [mm];0,25;0,5;1\n{down}"),
+        format!("Lastwechsel [1E6];0,25;0,5;1\n{down}"),
+        "Lastwechsel [10^6];26,5;27,0\n0,25;0,5;0,4\n0,5;1,0;0,8\n1;2,0;1,5\n".to_owned(),
+        "Lastwechsel [Mio.];Radius [mm];Verschlei\u{df} [\u{b5}m]\n0,25;26,5;0,5\n0,25;27,0;0,4\n\
+         0,5;26,5;1,0\n0,5;27,0;0,8\n1;26,5;2,0\n1;27,0;1,5\n"
+            .to_owned(),
+    ] {
+        let (shown, written) = rows(&home, &text, OPTIONS);
+        for row in [
+            "A,pinion,250000,wear_depth,26.5,0.5,0.1,",
+            "A,pinion,500000,wear_depth,27,0.8,0.1,",
+            "A,pinion,1000000,wear_depth,26.5,2,0.1,",
+        ] {
+            assert!(written.contains(row), "{row} in {written}");
+        }
+        let said = shown.contains("each 1 stands for 1000000 revolutions")
+            || shown.contains("cycles, 1000000 pinion revolutions each");
+        assert!(said, "{shown}");
+    }
+    let masses = "Lastwechsel [1E3];Ritzel;Rad\n0;100,5;200,5\n250;100,4;200,1\n";
+    let (shown, written) = rows(
+        &home,
+        masses,
+        "--test A --quantity mass_loss --unit g --sigma 1",
+    );
+    assert!(
+        written.contains("A,gear,250000,mass_loss,,400,1"),
+        "{written}"
+    );
+    assert!(
+        shown.contains("each 1 stands for 1000 revolutions"),
+        "{shown}"
+    );
+}
+
+/// Those of the gear stay those of the gear, and counts in full are not multiplied once more.
+#[test]
+fn a_power_of_ten_does_not_hide_what_else_is_said() {
+    let home = home();
+    let text = ";Lastwechsel Rad [1E6];\nRadius [mm];0,135;0,27\n26,5;0,5;1,0\n";
+    let (shown, written) = rows(&home, text, OPTIONS);
+    assert!(written.contains("A,pinion,530000,"), "{written}");
+    assert!(shown.contains("from revolutions of the gear"), "{shown}");
+    let text = "Lastwechsel [1E6];250000;500000\n26,5;0,5;1,0\n";
+    let message = refused(&home, text, OPTIONS);
+    assert!(
+        message.contains("A1: `Lastwechsel [1E6]`: 250000 would be 2.5e11 revolutions"),
+        "{message}"
+    );
+}
+
+/// A depth from whole deviations is written with the decimal commas of the other numbers.
+#[test]
+fn whole_deviations_stand_beside_decimal_commas() {
+    let home = home();
+    let header = "Radius [mm];Abweichung vorher [\u{b5}m];Abweichung nachher [\u{b5}m]";
+    let text = format!("{header}\n26,5;2;0\n27,0;1,5;0,4\n27,5;1;0\n");
+    let (_, written) = rows(&home, &text, &format!("{OPTIONS} --cycles 1000000"));
+    for row in ["26.5,2,0.1,", "27,1.1,0.1,", "27.5,1,0.1,"] {
+        let row = format!("A,pinion,1000000,wear_depth,{row}");
+        assert!(written.contains(&row), "{row} in {written}");
+    }
+}
