@@ -12,6 +12,8 @@ mod common;
 #[path = "common/vtu.rs"]
 mod vtu;
 
+#[path = "run_command/face.rs"]
+mod face;
 #[path = "run_command/failures.rs"]
 mod failures;
 #[path = "run_command/files.rs"]

@@ -136,9 +136,10 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Puts narrow no-break spaces between thousands of five and more digits and a true minus sign in front.
+/// Puts narrow no-break spaces between thousands of five and more digits and a true minus sign in front, but before no zero: what was rounded to one, or
+/// is one with a sign, has none.
 pub fn grouped(number: &str) -> String {
-    let is_zero = |rest: &str| rest.bytes().all(|digit| matches!(digit, b'0' | b'.'));
+    let is_zero = |rest: &str| !rest.contains(|c: char| ('1'..='9').contains(&c));
     let (sign, rest) = match number.strip_prefix('-') {
         Some(rest) if is_zero(rest) => ("", rest),
         Some(rest) => ("\u{2212}", rest),
@@ -200,13 +201,15 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_has_no_minus() {
+    fn no_zero_has_a_minus_sign() {
         assert_eq!(fixed(-0.04, 1), "0.0");
         assert_eq!(fixed(-0.06, 1), "\u{2212}0.1");
-        assert_eq!(fixed(-0.4, 0), "0");
-        assert_eq!(grouped("-0.00"), "0.00");
-        assert_eq!(uncertain(-0.000_04, 0.012), "0.000 ± 0.012");
+        assert_eq!(fixed(-12_345.6, 0), "\u{2212}12\u{202f}346");
+        assert_eq!(count(-0.0), "0");
+        assert_eq!(plain(-0.0), "0");
         assert_eq!(significant(-0.0, 3), "0");
+        assert_eq!(uncertain(-0.001, 1.0), "0.0 ± 1.0");
+        assert_eq!(percent(-0.0, 2), "0 %");
     }
 
     #[test]

@@ -1,7 +1,10 @@
 //! Machine-readable results: `summary.json`, and any other document a command writes.
-use serde::Serialize;
-use serde_json::{Map, Value, json};
+mod indented;
 
+use serde::Serialize;
+use serde_json::{Map, Serializer, Value, json};
+
+use self::indented::Indented;
 use super::csv::finite;
 use super::error::OutputError;
 use crate::simulate::result::{
@@ -116,7 +119,9 @@ fn by_tooth(state: &State) -> Value {
 
 /// A document as text, indented, with a newline at its end.
 pub fn text(file: &str, document: &impl Serialize) -> Result<Vec<u8>, OutputError> {
-    let mut bytes = serde_json::to_vec_pretty(document).map_err(|source| OutputError::Json {
+    let mut bytes = Vec::new();
+    let mut writer = Serializer::with_formatter(&mut bytes, Indented::default());
+    (document.serialize(&mut writer)).map_err(|source| OutputError::Json {
         file: file.to_owned(),
         source,
     })?;

@@ -8,6 +8,7 @@ use super::target::{folder, is_free, target, writable, write_whole};
 use super::{AddArgs, CliError, Context, Outcome};
 use crate::effects::Hook;
 use crate::learn::{AddLearnedError, LearnError, LearnedAddition, Share, WantedLaw, add_learned};
+use crate::numeric::written::fixed;
 use crate::study::{Study, WEAR_COEFFICIENT, rounded};
 
 /// What the name of a law to be learned begins with.
@@ -126,7 +127,7 @@ fn law_in_words(found: &LearnedAddition, wanted: &WantedLaw) -> String {
             format!("{:.3}", most.exp()),
             "times k".to_owned(),
         ],
-        _ => [format!("{least:.2}"), format!("{most:.2}"), "µm".to_owned()],
+        _ => [fixed(least, 2), fixed(most, 2), "µm".to_owned()],
     };
     format!(
         "{least} to {most} {unit}, at {} knots from {first} to {last}; size {}, length {}",

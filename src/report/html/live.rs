@@ -142,5 +142,6 @@ fn label(plot: &Plot, number: usize, above: Option<&Plot>) -> String {
 
 /// Six digits: enough for any screen.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
+    // a sum with 0 is no -0
+    format!("{value:.5e}").parse().unwrap_or(value) + 0.0
 }

@@ -1,10 +1,8 @@
 //! The page of `models`: the contact models side by side, and which assumption makes each difference.
 use super::page::{Page, Section};
 use super::table::{Cell, Table};
-use crate::numeric::written::{count, significant};
-use crate::report::models::{
-    conclusions, decimals, fixed, of_mounting, published_gear_speed, signed,
-};
+use crate::numeric::written::{count, fixed, significant};
+use crate::report::models::{conclusions, decimals, of_mounting, published_gear_speed, signed};
 use crate::report::plots;
 use crate::simulate::models::{Comparison, Kind, Means, Mounted, Quantity, RegionDifference};
 

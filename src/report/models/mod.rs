@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 pub use sentences::{conclusions, of_mounting};
 pub use text::summary;
 
-use crate::numeric::written::{grouped, significant};
+use crate::numeric::written::{fixed, significant};
 use crate::simulate::models::{
     Comparison, Difference, Flank, Kind, Ladder, Means, ModelResult, Mounted, Quantity, Span,
 };
@@ -165,20 +165,6 @@ fn means(means: &Means, spans: &[Span]) -> Value {
         value[span.region.name()] = json!(mean);
     }
     value
-}
-
-/// A value with fixed decimals and a true minus sign.
-pub(super) fn fixed(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let zero = text
-        .trim_start_matches('-')
-        .chars()
-        .all(|c| c == '0' || c == '.');
-    grouped(if zero {
-        text.trim_start_matches('-')
-    } else {
-        &text
-    })
 }
 
 /// A change with fixed decimals and its sign, 0 without one.

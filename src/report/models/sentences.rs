@@ -1,6 +1,6 @@
 //! What a comparison shows, in sentences.
-use super::{fixed, signed};
-use crate::numeric::written::{capitalised, percent, significant};
+use super::signed;
+use crate::numeric::written::{capitalised, fixed, percent, significant};
 use crate::simulate::models::{Cause, Comparison, Kind, Means, Mounted, Quantity};
 
 /// What holds over all misalignments.

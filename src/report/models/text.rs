@@ -1,8 +1,8 @@
 //! The comparison as a few lines for the terminal.
 use std::path::Path;
 
-use super::{conclusions, decimals, fixed, published_gear_speed, signed};
-use crate::numeric::written::{count, significant};
+use super::{conclusions, decimals, published_gear_speed, signed};
+use crate::numeric::written::{count, fixed, significant};
 use crate::simulate::models::{Comparison, Kind, Ladder, Means, Mounted, Quantity};
 
 /// Mean wear of both flanks by part of the path of contact, what changes it, and where the files are.

@@ -232,9 +232,6 @@ fn tick(value: f64, digits: usize) -> String {
     if text.contains('.') {
         text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
     }
-    if text == "-0" {
-        text = "0".to_owned();
-    }
     crate::numeric::written::grouped(&text)
 }
 

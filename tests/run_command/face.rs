@@ -1,0 +1,33 @@
+//! Where the face has slices, `contact.csv` says which of them a pair's largest pressure is of.
+use super::home::{FEM, Home};
+
+#[test]
+fn the_largest_pressure_has_its_place_across_the_face() {
+    let home = Home::with(&[("cycles", "1000"), ("positions", "12")]);
+    let mut study = std::fs::read_to_string(home.path("study.toml")).unwrap();
+    study += "[face]\nslices = 5\n[face.pinion]\nlead_slope = 10.0\n";
+    home.write("study.toml", &study);
+    home.succeed("run study.toml -o run");
+    let contact = home.result("run").table("contact.csv");
+    assert_eq!(contact.header.last().map(String::as_str), Some("face"));
+    // five slices of 33 mm; material is missing at +b/2, so the load is at −b/2
+    let slices = home.result("run").table("wear.csv");
+    assert_eq!(slices.distinct("face").len(), 5);
+    let new = contact.only("cycles", "0");
+    let loaded = new.only_where("line_load", |load| load > 0.0);
+    assert!(loaded.len() > 0);
+    for face in loaded.numbers("face") {
+        assert!((face + 13.2).abs() < 1e-9, "{face}");
+    }
+    let idle = new.only("line_load", "0");
+    assert!(idle.texts("face").iter().all(|face| face.is_empty()));
+}
+
+#[test]
+fn one_section_has_no_such_column() {
+    let contact = FEM.result("run").table("contact.csv");
+    assert_eq!(
+        contact.header.last().map(String::as_str),
+        Some("friction_power_w")
+    );
+}
