@@ -470,3 +470,26 @@ fn what_cannot_be_served_is_said() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("PORT"));
 }
+
+/// A history that cannot be computed is the model's failure, not the request's, and the server goes on.
+#[test]
+fn what_cannot_be_computed_is_an_invalid_output() {
+    // no number from 250 000 cycles on where a is 4
+    let formula = "kind = \"formula\"\nname = \"f\"\nwear_factor = \"sqrt(1 - a*cycles/1e6)\"\n\
+                   parameters = { a = { value = 0.5, lower = 0, upper = 4 } }\n";
+    let running_in = "kind = \"running_in\"\namplitude = 3.0\ndecay_cycles = 1e5\n";
+    assert!(STUDY.contains(running_in));
+    let free = "\"running_in.amplitude\", \"running_in.decay_cycles\"";
+    let study = STUDY.replace(running_in, formula).replace(free, "\"f.a\"");
+    let server = Server::start(&study);
+    let of = |a: f64| json!({"name": "forward", "input": [[3e-10, a]], "config": {}});
+    let (status, answer) = server.post("/Evaluate", &of(4.0));
+    let name = &answer["error"]["type"];
+    assert_eq!((status, name), (500, &json!("InvalidOutput")));
+    assert!(
+        answer["error"]["message"]
+            .as_str()
+            .is_some_and(|said| !said.is_empty())
+    );
+    assert_eq!(server.post("/Evaluate", &of(0.5)).0, 200);
+}

@@ -164,3 +164,40 @@ fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
         _ => Ok(if outcome.success { 0 } else { 1 }),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser as _;
+
+    use super::*;
+
+    /// The threads of a process are started once: another number is a failure of the machine, not of the input.
+    #[test]
+    fn threads_that_cannot_be_started_are_said() {
+        // starts those of this process, if no other test has
+        assert!(rayon::current_num_threads() > 0);
+        let arguments = args::Arguments::parse_from(["gearwear", "effects", "--threads", "3"]);
+        let error = execute(&arguments).unwrap_err();
+        assert!(
+            matches!(error, CliError::Threads { threads: 3, .. }),
+            "{error}"
+        );
+        assert_eq!(error.exit_code(), 1);
+        assert!(
+            error
+                .render(false)
+                .starts_with("error: cannot start 3 threads: ")
+        );
+    }
+
+    /// What was understood stands before the reason, so that it is seen what the reason is about.
+    #[test]
+    fn what_was_understood_is_shown_before_the_reason() {
+        let error = CliError::Shown {
+            shown: "table    a.csv".to_owned(),
+            why: "no uncertainty".to_owned(),
+        };
+        assert_eq!(error.exit_code(), 2);
+        assert_eq!(error.render(false), "table    a.csv\nerror: no uncertainty");
+    }
+}

@@ -188,4 +188,15 @@ mod tests {
         let order = postorder(&parent);
         assert_eq!(order, vec![1, 2, 3, 0, 4, 5, 6]);
     }
+
+    /// As the system refuses memory for a mesh that is too large: no machine has half of all addresses.
+    #[test]
+    fn a_mesh_that_no_memory_holds_is_refused() {
+        let graph = Graph {
+            start: vec![0; 4],
+            row: Vec::new(),
+        };
+        let error = graph.memory(StackReq::new::<u8>(isize::MAX as usize - 4096));
+        assert!(matches!(error, Err(FemError::TooLarge { unknowns: 6 })));
+    }
 }

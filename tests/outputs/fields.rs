@@ -6,7 +6,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use gearwear::report::vtk;
+use gearwear::mesh::Cells;
+use gearwear::report::{OutputError, vtk};
 use serde_json::Value;
 
 use super::vtu::Grid;
@@ -164,4 +165,20 @@ fn two_other_readers_agree() {
     loads["files"][0]["line_load"] = Value::from(load * (1.0 + 1e-5));
     fs::write(&path, loads.to_string()).unwrap();
     assert!(!check().unwrap().status.success());
+}
+
+/// A cell of a node that does not exist would be a file that no program opens.
+#[test]
+fn cells_of_missing_nodes_are_refused() {
+    let mut frame = synthetic::frame(0.0, 0.0);
+    let nodes = frame.gear.worn.len();
+    let Cells::T6(cells) = &mut frame.gear.cells else {
+        panic!("made of quadratic triangles");
+    };
+    cells[0][3] = nodes as u32;
+    let error = vtk::vtu("fields/a.vtu", &frame).unwrap_err();
+    assert!(
+        matches!(&error, OutputError::Vtk { file, message } if file == "fields/a.vtu" && message.contains(&nodes.to_string())),
+        "{error}"
+    );
 }

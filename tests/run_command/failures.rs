@@ -4,7 +4,8 @@
 //! Tolerance: none.
 use std::sync::Mutex;
 
-use gearwear::contact::cycle::Cycle;
+use gearwear::contact::cycle::{Cycle, CycleSpec, Stations};
+use gearwear::contact::fem::{CycleCompliance, FemContact};
 use gearwear::contact::model::{ContactError, ContactModel, PositionContact};
 use gearwear::contact::slices::Flanks;
 use gearwear::contact::tangent::LinearContact;
@@ -23,7 +24,10 @@ fn wear_that_no_mesh_can_follow_ends_with_the_cycles_reached() {
     let home = Home::with(&[("coefficient", "2e-6")]);
     let answer = home.gearwear("run study.toml -o run");
     assert_eq!((answer.code, answer.out.as_str()), (Some(1), ""));
-    for part in ["error: ", "of 50000 cycles", "--resume"] {
+    for part in [
+        "error: ",
+        " of 50000 cycles; the steps up to there are kept for --resume)",
+    ] {
         assert!(answer.err.contains(part), "{part}: {}", answer.err);
     }
     assert_eq!(home.tree(), [".run.checkpoint", "study.toml"]);
@@ -35,6 +39,37 @@ fn wear_that_no_mesh_can_follow_ends_with_the_cycles_reached() {
         (Some(1), error(&answer.err))
     );
     assert_eq!(home.tree(), [".run.checkpoint", "study.toml"]);
+}
+
+/// Corners that were left out as too far apart come into reach of a load that turns the teeth farther.
+#[test]
+fn a_corner_that_was_not_looked_at_is_no_result() {
+    let study = Study::parse(&study_with(&[]), "study.toml").unwrap();
+    let set = study.gear_set();
+    let numerics = study.resolution();
+    let torque = study.operation.simulated(&study.wear).torque;
+    let members = set.members(&numerics, &[torque], &[0.0]).unwrap();
+    let pair = set.mount(0.0).unwrap();
+    let per_width = torque / set.face_width;
+    let spec = CycleSpec {
+        reach: 1e-6,
+        ..numerics.cycle(&pair, set.modulus(), per_width, members.spacing())
+    };
+    let stations = Stations::new(&pair, members.spacing());
+    let cycle = Cycle::new(&pair, &stations, spec);
+    let compliance = CycleCompliance::new(&cycle, members.flanks(), 0.0).unwrap();
+    let model = FemContact::new(&cycle, &compliance, per_width);
+    let fresh = [0, 1].map(|side| vec![0.0; stations.arc[side].len()]);
+    let errors = (0..cycle.positions.len())
+        .filter_map(|q| model.solve(q, [&fresh[0], &fresh[1]], &[]).err());
+    let errors: Vec<ContactError> = errors.collect();
+    assert!(!errors.is_empty());
+    for error in errors {
+        assert!(
+            matches!(error, ContactError::OutOfReach { separation, .. } if separation > 1e-6),
+            "{error}"
+        );
+    }
 }
 
 /// The centre distance in the reason is none that the study states, so what made it is said.

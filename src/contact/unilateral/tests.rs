@@ -479,3 +479,22 @@ fn joint_linearisation_is_that_of_differences() {
         }
     }
 }
+
+/// A body that pulls where it is pushed has no solution: the set of points in contact turns to and fro, and that is said.
+#[test]
+fn a_set_that_never_settles_is_refused() {
+    let w = DMatrix::from_element(1, 1, -1.0);
+    let problem = Problem {
+        w: &w,
+        gap: &[0.0],
+        arm: &[1.0],
+        lever: &[1.0],
+        drive: Drive::Approach(1.0),
+        symmetric: false,
+    };
+    let error = by_approach::by_approach(&problem, &[0]).unwrap_err();
+    assert!(
+        matches!(&error, UnilateralError::NotSettled { iterations, flipping } if *iterations > 0 && flipping == &[0]),
+        "{error}"
+    );
+}
