@@ -190,7 +190,8 @@ fn across_the_face(run: &Run) -> Option<Table> {
         Coupling::None => "turn together, not tied besides",
     };
     let caption = format!("Across the face: {slices} slices, {coupling}");
-    let rows: [(&str, fn(&Lead) -> String); 5] = [
+    type Figure = fn(&Lead) -> String;
+    let rows: [(&str, Figure); 5] = [
         ("lead slope over the face, µm", |lead| {
             plain(1e3 * lead.slope)
         }),
