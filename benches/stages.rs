@@ -194,6 +194,7 @@ mod contact {
             coefficient: CONDITIONS.coefficient,
             acting: None,
             tolerance: numerics(fineness).step_tolerance,
+            floor: gearwear::simulate::numerics::STEP_FLOOR,
             balance: Balancing::History,
         };
         forward
@@ -239,6 +240,7 @@ fn wear(bencher: Bencher, fineness: usize) {
         coefficient: CONDITIONS.coefficient,
         acting: None,
         tolerance: numerics(fineness).step_tolerance,
+        floor: gearwear::simulate::numerics::STEP_FLOOR,
         balance: Balancing::History,
     };
     forward

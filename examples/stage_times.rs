@@ -142,6 +142,7 @@ fn stages(edges: f64, order: usize) -> Result<Value, Failure> {
         coefficient: conditions.coefficient,
         acting: None,
         tolerance: numerics.step_tolerance,
+        floor: gearwear::simulate::numerics::STEP_FLOOR,
         balance: Balancing::History,
     };
     let count = forward.cycle().positions.len();

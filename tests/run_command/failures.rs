@@ -268,6 +268,7 @@ const LAW: WearLaw<'static> = WearLaw {
     coefficient: [6e-10; 2],
     acting: None,
     tolerance: 2e-3,
+    floor: gearwear::simulate::numerics::STEP_FLOOR,
     balance: Balancing::History,
 };
 
