@@ -299,7 +299,7 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         (
             "radius;100000\n26;1\n",
             "import table.csv --study study.toml --sigma 0.2",
-            "its tests: A, B",
+            "the study's tests: A, B",
         ),
         (
             "radius;100000\n26;1\n",

@@ -641,6 +641,17 @@ fn the_document_has_its_keys_and_no_gaps() {
     );
     assert!(page.contains("2\u{a0}mm is left out"));
     let said = summary("Pair", comparison(), &done.folder);
+    assert!(!said.contains("flank edges"), "{said}");
+    // pressures on a coarse mesh are not held against Hertz's without a word
+    let coarse = Comparison {
+        edges_per_half_width: 2.0,
+        ..comparison().clone()
+    };
+    let said_coarse = summary("Pair", &coarse, &done.folder);
+    assert!(
+        said_coarse.contains("With 2.0 flank edges on Hertz's half width"),
+        "{said_coarse}"
+    );
     for part in [
         "misalignment 1 mm",
         "lower_double",

@@ -35,6 +35,9 @@ pub struct Numerics {
 /// flank (the validation's case `recondensation`). The bound is 0.5 % of the pressure.
 pub const CONDENSE_AFTER: f64 = 0.007;
 
+/// Edges per half width below which peak pressures are more than some per cent off.
+pub const FEW_EDGES: f64 = 3.0;
+
 /// Depth below which the error of a wear step is absolute, modules.
 pub const STEP_FLOOR: f64 = 5e-5;
 

@@ -62,6 +62,21 @@ fn a_power_of_ten_does_not_hide_what_else_is_said() {
     );
 }
 
+/// Counts that nothing says to be millions are read as they stand, and what they look like is told before anything is written.
+#[test]
+fn counts_that_look_like_millions_are_warned_of() {
+    let home = home();
+    let text = "Radius [mm];0,25;0,5;1\n26,5;0,5;1,0;2,0\n27,0;0,4;0,8;1,5\n";
+    let (shown, _) = rows(&home, text, OPTIONS);
+    assert!(
+        shown.contains(
+            "warning  the rows of test A end at 1.0 cycles where the study states 1000000"
+        ),
+        "{shown}"
+    );
+    assert!(shown.contains("they look like millions"), "{shown}");
+}
+
 /// A depth from whole deviations is written with the decimal commas of the other numbers.
 #[test]
 fn whole_deviations_stand_beside_decimal_commas() {

@@ -66,6 +66,9 @@ fn inputs_of_helical_gears_are_named_by_their_section() {
         assert_eq!(row(&page, "Inputs", name)[1..], *cells, "{name}");
     }
     assert!(page.contains("Across the face: 11 slices"));
+    // lines of contact run across the face: at no time does one pair carry alone
+    assert!(page.contains("B and D the ends of single contact in any one transverse section"));
+    assert!(!page.contains("a single pair carries"));
     // ε_γ = ε_α + ε_β; ε_β = b sin β/(π m_n) = 33 sin 12°/(2π) = 1.092
     for part in [
         "The total contact ratio 2.737 is the transverse contact ratio 1.645 plus the overlap ratio 1.092.",

@@ -245,12 +245,12 @@ pub(super) fn like_the_first(
 }
 
 /// What the rows that are there already say of these: checkpoints of theirs, and a warning of members that may be swapped.
-pub(super) fn of_others(joined: &[String], swapped: &[String]) -> String {
+pub(super) fn of_others(joined: &[String], warnings: &[String]) -> String {
     let mut text = String::new();
     for words in joined {
         line(&mut text, "joined", words);
     }
-    for words in swapped {
+    for words in warnings {
         line(&mut text, "warning", words);
     }
     text

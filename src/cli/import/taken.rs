@@ -10,6 +10,7 @@ use super::flanks::Flanks;
 use super::summary;
 use super::understood::Understood;
 use crate::cli::{CliError, Outcome};
+use crate::learn::cycles_in_another_unit;
 use crate::measure::Dataset;
 use crate::measure::import::{self, Sheet, There, Titles, Wanted};
 use crate::report::write_file;
@@ -65,11 +66,15 @@ impl Taken {
         let (header, rows) = import::lines(understood.entries());
         let source = source(args, self.file.is_some(), name);
         let whole = with_rows(args, name, self.file.as_deref(), &header, &rows)?;
-        let swapped = wanted.there.swapped(understood.entries());
+        let mut warnings = wanted.there.swapped(understood.entries());
         self.show(args, name, &understood, (&header, &rows));
-        self.text += &summary::of_others(understood.joined(), &swapped);
         // what cannot be read back is not written
-        if let Err(error) = Dataset::parse(&whole, &source, &study.known()) {
+        let read = Dataset::parse(&whole, &source, &study.known());
+        if let Ok(data) = &read {
+            warnings.extend(cycles_in_another_unit(study, data));
+        }
+        self.text += &summary::of_others(understood.joined(), &warnings);
+        if let Err(error) = read {
             // the place within the table's own rows, where these alone are wrong
             let own = format!("{header}\n{}\n", rows.join("\n"));
             let own = Dataset::parse(&own, &source, &study.known()).err();
@@ -78,8 +83,8 @@ impl Taken {
         }
         self.count += rows.len();
         let mut document = understood.document();
-        if !swapped.is_empty() {
-            document["warnings"] = json!(swapped);
+        if !warnings.is_empty() {
+            document["warnings"] = json!(warnings);
         }
         self.documents.push(document);
         self.file = Some(whole);

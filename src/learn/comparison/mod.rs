@@ -34,5 +34,6 @@ pub use prospects::{Prospects, prospects};
 pub use ratio::Ratio;
 pub use record::{Comparison, Outlier, ParameterRecord, TestRecord};
 pub use residual_statistics::{Cell, Group, Share};
+pub use sanity::cycles_in_another_unit;
 pub use uncertainty::Validation;
 pub use versions::{Item, compare_all, differences};

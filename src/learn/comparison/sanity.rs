@@ -13,6 +13,7 @@ mod single_tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use self::single_tests::cycles_in_another_unit;
 use super::residual_statistics::{FittedRow, fitted};
 use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};

@@ -1,6 +1,6 @@
 //! What keeps an answer from being trusted.
 
-use super::ranked::parameters;
+use super::ranked::{form, parameters};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::noise_level;
@@ -17,6 +17,8 @@ use crate::learn::noise::SigmaModel;
 
 /// Share of a parameter's prior outside of which a value is told.
 const UNHEARD_OF: f64 = 1e-3;
+/// ln evidence by which another form of a law has to be behind to be settled against.
+const SETTLED: f64 = 3.0;
 
 /// What keeps an answer from being trusted.
 pub(in crate::learn) fn warnings(
@@ -173,6 +175,7 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
             ));
         }
         warnings.extend(together(leader));
+        warnings.extend(unsettled_form(posterior, leader));
         let decision = &posterior.decision;
         let probability = match decision.verdict {
             Verdict::Partial => decision.probability_in_all(&leader.candidate.effects),
@@ -183,6 +186,52 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
         }
     }
     warnings
+}
+
+/// That other forms of the leading effects explain as much, or were not fitted: the parameters are those of one form.
+fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Option<String> {
+    if !matches!(
+        posterior.decision.verdict,
+        Verdict::Effect | Verdict::Effects | Verdict::Partial
+    ) {
+        return None;
+    }
+    let effects = &leader.candidate.effects;
+    let own = posterior.candidates.iter();
+    let others: Vec<&FittedCandidate> = own
+        .filter(|other| other.candidate.effects == *effects && form(other) != form(leader))
+        .collect();
+    let as_good = others
+        .iter()
+        .filter(|other| leader.log_evidence - other.log_evidence < SETTLED);
+    let as_good: Vec<String> = as_good.map(|other| form_in_words(other)).collect();
+    let has_forms = effects.cards().iter().any(|card| !card.forms.is_empty());
+    let one_alone = effects.len() > 1 && has_forms && others.is_empty();
+    form_warning(
+        &effects.in_words(),
+        &form_in_words(leader),
+        &as_good,
+        one_alone,
+    )
+}
+
+/// The forms of a fit's effects, the cards' own ones too.
+fn form_in_words(fitted: &FittedCandidate) -> String {
+    let forms = fitted.candidate.forms.iter();
+    let names = forms.map(|form| form.as_ref().map_or("own", |form| form.name));
+    names.collect::<Vec<_>>().join(" and ")
+}
+
+/// `others`: the forms that are as good; `one_alone`: no other one was fitted.
+fn form_warning(effects: &str, form: &str, others: &[String], one_alone: bool) -> Option<String> {
+    let why = match others {
+        [] if !one_alone => return None,
+        [] => "no other was fitted, and one may explain the data as well".to_owned(),
+        others => format!("{} explain the data as well", others.join("; ")),
+    };
+    Some(format!(
+        "the parameters of {effects} and their intervals hold for one form of the law ({form}): {why}, with other values. gearwear add fits every form"
+    ))
 }
 
 /// Which fits with `effects` did not converge: that with them alone, and the one beside something unknown where the verdict rests on that.
@@ -243,7 +292,7 @@ fn unheard_of(leader: &FittedCandidate) -> impl Iterator<Item = String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{leads_alone, not_converged};
+    use super::{form_warning, leads_alone, not_converged};
     use crate::effects::find;
     use crate::learn::decision::{Decision, Verdict};
     use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -266,6 +315,21 @@ mod tests {
         );
         assert_eq!(told(Verdict::Unknown), None);
         assert_eq!(told(Verdict::NothingMissing), None);
+    }
+
+    #[test]
+    fn values_of_one_form_among_several_are_told_as_such() {
+        let two = ["own".to_owned(), "hyperbolic".to_owned()];
+        let said = form_warning("running_in", "steep hyperbolic", &two, false).unwrap();
+        assert!(
+            said.contains(
+                "one form of the law (steep hyperbolic): own; hyperbolic explain the data as well"
+            ),
+            "{said}"
+        );
+        assert!(form_warning("running_in", "own", &[], false).is_none());
+        let pair = form_warning("running_in and tip_relief", "own and own", &[], true).unwrap();
+        assert!(pair.contains("no other was fitted"), "{pair}");
     }
 
     #[test]

@@ -144,7 +144,7 @@ impl Wanted<'_> {
             (None, Some(id), _) => Ok((id.to_owned(), Some("the sheet's name says so"))),
             (None, None, [one]) => Ok(((*one).to_owned(), None)),
             (None, None, tests) => Err(ImportError(format!(
-                "name the test with --test; its tests: {}. If the study lacks it, add a [[test]] to the study",
+                "name the test with --test; the study's tests: {}. If the study lacks it, add a [[test]] to the study",
                 tests.join(", ")
             ))),
         }

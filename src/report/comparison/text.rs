@@ -236,7 +236,7 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
         format!("put right what stands under `check first`, then gearwear compare {name}")
     } else if lacks(result.comparison) {
         format!(
-            "gearwear diagnose {name} names the effect that is missing; gearwear add {name} EFFECT if you know it (`gearwear effects` lists them)"
+            "gearwear diagnose {name} tells whether an effect is missing, and which; gearwear add {name} EFFECT if you know it (`gearwear effects` lists them)"
         )
     } else {
         // a trend over many points can be certain below the noise of each

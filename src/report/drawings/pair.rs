@@ -44,7 +44,11 @@ pub fn of_pair(pair: &Pair) -> Vec<Drawing> {
         ),
         (
             "gear_mesh",
-            "Where the teeth meet: contact runs along the thick line from A to E, a single pair carries from B to D",
+            if pair.base_helix == 0.0 {
+                "Where the teeth meet: contact runs along the thick line from A to E, a single pair carries from B to D"
+            } else {
+                "Where the teeth meet, a transverse section: contact runs along the thick line from A to E, a single pair touches there from B to D"
+            },
             mesh,
             true,
         ),

@@ -138,10 +138,17 @@ fn key_figures(run: &Run) -> Section {
 }
 
 fn wear(run: &Run) -> Section {
-    Section::new("Wear").with_slider().plots(plots::wear_of_run(run)).note(
-        "A and E are the ends of the nominal path of contact, B and D the ends of single contact, C is the pitch point; \
+    let single = match run.geometry.helix {
+        None => "B and D the ends of single contact",
+        Some(_) => "B and D the ends of single contact in any one transverse section",
+    };
+    Section::new("Wear")
+        .with_slider()
+        .plots(plots::wear_of_run(run))
+        .note(format!(
+            "A and E are the ends of the nominal path of contact, {single}, C is the pitch point; \
          negative distances lie in the pinion's dedendum. Lines join neighbouring points only.",
-    )
+        ))
 }
 
 fn contact(run: &Run) -> Section {

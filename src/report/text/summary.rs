@@ -9,6 +9,7 @@ use super::{
     new_and_worn,
 };
 use crate::numeric::written::{duration, percent, significant, whole};
+use crate::simulate::numerics::FEW_EDGES;
 use crate::simulate::result::{Member, Run, State};
 
 /// A few lines for the terminal: the figures that matter, where the files are, what to do next.
@@ -129,8 +130,8 @@ fn notes(run: &Run) -> impl Iterator<Item = String> {
     let few_edges = mesh.filter(|mesh| mesh.edges_per_half_width < FEW_EDGES);
     let few_edges = few_edges.map(|mesh| {
         format!(
-            "{} flank edges on Hertz's half width: contacts of the new flanks are too narrow to be resolved better; depths are \
-             right, peak pressures at 0 cycles are rough",
+            "{} flank edges on Hertz's half width are few: depths are right, peak pressures rough, by up to a fifth, on new flanks and worn ones; \
+             [numerics] elements_per_half_width = 5 is usual",
             significant(mesh.edges_per_half_width, 2)
         )
     });
@@ -202,9 +203,6 @@ fn next(run: &Run, study: &Path) -> Option<String> {
         }
     ))
 }
-
-/// Edges per half width below which peak pressures of new flanks are more than some per cent off.
-const FEW_EDGES: f64 = 3.0;
 
 /// What to say of linear elements; figures of `gearwear init` with `order = 1` and 2, one `gearwear run` each.
 const LINEAR: &str = "linear elements (numerics.order = 1): peak pressures of new flanks came out 13 % high on the pair of a published study, 6 % once worn; \

@@ -17,6 +17,8 @@ pub struct Comparison {
     pub face_width: f64,
     /// The paper's own speed of the gear, rpm, for the paper's own pair; none where the tooth numbers decide.
     pub printed_gear_speed: Option<f64>,
+    /// Flank edges on Hertz's half width that were asked for.
+    pub edges_per_half_width: f64,
     /// One entry per misalignment at which the pair can run.
     pub mounted: Vec<Mounted>,
     /// Misalignments at which it cannot.

@@ -113,6 +113,7 @@ pub fn compare(task: Task, watch: Watch) -> Result<Comparison, ForwardError> {
         teeth: set.gears.each_ref().map(|gear| gear.spec.teeth),
         face_width: set.face_width,
         printed_gear_speed: printed,
+        edges_per_half_width: task.numerics.elements_per_half_width,
         mounted,
         left_out,
     })

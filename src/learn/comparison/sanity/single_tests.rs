@@ -250,7 +250,7 @@ pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[FittedRow<'_>])
 }
 
 /// Tests of which all rows stand so early in what the study states that their cycles are no revolutions but what they look like.
-pub(super) fn cycles_in_another_unit(study: &Study, data: &Dataset) -> Option<String> {
+pub fn cycles_in_another_unit(study: &Study, data: &Dataset) -> Option<String> {
     let last = |test: usize| {
         let own = data.observations.iter().filter(|o| o.test == test);
         own.map(|o| o.cycles).fold(0.0, f64::max)
