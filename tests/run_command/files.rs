@@ -348,5 +348,13 @@ fn linear_elements_come_with_a_note() {
             "{}",
             answer.out
         );
+        // two edges were asked for: the pressures are rough for that too
+        assert!(
+            answer
+                .out
+                .contains("note: 2.0 flank edges on Hertz's half width are few"),
+            "{}",
+            answer.out
+        );
     }
 }

@@ -39,7 +39,7 @@ pub fn conclusions(comparison: &Comparison) -> Vec<String> {
     }
     if comparison.edges_per_half_width < FEW_EDGES {
         sentences.push(format!(
-            "With {} flank edges on Hertz's half width the finite-element pressures are rough, by up to a fifth: what the pressures differ by is partly the mesh's ([numerics] \
+            "With {} flank edges on Hertz's half width the finite-element pressures are rough: what the pressures differ by is partly the mesh's ([numerics] \
              elements_per_half_width = 5 is usual).",
             significant(comparison.edges_per_half_width, 2)
         ));

@@ -130,7 +130,7 @@ fn notes(run: &Run) -> impl Iterator<Item = String> {
     let few_edges = mesh.filter(|mesh| mesh.edges_per_half_width < FEW_EDGES);
     let few_edges = few_edges.map(|mesh| {
         format!(
-            "{} flank edges on Hertz's half width are few: depths are right, peak pressures rough, by up to a fifth, on new flanks and worn ones; \
+            "{} flank edges on Hertz's half width are few: depths are right, peak pressures rough, on new flanks and worn ones; \
              [numerics] elements_per_half_width = 5 is usual",
             significant(mesh.edges_per_half_width, 2)
         )
