@@ -73,7 +73,7 @@ impl From<&Diagnosis> for Answer {
 
 impl Answer {
     /// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by
-    /// parameter; none where it is not listed.
+    /// parameter, and the wear coefficient with them; none where it is not listed.
     pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
         values_of(&self.ranking, effect, form)
     }

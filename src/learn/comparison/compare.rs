@@ -306,41 +306,33 @@ impl Measured<'_> {
         })
     }
 
-    /// The fit with wear steps as fine as the measurements call for, ever finer until they would not move it any more; then the held-out tests.
+    /// The fit followed on with the finest wear steps; then the held-out tests.
     fn refined(
         &self,
         bench: &Bench<'_>,
         version: &ModelVersion,
         problem: &Problem<'_>,
-        mut fit: Fit,
+        fit: Fit,
         effort: &Effort,
         watch: &(dyn Fn(usize) + Sync),
     ) -> Result<Fit, FitError> {
-        let mut last: Option<Bench<'_>> = None;
-        let mut finer = bench.finer();
-        while let Ok(Some(bench)) = finer {
-            // finer steps that fail say nothing against the coarser ones
-            let next = self.with_problem(&bench, version, problem.noise, watch, |problem| {
-                problem.go_on(&fit, effort)
-            });
-            let Ok(next) = next else {
-                break;
-            };
-            let at_rest = next.iterations == 0;
-            fit = Fit {
-                iterations: fit.iterations + next.iterations,
-                evaluations: fit.evaluations + next.evaluations,
-                ..next
-            };
-            finer = if at_rest { Ok(None) } else { bench.finer() };
-            last = Some(bench);
-        }
-        match &last {
-            None => problem.judged(fit, effort),
-            Some(bench) => self.with_problem(bench, version, problem.noise, watch, |problem| {
-                problem.judged(fit, effort)
-            }),
-        }
+        let Ok(Some(finest)) = bench.finest() else {
+            return problem.judged(fit, effort);
+        };
+        self.with_problem(&finest, version, problem.noise, watch, |finest| {
+            match finest.go_on(&fit, effort) {
+                Ok(next) => {
+                    let next = Fit {
+                        iterations: fit.iterations + next.iterations,
+                        evaluations: fit.evaluations + next.evaluations,
+                        ..next
+                    };
+                    finest.judged(next, effort)
+                }
+                // finer steps that fail say nothing against the coarser ones
+                Err(_) => problem.judged(fit, effort),
+            }
+        })
     }
 }
 

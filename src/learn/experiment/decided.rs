@@ -15,6 +15,7 @@ use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::inference::search::Effort;
 use crate::learn::model_search::context::Context;
 use crate::learn::prediction::fidelity::Fidelity;
+use crate::study::WEAR_COEFFICIENT;
 
 /// Log probability behind the first from which a candidate of a diagnosis leads no longer: a hundredth of its probability.
 const DECIDED_LEADING: f64 = 4.6;
@@ -158,8 +159,8 @@ impl DecidedCandidate {
     }
 }
 
-/// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by parameter; none
-/// where the `ranking` does not list it.
+/// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by parameter,
+/// and the wear coefficient with them; none where the `ranking` does not list it.
 pub(in crate::learn) fn values_of<'r>(
     ranking: &'r [DecidedCandidate],
     effect: &str,
@@ -171,12 +172,16 @@ pub(in crate::learn) fn values_of<'r>(
     };
     let known = in_form(effect).or_else(|| in_form(&format!("{effect}{BESIDE_UNKNOWN}")));
     let values = known.into_iter().flat_map(|c| &c.parameters);
-    values.map(|p| (p.name.as_str(), p.value)).collect()
+    let k = known.and_then(|c| c.wear_coefficient);
+    values
+        .map(|p| (p.name.as_str(), p.value))
+        .chain(k.map(|k| (WEAR_COEFFICIENT, k)))
+        .collect()
 }
 
 impl Decided {
     /// The fitted values of a single effect in one of its forms (empty for the card's own), by itself or else beside something unknown, by
-    /// parameter; none where it was not listed.
+    /// parameter, and the wear coefficient with them; none where it was not listed.
     pub fn values_of(&self, effect: &str, form: &str) -> Vec<(&str, f64)> {
         values_of(&self.ranking, effect, form)
     }
@@ -305,6 +310,15 @@ mod tests {
         assert_eq!(decided.values_of("tip_relief", ""), [("amount", 1.3)]);
         assert_eq!(decided.values_of("profile_slope", ""), [("amount", -2.4)]);
         assert!(decided.values_of("running_in", "").is_empty());
+        // and at its wear coefficient
+        let mut with_k = decided.clone();
+        for candidate in &mut with_k.ranking {
+            candidate.wear_coefficient = Some(3e-10);
+        }
+        assert_eq!(
+            with_k.values_of("tip_relief", ""),
+            [("amount", 1.3), (WEAR_COEFFICIENT, 3e-10)]
+        );
     }
 
     #[test]

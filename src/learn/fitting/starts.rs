@@ -15,6 +15,9 @@ use crate::study::{FreeParameter, WEAR_COEFFICIENT};
 /// place to judge other values from.
 const FAINT: f64 = 0.05;
 
+/// How far the analytic model may be off from finite elements in the wear coefficient of the same measurements, ln.
+const ANALYTIC_ERROR: f64 = 0.25;
+
 /// How much is spent on telling where a fit starts, and on telling what it promises.
 const STARTS: Budget = Budget {
     places: 6,
@@ -54,7 +57,7 @@ impl Start {
 
 impl Measured<'_> {
     /// The version with a wear coefficient, if that is free, near the measured one: a first guess may be far off, and the analytic model
-    /// sets it right at a hundredth of the price of finite elements.
+    /// sets it right at a hundredth of the price of finite elements. One that is as near as the analytic model can tell stays: it may have been fitted.
     pub(in crate::learn) fn sized(&self, version: &ModelVersion) -> ModelVersion {
         let mut sized = version.clone();
         let mut free = sized.free.iter_mut();
@@ -66,7 +69,8 @@ impl Measured<'_> {
         let measured = self.by(Cheaper::Analytic, version, noise, |analytic| {
             Some(analytic.scaled(&own)?.coefficient)
         });
-        if let Some(measured) = measured {
+        let off = |measured: &f64| (measured / k.value).ln().abs() > ANALYTIC_ERROR;
+        if let Some(measured) = measured.filter(off) {
             k.value = measured.clamp(k.lower, k.upper);
         }
         sized

@@ -31,7 +31,8 @@ impl ModelVersion {
         }
     }
 
-    /// The same with the free parameters of an effect beginning at other values, by the parameters' names; others stay as they are.
+    /// The same with the free parameters of an effect beginning at other values, by the parameters' names, and with them the wear coefficient;
+    /// others stay as they are.
     pub fn beginning_at<'v>(
         mut self,
         effect: &str,
@@ -40,6 +41,7 @@ impl ModelVersion {
         for (name, value) in values {
             let own = |free: &&mut FreeParameter| {
                 free.name.strip_prefix(effect) == Some(&format!(".{name}")[..])
+                    || (name == WEAR_COEFFICIENT && free.name == name)
             };
             if let Some(free) = self.free.iter_mut().find(own) {
                 free.value = value.clamp(free.lower, free.upper);

@@ -15,5 +15,6 @@ pub(in crate::learn) mod nested_forms;
 mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
+mod promising_starts;
 mod screening;
 mod unseen;

@@ -38,15 +38,12 @@ pub struct Workshop {
     members: Vec<Vec<(f64, Members)>>,
 }
 
-/// Step tolerance with which fits begin: that of a run by default. Whether it is too loose shows where the fit ends ([`Bench::finer`]). Twice as
+/// Step tolerance with which fits begin: that of a run by default. Whether it is too loose shows where the fit ends ([`Bench::finest`]). Twice as
 /// loose saves a fifth of the steps but costs more than it saves where contacts are deep and wide: every fourth step is refused there, and
 /// predictions become so rough in their parameters that derivatives must be taken by differences, each of which costs a history.
 const STEP_TOLERANCE: f64 = 2e-3;
 
-/// How much finer each refinement is: steps are of second order.
-const REFINEMENT: f64 = 0.25;
-
-/// No refinement goes below this tolerance; measurements are made up with it.
+/// The finest step tolerance: where fits end, and with which measurements are made up.
 const FINEST_TOLERANCE: f64 = 2.5e-4;
 
 /// Members are condensed anew only after this depth in fits, modules; with module 2 what that leaves out is 4e-5 of the depth at 15 µm.
@@ -235,16 +232,15 @@ impl<'a> Bench<'a> {
         Some(self.set().mount_moved(moved).ok()?.backlash)
     }
 
-    /// The same tests with finer wear steps; none if the steps are the finest.
+    /// The same tests with the finest wear steps; none if theirs are.
     ///
     /// # Errors
     /// As [`Workshop::bench`].
-    pub fn finer(&self) -> Result<Option<Self>, ForwardError> {
+    pub fn finest(&self) -> Result<Option<Self>, ForwardError> {
         if self.step_tolerance <= FINEST_TOLERANCE {
             return Ok(None);
         }
-        let tolerance = (REFINEMENT * self.step_tolerance).max(FINEST_TOLERANCE);
-        self.stepping(tolerance).map(Some)
+        self.stepping(FINEST_TOLERANCE).map(Some)
     }
 
     /// The same tests with rough wear steps: good enough to rule out what cannot matter.
