@@ -4,7 +4,6 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::candidates::strength_prior;
-use crate::learn::candidates::worst_test::WorstTest;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::inference::quadratic::State;
 use crate::learn::inference::search::SearchEnd;
@@ -50,8 +49,6 @@ pub(in crate::learn) struct BaseFit {
     pub(in crate::learn) residual: DVector<f64>,
     /// Exact minus analytic model at the fit, per test of the data set.
     pub(in crate::learn) hertz_offset: Vec<Vec<f64>>,
-    /// The test that it misses most.
-    pub(in crate::learn) worst_test: WorstTest,
     /// Log evidence of the same fit with the analytic model's derivatives, which the candidates of the screening are fitted by.
     screened_evidence: f64,
 }
@@ -117,7 +114,6 @@ impl BaseFit {
             hertz_offset,
             screened_evidence,
             residual: DVector::zeros(0),
-            worst_test: WorstTest::new(likelihood, &fitted.found.model, &whitened),
             adjustable: adjustable(likelihood, &whitened, fitted.found.scatter),
             fitted,
         };

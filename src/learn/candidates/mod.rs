@@ -4,4 +4,3 @@ pub(super) mod candidate_model;
 pub(super) mod fitted_candidate;
 pub(super) mod likelihood;
 pub(super) mod strength_prior;
-pub(super) mod worst_test;

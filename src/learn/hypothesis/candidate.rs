@@ -48,19 +48,6 @@ pub struct NotJudged {
 pub(in crate::learn) const LEAST_AMPLITUDE: f64 = 0.02;
 
 impl Candidate {
-    /// The same with other starts.
-    pub(in crate::learn) fn starting(
-        &self,
-        starts: Vec<Vec<f64>>,
-        quarters: Vec<[Vec<f64>; 2]>,
-    ) -> Self {
-        Self {
-            starts,
-            quarters,
-            ..self.clone()
-        }
-    }
-
     /// The study's own model.
     pub(in crate::learn) fn base(study: &Study) -> Self {
         let version = ModelVersion::of(study);

@@ -15,6 +15,5 @@ pub(in crate::learn) mod nested_forms;
 mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
-mod promising_starts;
 mod screening;
 mod unseen;

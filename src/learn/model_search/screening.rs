@@ -41,7 +41,7 @@ const NEAR_AMPLITUDES: [f64; 2] = [2.0 / 3.0, 1.5];
 /// Difference of two gains, relative, below which the starts are mirror images.
 const MIRRORED: f64 = 1e-6;
 /// Change of ln k from which wear is worn anew with it.
-pub(super) const SCALED: f64 = 0.1;
+const SCALED: f64 = 0.1;
 
 impl Context<'_> {
     /// Fits all candidates by the analytic model: the gain of each start in the linearised model, a first look at each candidate,
@@ -94,16 +94,15 @@ impl Context<'_> {
             .collect()
     }
 
-    /// A candidate's promising starts with their gain in the linearised model, the largest first.
+    /// A candidate's starts with their gain in the linearised model, the largest first.
     pub(in crate::learn) fn starts(
         &self,
         base: &BaseFit,
         candidate: &Candidate,
         predictor: &Anchored<'_>,
     ) -> Vec<(f64, State)> {
-        let promising = self.with_promising_starts(base, candidate, predictor);
         let seen = |values: &[f64]| self.seen(base, candidate, predictor, values);
-        let mut starts: Vec<(f64, State)> = scaled_starts(&promising, seen, &base.residual)
+        let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
             .into_iter()
             .map(|(gain, values)| (gain, base.added(candidate, &values)))
             .collect();
