@@ -16,6 +16,8 @@ use serde_json::Value;
 use tempfile::TempDir;
 
 mod common;
+#[path = "compare_command/validity.rs"]
+mod validity;
 
 use common::{gears, gearwear, succeed};
 

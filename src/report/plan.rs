@@ -5,12 +5,14 @@ use std::path::Path;
 
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
-use crate::numeric::written::{count, fixed, plain, probability, significant};
+use crate::numeric::written::{count, plain, probability, significant};
 
 /// Rows of the table shown on the terminal.
 const SHOWN: usize = 12;
 /// The same where more tests than these separate more than enough.
 const MORE_THAN_ENOUGH: usize = 4;
+/// Largest χ² of a first campaign that is written as a figure: 6 shows an effect, and of what is made up nothing is known to more than this.
+const MOST_TOLD: f64 = 1000.0;
 
 /// The table of tests, and for a campaign every effect.
 pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
@@ -22,7 +24,8 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
     match plan {
         Plan::NextTests(next) => {
             let _ = writeln!(text, "to separate: {}\n", separated(next, study));
-            heading(&mut text, "measure", ["χ² mean", "χ² least"]);
+            let warmth = with_temperature(next.tests.iter().map(|row| &row.test));
+            heading(&mut text, warmth, "measure", ["χ² mean", "χ² least"]);
             let is_enough = |row: &&RankedTest| least(row) >= ENOUGH;
             let enough = next.tests.iter().filter(is_enough).count();
             let shown = if enough > MORE_THAN_ENOUGH {
@@ -32,7 +35,7 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
             };
             for row in next.tests.iter().take(shown) {
                 let figures = [row.expected_chi2, least(row)].map(|chi2| capped(chi2, 4));
-                line(&mut text, &row.test, &row.quantity, figures);
+                line(&mut text, warmth, &row.test, &row.quantity, figures);
             }
             if next.tests.len() > shown {
                 let _ = writeln!(
@@ -53,10 +56,14 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
             );
         }
         Plan::Campaign(campaign) => {
-            heading(&mut text, "newly told apart", ["shown", "told apart"]);
+            let warmth = with_temperature(campaign.tests.iter().map(|test| &test.test));
+            heading(&mut text, warmth, "newly told apart", ["shown", "told apart"]);
             for test in &campaign.tests {
                 let figures = [test.detectable, test.told_apart].map(|n| n.to_string());
-                line(&mut text, &test.test, &newly(&test.newly), figures);
+                line(&mut text, warmth, &test.test, &newly(&test.newly), figures);
+            }
+            for (number, test) in campaign.tests.iter().enumerate() {
+                let _ = writeln!(text, "  test {}: {}", number + 1, test.adds);
             }
             let _ = writeln!(
                 text,
@@ -68,8 +75,8 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
                     text,
                     "  {:<26} {:>12} {:>12}  {}",
                     effect.effect,
-                    significant(effect.detection_chi2, 4),
-                    significant(effect.nearest_chi2, 4),
+                    bounded(effect.detection_chi2, 4),
+                    bounded(effect.nearest_chi2, 4),
                     effect.nearest
                 );
             }
@@ -130,9 +137,11 @@ pub fn page(title: &str, plan: &Plan, study: &str) -> Page {
 /// `plan.csv`: every feasible test.
 ///
 /// Columns `rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why` after measurements,
-/// `chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart` for a campaign: N·m, rpm, mm, revolutions.
+/// `chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart` for a campaign: N·m, rpm, mm, revolutions. Both end with
+/// `bulk_temperature`, °C; empty where the study states none.
 pub fn csv(plan: &Plan) -> String {
     let mut text = String::new();
+    let warmth = |t: &NextTest| t.bulk_temperature.map_or(String::new(), |c| c.to_string());
     let conditions = |t: &NextTest| {
         format!(
             "{},{},{},{},{}",
@@ -141,34 +150,36 @@ pub fn csv(plan: &Plan) -> String {
     };
     match plan {
         Plan::NextTests(next) => {
-            text.push_str("rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why\n");
+            text.push_str("rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why,bulk_temperature\n");
             for (i, row) in next.tests.iter().enumerate() {
                 let _ = writeln!(
                     text,
-                    "{},{},{},{},{},{},\"{}\"",
+                    "{},{},{},{},{},{},\"{}\",{}",
                     i + 1,
                     conditions(&row.test),
                     row.quantity,
                     row.changes,
                     row.expected_chi2,
                     least(row),
-                    row.why.replace('"', "\"\"")
+                    row.why.replace('"', "\"\""),
+                    warmth(&row.test)
                 );
             }
         }
         Plan::Campaign(campaign) => {
             text.push_str(
-                "chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart\n",
+                "chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart,bulk_temperature\n",
             );
             for test in &campaign.alone {
                 let _ = writeln!(
                     text,
-                    "{},{},{},{},{}",
+                    "{},{},{},{},{},{}",
                     test.chosen.map_or(String::new(), |c| c.to_string()),
                     conditions(&test.test),
                     test.changes,
                     test.detectable,
-                    test.told_apart
+                    test.told_apart,
+                    warmth(&test.test)
                 );
             }
         }
@@ -192,6 +203,22 @@ fn capped(chi2: f64, digits: usize) -> String {
     }
 }
 
+/// χ² of an effect of the catalogue; of huge ones nobody asks how huge.
+fn bounded(chi2: f64, digits: usize) -> String {
+    if chi2 > MOST_TOLD {
+        format!("> {MOST_TOLD}")
+    } else {
+        significant(chi2, digits)
+    }
+}
+
+/// Whether tests are at several temperatures, so that a column of them says something.
+fn with_temperature<'t>(tests: impl Iterator<Item = &'t NextTest>) -> bool {
+    let mut known = tests.map(|test| test.bulk_temperature);
+    let first = known.next();
+    known.any(|celsius| Some(celsius) != first)
+}
+
 fn least(row: &RankedTest) -> f64 {
     let all = row.separates.iter().map(|s| s.chi2);
     all.reduce(f64::min).unwrap_or(0.0)
@@ -210,18 +237,22 @@ fn short(value: f64) -> String {
     plain(value).replace('\u{202f}', "")
 }
 
-fn heading(text: &mut String, what: &str, figures: [&str; 2]) {
+/// The header of a table of tests; with a column of temperatures where `warmth` says so.
+fn heading(text: &mut String, warmth: bool, what: &str, figures: [&str; 2]) {
+    let celsius = if warmth { format!("{:>7}", "°C") } else { String::new() };
     let _ = writeln!(
         text,
-        "  {:>8} {:>8} {:>6} {:>9} {:>8}  {:<38} {:>12} {:>12}",
+        "  {:>8} {:>8} {:>6}{celsius} {:>9} {:>8}  {:<38} {:>12} {:>12}",
         "N·m", "rpm", "mm", "cycles", "reversed", what, figures[0], figures[1]
     );
 }
 
-fn line(text: &mut String, test: &NextTest, what: &str, figures: [String; 2]) {
+fn line(text: &mut String, warmth: bool, test: &NextTest, what: &str, figures: [String; 2]) {
+    let celsius = test.bulk_temperature.map_or(String::new(), short);
+    let celsius = if warmth { format!("{celsius:>7}") } else { String::new() };
     let _ = writeln!(
         text,
-        "  {:>8} {:>8} {:>6} {:>9.2e} {:>8}  {:<38} {:>12} {:>12}",
+        "  {:>8} {:>8} {:>6}{celsius} {:>9.2e} {:>8}  {:<38} {:>12} {:>12}",
         short(test.torque),
         short(test.speed),
         short(test.misalignment),
@@ -238,6 +269,7 @@ fn conditions(test: &NextTest) -> Vec<Cell> {
         Cell::number(plain(test.torque)),
         Cell::number(plain(test.speed)),
         Cell::number(plain(test.misalignment)),
+        Cell::number(test.bulk_temperature.map_or("–".to_owned(), plain)),
         Cell::number(count(test.cycles)),
         Cell::text(if test.reversed { "yes" } else { "" }),
     ]
@@ -248,6 +280,7 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
         "torque, N·m",
         "speed, rpm",
         "misalignment, mm",
+        "temperature, °C",
         "cycles",
         "reversed",
         "measure",
@@ -279,6 +312,7 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
         "torque, N·m",
         "speed, rpm",
         "misalignment, mm",
+        "temperature, °C",
         "cycles",
         "reversed",
         "shown",
@@ -293,7 +327,7 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
             Cell::number(test.detectable.to_string()),
             Cell::number(test.told_apart.to_string()),
             Cell::text(test.newly.join(", ")),
-            Cell::text(test.why.clone()),
+            Cell::text(format!("{}; {}", test.why, test.adds)),
         ]);
         chosen = chosen.row(cells);
     }
@@ -302,8 +336,8 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
     for effect in &campaign.effects {
         effects = effects.row([
             Cell::text(effect.effect.clone()),
-            Cell::number(fixed(effect.detection_chi2, 1)),
-            Cell::number(fixed(effect.nearest_chi2, 1)),
+            Cell::number(bounded(effect.detection_chi2, 3)),
+            Cell::number(bounded(effect.nearest_chi2, 3)),
             Cell::text(effect.nearest.clone()),
         ]);
     }
@@ -328,6 +362,7 @@ mod tests {
                 misalignment: 0.0,
                 cycles: 1e6,
                 reversed: false,
+                bulk_temperature: None,
             },
             quantity: "wear_depth".to_owned(),
             changes: 1,
@@ -401,7 +436,7 @@ mod tests {
         let table = csv(&plan);
         assert_eq!(table.lines().count(), 2);
         assert!(table.ends_with(
-            "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\"\n"
+            "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\",\n"
         ));
         assert!(summary("", &plan, "s.toml", Path::new("out")).contains("wear_depth"));
         assert!(

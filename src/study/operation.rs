@@ -51,6 +51,23 @@ pub struct Operation {
     pub reversed: bool,
 }
 
+impl Operation {
+    /// The bulk temperature as somebody stated it, °C; None where friction losses make it, which leave the flanks warmer.
+    pub fn stated_temperature_c(&self) -> Option<f64> {
+        self.bulk_temperature_c
+            .filter(|_| self.flank_temperature_c == self.bulk_temperature_c)
+    }
+
+    /// The same at another stated bulk temperature.
+    pub fn at_temperature(&self, celsius: f64) -> Self {
+        Self {
+            bulk_temperature_c: Some(celsius),
+            flank_temperature_c: Some(celsius),
+            ..*self
+        }
+    }
+}
+
 /// A measured test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Test {

@@ -115,6 +115,11 @@ impl Study {
         effect.needs().iter().all(|key| self.states(key)) && !(of_teeth && self.face.slices > 1)
     }
 
+    /// Whether the study's tables by temperature, if it has any, hold a bulk temperature.
+    pub fn holds_temperature(&self, celsius: f64) -> bool {
+        self.temperatures.hold(celsius)
+    }
+
     /// Whether the bulk temperatures of the tests differ.
     pub fn temperatures_differ(&self) -> bool {
         let of = |test: &super::Test| test.conditions.bulk_temperature_c;

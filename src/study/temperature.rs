@@ -66,6 +66,15 @@ impl Temperatures {
         }
     }
 
+    /// Whether the tables say something of a bulk temperature.
+    pub(super) fn hold(&self, celsius: f64) -> bool {
+        let mut curves = self.moduli.iter().flatten().chain(&self.wear);
+        curves.all(|curve| {
+            let last = curve.temperatures.len() - 1;
+            (curve.temperatures[0]..=curve.temperatures[last]).contains(&celsius)
+        })
+    }
+
     /// Refuses conditions without a temperature that the tables hold.
     pub(super) fn check(&self, table: &Table<'_>, conditions: &Operation) -> Result<()> {
         let moduli = self.moduli.iter().flatten();

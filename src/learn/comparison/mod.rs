@@ -20,7 +20,9 @@ mod record;
 mod residual_statistics;
 mod sanity;
 pub(in crate::learn) mod synthesize;
+mod together;
 mod uncertainty;
+mod unlike_tests;
 mod versions;
 
 pub use add::{AddedForm, Addition, FormFit, add};

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::together::conditions_together;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::{Operation, Role, Study};
 
@@ -79,7 +80,7 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
     );
     judge(
         temperatures >= 2,
-        "laws of the temperature (thermal expansion, flash temperature, plastics), as far as it does not go with torque or speed",
+        "laws of the temperature (thermal expansion, flash temperature, plastics)",
         "laws of the temperature (thermal expansion, flash temperature, plastics) apart from k: a second bulk_temperature",
     );
     judge(
@@ -104,6 +105,9 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
             None => "whether what is fitted holds elsewhere: give a test at other conditions role = \"holdout\"".to_owned(),
         },
     );
+    let made = measured.iter().map(|&t| &study.tests[t].conditions);
+    let together = conditions_together(&made.collect::<Vec<_>>());
+    said.cannot.extend(together);
     said
 }
 

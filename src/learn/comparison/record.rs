@@ -8,6 +8,7 @@ use super::ratio::{Ratio, ratios};
 use super::residual_statistics::{Cell, FittedRow, Group, Share, cells, fitted, role_name, wear};
 use super::sanity::sanity;
 use super::uncertainty::{Validation, validate};
+use super::unlike_tests::unlike_tests;
 use crate::learn::comparison::coefficient_trend::trend_of_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::quantity_misfit::misfit_of_one_quantity;
@@ -182,6 +183,7 @@ impl Comparison {
             correlation: correlation(fit),
             sanity: sanity(study, data, fit),
             warnings: (misfit_of_one_quantity(study, data, fit).into_iter())
+                .chain(unlike_tests(data, fit))
                 .chain(trend_of_coefficients(study, data, fit))
                 .chain(fit_warnings(data, fit))
                 .collect(),

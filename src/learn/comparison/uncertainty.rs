@@ -6,12 +6,20 @@
 //! ASME V&V 20-2009, Eqs. (1-5-1) and (1-5-10). S and D are means over the observations of one test, member and quantity, the
 //! most probable datums subtracted from D. For fit tests S has been fitted to D, so that E shows only what no parameter can
 //! mend; held-out tests are validation in the standard's sense.
+//!
+//! Where all rows belong to traces, their datums, and of a held-out test its own k, make E small whatever the model is. The root mean square about
+//! the datums is judged beside E therefore, against what noise and numerics leave of it:
+//!
+//! ```text
+//! rms² > (mean of σ² + u_num²)(1 + 3 √(2/n))          the model misses the curve
+//! ```
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
 use super::residual_statistics::role_name;
+use crate::learn::fitting::fit::is_within_noise;
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Role;
@@ -46,6 +54,21 @@ pub struct Validation {
     pub model_error: [f64; 2],
     /// Whether that interval leaves out 0: the model's error rises above what the comparison can resolve.
     pub resolved: bool,
+    /// Number of observations.
+    #[serde(default)]
+    pub points: usize,
+    /// Root mean square of model minus measured, the most probable datums subtracted.
+    #[serde(default)]
+    pub rms: f64,
+    /// What noise and numerical error alone leave of that.
+    #[serde(default)]
+    pub noise_rms: f64,
+    /// Whether `rms` is more than chance makes of `noise_rms`: the model misses the curve, whatever its mean.
+    #[serde(default)]
+    pub curve_resolved: bool,
+    /// Whether every row belongs to a trace, whose datum is fitted to it and takes the mean error with it.
+    #[serde(default)]
+    pub mean_is_fitted: bool,
 }
 
 /// Of every test, member and quantity.
@@ -96,6 +119,15 @@ pub(in crate::learn) fn validate(data: &Dataset, roles: &[Role], fit: &Fit) -> V
         };
         let u_input = own.map_or(0.0, |own| own.uncertainty.of_sum(weight));
         let u_val = (u_num.powi(2) + u_input.powi(2) + u_data.powi(2)).sqrt();
+        let square = group
+            .iter()
+            .map(|&i| fit.rows[i].residual.powi(2))
+            .sum::<f64>();
+        let left = noise / n + u_num.powi(2);
+        let has_datum = |i: &usize| {
+            let trace = rows[*i].trace;
+            fit.datums.iter().any(|datum| trace == Some(datum.trace))
+        };
         Validation {
             test: data.tests[test].clone(),
             role: role_name(roles[test]).to_owned(),
@@ -109,6 +141,11 @@ pub(in crate::learn) fn validate(data: &Dataset, roles: &[Role], fit: &Fit) -> V
             u_val,
             model_error: [error - 2.0 * u_val, error + 2.0 * u_val],
             resolved: error.abs() > 2.0 * u_val,
+            points: group.len(),
+            rms: (square / n).sqrt(),
+            noise_rms: left.sqrt(),
+            curve_resolved: !is_within_noise(square / left, group.len()),
+            mean_is_fitted: group.iter().all(has_datum),
         }
     };
     groups.into_iter().map(of).collect()

@@ -6,14 +6,16 @@
 //! ```
 //! Linear in what is refitted. An effect in another form than the catalogue's is told apart less well than this says.
 
+mod additions;
 mod responses;
 mod score;
 
 use rayon::prelude::*;
 
+use self::additions::{adds, not_shown};
 use self::responses::{MEASURED, TestResponses};
 use self::score::{DiscriminationTable, Score};
-use super::candidate_tests::{CLEAR, changes, grid, purpose, ranked, shown};
+use super::candidate_tests::{CLEAR, changes, feasible, purpose, ranked, shown};
 use super::plan::{AloneTest, Campaign, ChosenTest, EffectVisibility, Plan};
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::model_search::context::{DiagnoseError, Watch};
@@ -42,7 +44,8 @@ pub fn plan_first(
     watch(0.9, "choosing".to_owned());
     let choice = feasible.choose(&study.operation, count);
     Ok(Plan::Campaign(Campaign {
-        sentence: sentence(study, &choice.tests, feasible.kept.len()),
+        sentence: sentence(study, &choice.tests, &feasible.names(&feasible.kept))
+            + &not_shown(&feasible.effects(&choice.joint.score())),
         told_apart_with: [1, 2].map(|measured| feasible.told_apart_with(&choice, measured)),
         noise,
         effects: feasible.effects(&choice.joint.score()),
@@ -86,7 +89,7 @@ impl FeasibleTests {
     ) -> Result<Self, DiagnoseError> {
         let numerics = Fidelity::Screening.resolution(study.resolution());
         let shop = Workshop::new(study.gear_set(), numerics, ContactKind::Hertz, &[])?;
-        let tests = grid(&study.operation);
+        let tests = feasible(study, &study.operation);
         watch(0.0, format!("running {} feasible tests", tests.len()));
         let responses: Vec<Option<TestResponses>> = tests
             .par_iter()
@@ -132,6 +135,7 @@ impl FeasibleTests {
                 break;
             };
             let score = joint.score();
+            let [earlier, now] = [&choice.joint.score(), &score].map(|score| self.effects(score));
             let told_apart = self.told_apart(&score);
             let newly: Vec<usize> = (told_apart.iter())
                 .filter(|a| !before.contains(*a))
@@ -143,6 +147,7 @@ impl FeasibleTests {
                 told_apart: told_apart.len(),
                 why: purpose(&test, plain),
                 newly: self.names(&newly),
+                adds: adds(&earlier, &now),
                 test,
             });
             choice.places.push(place);
@@ -219,7 +224,7 @@ impl FeasibleTests {
     }
 }
 
-fn sentence(study: &Study, made: &[ChosenTest], effects: usize) -> String {
+fn sentence(study: &Study, made: &[ChosenTest], effects: &[String]) -> String {
     let Some(last) = made.last() else {
         return "No feasible test shows any effect of the catalogue.".to_owned();
     };
@@ -228,10 +233,11 @@ fn sentence(study: &Study, made: &[ChosenTest], effects: usize) -> String {
         .map(|m| changes(&m.test, &study.operation))
         .collect();
     format!(
-        "{} tests ({}) show {} of {effects} effects at their median strength and tell {} from every look-alike.",
+        "{} tests ({}) show {} of {} effects at their median strength and tell {} from every look-alike.",
         made.len(),
         tests.join(" | "),
         last.detectable,
+        effects.len(),
         last.told_apart
     )
 }

@@ -1,9 +1,9 @@
-//! Tests that could be made: the study's operation with torque, speed, misalignment, length or drive direction changed.
+//! Tests that could be made: the study's operation with torque, speed, misalignment, bulk temperature, length or drive direction changed.
 
 use serde::{Deserialize, Serialize};
 
 use crate::numeric::written::count;
-use crate::study::Operation;
+use crate::study::{Operation, Study};
 
 /// Conditions of a test, in the study's units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -18,12 +18,16 @@ pub struct NextTest {
     pub cycles: f64,
     /// Whether the drive direction is the other one.
     pub reversed: bool,
+    /// °C; None where the study states none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bulk_temperature: Option<f64>,
 }
 
-/// Factors on torque and speed, misalignments added (mm), factor on the length.
+/// Factors on torque and speed, misalignments (mm) and temperatures (K) added, factor on the length.
 const TORQUES: [f64; 3] = [1.0, 0.5, 2.0];
 const SPEEDS: [f64; 3] = [1.0, 0.3, 3.0];
 const MISALIGNMENTS: [f64; 3] = [0.0, 0.3, 0.6];
+const TEMPERATURES: [f64; 2] = [-20.0, 20.0];
 const LONGER: f64 = 3.0;
 /// A simpler test is preferred to one that gives up to this much more.
 pub(in crate::learn) const NEARLY: f64 = 0.8;
@@ -34,8 +38,8 @@ pub(in crate::learn) const APART: f64 = 20.0;
 /// Expected χ² from which one of two is clearly favoured.
 pub(in crate::learn) const CLEAR: f64 = 6.0;
 
-/// Feasible tests with their number of changes against `plain`, the plainest first.
-pub(in crate::learn) fn grid(plain: &Operation) -> Vec<(usize, Operation)> {
+/// Feasible tests with their number of changes against `plain`, the plainest first; at other temperatures where it states one.
+fn grid(plain: &Operation) -> Vec<(usize, Operation)> {
     let mut all = Vec::new();
     for (t, torque) in TORQUES.into_iter().enumerate() {
         for (s, speed) in SPEEDS.into_iter().enumerate() {
@@ -63,8 +67,20 @@ pub(in crate::learn) fn grid(plain: &Operation) -> Vec<(usize, Operation)> {
         ..*plain
     };
     all.extend([(1, longer), (1, reversed)]);
+    let stated = plain.stated_temperature_c().into_iter();
+    let others = stated.flat_map(|celsius| TEMPERATURES.map(|more| celsius + more));
+    all.extend(others.map(|celsius| (1, plain.at_temperature(celsius))));
     all.sort_by_key(|(changes, _)| *changes);
     all
+}
+
+/// The tests of the grid at whose temperature the study's tables say something.
+pub(in crate::learn) fn feasible(study: &Study, plain: &Operation) -> Vec<(usize, Operation)> {
+    let holds = |(_, operation): &(usize, Operation)| {
+        let celsius = operation.stated_temperature_c();
+        celsius.is_none_or(|celsius| study.holds_temperature(celsius))
+    };
+    grid(plain).into_iter().filter(holds).collect()
 }
 
 /// The order of scores, the largest first; among those nearly as large as the largest left, the plainest first.
@@ -92,6 +108,7 @@ pub(in crate::learn) fn shown(operation: &Operation) -> NextTest {
         misalignment: operation.misalignment_mm,
         cycles: operation.cycles,
         reversed: operation.reversed,
+        bulk_temperature: operation.stated_temperature_c(),
     }
 }
 
@@ -106,6 +123,9 @@ pub(in crate::learn) fn changes(test: &NextTest, plain: &Operation) -> String {
     }
     if differs(test.misalignment, plain.misalignment_mm) {
         changed.push(format!("misalignment {} mm", test.misalignment));
+    }
+    if let Some(celsius) = other_temperature(test, plain) {
+        changed.push(format!("{celsius} °C"));
     }
     if test.reversed != plain.reversed {
         changed.push("the drive reversed".to_owned());
@@ -131,6 +151,9 @@ pub(in crate::learn) fn purpose(test: &NextTest, plain: &Operation) -> String {
     if differs(test.misalignment, plain.misalignment_mm) {
         says.push("the contact moved along both flanks");
     }
+    if other_temperature(test, plain).is_some() {
+        says.push("another temperature of teeth and housing at the same load and speed, the viscosity as stated");
+    }
     if test.reversed != plain.reversed {
         says.push("the other flanks, which are still new");
     }
@@ -152,6 +175,13 @@ pub(in crate::learn) fn strength(chi2: f64) -> &'static str {
     } else {
         "still little: other measurements are needed"
     }
+}
+
+/// The temperature of a test where it is not that of `plain`.
+fn other_temperature(test: &NextTest, plain: &Operation) -> Option<f64> {
+    let stated = plain.stated_temperature_c();
+    test.bulk_temperature
+        .filter(|celsius| stated.is_none_or(|plain| differs(*celsius, plain)))
 }
 
 fn differs(a: f64, b: f64) -> bool {
@@ -184,6 +214,30 @@ pub(in crate::learn) mod tests {
         assert_eq!(grid.len(), 27 - 8 + 2);
         assert!(grid.windows(2).all(|w| w[0].0 <= w[1].0));
         assert!(grid.iter().any(|(_, o)| o.reversed));
+    }
+
+    #[test]
+    fn other_temperatures_are_feasible_where_one_is_stated() {
+        let warm = plain().at_temperature(60.0);
+        let grid = grid(&warm);
+        assert_eq!(grid.len(), 27 - 8 + 2 + 2);
+        let at = |celsius: f64| {
+            let found = grid.iter().find(|(_, o)| o.bulk_temperature_c == Some(celsius));
+            let (count, operation) = found.unwrap();
+            assert_eq!((*count, operation.flank_temperature_c), (1, Some(celsius)));
+            shown(operation)
+        };
+        let (cold, hot) = (at(40.0), at(80.0));
+        assert_eq!(cold.bulk_temperature, Some(40.0));
+        assert_eq!(changes(&hot, &warm), "80 °C");
+        assert!(purpose(&hot, &warm).starts_with("another temperature of teeth and housing"));
+        // one that friction losses make is no condition that somebody sets
+        let computed = Operation {
+            flank_temperature_c: Some(71.0),
+            ..warm
+        };
+        assert_eq!(shown(&computed).bulk_temperature, None);
+        assert_eq!(super::grid(&computed).len(), 21);
     }
 
     #[test]

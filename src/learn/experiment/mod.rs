@@ -1,7 +1,7 @@
 //! Stage 7, experiment: which tests would tell apart what the measurements leave, or show most effects before there are any.
 
 mod campaign;
-mod candidate_tests;
+pub(in crate::learn) mod candidate_tests;
 pub(in crate::learn) mod decided;
 mod discrimination;
 mod measurement_design;

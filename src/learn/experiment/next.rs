@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::candidate_tests::{
-    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, grid, ranked, shown, strength,
+    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, feasible, ranked, shown, strength,
 };
 use super::discrimination::{Discrimination, PlannedResponse, Whitening};
 use super::measurement_design::MeasurementDesign;
@@ -79,7 +79,9 @@ fn experiment(
     a: &FittedCandidate,
     b: &FittedCandidate,
 ) -> Option<NextExperiment> {
-    let mut tests: Vec<(usize, Operation)> = grid(&plain(context));
+    let study = context.likelihood.measured.study();
+    let plain = plain(context);
+    let mut tests: Vec<(usize, Operation)> = feasible(study, &plain);
     let count = tests.len();
     tests.extend(
         existing(context)
@@ -113,11 +115,11 @@ fn experiment(
     let (beside, together) = beside(&told.discrimination, &found[..count], &tests);
     let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
     Some(NextExperiment {
-        why: sentence(context, &test, &names, told, [repetition, together])
+        why: sentence(&plain, &test, &names, told, [repetition, together])
             + &more(
                 &test,
                 &further,
-                &context.likelihood.measured.study().operation,
+                &plain,
                 together,
             ),
         separates: names.to_vec(),
@@ -183,15 +185,18 @@ fn more(first: &NextTest, further: &[NextTest], plain: &Operation, together: f64
     )
 }
 
-/// The study's operation, as long as the longest test.
+/// The study's operation, as long as the longest test; at the first test's temperature where the study states none and its tests do.
 pub(in crate::learn) fn plain(context: &Context<'_>) -> Operation {
-    let longest = existing(context)
-        .iter()
-        .map(|o| o.cycles)
-        .fold(0.0, f64::max);
-    Operation {
+    let existing = existing(context);
+    let longest = existing.iter().map(|o| o.cycles).fold(0.0, f64::max);
+    let operation = Operation {
         cycles: longest,
         ..context.likelihood.measured.study().operation
+    };
+    let mut of_tests = existing.iter().filter_map(Operation::stated_temperature_c);
+    match (operation.bulk_temperature_c, of_tests.next()) {
+        (None, Some(celsius)) => operation.at_temperature(celsius),
+        _ => operation,
     }
 }
 
@@ -272,7 +277,7 @@ fn discrimination(
 }
 
 fn sentence(
-    context: &Context<'_>,
+    plain: &Operation,
     test: &NextTest,
     names: &[String; 2],
     told: &TestDiscrimination,
@@ -298,7 +303,7 @@ fn sentence(
     };
     format!(
         "A test with {} {verb} {} from {}: after refitting they differ there by χ² {alone:.0}, {strength} (a repetition of a test made already: {:.0}); {place}.",
-        changes(test, &context.likelihood.measured.study().operation),
+        changes(test, plain),
         names[0],
         names[1],
         repetition

@@ -8,6 +8,8 @@ use crate::study::Test;
 /// Relative difference up to which two conditions are nearly the same, and that of misalignments, mm.
 const ALIKE: f64 = 0.05;
 const ALIKE_MM: f64 = 0.02;
+/// That of temperatures, K.
+const ALIKE_K: f64 = 5.0;
 /// Relative difference of χ² up to which two tests show the same.
 const SAME: f64 = 1e-6;
 
@@ -42,14 +44,23 @@ impl MadeTest {
             && near(own.cycles, other.cycles)
             && (own.misalignment - other.misalignment).abs() <= ALIKE_MM
             && own.reversed == other.reversed
+            && near_in_temperature(own, other)
             && self.quantities.iter().any(|q| q.name() == row.quantity)
+    }
+}
+
+/// Whether two tests are nearly as warm; one whose temperature is not known is taken to be.
+fn near_in_temperature(a: &NextTest, b: &NextTest) -> bool {
+    match (a.bulk_temperature, b.bulk_temperature) {
+        (Some(a), Some(b)) => (a - b).abs() <= ALIKE_K,
+        _ => true,
     }
 }
 
 /// The rows in the order in which they are told.
 ///
 /// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer cycles, then fewer
-/// changes, then what takes less measuring. Then the others by what they separate. What does not feel the speed is told at one speed.
+/// changes, then what takes less measuring. Then the others by what they separate. What does not feel speed or temperature is told at one.
 pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
     let is_new = |row: &RankedTest| !made.iter().any(|made| made.is_repeated_by(row));
     let new: Vec<RankedTest> = rows.into_iter().filter(is_new).collect();
@@ -63,7 +74,7 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
     let rest = ranked(&scores).into_iter().map(|i| rest[i].clone());
     let mut told: Vec<RankedTest> = Vec::new();
     for row in enough.into_iter().chain(rest) {
-        if !told.iter().any(|other| differs_in_speed_only(other, &row)) {
+        if !told.iter().any(|other| shows_the_same(other, &row)) {
             told.push(row);
         }
     }
@@ -83,15 +94,16 @@ fn effort(row: &RankedTest) -> usize {
     place.unwrap_or(all.len())
 }
 
-/// Whether two tests show the same at two speeds: what is measured does not feel the speed.
-fn differs_in_speed_only(a: &RankedTest, b: &RankedTest) -> bool {
-    let without_speed = |test: &RankedTest| NextTest {
+/// Whether two tests show the same at two speeds or temperatures: what is measured does not feel these.
+fn shows_the_same(a: &RankedTest, b: &RankedTest) -> bool {
+    let without = |test: &RankedTest| NextTest {
         speed: 0.0,
+        bulk_temperature: None,
         ..test.test.clone()
     };
     let mut chi2 = a.separates.iter().zip(&b.separates);
     a.quantity == b.quantity
-        && without_speed(a) == without_speed(b)
+        && without(a) == without(b)
         && chi2.all(|(a, b)| (a.chi2 - b.chi2).abs() <= SAME * a.chi2.abs())
 }
 

@@ -120,6 +120,9 @@ pub struct ChosenTest {
     pub told_apart: usize,
     /// Those that were not told apart before.
     pub newly: Vec<String>,
+    /// What it adds to the tests before, in words.
+    #[serde(default)]
+    pub adds: String,
     /// Why.
     pub why: String,
 }

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::candidate_tests::{ENOUGH, grid, shown};
+use super::candidate_tests::{ENOUGH, feasible, shown};
 use super::decided::Decided;
 use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
 use super::measurement_design::MeasurementDesign;
@@ -79,7 +79,7 @@ pub fn plan_after(
     });
     watch(0.6, "trying feasible tests".to_owned());
     let plainest = plain(&context);
-    let tests = grid(&plainest);
+    let tests = feasible(study, &plainest);
     let found: Vec<Vec<QuantityDiscrimination>> = tests
         .par_iter()
         .map(|(_, operation)| {

@@ -1,6 +1,6 @@
 //! The table of feasible tests in sentences.
 
-use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose, shown};
+use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose, shown, strength};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
@@ -186,24 +186,33 @@ pub(super) fn made_already(best: &RankedTest, tests: &[Test]) -> String {
             && same(own.misalignment, best.misalignment)
             && same(own.cycles, best.cycles)
             && own.reversed == best.reversed
+            && own.bulk_temperature == best.bulk_temperature
     };
     tests.iter().find(is_best).map_or(String::new(), |test| {
         format!(" These are the conditions of test {}.", test.id)
     })
 }
 
-/// What the diagnosis proposed, where that is another test.
+/// What the diagnosis proposed, with its own figure: where that is another test, or the same by which it expects another outcome.
 pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Operation) -> String {
     let next = decided.and_then(|decided| decided.next_experiment.as_ref());
-    next.filter(|next| next.test != best.test)
-        .map_or(String::new(), |next| {
-            format!(
-                " The diagnosis proposed a test with {}, where {} differ most with everything measured at once; here one quantity is \
-                 measured, and all leaders count by their probability.",
-                changes(&next.test, plain),
-                next.separates.join(" and ")
-            )
-        })
+    let Some(next) = next else {
+        return String::new();
+    };
+    let expects = format!("χ² {:.1}, {}", next.expected_chi2, strength(next.expected_chi2));
+    if next.test != best.test {
+        return format!(
+            " The diagnosis proposed a test with {}, where {} differ most with everything measured at once ({expects}); here one quantity is \
+             measured, and all leaders count by their probability.",
+            changes(&next.test, plain),
+            next.separates.join(" and ")
+        );
+    }
+    let here = best.separates.first().map_or(0.0, |likeliest| likeliest.chi2);
+    if grade(here) == grade(next.expected_chi2) {
+        return String::new();
+    }
+    format!(" With everything measured in it at once the diagnosis expects {expects}.")
 }
 
 #[cfg(test)]
@@ -211,6 +220,7 @@ mod tests {
     use super::super::candidate_tests::tests::plain;
     use super::*;
     use crate::learn::experiment::decided::DecidedCandidate;
+    use crate::learn::experiment::next::NextExperiment;
     use crate::study::Study;
 
     fn decided(verdict: Verdict, probability: f64, unknown: f64) -> Decided {
@@ -310,6 +320,33 @@ mod tests {
             said.ends_with("but hardly tells a from c (χ² 2.0), the hardest pair."),
             "{said}"
         );
+    }
+
+    #[test]
+    fn what_the_diagnosis_expects_stands_beside_what_the_table_does() {
+        let mut open = decided(Verdict::Ambiguous, 0.6, 0.0);
+        let table = best(0, 100.0, vec![separated("b", 2.0)]);
+        let mut next = |torque: f64, expected_chi2| {
+            open.next_experiment = Some(NextExperiment {
+                separates: vec!["a".to_owned(), "b".to_owned()],
+                test: NextTest {
+                    torque,
+                    ..shown(&plain())
+                },
+                why: String::new(),
+                expected_chi2,
+                repetition_chi2: 0.0,
+                further: Vec::new(),
+                together_chi2: expected_chi2,
+            });
+            proposed(Some(&open), &table, &plain())
+        };
+        assert_eq!(next(100.0, 3.0), "");
+        assert_eq!(
+            next(100.0, 9.0),
+            " With everything measured in it at once the diagnosis expects χ² 9.0, enough to favour one clearly."
+        );
+        assert!(next(50.0, 3.0).contains("at once (χ² 3.0, still little: other measurements are needed)"));
     }
 
     #[test]

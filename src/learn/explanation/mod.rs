@@ -3,6 +3,7 @@
 mod diagnosis;
 pub(in crate::learn) mod findings;
 mod learned;
+mod outlook;
 mod ranked;
 mod remainder;
 mod sentences;

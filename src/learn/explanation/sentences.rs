@@ -1,6 +1,7 @@
 //! Sentences that a gear engineer can check.
 
 use super::findings::Findings;
+use super::outlook::Outlook;
 use super::remainder::partial;
 use super::wording::{Explanation, added, before, chi2, percent, values};
 use crate::effects::{Card, Form};
@@ -52,7 +53,7 @@ impl Explanation {
             (Verdict::Ambiguous, _) => ambiguous(findings, next),
             (Verdict::Partial, _) => partial(findings),
             (Verdict::Unknown, _) => unknown(findings),
-            _ => nothing_missing(findings),
+            _ => nothing_missing(findings, next),
         };
         if let Some(driver) = driver {
             all.reasons.extend(depends_on(driver));
@@ -71,7 +72,7 @@ impl Explanation {
     }
 }
 
-fn nothing_missing(findings: &Findings<'_>) -> Explanation {
+fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanation {
     let likelihood = &findings.context.likelihood;
     let decision = &findings.posterior.decision;
     let chi2_before = before(findings);
@@ -94,7 +95,7 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
         )
     };
     let leader = findings.posterior.leader().filter(|_| nothing < CERTAIN);
-    let next = leader.map(|leader| {
+    let nearest = leader.map(|leader| {
         format!(
             "Of single effects {} comes nearest ({}): it lowers χ² per point to {:.3}, too little, given how many candidates were tried.",
             leader.candidate.effects,
@@ -115,13 +116,13 @@ fn nothing_missing(findings: &Findings<'_>) -> Explanation {
     } else if measured_once(likelihood).len() == likelihood.tests.len() {
         "no effect need be added for what these data show; what changes over life they cannot show: measure at several numbers of cycles"
     } else if nothing < SURE {
-        "add no effect yet: more of the same measurements, or those that gearwear plan STUDY proposes, would decide"
+        Outlook::of(next).of_a_weak_effect()
     } else {
         "no effect need be added; a weak effect could still hide below the noise"
     };
     Explanation {
         sentence,
-        reasons: next.into_iter().chain(scatters).collect(),
+        reasons: nearest.into_iter().chain(scatters).collect(),
         next_step: next_step.to_owned(),
     }
 }
@@ -317,6 +318,8 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
         )
     });
     let single = common.as_ref().and_then(|(effects, _)| effects.single());
+    // a test that hardly tells them apart is no reason to wait
+    let next = next.filter(|next| Outlook::of(Some(next)).is_worth_a_test());
     let next_step = match (next, unidentified) {
         (Some(_), _) if single.is_some() => format!(
             "gearwear add STUDY {}, which stands in all of them; make the proposed test before adding what they differ in",
@@ -330,7 +333,7 @@ fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Explanat
         (None, Some((card, _))) => {
             format!("to show whether it is {}: {}", card.name, card.separated_by)
         }
-        (None, None) => "no single test made like these tells them apart: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned(),
+        (None, None) => "no test made like these tells them apart clearly: gearwear plan STUDY ranks others; or add each in turn and see which lowers the held-out error".to_owned(),
     };
     Explanation {
         sentence: format!(

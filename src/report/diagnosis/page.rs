@@ -209,10 +209,11 @@ fn conditions(experiment: &NextExperiment) -> Table {
     let test = &experiment.test;
     let beside = experiment.further.iter().map(|test| {
         let conditions = format!(
-            "{} N·m, {} rpm, misalignment {} mm, {} pinion revolutions, direction {}",
+            "{} N·m, {} rpm, misalignment {} mm{}, {} pinion revolutions, direction {}",
             plain(test.torque),
             plain(test.speed),
             plain(test.misalignment),
+            test.bulk_temperature.map_or(String::new(), |c| format!(", {} °C", plain(c))),
             count(test.cycles),
             direction(test)
         );
@@ -229,6 +230,11 @@ fn conditions(experiment: &NextExperiment) -> Table {
             ("torque", format!("{} N·m", plain(test.torque))),
             ("speed", format!("{} rpm", plain(test.speed))),
             ("misalignment", format!("{} mm", plain(test.misalignment))),
+            (
+                "bulk temperature",
+                test.bulk_temperature
+                    .map_or("not stated".to_owned(), |c| format!("{} °C", plain(c))),
+            ),
             ("pinion revolutions", count(test.cycles)),
             ("direction", direction(test).to_owned()),
             (
