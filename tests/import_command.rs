@@ -13,6 +13,8 @@ use assert_cmd::Command;
 use tempfile::TempDir;
 
 mod common;
+#[path = "import_command/deviations.rs"]
+mod deviations;
 #[path = "import_command/multiples.rs"]
 mod multiples;
 
@@ -2240,10 +2242,6 @@ fn what_counts_no_revolutions_is_no_checkpoint() {
         (
             "Wear depth in um after running hours\nradius [mm],0.83,2.08\n26,3,4\n",
             "hours",
-        ),
-        (
-            "Wear depth [um], cycles in millions\nradius [mm],0.1,0.25\n26,3,4\n",
-            "millions",
         ),
         (
             "Verschleiß [µm] nach Stunden\nradius [mm],0.83,2.08\n26,3,4\n",

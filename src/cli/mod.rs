@@ -144,7 +144,8 @@ fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
         quiet: general.quiet,
     })?;
     let mut text = if general.json {
-        format!("{:#}\n", outcome.json)
+        let document = crate::report::json::text("standard output", &outcome.json)?;
+        String::from_utf8_lossy(&document).into_owned()
     } else {
         outcome.text
     };

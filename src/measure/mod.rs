@@ -80,11 +80,12 @@ const WANTED: Wanted = Wanted {
     what: "measurement file",
     ending: "csv",
     format: "CSV",
+    header: &["test", "quantity"],
     hint: "[measurements] file in the study names it, relative to the study file",
 };
 
 const READ_BY_IMPORT: &str =
-    "or let `gearwear import FILE --study STUDY -o measurements.csv` convert it as it stands";
+    "a table in another form: `gearwear import FILE --study STUDY -o measurements.csv` converts it as it stands";
 
 impl Dataset {
     /// Reads and checks a measurement file.
@@ -94,7 +95,7 @@ impl Dataset {
     pub fn load(path: &Path, known: &Known) -> Result<Self, TextError> {
         let source =
             source_text::read(path, &WANTED).map_err(|error| match error.diagnostic().fault {
-                Fault::NotUtf8 => error.with_hint(READ_BY_IMPORT),
+                Fault::NotUtf8 | Fault::Unreadable => error.with_hint(READ_BY_IMPORT),
                 _ => error,
             })?;
         Self::read(source, known)

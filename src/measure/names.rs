@@ -224,6 +224,23 @@ pub(super) fn is_deviation(name: &str) -> bool {
     DEVIATIONS.contains(&telling(name).concat().as_str())
 }
 
+/// Whether a text has a word for the deviation from the new profile, and none for what was worn.
+pub(super) fn speaks_of_deviation(text: &str) -> bool {
+    let words = words(text);
+    let is_worn = |word: &String| {
+        quantity(word).is_some_and(|(named, _)| named == Quantity::WearDepth)
+    };
+    let deviates = words.iter().enumerate().any(|(at, word)| {
+        let before = at.checked_sub(1).map_or("", |before| words[before].as_str());
+        let behind = words.get(at + 1).map_or("", String::as_str);
+        // a standard deviation is none: `écart type`, `desviación estándar`
+        let is_standard = ["standard", "std", "mean"].contains(&before)
+            || ["type", "estandar", "standard"].contains(&behind);
+        DEVIATIONS.contains(&word.as_str()) && !is_standard
+    });
+    deviates && !words.iter().any(is_worn)
+}
+
 /// Which weighing of a part a name means.
 pub(super) fn weighed(name: &str) -> Option<When> {
     // a loss is no weighing
@@ -289,6 +306,16 @@ pub(super) fn quantity(name: &str) -> Option<(Quantity, bool)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn deviations_are_told_from_depths_and_from_standard_ones() {
+        for text in ["Profilabweichung Ritzel, Versuch A", "profile deviation [um]", "Abweichung"] {
+            assert!(speaks_of_deviation(text), "{text}");
+        }
+        for text in ["standard deviation", "\u{e9}cart type", "Verschlei\u{df} (Abweichung vom Neuprofil)", "radius"] {
+            assert!(!speaks_of_deviation(text), "{text}");
+        }
+    }
 
     #[test]
     fn names_of_five_languages_are_known() {

@@ -86,7 +86,7 @@ pub fn count(value: f64) -> String {
     }
 }
 
-/// A value with its standard deviation: two digits of that, the value to the same place.
+/// A value with its standard deviation: two digits of that, the value to the same place (`266 000 ± 32 000`).
 pub fn uncertain(value: f64, sigma: f64) -> String {
     if !(value.is_finite() && sigma.is_finite() && sigma > 0.0) {
         return significant(value, 4);
@@ -96,7 +96,11 @@ pub fn uncertain(value: f64, sigma: f64) -> String {
     let tiny_or_huge = !(-3..6).contains(&power);
     let scale = if tiny_or_huge { 10f64.powi(power) } else { 1.0 };
     let (value, sigma) = (value / scale, sigma / scale);
-    let decimals = (1.0 - sigma.log10().floor()).clamp(0.0, 9.0) as usize;
+    let place = 1.0 - sigma.log10().floor();
+    let decimals = place.clamp(0.0, 9.0) as usize;
+    // beyond two digits a whole number has zeros
+    let step = 10f64.powf((-place).max(0.0));
+    let [value, sigma] = [value, sigma].map(|figure| step * (figure / step).round());
     let both = format!(
         "{} ± {}",
         grouped(&format!("{value:.decimals$}")),
@@ -225,6 +229,11 @@ mod tests {
         );
         assert_eq!(uncertain(-2.913, 0.21), "\u{2212}2.91 ± 0.21");
         assert_eq!(uncertain(127_300.0, 5_400.0), "127\u{202f}300 ± 5400");
+        assert_eq!(
+            uncertain(266_198.0, 32_086.0),
+            "266\u{202f}000 ± 32\u{202f}000"
+        );
+        assert_eq!(uncertain(1234.0, 99.7), "1234 ± 100");
         assert_eq!(uncertain(1.8194, 0.0353), "1.819 ± 0.035");
         assert_eq!(uncertain(1.239e7, 4.7e5), "(1.239 ± 0.047)·10\u{2077}");
         assert_eq!(uncertain(0.0271, 0.0017), "0.0271 ± 0.0017");

@@ -43,6 +43,10 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     text
 }
 
+/// What the χ² of a diagnosis is measured by, beside that of other commands.
+pub(crate) const NOISE_MODEL: &str = "χ²/point: in the rows' own sigmas, of fits that allow for a small error of the model itself beside the noise; compare and add fit without it, and their χ² \
+     of the same model may be some per cent lower or higher";
+
 /// The first lines of the ranking below a header, and what is unknown.
 fn ranking(diagnosis: &Diagnosis) -> String {
     let mut text = String::new();
@@ -92,6 +96,9 @@ fn ranking(diagnosis: &Diagnosis) -> String {
         unknown_name(diagnosis),
         probability(unknown)
     );
+    if shown().any(has_figures) {
+        let _ = writeln!(text, "  {NOISE_MODEL}");
+    }
     if shown().any(|entry| is_beside_unknown(entry) && has_figures(entry)) {
         text += "  χ² of +unknown: of the effect alone, what is unknown beside it left out\n";
     }

@@ -104,6 +104,7 @@ fn across_the_face(state: &State) -> Value {
             let deepest =
                 (slice.depth.each_ref()).map(|depth| depth.iter().fold(0.0, |m: f64, h| m.max(*h)));
             json!({"face": slice.face, "load": slice.load, "peak_pressure": slice.peak_pressure,
+                   "peak_pressure_elsewhere": slice.peak_pressure_elsewhere,
                    "max_depth_um": {"pinion": deepest[0], "gear": deepest[1]}})
         })
         .collect();

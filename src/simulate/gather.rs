@@ -183,7 +183,11 @@ fn slice_load(forward: &Forward, slice: &SliceState) -> f64 {
 fn face_slice(plan: &Plan, forward: &Forward, kinks: &Kinks, slice: &SliceState) -> FaceSlice {
     let positions = slice.contacts.iter().enumerate();
     let pairs = positions.flat_map(|(q, contact)| position(plan, forward, kinks, q, contact).pairs);
-    let on_flanks = pairs.filter(|pair| !pair.at_corner);
+    let on_flanks: Vec<PairState> = pairs.filter(|pair| !pair.at_corner).collect();
+    let largest = |of: &dyn Fn(&&PairState) -> bool| {
+        let pairs = on_flanks.iter().filter(of);
+        pairs.fold(0.0, |most: f64, pair| most.max(pair.peak_pressure))
+    };
     let cycle = forward.cycle();
     let passage = Passage::new(cycle);
     let pressure = [0, 1].map(|side| {
@@ -194,7 +198,8 @@ fn face_slice(plan: &Plan, forward: &Forward, kinks: &Kinks, slice: &SliceState)
         pressure,
         face: slice.face,
         load: slice_load(forward, slice),
-        peak_pressure: on_flanks.fold(0.0, |most, pair| most.max(pair.peak_pressure)),
+        peak_pressure: largest(&|_| true),
+        peak_pressure_elsewhere: largest(&|pair| !pair.over_kink),
         depth: (slice.depth.each_ref()).map(|depth| in_um(forward, depth)),
     }
 }

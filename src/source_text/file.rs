@@ -14,6 +14,8 @@ pub struct Wanted {
     pub ending: &'static str,
     /// Name of the format.
     pub format: &'static str,
+    /// Words of its first line that is no comment, by which one is told from other files with that ending.
+    pub header: &'static [&'static str],
     /// How to get one.
     pub hint: &'static str,
 }
@@ -42,20 +44,20 @@ pub fn read(path: &Path, wanted: &Wanted) -> Result<Source, TextError> {
 fn unreadable(path: &Path, name: &str, error: &io::Error, wanted: &Wanted) -> TextError {
     let Wanted {
         what,
-        ending,
         format,
         hint: get_one,
+        ..
     } = wanted;
     let (found, hint) = match error.kind() {
         io::ErrorKind::NotFound => (
             "no such file",
-            format!("{what}s here: {}", neighbours(path, ending)),
+            format!("{what}s here: {}", neighbours(path, wanted)),
         ),
         _ if path.is_dir() => (
             "a folder",
             format!(
                 "name the {what} in it: {}",
-                neighbours(&path.join("x"), ending)
+                neighbours(&path.join("x"), wanted)
             ),
         ),
         _ => ("a file that cannot be read", error.to_string()),
@@ -77,16 +79,17 @@ fn unreadable(path: &Path, name: &str, error: &io::Error, wanted: &Wanted) -> Te
     )
 }
 
-/// The names of up to five files with that ending beside `path`.
-fn neighbours(path: &Path, ending: &str) -> String {
+/// The names of up to five such files beside `path`.
+fn neighbours(path: &Path, wanted: &Wanted) -> String {
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty())
         .unwrap_or(Path::new("."));
-    let dotted = format!(".{ending}");
+    let dotted = format!(".{}", wanted.ending);
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(&dotted)).collect();
+    let is_one = |name: &String| name.ends_with(&dotted) && has_header(&folder.join(name), wanted);
+    let mut names: Vec<String> = names.filter(is_one).collect();
     names.sort_unstable();
     names.truncate(5);
     if names.is_empty() {
@@ -94,6 +97,17 @@ fn neighbours(path: &Path, ending: &str) -> String {
     } else {
         names.join(", ")
     }
+}
+
+/// Whether a file begins with the words of the wanted one's header, or that has none.
+fn has_header(path: &Path, wanted: &Wanted) -> bool {
+    if wanted.header.is_empty() {
+        return true;
+    }
+    let text = std::fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).to_lowercase());
+    let text = text.unwrap_or_default();
+    let first = text.lines().find(|line| !line.starts_with('#'));
+    first.is_some_and(|first| wanted.header.iter().all(|word| first.contains(word)))
 }
 
 fn not_utf8(name: String, bytes: &[u8], at: usize, wanted: &Wanted) -> TextError {

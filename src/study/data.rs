@@ -4,6 +4,11 @@ use super::{Outliers, Role, Study};
 use crate::measure::{Dataset, Known, Observation};
 use crate::source_text::{Diagnostic, Fault, TextError, list};
 
+/// How to come by the file.
+const FROM_A_TABLE: &str = "a table of yours becomes that file by `gearwear import TABLE --study STUDY -o measurements.csv`, which shows first how it reads it";
+/// What to do before anything is measured.
+const PLAN_FIRST: &str = "where nothing is measured yet, `gearwear plan STUDY` proposes the first tests";
+
 impl Study {
     /// What measurements of this study may refer to: its tests, flanks and face width.
     pub fn known(&self) -> Known {
@@ -37,7 +42,8 @@ impl Study {
                 "the study names no measurements",
                 "[measurements] with file = \"...\"",
                 "without measurements there is nothing to compare with; `gearwear synthesize` makes some to try",
-            );
+            )
+            .map_err(|error| error.with_hint(FROM_A_TABLE).with_hint(PLAN_FIRST));
         };
         if self.tests.is_empty() {
             return missing(

@@ -7,6 +7,7 @@ pub(super) const WANTED: Wanted = Wanted {
     what: "study file",
     ending: "toml",
     format: "TOML",
+    header: &[],
     hint: "`gearwear init` writes one to start from",
 };
 

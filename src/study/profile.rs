@@ -26,6 +26,7 @@ const WANTED: Wanted = Wanted {
     what: "profile file",
     ending: "csv",
     format: "CSV",
+    header: &[],
     hint: "profile_file in [gears.pinion] or [gears.gear] names it, relative to the study file",
 };
 
@@ -34,6 +35,7 @@ const WANTED_LEAD: Wanted = Wanted {
     what: "lead file",
     ending: "csv",
     format: "CSV",
+    header: &[],
     hint: "lead_file in [face.pinion] or [face.gear] names it, relative to the study file",
 };
 
@@ -42,6 +44,7 @@ const WANTED_PITCH: Wanted = Wanted {
     what: "pitch file",
     ending: "csv",
     format: "CSV",
+    header: &[],
     hint: "pitch_file in [teeth.pinion] or [teeth.gear] names it, relative to the study file",
 };
 

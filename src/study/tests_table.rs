@@ -21,6 +21,7 @@ const WANTED: Wanted = Wanted {
     what: "table of tests",
     ending: "csv",
     format: "CSV",
+    header: &[],
     hint: "`tests` in [measurements] names it, relative to the study file",
 };
 

@@ -89,3 +89,32 @@ fn whole_deviations_stand_beside_decimal_commas() {
         assert!(written.contains(&row), "{row} in {written}");
     }
 }
+
+/// Millions behind `in`, in every header, and beside other names of load cycles.
+#[test]
+fn multiples_are_read_however_they_are_written() {
+    let home = home();
+    let down = "26,5;0,5;1,0;2,0\n27;0,4;0,8;1,5\n";
+    for text in [
+        format!("Verschlei\u{df} [\u{b5}m], Lastwechsel in Mio.\nRadius [mm];0,25;0,5;1\n{down}"),
+        format!("Lastwechsel in Mio.;0,25;0,5;1\n{down}"),
+        format!("Radius [mm];0,25 [1E6];0,5 [1E6];1 [1E6]\n{down}"),
+        format!("Radius [mm];Lastwechsel 0,25 [1E6];Lastwechsel 0,5 [1E6];Lastwechsel 1 [1E6]\n{down}"),
+        format!("Lastspielzahl [10^6];0,25;0,5;1\n{down}"),
+        "Lastspielzahl in Mio.;Radius [mm];Verschlei\u{df} [\u{b5}m]\n0,25;26,5;0,5\n0,25;27,0;0,4\n\
+         0,5;26,5;1,0\n0,5;27,0;0,8\n1;26,5;2,0\n1;27,0;1,5\n"
+            .to_owned(),
+    ] {
+        let (shown, written) = rows(&home, &text, OPTIONS);
+        for row in [
+            "A,pinion,250000,wear_depth,26.5,0.5,0.1,",
+            "A,pinion,500000,wear_depth,27,0.8,0.1,",
+            "A,pinion,1000000,wear_depth,26.5,2,0.1,",
+        ] {
+            assert!(written.contains(row), "{row} in {written}\nof {text}");
+        }
+        let said = ["each 1 stands for 1000000 revolutions", "`: 250000 revolutions and the like", "1000000 pinion revolutions each"];
+        assert!(said.iter().any(|words| shown.contains(words)), "{shown}");
+        assert!(!shown.contains("passed over"), "{shown}");
+    }
+}

@@ -331,6 +331,7 @@ fn depths_of_slices_are_means_and_the_deepest_slice_is_named() {
             face,
             load: factor,
             peak_pressure: 900.0,
+            peak_pressure_elsewhere: 900.0,
             depth: profiles.map(|p| p.depth.iter().map(|d| factor * d).collect()),
             pressure: profiles.map(|p| vec![900.0; p.depth.len()]),
         };

@@ -42,6 +42,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     lines.extend(no_end(addition));
     lines.extend(ends_early(comparison));
     lines.extend(chi2_with_and_without(addition));
+    lines.extend(measured_by(addition));
     if addition.compared.given_up.is_none() && addition.betters_nothing() {
         lines.push("the effect betters nothing that noise would not: leave it out".to_owned());
     }
@@ -162,6 +163,15 @@ fn chi2_with_and_without(addition: &Addition) -> impl Iterator<Item = String> {
     ]
     .into_iter()
     .flatten()
+}
+
+/// What the two χ² are measured by, beside those of other commands; nothing where none is told without the effect.
+fn measured_by(addition: &Addition) -> Option<String> {
+    addition.without_chi2_per_point.map(|_| {
+        "(both by the wear steps of this fit, in the rows' own sigmas; compare goes on to finer steps, diagnose allows for an error of the model itself: \
+         their chi2 of the same model may be some per cent lower or higher)"
+            .to_owned()
+    })
 }
 
 /// The form that was chosen, and how those that were tried fit; `without`: χ² per point without the effect.

@@ -50,9 +50,12 @@ impl Pace {
 
 /// The step, and where a step has been timed the time left: this step if it is the last one, or all that may follow.
 fn told(rungs: usize, most: usize, done: f64, per_step: Option<f32>) -> String {
-    // the last diagnosis stands above all rungs
+    // the last diagnosis stands above all steps, and adds nothing
     let (step, last) = (rungs + 1, most + 1);
-    let step_of = format!("step {step} of at most {last}");
+    let step_of = match step > most {
+        true => format!("last diagnosis, after {most} steps"),
+        false => format!("step {step} of at most {most}"),
+    };
     let Some(seconds) = per_step else {
         return step_of;
     };
@@ -72,14 +75,14 @@ mod tests {
 
     #[test]
     fn no_time_is_told_before_a_step_is_made_and_then_a_range() {
-        assert_eq!(told(0, 5, 0.3, None), "step 1 of at most 6");
+        assert_eq!(told(0, 5, 0.3, None), "step 1 of at most 5");
         assert_eq!(
             told(1, 5, 0.5, Some(600.0)),
-            "step 2 of at most 6, 5 min to 45 min left by the steps made"
+            "step 2 of at most 5, 5 min to 45 min left by the steps made"
         );
         assert_eq!(
             told(5, 5, 0.5, Some(60.0)),
-            "step 6 of at most 6, about 30 s left"
+            "last diagnosis, after 5 steps, about 30 s left"
         );
     }
 
@@ -87,7 +90,7 @@ mod tests {
     fn a_step_without_a_diagnosis_is_no_measure() {
         let pace = Pace::new(3);
         pace.step(false);
-        assert_eq!(pace.at(1, 0.0), "step 2 of at most 4");
+        assert_eq!(pace.at(1, 0.0), "step 2 of at most 3");
         pace.step(true);
         assert!(
             pace.at(2, 0.0).ends_with("left by the steps made")

@@ -78,7 +78,7 @@ pub(super) struct Column {
 }
 
 /// Every column that can be asked for.
-static COLUMNS: [Column; 15] = [
+static COLUMNS: [Column; 17] = [
     Column {
         name: "peak_pressure",
         head: "peak MPa",
@@ -136,11 +136,25 @@ static COLUMNS: [Column; 15] = [
         of: |run| Some(run.balance_error),
     },
     Column {
+        name: "peak_pressure_elsewhere",
+        head: "no kink MPa",
+        title: "Peak pressure away from kinks of the flanks, unworn",
+        unit: "MPa",
+        of: |run| run.first().pressure_elsewhere().map(|p| p.0),
+    },
+    Column {
         name: "peak_pressure_worn",
         head: "worn MPa",
         title: "Peak pressure, worn",
         unit: "MPa",
         of: |run| run.last().peak_pressure().map(|p| p.0),
+    },
+    Column {
+        name: "peak_pressure_elsewhere_worn",
+        head: "no kink, worn",
+        title: "Peak pressure away from kinks of the flanks, worn",
+        unit: "MPa",
+        of: |run| run.last().pressure_elsewhere().map(|p| p.0),
     },
     Column {
         name: "te_peak_to_peak_worn_urad",
@@ -187,7 +201,7 @@ static COLUMNS: [Column; 15] = [
 ];
 
 /// Those that a sweep has where none are named.
-const DEFAULT: usize = 8;
+const DEFAULT: usize = 9;
 /// Those of them that its picture shows.
 const SHOWN: [&str; 4] = [
     "peak_pressure",
@@ -265,13 +279,13 @@ impl Outputs {
         shown.take(MOST_PANELS).collect()
     }
 
-    /// What distinguishes the points' files from those of the usual outputs; none for these.
-    pub(super) fn told_apart(&self) -> Option<String> {
+    /// What distinguishes the points' files from those of other outputs.
+    pub(super) fn told_apart(&self) -> String {
         let columns = self.columns.iter().map(|column| column.name.to_owned());
         let profiles = self.profiles.iter().map(|&member| profile_name(member));
         let mut names: Vec<String> = columns.chain(profiles).collect();
         names.sort_unstable();
-        self.named.then(|| names.join(","))
+        names.join(",")
     }
 }
 
@@ -291,7 +305,10 @@ mod tests {
             usual.shown().iter().map(|c| c.name).collect::<Vec<_>>(),
             SHOWN
         );
-        assert_eq!(usual.told_apart(), None);
+        assert_ne!(usual.told_apart(), outputs.told_apart());
+        // beside a peak that may stand over a kink there is one that does not
+        let usual: Vec<&str> = usual.columns.iter().map(|c| c.name).collect();
+        assert!(usual.contains(&"peak_pressure") && usual.contains(&"peak_pressure_elsewhere"));
         assert!(
             output("peak_presure")
                 .unwrap_err()

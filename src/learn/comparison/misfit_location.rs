@@ -104,7 +104,7 @@ fn is_held_out(cell: &Cell) -> bool {
 fn subject(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::WearDepth => "Computed wear",
-        Quantity::TransmissionError => "The computed transmission error",
+        Quantity::TransmissionError => "The computed transmission error (of the gear)",
         Quantity::MassLoss => "The computed mass loss",
         Quantity::LoadShare => "The computed load share",
         Quantity::ContactPressure => "The computed pressure",

@@ -16,7 +16,8 @@ mod weighings;
 use std::collections::BTreeSet;
 
 use super::columns::{Column, What, columns};
-use super::{ImportError, Sheet, Wanted, decimal_commas, nameless};
+use super::numbers::pointed;
+use super::{ImportError, Sheet, Wanted, decimal_commas, multiples, nameless};
 use crate::measure::Quantity;
 
 pub(super) use durations::hint;
@@ -47,7 +48,7 @@ pub(super) fn arranged(
     sheet: &Sheet,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
-    for head in 0..sheet.rows.len() {
+    for head in (0..sheet.rows.len()).filter(|&head| !is_title_of_multiples(sheet, head)) {
         if let Some(found) = with_header(sheet, head, wanted)? {
             return Ok(Some(found));
         }
@@ -60,6 +61,18 @@ pub(super) fn arranged(
         }
     }
     Ok(None)
+}
+
+/// Whether a row says in words that cycles are counted in multiples, with no count below these words: a title.
+fn is_title_of_multiples(sheet: &Sheet, row: usize) -> bool {
+    let below = |column: usize| {
+        let rows = sheet.rows[row + 1..].iter();
+        let mut filled = rows.filter(|cells| cells.iter().any(|cell| !cell.is_empty()));
+        filled.next().and_then(|cells| cells.get(column))
+    };
+    let cells = sheet.rows[row].iter().enumerate();
+    let mut named = cells.filter(|(_, cell)| multiples::in_brackets(cell).is_some());
+    named.any(|(column, _)| below(column).is_none_or(|cell| pointed(cell).parse::<f64>().is_err()))
 }
 
 /// The table below a header; none if this is no header of a long one.

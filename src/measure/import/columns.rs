@@ -4,6 +4,7 @@ pub(super) mod half_understood;
 
 use super::arrange::side;
 use super::coverage::{coverage, without_level};
+use super::multiples;
 use super::wanted::Wanted;
 use super::{Sheet, cell_name, units};
 use crate::measure::names::When;
@@ -83,7 +84,9 @@ impl Column {
             is_uncertainty(&name)
         });
         let (coverage, plain) = stated.unzip();
-        let plain = plain.unwrap_or_else(|| written.to_owned());
+        let plain = plain
+            .or_else(|| multiples::in_brackets(written))
+            .unwrap_or_else(|| written.to_owned());
         let without_level = without_level(&plain).filter(|rest| {
             let (name, _) = units::name_and_unit(rest);
             is_uncertainty(&name)

@@ -1,5 +1,6 @@
-//! Headers by which a table counts cycles in multiples: `Lastwechsel [1E6]`.
+//! Headers by which a table counts cycles in multiples: `Lastwechsel [1E6]`, `Lastwechsel in Mio.`, `0,25 [1E6]` in each of them.
 
+use super::numbers::{header_number, number_words};
 use super::{ImportError, Sheet, cell_name, units};
 use crate::measure::names;
 
@@ -38,10 +39,14 @@ impl Multiple {
             .find_map(|(row, column, text)| Some((row, column, Self::of(text, row, column)?)))?;
         let mut sheet = sheet.clone();
         let text = &mut sheet.rows[row][column];
-        let open = text.rfind(['[', '('])?;
-        // above the header it names what stands below in the header itself
-        text.truncate(if row < head { 0 } else { open });
-        text.truncate(text.trim_end().len());
+        let plain = in_brackets(text).unwrap_or_else(|| text.clone());
+        let open = plain.rfind(['[', '('])?;
+        // above the header it names what stands below in the header itself; the rest of a title may name the values
+        let end = match row < head {
+            true => plain[..open].rfind([',', ';']).unwrap_or(0),
+            false => open,
+        };
+        *text = plain[..end].trim_end().to_owned();
         Some((sheet, multiple))
     }
 
@@ -74,8 +79,69 @@ impl Multiple {
     }
 }
 
-/// The factor of a header that names cycles with a power of ten, or a word for one, in its last brackets.
+/// A name of cycles with a multiple behind `in` as it would be with the multiple in brackets: `Lastwechsel in Mio.` as `Lastwechsel [Mio.]`.
+pub(super) fn in_brackets(header: &str) -> Option<String> {
+    let (name, multiple) = [" in ", " en "]
+        .iter()
+        .find_map(|word| header.rsplit_once(word))?;
+    let last = name.rsplit([',', ';']).next().unwrap_or(name);
+    let names_cycles = names::words(last)
+        .iter()
+        .any(|word| names::revolutions(word).is_some());
+    let unit: String = multiple.split_whitespace().collect();
+    (names_cycles && of_unit(&unit).is_some()).then(|| format!("{name} [{}]", multiple.trim()))
+}
+
+/// The sheet with plain revolutions in the headers that state a multiple each (`0,25 [1E6]`), and what was made of them, in words.
+///
+/// # Errors
+/// [`ImportError`] for a number that is none, or of more revolutions than any test has.
+pub(super) fn in_each_header(sheet: &Sheet) -> Result<(Sheet, Vec<String>), ImportError> {
+    let mut sheet = sheet.clone();
+    let mut said: Vec<String> = Vec::new();
+    for row in 0..sheet.rows.len() {
+        for column in 0..sheet.rows[row].len() {
+            let written = sheet.rows[row][column].clone();
+            let Some((before, number, behind)) = counted(&written) else {
+                continue;
+            };
+            let unit: String = units::bracketed(&written)
+                .unwrap_or_default()
+                .split_whitespace()
+                .collect();
+            let multiple = Multiple {
+                factor: of_unit(&unit).unwrap_or(1.0),
+                cell: cell_name(row, column),
+                written: written.clone(),
+            };
+            let revolutions = multiple.revolutions(header_number(number, row, column)?)?;
+            sheet.rows[row][column] = format!("{before}{revolutions}{behind}");
+            said.push(format!("`{}`: {revolutions} revolutions", multiple.written));
+        }
+    }
+    if said.len() > 1 {
+        said = vec![format!("{} and the like in each header", said[0])];
+    }
+    Ok((sheet, said))
+}
+
+/// What stands before the number of a header with a power of ten in its last brackets, the number, and what stands behind the brackets.
+fn counted(header: &str) -> Option<(&str, &str, &str)> {
+    let unit: String = units::bracketed(header)?.split_whitespace().collect();
+    of_unit(&unit)?;
+    let (front, rest) = header.split_at(header.rfind(['[', '('])?);
+    let [number] = number_words(front)[..] else {
+        return None;
+    };
+    let at = front.find(number)?;
+    let behind = &rest[rest.find([']', ')'])? + 1..];
+    Some((&front[..at], number, behind))
+}
+
+/// The factor of a header that names cycles with a power of ten, or a word for one, in its last brackets or behind `in`.
 pub(super) fn factor(header: &str) -> Option<f64> {
+    let plain = in_brackets(header);
+    let header = plain.as_deref().unwrap_or(header);
     let unit: String = units::bracketed(header)?.split_whitespace().collect();
     let (name, _) = units::name_and_unit(header);
     let names_cycles = names::words(&name)
@@ -90,7 +156,7 @@ fn of_unit(unit: &str) -> Option<f64> {
     let unit = unit
         .trim_start_matches(['x', '*', '\u{d7}', '\u{b7}'])
         .trim_end_matches('.');
-    if let "mio" | "million" | "millions" | "millionen" = unit {
+    if let "mio" | "mill" | "million" | "millions" | "millionen" | "milioni" | "millones" = unit {
         return Some(1e6);
     }
     if let "tsd" | "thousand" | "thousands" | "tausend" = unit {
@@ -129,6 +195,11 @@ mod tests {
             ("cycles [10\u{2076}]", Some(1e6)),
             ("Lastspiele [Mio.]", Some(1e6)),
             ("cycles [thousand]", Some(1e3)),
+            ("Lastspielzahl [10^6]", Some(1e6)),
+            ("Lastwechsel in Mio.", Some(1e6)),
+            ("Verschlei\u{df} [\u{b5}m], Lastwechsel in Mio.", Some(1e6)),
+            ("Verschlei\u{df} in Mio.", None),
+            ("cycles in total", None),
             ("Lastwechsel", None),
             ("Lastwechsel [-]", None),
             ("radius [1e6]", None),
@@ -137,5 +208,13 @@ mod tests {
         ] {
             assert_eq!(factor(header), expected, "{header}");
         }
+    }
+
+    #[test]
+    fn a_multiple_beside_each_number_is_multiplied_in() {
+        assert_eq!(counted("Lastwechsel 0,25 [1E6]"), Some(("Lastwechsel ", "0,25", "")));
+        assert_eq!(counted("0.5 (10^6) gear rev"), Some(("", "0.5", " gear rev")));
+        assert_eq!(counted("0,25 [mm]"), None);
+        assert_eq!(counted("Lastwechsel [1E6]"), None);
     }
 }

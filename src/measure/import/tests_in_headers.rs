@@ -4,7 +4,7 @@ use super::arrange::stated_above;
 use super::columns::half_understood;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, of_one_test};
-use super::{ImportError, Sheet, cell_name};
+use super::{ImportError, Sheet, cell_name, multiples};
 use crate::measure::names;
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -14,7 +14,8 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
-    half_understood::refuse(sheet, wanted)?;
+    let (sheet, multiplied) = multiples::in_each_header(sheet)?;
+    half_understood::refuse(&sheet, wanted)?;
     if wanted.per_interval.cycles {
         return Err(ImportError(
             "--per-interval cycles is for tables with a row for each value: the columns or rows of this one are checkpoints, which count since the \
@@ -22,20 +23,39 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
                 .to_owned(),
         ));
     }
-    let above = stated_above(sheet, wanted)?;
+    let above = stated_above(&sheet, wanted)?;
+    let mut sheet = sheet;
+    for &(row, _) in &above.obeyed {
+        sheet.rows[row].clear();
+    }
+    let mut obeyed: Vec<String> = above.obeyed.into_iter().map(|(_, words)| words).collect();
+    obeyed.extend(multiplied);
     let wanted = &Wanted {
         test: wanted.test.or(above.test),
         member: wanted.member.or(above.member),
         tooth: above.tooth,
         ..wanted.clone()
     };
-    let Some((head, columns)) = tests_of_columns(sheet, wanted)? else {
-        return of_one_test(sheet, wanted);
+    let sheet = &sheet;
+    let mut found = match tests_of_columns(sheet, wanted)? {
+        Some((head, columns)) => of_several_tests(sheet, (head, &columns), wanted)?,
+        None => of_one_test(sheet, wanted)?,
     };
+    obeyed.append(&mut found.arranged);
+    found.arranged = obeyed;
+    Ok(found)
+}
+
+/// The mapping of a table whose headers name tests.
+fn of_several_tests(
+    sheet: &Sheet,
+    (head, columns): (usize, &[OfTest<'_>]),
+    wanted: &Wanted<'_>,
+) -> Result<Wide> {
     let mut parts = Vec::new();
     for id in &wanted.tests {
         if columns.iter().any(|(_, test, _)| test == id) {
-            let own = of_test(sheet, head, &columns, id);
+            let own = of_test(sheet, head, columns, id);
             let wanted = Wanted {
                 test: Some(id),
                 ..wanted.clone()

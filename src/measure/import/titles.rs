@@ -21,8 +21,16 @@ const NEGATIVE: [&str; 9] = [
 const POSITIVE: [&str; 7] = [
     "positive", "positiv", "positivo", "positiva", "positivi", "positif", "plus",
 ];
-const LOST: [&str; 18] = [
+const LOST: [&str; 26] = [
     "lost",
+    "missing",
+    "fehlt",
+    "fehlend",
+    "fehlendes",
+    "mancante",
+    "manque",
+    "manquant",
+    "falta",
     "loss",
     "removed",
     "worn",
@@ -90,6 +98,12 @@ impl Titles {
         Ok(titles)
     }
 
+    /// Without the rows that are used otherwise among those passed over; `is_used` is asked with the words of each.
+    pub(super) fn without(mut self, is_used: impl Fn(&str) -> bool) -> Self {
+        self.passed_over.retain(|(_, words)| !is_used(words));
+        self
+    }
+
     /// Whether the sign is to be turned.
     ///
     /// # Errors
@@ -114,7 +128,8 @@ fn unit(text: &str, quantity: Quantity) -> Option<String> {
             || ["roll", "angle", "length"].contains(&word.as_str())
     };
     let is_unit = |word: &String| UNIT.contains(&word.as_str());
-    let names_values = words.iter().any(of_values) || words.iter().any(is_unit);
+    let is_deviation = quantity == Quantity::WearDepth && names::speaks_of_deviation(text);
+    let names_values = words.iter().any(of_values) || words.iter().any(is_unit) || is_deviation;
     if !names_values || words.iter().any(of_places) {
         return None;
     }

@@ -10,7 +10,7 @@ use super::wide::{
     in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
 use super::{ImportError, Sheet, cell_name, counts, decimal_commas, long, nameless, units};
-use crate::measure::{Quantity, Subject, names};
+use crate::measure::{Place, Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -76,7 +76,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         .filter(|h| !h.is_empty())
         .collect();
     counts::refuse_others_above(sheet, head)?;
-    let titles = Titles::of(sheet, head, quantity)?;
+    let titles = Titles::of(sheet, head, quantity)?.without(|words| names_quantity(words) == Some(quantity));
     let all: Vec<&str> = headers.iter().copied().chain([corner]).collect();
     let unit = wanted.unit_of_values(quantity, unit_of(&all, quantity)?, titles.unit.as_deref())?;
     let factor = units::factor(&unit.0, quantity)?;
@@ -133,6 +133,22 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         empty,
         entries,
     })
+}
+
+/// The quantity without places that a row above a header of members names: `Massenverlust [g]`.
+pub(super) fn titled(sheet: &Sheet) -> Option<Quantity> {
+    let head = sheet.rows.iter().position(|row| is_header_of_members(row))?;
+    let titles = sheet.rows[..head].iter().flatten();
+    titles.filter_map(|title| names_quantity(title)).next()
+}
+
+/// The quantity without places that a part of a title names.
+fn names_quantity(title: &str) -> Option<Quantity> {
+    let parts = title.split([',', ';', ':']);
+    let mut named = parts.filter_map(|part| names::quantity(&units::name_and_unit(part).0));
+    named
+        .find(|(quantity, _)| quantity.place() == Place::Whole)
+        .map(|(quantity, _)| quantity)
 }
 
 /// Whether cycles head the first column of a row, and members all others that are not for people.

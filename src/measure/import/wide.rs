@@ -1,5 +1,6 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
+mod deviations;
 mod grid;
 mod reading;
 
@@ -71,7 +72,9 @@ type Result<T> = std::result::Result<T, ImportError>;
 
 /// The mapping of a wide table of one test.
 pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
-    let quantity = wanted.quantity.unwrap_or(Quantity::WearDepth);
+    let titled = || super::whole::titled(sheet);
+    let quantity = wanted.quantity.or_else(titled);
+    let quantity = quantity.unwrap_or(Quantity::WearDepth);
     if quantity.place() == Place::Whole {
         return super::whole::whole(sheet, quantity, wanted);
     }
@@ -102,7 +105,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         Across::Positions => Vec::new(),
     };
     let said = unit_of(&headers, quantity)?;
-    let titles = Titles::of(sheet, head, quantity)?;
+    let deviation = deviations::named(sheet, head, quantity);
+    let is_used = |words: &str| {
+        let is_of_deviations = deviation.as_ref().is_some_and(|named| named.is_of(words));
+        is_of_deviations || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())
+    };
+    let titles = Titles::of(sheet, head, quantity)?.without(is_used);
     let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
     let turned = titles.turns_sign(wanted.turn_sign)?;
     let of_gear = counts_gear_revolutions(corner, &headers)?
@@ -121,6 +129,10 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let (mut entries, empty) = reading.entries(&grid)?;
     let joined = wanted.there.join(&mut entries, true);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
+    if let Some(named) = &deviation {
+        let states_sign = turned || titles.lost_is_negative.is_some();
+        arranged.push(named.as_depths(&mut entries, (states_sign, turned), wanted)?);
+    }
     arranged.extend(in_order(&mut entries, wanted)?);
     let [column_numbers, row_numbers] = grid.numbers();
     let (on_flank, checkpoints) = match across {

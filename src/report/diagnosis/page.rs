@@ -1,6 +1,6 @@
 //! The page of a diagnosis.
 
-use super::{figures, means, name, parameters, unknown_name};
+use super::{NOISE_MODEL, figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
     Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
 };
@@ -91,7 +91,7 @@ fn ranking(diagnosis: &Diagnosis) -> Section {
         "χ² per point: 1 is the noise floor. ln evidence over the base: how much more probable the data are with the effect, \
          its free parameters counted against it.{of_unknown} angle: between what a line and the leading one change in these measurements, \
          k refitted; at 90° they have nothing in common, below some 10° they do the same, towards 180° the opposite. χ² of lines that were decided by other means than the first holds the \
-         error of those means too.",
+         error of those means too. {NOISE_MODEL}.",
     ))
 }
 
@@ -159,7 +159,7 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     if diagnosis.screened.is_empty() || attainable <= 0.0 {
         return None;
     }
-    let head = ["effect", "fall of χ²", "ln evidence over the base", "by"];
+    let head = ["effect", "fall of the whole χ²", "ln evidence over the base", "by"];
     let mut table = Table::new("", head);
     let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
     let largest = drops.fold(attainable, f64::max);
@@ -186,7 +186,8 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
         ]);
     }
     let text = format!(
-        "Anything smooth could bring χ² down by about {attainable:.0}. The {count} best of {} candidates; those that showed nothing in \
+        "The whole χ² is another measure than χ² per point: that of all rows together, by their whole covariance (noise, datums, the model's own error), \
+         with priors left out; divided by the rows it does not give the figures of the ranking. Anything smooth could bring it down by about {attainable:.0}. The {count} best of {} candidates; those that showed nothing in \
          the screening are left out. A first look that leaves a candidate far behind is not followed to its best fit.",
         diagnosis.screened.len()
     );

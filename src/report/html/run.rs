@@ -104,11 +104,11 @@ fn key_figures(run: &Run) -> Section {
             ),
         ),
         (
-            "transmission error peak to peak, new → worn",
+            "transmission error at the pinion, peak to peak, new → worn",
             from_to(&|s| s.te_peak_to_peak_urad(), "µrad"),
         ),
         (
-            "transmission error over one turn, new → worn",
+            "transmission error at the pinion over one turn, new → worn",
             from_to(&State::te_over_a_turn_urad, "µrad"),
         ),
         (

@@ -90,7 +90,7 @@ fn marks(result: &Result<'_>, test: usize) -> Option<[(f64, String); 5]> {
 fn words(quantity: Quantity) -> (&'static str, &'static str) {
     match quantity {
         Quantity::WearDepth => ("worn depth", "µm"),
-        Quantity::TransmissionError => ("transmission error", "µrad"),
+        Quantity::TransmissionError => ("transmission error of the gear", "µrad"),
         Quantity::MassLoss => ("mass loss", "mg"),
         Quantity::LoadShare => ("load share", "-"),
         Quantity::ContactPressure => ("contact pressure", "MPa"),

@@ -98,10 +98,10 @@ fn new_and_worn_figures(run: &Run) -> Vec<String> {
         change("peak pressure", "MPa", &elsewhere),
         kinks,
         corner,
-        change("transmission error", "µrad p-p", &|state| {
+        change("transmission error", "µrad p-p, at the pinion", &|state| {
             state.te_peak_to_peak_urad()
         }),
-        change("  over one turn", "µrad p-p", &|state| {
+        change("  over one turn", "µrad p-p, at the pinion", &|state| {
             state.te_over_a_turn_urad()
         }),
         change("face load factor", "", &face_load_factor),

@@ -51,6 +51,8 @@ pub struct FaceSlice {
     pub load: f64,
     /// Largest contact pressure on the flanks over the mesh cycle, corners left out, MPa.
     pub peak_pressure: f64,
+    /// The same away from kinks of the flanks as made, whose pressure depends on the mesh, MPa.
+    pub peak_pressure_elsewhere: f64,
     /// Depth of pinion and gear at the radii of their profiles, µm.
     pub depth: [Vec<f64>; 2],
     /// The largest pressure that these points see in a passage, MPa.

@@ -22,6 +22,14 @@ struct Label {
     text: String,
 }
 
+impl Label {
+    /// Its row, counted from 0, and what it says in words.
+    fn obeyed(&self) -> (usize, String) {
+        let words = format!("row {}, `{}`: {} {}", self.row + 1, self.written, self.key, self.text);
+        (self.row, words)
+    }
+}
+
 /// Makes columns of what stands above the header, and of the cycles that the user states.
 pub(super) fn as_columns(
     sheet: &mut Sheet,
@@ -62,16 +70,10 @@ pub(super) fn as_columns(
             Some(_) if label.key == "cycles" => {}
             Some(column) => below_agrees(sheet, head, column, &label, wanted)?,
             None => {
-                let Label {
-                    row,
-                    written,
-                    key,
-                    text,
-                    ..
-                } = &label;
-                said.push(format!("row {}, `{written}`: {key} {text}", row + 1));
-                put_column(sheet, head, &label.column, text);
-                sheet.rows[*row].clear();
+                let (row, words) = label.obeyed();
+                said.push(words);
+                put_column(sheet, head, &label.column, &label.text);
+                sheet.rows[row].clear();
             }
         }
     }
@@ -96,6 +98,8 @@ pub(in crate::measure::import) struct Above<'w> {
     pub(in crate::measure::import) test: Option<&'w str>,
     pub(in crate::measure::import) member: Option<Subject>,
     pub(in crate::measure::import) tooth: Option<String>,
+    /// The rows that say it, counted from 0, and what they say in words.
+    pub(in crate::measure::import) obeyed: Vec<(usize, String)>,
 }
 
 /// The test, the member and the tooth that the rows above a wide table say, where nothing else does; refused where they contradict what is
@@ -123,6 +127,7 @@ pub(in crate::measure::import) fn stated_above<'w>(
         test,
         member,
         tooth,
+        obeyed: labels.iter().map(Label::obeyed).collect(),
     })
 }
 

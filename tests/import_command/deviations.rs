@@ -1,0 +1,84 @@
+//! Titles that are obeyed: deviations from the profile become depths, a mass above a table of members is its quantity, and what was used is not said to be
+//! passed over.
+
+use super::{home, refused, rows};
+
+const OPTIONS: &str = "--test A --member pinion --sigma 0.1";
+const DOWN: &str = "26,5;0,3;-0,7;-1,8\n27,0;0,2;-0,6;-1,2\n";
+
+/// `Profilabweichung` with the new profile at 0: depth is what a place has less than when it was new.
+#[test]
+fn deviations_with_the_new_profile_are_differences() {
+    let home = home();
+    let table = format!("Profilabweichung [\u{b5}m]\nRadius [mm];0;250000;500000\n{DOWN}");
+    let (shown, written) = rows(&home, &table, OPTIONS);
+    for row in [
+        "A,pinion,250000,wear_depth,26.5,1,0.1,",
+        "A,pinion,500000,wear_depth,26.5,2.1,0.1,",
+        "A,pinion,250000,wear_depth,27,0.8,0.1,",
+    ] {
+        assert!(written.contains(row), "{row} in {written}");
+    }
+    assert!(!written.contains("A,pinion,0,"), "{written}");
+    assert!(
+        shown.contains("layout   row 1, `Profilabweichung [\u{b5}m]`: wear depth, the change of the deviation since 0"),
+        "{shown}"
+    );
+    assert!(!shown.contains("passed over"), "{shown}");
+    // the same with its sign stated, either way
+    let negative = table.replace("[\u{b5}m]", "[\u{b5}m], negativ = Material fehlt");
+    assert_eq!(rows(&home, &negative, OPTIONS).1, written);
+    let positive = negative
+        .replace("negativ", "positiv")
+        .replace("0,3;-0,7;-1,8", "-0,3;0,7;1,8")
+        .replace("0,2;-0,6;-1,2", "-0,2;0,6;1,2");
+    assert_eq!(rows(&home, &positive, OPTIONS).1, written);
+    // a place without its new state
+    let lacking = table.replace("27,0;0,2", "27,0;");
+    let message = refused(&home, &lacking, OPTIONS);
+    assert!(message.contains("C4: row 1 names deviations") && message.contains("none at 0"), "{message}");
+}
+
+#[test]
+fn deviations_without_the_new_profile_need_a_sign() {
+    let home = home();
+    let table = "Profilabweichung [\u{b5}m]\nRadius [mm];250000;500000\n26,5;-0,7;-1,8\n27,0;-0,6;-1,2\n";
+    let message = refused(&home, table, OPTIONS);
+    assert!(
+        message.contains("row 1: `Profilabweichung [\u{b5}m]` names deviations, of which 4 of 4 are negative: say --turn-sign"),
+        "{message}"
+    );
+    let stated = table.replace("[\u{b5}m]", "[\u{b5}m]; negativ = Material fehlt");
+    for (table, options) in [
+        (table, format!("{OPTIONS} --turn-sign")),
+        (stated.as_str(), OPTIONS.to_owned()),
+    ] {
+        let (_, written) = rows(&home, table, &options);
+        assert!(written.contains("A,pinion,500000,wear_depth,26.5,1.8,0.1,"), "{written}");
+    }
+    // depths stay what they are
+    let depths = table.replace("Profilabweichung", "Verschlei\u{df}");
+    let (_, written) = rows(&home, &depths, OPTIONS);
+    assert!(written.contains(",26.5,-1.8,"), "{written}");
+}
+
+#[test]
+fn a_mass_above_a_table_of_members_is_its_quantity() {
+    let home = home();
+    let table = "Massenverlust [g]\nLastwechsel;Ritzel;Rad\n250000;0,012;0,015\n500000;0,020;0,024\n";
+    let (shown, written) = rows(&home, table, "--test A --sigma 1");
+    assert!(written.contains("A,gear,250000,mass_loss,,15,1,"), "{written}");
+    assert!(shown.contains("in g (the title says so)"), "{shown}");
+    assert!(!shown.contains("passed over"), "{shown}");
+}
+
+#[test]
+fn a_title_that_is_obeyed_is_not_passed_over() {
+    let home = home();
+    let table = "Versuch: A\nBauteil: Ritzel\nFlanke: rechts\nPr\u{fc}fer: M. Muster\nVerschlei\u{df} in \u{b5}m\nRadius [mm];250000\n26,5;0,7\n27,0;0,6\n";
+    let (shown, _) = rows(&home, table, "--sigma 0.1");
+    assert!(shown.contains("layout   row 1, `Versuch`: test A\n"), "{shown}");
+    assert!(shown.contains("layout   row 2, `Bauteil`: member pinion\n"), "{shown}");
+    assert_eq!(shown.matches("passed over").count(), 1, "{shown}");
+    assert!(shown.contains("title    row 4 passed over: Pr\u{fc}fer: M. Muster"), "{shown}");
+}
