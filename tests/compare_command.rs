@@ -18,6 +18,8 @@ use tempfile::TempDir;
 mod common;
 #[path = "compare_command/validity.rs"]
 mod validity;
+#[path = "compare_command/versions.rs"]
+mod versions;
 
 use common::{gears, gearwear, succeed};
 

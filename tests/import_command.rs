@@ -17,6 +17,8 @@ mod common;
 mod deviations;
 #[path = "import_command/multiples.rs"]
 mod multiples;
+#[path = "import_command/nothing_measured.rs"]
+mod nothing_measured;
 
 use common::{gears, line, succeed};
 

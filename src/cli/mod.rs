@@ -86,6 +86,12 @@ impl Context {
     }
 }
 
+/// A document as `--json` prints it: as result files have it, without a minus before a zero.
+fn printed(document: &serde_json::Value) -> Result<String, CliError> {
+    let bytes = crate::report::json::text("standard output", document)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
 /// Runs the program with its arguments (the first is its name) and returns its exit code: 0 success, 2 unusable input
 /// (nothing was written), 1 any other failure.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
@@ -144,8 +150,7 @@ fn execute(arguments: &args::Arguments) -> Result<u8, CliError> {
         quiet: general.quiet,
     })?;
     let mut text = if general.json {
-        let document = crate::report::json::text("standard output", &outcome.json)?;
-        String::from_utf8_lossy(&document).into_owned()
+        printed(&outcome.json)?
     } else {
         outcome.text
     };
@@ -171,6 +176,13 @@ mod tests {
     use clap::Parser as _;
 
     use super::*;
+
+    #[test]
+    fn no_zero_is_printed_with_a_minus() {
+        let document = serde_json::json!({"bias_um": -0.0, "rms_um": 0.5});
+        let text = printed(&document).unwrap();
+        assert_eq!(text, "{\n  \"bias_um\": 0.0,\n  \"rms_um\": 0.5\n}\n");
+    }
 
     /// The threads of a process are started once: another number is a failure of the machine, not of the input.
     #[test]

@@ -6,7 +6,8 @@ use super::*;
 #[test]
 fn tests_that_do_not_share_one_k_are_told() {
     let home = home();
-    let base = fs::read_to_string(home.path().join("try/base.toml")).unwrap();
+    // with the running-in of the truth all share one k
+    let base = fs::read_to_string(home.path().join("try/right.toml")).unwrap();
     let scattered = base
         .replace("coefficient_scatter = 0.0", "coefficient_scatter = \"estimate\"")
         .replace("role = \"holdout\"\n", "");

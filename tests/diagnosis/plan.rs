@@ -151,6 +151,22 @@ fn before_measurements_a_campaign_is_chosen() {
     assert_eq!(plan["kind"], "campaign");
     let tests = plan["tests"].as_array().unwrap();
     assert!((1..=4).contains(&tests.len()));
+    // every test has a reason, effects that none shows are named, and the study's temperature may be another
+    for test in tests {
+        assert!(!test["adds"].as_str().unwrap().is_empty(), "{test}");
+    }
+    let effects = plan["effects"].as_array().unwrap();
+    let sentence = plan["sentence"].as_str().unwrap();
+    for effect in effects.iter().filter(|e| e["detectable"] == false) {
+        let name = effect["effect"].as_str().unwrap();
+        let (_, unseen) = sentence.split_once("Not shown: ").unwrap();
+        assert!(unseen.contains(name), "{name} in {sentence}");
+    }
+    let alone = plan["alone"].as_array().unwrap();
+    let at = |celsius: f64| alone.iter().any(|t| t["test"]["bulk_temperature"] == celsius);
+    assert!(at(40.0) && at(60.0) && at(80.0), "{plan}");
+    let table = std::fs::read_to_string(folder.path().join("plan/plan.csv")).unwrap();
+    assert!(table.lines().next().unwrap().ends_with(",bulk_temperature"));
     for pair in tests.windows(2) {
         assert!(pair[0]["detectable"].as_u64() <= pair[1]["detectable"].as_u64());
         assert!(pair[0]["told_apart"].as_u64() <= pair[1]["told_apart"].as_u64());
