@@ -32,7 +32,8 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
         contact_of(&study)?;
         let data = study.dataset_to_fit()?;
         // versions of one model mostly have the same measurements
-        let is_same = |(_, told): &(Study, Dataset)| told.name == data.name && told.reading == data.reading;
+        let is_same =
+            |(_, told): &(Study, Dataset)| told.name == data.name && told.reading == data.reading;
         if !loaded.iter().any(is_same) {
             context.tell_reading(&data);
         }

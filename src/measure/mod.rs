@@ -84,8 +84,7 @@ const WANTED: Wanted = Wanted {
     hint: "[measurements] file in the study names it, relative to the study file",
 };
 
-const READ_BY_IMPORT: &str =
-    "a table in another form: `gearwear import FILE --study STUDY -o measurements.csv` converts it as it stands";
+const READ_BY_IMPORT: &str = "a table in another form: `gearwear import FILE --study STUDY -o measurements.csv` converts it as it stands";
 
 impl Dataset {
     /// Reads and checks a measurement file.

@@ -227,11 +227,12 @@ pub(super) fn is_deviation(name: &str) -> bool {
 /// Whether a text has a word for the deviation from the new profile, and none for what was worn.
 pub(super) fn speaks_of_deviation(text: &str) -> bool {
     let words = words(text);
-    let is_worn = |word: &String| {
-        quantity(word).is_some_and(|(named, _)| named == Quantity::WearDepth)
-    };
+    let is_worn =
+        |word: &String| quantity(word).is_some_and(|(named, _)| named == Quantity::WearDepth);
     let deviates = words.iter().enumerate().any(|(at, word)| {
-        let before = at.checked_sub(1).map_or("", |before| words[before].as_str());
+        let before = at
+            .checked_sub(1)
+            .map_or("", |before| words[before].as_str());
         let behind = words.get(at + 1).map_or("", String::as_str);
         // a standard deviation is none: `écart type`, `desviación estándar`
         let is_standard = ["standard", "std", "mean"].contains(&before)
@@ -309,10 +310,19 @@ mod tests {
 
     #[test]
     fn deviations_are_told_from_depths_and_from_standard_ones() {
-        for text in ["Profilabweichung Ritzel, Versuch A", "profile deviation [um]", "Abweichung"] {
+        for text in [
+            "Profilabweichung Ritzel, Versuch A",
+            "profile deviation [um]",
+            "Abweichung",
+        ] {
             assert!(speaks_of_deviation(text), "{text}");
         }
-        for text in ["standard deviation", "\u{e9}cart type", "Verschlei\u{df} (Abweichung vom Neuprofil)", "radius"] {
+        for text in [
+            "standard deviation",
+            "\u{e9}cart type",
+            "Verschlei\u{df} (Abweichung vom Neuprofil)",
+            "radius",
+        ] {
             assert!(!speaks_of_deviation(text), "{text}");
         }
     }

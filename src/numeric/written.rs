@@ -99,8 +99,11 @@ pub fn uncertain(value: f64, sigma: f64) -> String {
     let place = 1.0 - sigma.log10().floor();
     let decimals = place.clamp(0.0, 9.0) as usize;
     // beyond two digits a whole number has zeros
-    let step = 10f64.powf((-place).max(0.0));
-    let [value, sigma] = [value, sigma].map(|figure| step * (figure / step).round());
+    let in_steps = |figure: f64| match place < 0.0 {
+        true => 10f64.powf(-place) * (figure / 10f64.powf(-place)).round(),
+        false => figure,
+    };
+    let [value, sigma] = [value, sigma].map(in_steps);
     let both = format!(
         "{} ± {}",
         grouped(&format!("{value:.decimals$}")),

@@ -57,7 +57,12 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
         }
         Plan::Campaign(campaign) => {
             let warmth = with_temperature(campaign.tests.iter().map(|test| &test.test));
-            heading(&mut text, warmth, "newly told apart", ["shown", "told apart"]);
+            heading(
+                &mut text,
+                warmth,
+                "newly told apart",
+                ["shown", "told apart"],
+            );
             for test in &campaign.tests {
                 let figures = [test.detectable, test.told_apart].map(|n| n.to_string());
                 line(&mut text, warmth, &test.test, &newly(&test.newly), figures);
@@ -239,7 +244,11 @@ fn short(value: f64) -> String {
 
 /// The header of a table of tests; with a column of temperatures where `warmth` says so.
 fn heading(text: &mut String, warmth: bool, what: &str, figures: [&str; 2]) {
-    let celsius = if warmth { format!("{:>7}", "°C") } else { String::new() };
+    let celsius = if warmth {
+        format!("{:>7}", "°C")
+    } else {
+        String::new()
+    };
     let _ = writeln!(
         text,
         "  {:>8} {:>8} {:>6}{celsius} {:>9} {:>8}  {:<38} {:>12} {:>12}",
@@ -249,7 +258,11 @@ fn heading(text: &mut String, warmth: bool, what: &str, figures: [&str; 2]) {
 
 fn line(text: &mut String, warmth: bool, test: &NextTest, what: &str, figures: [String; 2]) {
     let celsius = test.bulk_temperature.map_or(String::new(), short);
-    let celsius = if warmth { format!("{celsius:>7}") } else { String::new() };
+    let celsius = if warmth {
+        format!("{celsius:>7}")
+    } else {
+        String::new()
+    };
     let _ = writeln!(
         text,
         "  {:>8} {:>8} {:>6}{celsius} {:>9.2e} {:>8}  {:<38} {:>12} {:>12}",

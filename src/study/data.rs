@@ -7,7 +7,8 @@ use crate::source_text::{Diagnostic, Fault, TextError, list};
 /// How to come by the file.
 const FROM_A_TABLE: &str = "a table of yours becomes that file by `gearwear import TABLE --study STUDY -o measurements.csv`, which shows first how it reads it";
 /// What to do before anything is measured.
-const PLAN_FIRST: &str = "where nothing is measured yet, `gearwear plan STUDY` proposes the first tests";
+const PLAN_FIRST: &str =
+    "where nothing is measured yet, `gearwear plan STUDY` proposes the first tests";
 
 impl Study {
     /// What measurements of this study may refer to: its tests, flanks and face width.

@@ -9,7 +9,10 @@ fn tests_that_do_not_share_one_k_are_told() {
     // with the running-in of the truth all share one k
     let base = fs::read_to_string(home.path().join("try/right.toml")).unwrap();
     let scattered = base
-        .replace("coefficient_scatter = 0.0", "coefficient_scatter = \"estimate\"")
+        .replace(
+            "coefficient_scatter = 0.0",
+            "coefficient_scatter = \"estimate\"",
+        )
         .replace("role = \"holdout\"\n", "");
     fs::write(home.path().join("try/one.toml"), &scattered).unwrap();
     let told = succeed(&home, "compare try/one.toml");
@@ -29,7 +32,9 @@ fn tests_that_do_not_share_one_k_are_told() {
     )
     .unwrap();
     let told = succeed(&home, "compare try/one.toml");
-    let line = told.lines().find(|l| l.contains("the tests do not share one k"));
+    let line = told
+        .lines()
+        .find(|l| l.contains("the tests do not share one k"));
     let line = line.unwrap_or_else(|| panic!("{told}"));
     assert!(line.contains("test B stands out, at 2."), "{line}");
     let page = fs::read_to_string(home.path().join("try/one.out/compare/report.html")).unwrap();

@@ -10,7 +10,10 @@ fn half_explained() -> TempDir {
     write("truth.toml", format!("{BASE}{RUNNING_IN}{law}"));
     succeed(&home, "synthesize truth.toml -o data --seed 5");
     let file = FILE.replace("measurements.csv", "data/measurements.csv");
-    write("base.toml", format!("{}{file}", BASE.replace("2e-10", "5e-10")));
+    write(
+        "base.toml",
+        format!("{}{file}", BASE.replace("2e-10", "5e-10")),
+    );
     home
 }
 
@@ -26,23 +29,33 @@ fn intervals_of_add_and_ladder_differ_and_it_is_said_why() {
     );
     // what the sentence says: the ladder goes on from there, and ends no worse
     let of_add = added.lines().find_map(|line| {
-        let rest = line.trim().strip_prefix("chi2 per point of the fit tests: ")?;
+        let rest = line
+            .trim()
+            .strip_prefix("chi2 per point of the fit tests: ")?;
         rest.split(' ').next()?.parse::<f64>().ok()
     });
     let of_add = of_add.unwrap_or_else(|| panic!("{added}"));
     let steps: Value =
         serde_json::from_str(&succeed(&home, "ladder base.toml more.toml --json")).unwrap();
     let of_ladder = number(&steps, "/1/fit_chi2_per_point");
-    assert!(of_ladder < of_add + 0.005 && of_ladder > 0.9 * of_add, "{of_ladder} {of_add}");
+    assert!(
+        of_ladder < of_add + 0.005 && of_ladder > 0.9 * of_add,
+        "{of_ladder} {of_add}"
+    );
     assert!(of_ladder > 1.2, "{of_ladder}");
     // and by what noise the two figures of add are
     assert!(
-        added.contains("compare goes on to finer steps, diagnose allows for an error of the model itself"),
+        added.contains(
+            "compare goes on to finer steps, diagnose allows for an error of the model itself"
+        ),
         "{added}"
     );
     // where no more than noise is left there is nothing to say
     let (home, folder) = (super::home(), "try");
-    let right = succeed(&home, &format!("add {folder}/base.toml running_in -o {folder}/added.toml"));
+    let right = succeed(
+        &home,
+        &format!("add {folder}/base.toml running_in -o {folder}/added.toml"),
+    );
     assert!(!right.contains("fit the new study on"), "{right}");
 }
 

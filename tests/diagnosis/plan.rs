@@ -49,11 +49,12 @@ fn after_measurements_all_feasible_tests_are_ranked() {
                     && near("speed", c.speed_rpm)
                     && near("cycles", c.cycles)
                     && row["test"]["misalignment"] == c.misalignment_mm
+                    && row["test"]["bulk_temperature"].as_f64() == c.bulk_temperature_c
             })
     };
     assert!(!tests.iter().any(depth_again));
     assert!(
-        (21 * 3 - 2 * made.len()..21 * 3).contains(&tests.len()),
+        (21 * 3 - 2 * made.len()..23 * 3).contains(&tests.len()),
         "{}",
         tests.len()
     );
@@ -163,7 +164,11 @@ fn before_measurements_a_campaign_is_chosen() {
         assert!(unseen.contains(name), "{name} in {sentence}");
     }
     let alone = plan["alone"].as_array().unwrap();
-    let at = |celsius: f64| alone.iter().any(|t| t["test"]["bulk_temperature"] == celsius);
+    let at = |celsius: f64| {
+        alone
+            .iter()
+            .any(|t| t["test"]["bulk_temperature"] == celsius)
+    };
     assert!(at(40.0) && at(60.0) && at(80.0), "{plan}");
     let table = std::fs::read_to_string(folder.path().join("plan/plan.csv")).unwrap();
     assert!(table.lines().next().unwrap().ends_with(",bulk_temperature"));

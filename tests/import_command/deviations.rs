@@ -36,13 +36,17 @@ fn deviations_with_the_new_profile_are_differences() {
     // a place without its new state
     let lacking = table.replace("27,0;0,2", "27,0;");
     let message = refused(&home, &lacking, OPTIONS);
-    assert!(message.contains("C4: row 1 names deviations") && message.contains("none at 0"), "{message}");
+    assert!(
+        message.contains("C4: row 1 names deviations") && message.contains("none at 0"),
+        "{message}"
+    );
 }
 
 #[test]
 fn deviations_without_the_new_profile_need_a_sign() {
     let home = home();
-    let table = "Profilabweichung [\u{b5}m]\nRadius [mm];250000;500000\n26,5;-0,7;-1,8\n27,0;-0,6;-1,2\n";
+    let table =
+        "Profilabweichung [\u{b5}m]\nRadius [mm];250000;500000\n26,5;-0,7;-1,8\n27,0;-0,6;-1,2\n";
     let message = refused(&home, table, OPTIONS);
     assert!(
         message.contains("row 1: `Profilabweichung [\u{b5}m]` names deviations, of which 4 of 4 are negative: say --turn-sign"),
@@ -54,7 +58,10 @@ fn deviations_without_the_new_profile_need_a_sign() {
         (stated.as_str(), OPTIONS.to_owned()),
     ] {
         let (_, written) = rows(&home, table, &options);
-        assert!(written.contains("A,pinion,500000,wear_depth,26.5,1.8,0.1,"), "{written}");
+        assert!(
+            written.contains("A,pinion,500000,wear_depth,26.5,1.8,0.1,"),
+            "{written}"
+        );
     }
     // depths stay what they are
     let depths = table.replace("Profilabweichung", "Verschlei\u{df}");
@@ -65,9 +72,13 @@ fn deviations_without_the_new_profile_need_a_sign() {
 #[test]
 fn a_mass_above_a_table_of_members_is_its_quantity() {
     let home = home();
-    let table = "Massenverlust [g]\nLastwechsel;Ritzel;Rad\n250000;0,012;0,015\n500000;0,020;0,024\n";
+    let table =
+        "Massenverlust [g]\nLastwechsel;Ritzel;Rad\n250000;0,012;0,015\n500000;0,020;0,024\n";
     let (shown, written) = rows(&home, table, "--test A --sigma 1");
-    assert!(written.contains("A,gear,250000,mass_loss,,15,1,"), "{written}");
+    assert!(
+        written.contains("A,gear,250000,mass_loss,,15,1,"),
+        "{written}"
+    );
     assert!(shown.contains("in g (the title says so)"), "{shown}");
     assert!(!shown.contains("passed over"), "{shown}");
 }
@@ -77,8 +88,17 @@ fn a_title_that_is_obeyed_is_not_passed_over() {
     let home = home();
     let table = "Versuch: A\nBauteil: Ritzel\nFlanke: rechts\nPr\u{fc}fer: M. Muster\nVerschlei\u{df} in \u{b5}m\nRadius [mm];250000\n26,5;0,7\n27,0;0,6\n";
     let (shown, _) = rows(&home, table, "--sigma 0.1");
-    assert!(shown.contains("layout   row 1, `Versuch`: test A\n"), "{shown}");
-    assert!(shown.contains("layout   row 2, `Bauteil`: member pinion\n"), "{shown}");
+    assert!(
+        shown.contains("layout   row 1, `Versuch`: test A\n"),
+        "{shown}"
+    );
+    assert!(
+        shown.contains("layout   row 2, `Bauteil`: member pinion\n"),
+        "{shown}"
+    );
     assert_eq!(shown.matches("passed over").count(), 1, "{shown}");
-    assert!(shown.contains("title    row 4 passed over: Pr\u{fc}fer: M. Muster"), "{shown}");
+    assert!(
+        shown.contains("title    row 4 passed over: Pr\u{fc}fer: M. Muster"),
+        "{shown}"
+    );
 }

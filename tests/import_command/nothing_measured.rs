@@ -21,7 +21,10 @@ fn a_study_without_measurements_is_told_where_they_come_from() {
         assert!(message.contains(part), "no `{part}` in {message}");
     }
     // a file that is not there: of the tables beside it only those with measurements are named
-    write("named.toml", &format!("{bare}\n[measurements]\nfile = \"none.csv\"\n"));
+    write(
+        "named.toml",
+        &format!("{bare}\n[measurements]\nfile = \"none.csv\"\n"),
+    );
     write("tests.csv", "id,torque\nZ,100\n");
     write("lab.csv", "Radius [mm];0,25\n26,5;1\n");
     write(
@@ -30,6 +33,9 @@ fn a_study_without_measurements_is_told_where_they_come_from() {
     );
     let (code, _, message) = line(&home, "check named.toml");
     assert_eq!(code, Some(2));
-    assert!(message.contains("measurement files here: mine.csv\n"), "{message}");
+    assert!(
+        message.contains("measurement files here: mine.csv\n"),
+        "{message}"
+    );
     assert!(message.contains("gearwear import FILE"), "{message}");
 }

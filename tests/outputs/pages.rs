@@ -340,10 +340,13 @@ fn depths_of_slices_are_means_and_the_deepest_slice_is_named() {
     let deepest = 1.6 * run.last().pinion.max_depth();
     let said = text::summary(&run, Path::new("s.toml"), Path::new("out"));
     // whose transmission error it is, and the pressure away from kinks of each slice
-    assert!(said.contains("µrad p-p, at the pinion"), "{said}");
+    assert!(said.contains("µrad p-p worn (at the pinion)"), "{said}");
     let document = gearwear::report::json::summary(&run).unwrap();
     let slice = &document["face"]["last"]["slices"][0];
-    assert_eq!([&slice["peak_pressure"], &slice["peak_pressure_elsewhere"]], [900.0, 700.0]);
+    assert_eq!(
+        [&slice["peak_pressure"], &slice["peak_pressure_elsewhere"]],
+        [900.0, 700.0]
+    );
     let across = format!("up to {deepest:.3} µm at −11 mm from mid-face");
     assert!(said.contains(&across), "{across} not in\n{said}");
     // `models` refuses slices

@@ -30,7 +30,8 @@ pub(super) fn conditions_together(tests: &[&Operation]) -> Vec<String> {
                 .collect();
             let changes = |of: fn(&(f64, f64)) -> f64, least: f64| {
                 let values = || points.iter().map(of);
-                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min) > least
+                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+                    > least
             };
             if !(changes(|p| p.0, one.2) && changes(|p| p.1, other.2)) {
                 continue;
@@ -56,7 +57,8 @@ fn correlation(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let sum = |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|p| of(p.0 - x, p.1 - y)).sum::<f64>();
+    let sum =
+        |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|p| of(p.0 - x, p.1 - y)).sum::<f64>();
     sum(&|x, y| x * y) / (sum(&|x, _| x * x) * sum(&|_, y| y * y)).sqrt()
 }
 
@@ -86,7 +88,12 @@ mod tests {
 
     #[test]
     fn a_temperature_that_goes_with_the_speed_is_told() {
-        let said = told(&[(100.0, 1000.0, 50.0), (100.0, 2000.0, 70.2), (150.0, 2000.0, 70.0), (150.0, 4000.0, 91.0)]);
+        let said = told(&[
+            (100.0, 1000.0, 50.0),
+            (100.0, 2000.0, 70.2),
+            (150.0, 2000.0, 70.0),
+            (150.0, 4000.0, 91.0),
+        ]);
         assert_eq!(said.len(), 1, "{said:?}");
         assert!(
             said[0].starts_with("which of temperature and speed acts: in these tests the temperature rises with the speed (correlation 1.00)"),
@@ -97,9 +104,17 @@ mod tests {
 
     #[test]
     fn conditions_that_change_apart_or_not_at_all_are_not() {
-        let apart = [(100.0, 1000.0, 50.0), (100.0, 1000.0, 80.0), (200.0, 3000.0, 50.0), (100.0, 3000.0, 80.0)];
+        let apart = [
+            (100.0, 1000.0, 50.0),
+            (100.0, 1000.0, 80.0),
+            (200.0, 3000.0, 50.0),
+            (100.0, 3000.0, 80.0),
+        ];
         assert_eq!(told(&apart), Vec::<String>::new());
         // a thermometer's last digit is no change
-        assert_eq!(told(&[(100.0, 1000.0, 60.0), (100.0, 2000.0, 60.4)]), Vec::<String>::new());
+        assert_eq!(
+            told(&[(100.0, 1000.0, 60.0), (100.0, 2000.0, 60.4)]),
+            Vec::<String>::new()
+        );
     }
 }

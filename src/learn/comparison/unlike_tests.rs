@@ -125,7 +125,10 @@ mod tests {
 
     #[test]
     fn nothing_is_said_within_errors_and_nobody_stands_out_among_evenly_spread_tests() {
-        assert_eq!(told(&[("A", 1.5, 0.3), ("B", 1.3, 0.4), ("C", 2.4, 0.3)]), None);
+        assert_eq!(
+            told(&[("A", 1.5, 0.3), ("B", 1.3, 0.4), ("C", 2.4, 0.3)]),
+            None
+        );
         assert_eq!(told(&[("A", 1.0, 0.001), ("B", 1.1, 0.001)]), None);
         assert_eq!(told(&[("A", 1.0, 0.001)]), None);
         for spread in [

@@ -222,7 +222,9 @@ pub(in crate::learn) mod tests {
         let grid = grid(&warm);
         assert_eq!(grid.len(), 27 - 8 + 2 + 2);
         let at = |celsius: f64| {
-            let found = grid.iter().find(|(_, o)| o.bulk_temperature_c == Some(celsius));
+            let found = grid
+                .iter()
+                .find(|(_, o)| o.bulk_temperature_c == Some(celsius));
             let (count, operation) = found.unwrap();
             assert_eq!((*count, operation.flank_temperature_c), (1, Some(celsius)));
             shown(operation)

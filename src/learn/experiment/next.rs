@@ -116,12 +116,7 @@ fn experiment(
     let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
     Some(NextExperiment {
         why: sentence(&plain, &test, &names, told, [repetition, together])
-            + &more(
-                &test,
-                &further,
-                &plain,
-                together,
-            ),
+            + &more(&test, &further, &plain, together),
         separates: names.to_vec(),
         test,
         expected_chi2: told.chi2(),

@@ -62,8 +62,17 @@ fn near_in_temperature(a: &NextTest, b: &NextTest) -> bool {
 /// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer cycles, then fewer
 /// changes, then what takes less measuring. Then the others by what they separate. What does not feel speed or temperature is told at one.
 pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
-    let is_new = |row: &RankedTest| !made.iter().any(|made| made.is_repeated_by(row));
-    let new: Vec<RankedTest> = rows.into_iter().filter(is_new).collect();
+    let is_made = |row: &RankedTest| made.iter().any(|made| made.is_repeated_by(row));
+    let (again, mut new): (Vec<RankedTest>, Vec<RankedTest>) = rows.into_iter().partition(is_made);
+    // a made test at a temperature that its measurements do not feel is that test once more
+    let is_again = |row: &RankedTest| {
+        let same_speed = |other: &&RankedTest| other.test.speed == row.test.speed;
+        again
+            .iter()
+            .filter(same_speed)
+            .any(|other| shows_the_same(other, row))
+    };
+    new.retain(|row| !is_again(row));
     let (mut enough, rest): (Vec<_>, Vec<_>) =
         (new.into_iter()).partition(|row| row.expected_chi2 >= ENOUGH);
     enough.sort_by(|a, b| {
@@ -140,6 +149,28 @@ mod tests {
         let order: Vec<f64> = told.iter().map(|r| r.test.torque).collect();
         assert_eq!(order, [200.0, 50.0, 100.0, 100.0]);
         assert_eq!(told[3].quantity, "transmission_error");
+    }
+
+    /// Another temperature is another test only where what is measured feels it.
+    #[test]
+    fn a_temperature_that_nothing_feels_is_no_new_test() {
+        let warm = |celsius: f64, chi2: f64| {
+            let mut row = row(100.0, 1e6, "wear_depth", 1, chi2);
+            row.test.bulk_temperature = Some(celsius);
+            row.separates = vec![crate::learn::experiment::plan::Separated {
+                pair: ["a".to_owned(), "b".to_owned()],
+                chi2,
+            }];
+            row
+        };
+        let made = || MadeTest {
+            test: warm(60.0, 0.0).test,
+            quantities: vec![Quantity::WearDepth],
+        };
+        let felt = vec![warm(60.0, 20.0), warm(40.0, 20.0), warm(80.0, 31.0)];
+        let told = in_order(felt, &[made()]);
+        let at: Vec<Option<f64>> = told.iter().map(|r| r.test.bulk_temperature).collect();
+        assert_eq!(at, [Some(80.0)]);
     }
 
     /// What was measured at (nearly) these conditions is not proposed again, what was not measured there is.

@@ -199,7 +199,11 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
     let Some(next) = next else {
         return String::new();
     };
-    let expects = format!("χ² {:.1}, {}", next.expected_chi2, strength(next.expected_chi2));
+    let expects = format!(
+        "χ² {:.1}, {}",
+        next.expected_chi2,
+        strength(next.expected_chi2)
+    );
     if next.test != best.test {
         return format!(
             " The diagnosis proposed a test with {}, where {} differ most with everything measured at once ({expects}); here one quantity is \
@@ -208,7 +212,10 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
             next.separates.join(" and ")
         );
     }
-    let here = best.separates.first().map_or(0.0, |likeliest| likeliest.chi2);
+    let here = best
+        .separates
+        .first()
+        .map_or(0.0, |likeliest| likeliest.chi2);
     if grade(here) == grade(next.expected_chi2) {
         return String::new();
     }
@@ -346,7 +353,10 @@ mod tests {
             next(100.0, 9.0),
             " With everything measured in it at once the diagnosis expects χ² 9.0, enough to favour one clearly."
         );
-        assert!(next(50.0, 3.0).contains("at once (χ² 3.0, still little: other measurements are needed)"));
+        assert!(
+            next(50.0, 3.0)
+                .contains("at once (χ² 3.0, still little: other measurements are needed)")
+        );
     }
 
     #[test]

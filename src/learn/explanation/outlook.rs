@@ -35,7 +35,9 @@ impl Outlook {
     /// What would decide whether a weak effect is missing.
     pub(super) fn of_a_weak_effect(self) -> &'static str {
         match self {
-            Self::Decide => "add no effect yet: the proposed tests, with all that was measured so far measured in them too, would decide",
+            Self::Decide => {
+                "add no effect yet: the proposed tests, with all that was measured so far measured in them too, would decide"
+            }
             Self::Favour => {
                 "add no effect yet: the proposed tests, with all that was measured so far measured in them too, would favour one answer clearly, but not decide"
             }
@@ -74,10 +76,18 @@ mod tests {
         };
         let outlook = |chi2| Outlook::of(Some(&next(chi2)));
         assert_eq!(outlook(3.2), Outlook::Little);
-        assert!(outlook(3.2).of_a_weak_effect().contains("would hardly tell"));
+        assert!(
+            outlook(3.2)
+                .of_a_weak_effect()
+                .contains("would hardly tell")
+        );
         assert!(!outlook(3.2).is_worth_a_test());
         assert!(outlook(8.0).of_a_weak_effect().ends_with("but not decide"));
         assert!(outlook(25.0).of_a_weak_effect().ends_with("would decide"));
-        assert!(!Outlook::of(None).of_a_weak_effect().contains("would decide"));
+        assert!(
+            !Outlook::of(None)
+                .of_a_weak_effect()
+                .contains("would decide")
+        );
     }
 }

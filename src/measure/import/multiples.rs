@@ -212,8 +212,14 @@ mod tests {
 
     #[test]
     fn a_multiple_beside_each_number_is_multiplied_in() {
-        assert_eq!(counted("Lastwechsel 0,25 [1E6]"), Some(("Lastwechsel ", "0,25", "")));
-        assert_eq!(counted("0.5 (10^6) gear rev"), Some(("", "0.5", " gear rev")));
+        assert_eq!(
+            counted("Lastwechsel 0,25 [1E6]"),
+            Some(("Lastwechsel ", "0,25", ""))
+        );
+        assert_eq!(
+            counted("0.5 (10^6) gear rev"),
+            Some(("", "0.5", " gear rev"))
+        );
         assert_eq!(counted("0,25 [mm]"), None);
         assert_eq!(counted("Lastwechsel [1E6]"), None);
     }

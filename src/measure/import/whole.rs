@@ -76,7 +76,8 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         .filter(|h| !h.is_empty())
         .collect();
     counts::refuse_others_above(sheet, head)?;
-    let titles = Titles::of(sheet, head, quantity)?.without(|words| names_quantity(words) == Some(quantity));
+    let titles =
+        Titles::of(sheet, head, quantity)?.without(|words| names_quantity(words) == Some(quantity));
     let all: Vec<&str> = headers.iter().copied().chain([corner]).collect();
     let unit = wanted.unit_of_values(quantity, unit_of(&all, quantity)?, titles.unit.as_deref())?;
     let factor = units::factor(&unit.0, quantity)?;
@@ -137,7 +138,10 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
 
 /// The quantity without places that a row above a header of members names: `Massenverlust [g]`.
 pub(super) fn titled(sheet: &Sheet) -> Option<Quantity> {
-    let head = sheet.rows.iter().position(|row| is_header_of_members(row))?;
+    let head = sheet
+        .rows
+        .iter()
+        .position(|row| is_header_of_members(row))?;
     let titles = sheet.rows[..head].iter().flatten();
     titles.filter_map(|title| names_quantity(title)).next()
 }

@@ -159,7 +159,12 @@ fn fitted(diagnosis: &Diagnosis) -> Option<Section> {
     if diagnosis.screened.is_empty() || attainable <= 0.0 {
         return None;
     }
-    let head = ["effect", "fall of the whole χ²", "ln evidence over the base", "by"];
+    let head = [
+        "effect",
+        "fall of the whole χ²",
+        "ln evidence over the base",
+        "by",
+    ];
     let mut table = Table::new("", head);
     let drops = diagnosis.screened.iter().map(|entry| entry.chi2_drop);
     let largest = drops.fold(attainable, f64::max);
@@ -214,7 +219,8 @@ fn conditions(experiment: &NextExperiment) -> Table {
             plain(test.torque),
             plain(test.speed),
             plain(test.misalignment),
-            test.bulk_temperature.map_or(String::new(), |c| format!(", {} °C", plain(c))),
+            test.bulk_temperature
+                .map_or(String::new(), |c| format!(", {} °C", plain(c))),
             count(test.cycles),
             direction(test)
         );

@@ -72,6 +72,11 @@ fn wear(last: &State, member: Member) -> impl Iterator<Item = String> {
         .chain(across.map(|words| row("  across the face", &words)))
 }
 
+/// An angle of the gear as the pinion sees it; measured transmission errors are the gear's own.
+fn at_the_pinion(line: String) -> String {
+    line + " (at the pinion)"
+}
+
 /// What wear has changed of the contact: each figure of the new and of the worn flanks.
 fn new_and_worn_figures(run: &Run) -> Vec<String> {
     let (first, last) = (run.first(), run.last());
@@ -98,12 +103,14 @@ fn new_and_worn_figures(run: &Run) -> Vec<String> {
         change("peak pressure", "MPa", &elsewhere),
         kinks,
         corner,
-        change("transmission error", "µrad p-p, at the pinion", &|state| {
+        change("transmission error", "µrad p-p", &|state| {
             state.te_peak_to_peak_urad()
-        }),
-        change("  over one turn", "µrad p-p, at the pinion", &|state| {
+        })
+        .map(at_the_pinion),
+        change("  over one turn", "µrad p-p", &|state| {
             state.te_over_a_turn_urad()
-        }),
+        })
+        .map(at_the_pinion),
         change("face load factor", "", &face_load_factor),
     ]
     .into_iter()

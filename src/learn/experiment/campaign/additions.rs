@@ -23,7 +23,8 @@ pub(super) fn adds(before: &[EffectVisibility], now: &[EffectVisibility]) -> Str
     if !shown.is_empty() {
         return format!("newly shows {}", listed(&shown));
     }
-    let gained = |(before, now): &(&EffectVisibility, &EffectVisibility)| capped(now) - capped(before);
+    let gained =
+        |(before, now): &(&EffectVisibility, &EffectVisibility)| capped(now) - capped(before);
     let best = both().max_by(|a, b| gained(a).total_cmp(&gained(b)));
     best.filter(|pair| gained(pair) > 0.0).map_or_else(
         || "adds certainty, but no effect more".to_owned(),
@@ -71,7 +72,11 @@ fn figure(chi2: f64) -> String {
 fn listed(names: &[&str]) -> String {
     match names.len() {
         ..=NAMED => names.join(", "),
-        more => format!("{} and {} more", names[..NAMED - 1].join(", "), more + 1 - NAMED),
+        more => format!(
+            "{} and {} more",
+            names[..NAMED - 1].join(", "),
+            more + 1 - NAMED
+        ),
     }
 }
 
@@ -98,7 +103,10 @@ mod tests {
             reason([effect("a", 20.0, 8.0), effect("b", 7.0, 1.0)]),
             "newly tells a from every look-alike"
         );
-        assert_eq!(reason([effect("a", 20.0, 2.0), effect("b", 7.0, 0.5)]), "newly shows b");
+        assert_eq!(
+            reason([effect("a", 20.0, 2.0), effect("b", 7.0, 0.5)]),
+            "newly shows b"
+        );
         assert_eq!(
             reason([effect("a", 20.0, 4.8), effect("b", 1.0, 0.5)]),
             "no effect more; brings a against other nearest to the χ² of 6 that counts, from 2.0 to 4.8"

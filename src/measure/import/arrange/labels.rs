@@ -25,7 +25,13 @@ struct Label {
 impl Label {
     /// Its row, counted from 0, and what it says in words.
     fn obeyed(&self) -> (usize, String) {
-        let words = format!("row {}, `{}`: {} {}", self.row + 1, self.written, self.key, self.text);
+        let words = format!(
+            "row {}, `{}`: {} {}",
+            self.row + 1,
+            self.written,
+            self.key,
+            self.text
+        );
         (self.row, words)
     }
 }

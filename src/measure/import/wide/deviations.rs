@@ -110,7 +110,11 @@ impl Deviations {
             "row {}, `{}`: deviations without the new profile's (at 0) are taken for depths, {} where material is missing",
             self.row + 1,
             self.words,
-            if turned { "negative in the table" } else { "positive" }
+            if turned {
+                "negative in the table"
+            } else {
+                "positive"
+            }
         ))
     }
 }
