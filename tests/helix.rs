@@ -23,13 +23,22 @@ const TORQUE: f64 = 9000.0;
 
 /// A pair of steel gears: helix angle (deg), slices, face width (mm), and further tables.
 fn study(helix: f64, slices: usize, width: f64, more: &str) -> Study {
+    coupled("none", helix, slices, width, more)
+}
+
+/// The same with slices tied by the teeth.
+fn tied(helix: f64, slices: usize, width: f64, more: &str) -> Study {
+    coupled("teeth", helix, slices, width, more)
+}
+
+fn coupled(coupling: &str, helix: f64, slices: usize, width: f64, more: &str) -> Study {
     let text = format!(
         "[gears]\nmodule = {MODULE}\npressure_angle = 20.0\nface_width = {width}\n\
          [gears.pinion]\nteeth = {}\nbore_diameter = 30.0\n[gears.gear]\nteeth = {}\nbore_diameter = 60.0\n\
          [material]\nyoungs_modulus = {MODULUS}\npoisson_ratio = 0.3\ndensity = 7850.0\n\
          [operation]\ntorque = {}\nspeed = 1500.0\n[wear]\ncoefficient = 6e-10\ncycles = 1e5\n\
          [numerics]\npositions = 40\nelements_per_half_width = 2\n\
-         [face]\nslices = {slices}\ncoupling = \"none\"\nhelix_angle = {helix}\n{more}",
+         [face]\nslices = {slices}\ncoupling = \"{coupling}\"\nhelix_angle = {helix}\n{more}",
         TEETH[0],
         TEETH[1],
         1e-3 * TORQUE * width
@@ -238,8 +247,9 @@ fn a_whole_overlap_keeps_the_lag_constant() {
 #[test]
 fn every_turn_carries_the_torque_and_the_worn_volume_is_that_of_sliding() {
     let lead = "[face.pinion]\nlead_slope = 15.0\ncrowning = 5.0\n";
-    let study = study(12.0, 7, 30.0, lead);
-    for bench in Bench::both(&study) {
+    let [free, tied] = [study, tied].map(|of| of(12.0, 7, 30.0, lead));
+    let [analytic, elastic] = Bench::both(&free);
+    for bench in [analytic, elastic, Bench::elastic(&tied)] {
         let mut forward = bench.forward();
         let (states, progress) = states(&mut forward, &[0.0, 1e2, 1e5]);
         let (cycle, slices) = (forward.cycle(), forward.slices().unwrap());
@@ -288,17 +298,18 @@ fn every_turn_carries_the_torque_and_the_worn_volume_is_that_of_sliding() {
 
 #[test]
 fn the_other_hand_mirrors_the_face() {
-    let worn = |helix: f64, slope: f64, elastic: bool| {
-        let lead = format!("[face.gear]\nlead_slope = {slope}\n");
-        let study = study(helix, 5, 30.0, &lead);
-        let bench = match elastic {
-            true => Bench::elastic(&study),
-            false => Bench::analytic(&study),
+    type Model = fn(f64, &str) -> Bench;
+    let models: [Model; 3] = [
+        |helix, lead| Bench::analytic(&study(helix, 5, 30.0, lead)),
+        |helix, lead| Bench::elastic(&study(helix, 5, 30.0, lead)),
+        |helix, lead| Bench::elastic(&tied(helix, 5, 30.0, lead)),
+    ];
+    for model in models {
+        let worn = |helix: f64, slope: f64| {
+            let bench = model(helix, &format!("[face.gear]\nlead_slope = {slope}\n"));
+            states(&mut bench.forward(), &[1e5]).0.remove(0)
         };
-        states(&mut bench.forward(), &[1e5]).0.remove(0)
-    };
-    for elastic in [false, true] {
-        let (right, left) = (worn(15.0, 12.0, elastic), worn(-15.0, -12.0, elastic));
+        let (right, left) = (worn(15.0, 12.0), worn(-15.0, -12.0));
         for (a, b) in right.slices.iter().zip(left.slices.iter().rev()) {
             assert!((a.face + b.face).abs() < 1e-12);
             for side in 0..2 {
@@ -308,7 +319,7 @@ fn the_other_hand_mirrors_the_face() {
         }
         assert!(apart(&approaches(&right), &approaches(&left)) < 1e-9);
         // and is not the same as the same hand with the other wedge
-        let other = worn(15.0, -12.0, elastic);
+        let other = worn(15.0, -12.0);
         let ends = [&right.slices[0], &other.slices[4]].map(|s| largest(&s.depth[0]));
         assert!((ends[0] / ends[1] - 1.0).abs() > 1e-6, "{ends:?}");
     }
@@ -384,8 +395,10 @@ fn an_effect_across_the_face_acts_as_the_lead_it_is() {
 /// The derivatives of depths by ln k, along the steps taken, are those of differences.
 #[test]
 fn derivatives_are_those_of_differences() {
-    let study = study(12.0, 5, 30.0, "[face.pinion]\nlead_slope = 12.0\n");
-    for bench in Bench::both(&study) {
+    let lead = "[face.pinion]\nlead_slope = 12.0\n";
+    let [free, tied] = [study, tied].map(|of| of(12.0, 5, 30.0, lead));
+    let [analytic, elastic] = Bench::both(&free);
+    for bench in [analytic, elastic, Bench::elastic(&tied)] {
         let template = bench.forward();
         let end = 1e4;
         let k = bench.conditions.coefficient[0];
@@ -487,7 +500,7 @@ fn the_example_runs_as_one_command() {
         "Load per width across the face",
         "over one turn",
         "radius over the place across the face",
-        "not tied to their neighbours",
+        "slices tied by the teeth carry more",
     ] {
         assert!(report.contains(part), "{part}");
     }

@@ -95,8 +95,8 @@ refusals! {
         => Inconsistent "face.helix_angle" at 22:15, "12.0", "2 or more", "state slices = 11 in [face]";
     teeth_steeper_than_helical: format!("{SHORT}[face]\nhelix_angle = 46.0\nslices = 11\n")
         => BadValue "face.helix_angle" at 22:15, "46.0", "-45 to 45 deg", "8 to 30 is usual";
-    helical_slices_that_are_tied: format!("{SHORT}[face]\nhelix_angle = 12.0\nslices = 11\ncoupling = \"teeth\"\n")
-        => Inconsistent "face.coupling" at 24:12, "\"teeth\"", "\"none\"", "ties slices of spur gears";
+    analytic_slices_that_are_tied: format!("{SHORT}[face]\nhelix_angle = 12.0\nslices = 11\ncoupling = \"teeth\"\n[model]\ncontact = \"hertz\"\n")
+        => Inconsistent "face.coupling" at 24:12, "\"teeth\"", "\"none\"", "ties slices of elastic bodies";
     helical_teeth_by_the_published_model: format!("{SHORT}[model]\ncontact = \"paper\"\n[face]\nhelix_angle = 12.0\nslices = 11\n")
         => Inconsistent "face.slices" at 25:10, "11", "1", "one section of the face";
     helical_teeth_elsewhere: with("module = 2.0", "module = 2.0\nhelix_angle = 12.0")

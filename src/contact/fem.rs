@@ -39,7 +39,7 @@ pub struct FemContact<'a> {
     alteration: Option<&'a Alteration>,
     /// More than one slice of the face.
     slices: Option<&'a Slices>,
-    /// What ties the slices, by position.
+    /// What ties the slices, by turn.
     ties: Option<&'a [DMatrix<f64>]>,
     /// Teeth that differ.
     sequence: Option<&'a Sequence>,

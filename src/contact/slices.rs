@@ -67,6 +67,12 @@ impl Slices {
         (turn as i64 + self.ahead[i]).rem_euclid(positions as i64) as usize
     }
 
+    /// How many base pitches slice `i` is on from its section position at the turn `turn`: what is pair j of the section there is the tooth that is pair j less
+    /// so many at mid-face.
+    pub fn passed(&self, i: usize, turn: usize, positions: usize) -> i32 {
+        (turn as i64 + self.ahead[i]).div_euclid(positions as i64) as i32
+    }
+
     /// The section positions of all slices at the turn `turn`.
     pub fn all_at(&self, turn: usize, positions: usize) -> Vec<usize> {
         (0..self.count())

@@ -32,7 +32,7 @@ pub use joint::{
 };
 use one_by_one::one_by_one;
 pub use sensitivity::{Linearised, sensitivity};
-pub use tied::{Ties, solve_tied};
+pub use tied::{TiedSection, Ties, solve_tied};
 use trial::Trial;
 
 /// The rigid motion that presses the bodies together.

@@ -58,7 +58,7 @@ pub(super) fn read(
         (COUPLINGS[1], Coupling::None),
     ];
     let overlap = (width * gears.pinion.turned_per_mm()).abs();
-    let usual = if face.slices > 1 && overlap == 0.0 {
+    let usual = if face.slices > 1 {
         Coupling::Teeth
     } else {
         Coupling::None
@@ -72,14 +72,6 @@ pub(super) fn read(
             slices_for(overlap),
             q::Short(1e-2 * (1e2 * overlap).round()),
         ))));
-    }
-    if overlap > 0.0 && face.coupling == Coupling::Teeth {
-        let says = "ties slices of spur gears, which are at one place of the mesh";
-        let mut refusal = table.refuse("coupling", says, "\"none\"");
-        refusal.fault = Fault::Inconsistent;
-        return Err(Box::new(refusal.with_hint(
-            "slices of helical gears turn together and are not tied besides",
-        )));
     }
     for (side, which) in Member::BOTH.into_iter().enumerate() {
         let Some(member) = table.table(which.name(), MEMBER_KEYS)? else {

@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use super::effect_model::EffectSpec;
+use crate::gear::Coupling;
+
 use super::{ContactKind, Study, StudyError, face, profile, teeth};
 
 /// The keys that name measured profiles, pinion and gear.
@@ -47,7 +49,7 @@ impl Study {
     }
 
     /// The study, if its contact model knows slices, and either these or teeth that differ.
-    fn with_slices(self) -> Result<Study, StudyError> {
+    fn with_slices(mut self) -> Result<Study, StudyError> {
         let sliced = match self.contact {
             ContactKind::Fem => true,
             // of spur gears an effect across the face is a factor on the load of one section there
@@ -56,6 +58,9 @@ impl Study {
         };
         if !sliced {
             self.one_section(&format!("contact = \"{}\"", self.contact.name()))?;
+        }
+        if self.contact != ContactKind::Fem {
+            self.untied()?;
         }
         if self.contact == ContactKind::Paper {
             self.teeth_alike("contact = \"paper\"")?;
@@ -68,6 +73,25 @@ impl Study {
             self.one_section(&format!("the effect {}", spec.name))?;
         }
         Ok(self)
+    }
+
+    /// Leaves slices untied where the contact model knows no bodies that tie them; refuses ties that are stated.
+    fn untied(&mut self) -> Result<(), StudyError> {
+        let key = "face.coupling";
+        if self.face.slices > 1
+            && self.face.coupling == Coupling::Teeth
+            && self.spans.contains_key(key)
+        {
+            let name = self.contact.name();
+            return Err(self.refuse(
+                key,
+                &format!("ties slices of elastic bodies, and contact = \"{name}\" has none"),
+                "\"none\"",
+                "leave the key away, or compute by finite elements (contact = \"fem\")",
+            ));
+        }
+        self.face.coupling = Coupling::None;
+        Ok(())
     }
 
     /// Refuses teeth that differ in a face of slices: at the key that sets them apart where the slices cannot be left away.

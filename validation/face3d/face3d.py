@@ -220,11 +220,11 @@ def picture(panels, width, most=2.0):
     return "\n".join([*out, "</svg>", ""])
 
 
-def asked_for(words, cases, by_name):
-    """Program, folder and cases of the command line; ends where it asks for what is not there, and with 0 where CalculiX is not."""
+def asked_for(words, cases, by_name, needs_ccx=True):
+    """Program, folder and cases of the command line; ends where it asks for what is not there, and with 0 where CalculiX is needed and is not."""
     if len(sys.argv) < 3:
         sys.exit(words)
-    if shutil.which("ccx") is None:
+    if needs_ccx and shutil.which("ccx") is None:
         print("skipped: CalculiX (the program ccx) is not installed")
         sys.exit()
     wanted = sys.argv[3:] or [name for name in cases if name not in by_name]

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::FemContact;
 use crate::contact::alteration::{Alteration, set_back};
@@ -13,13 +13,15 @@ use crate::contact::model::{ContactError, PositionContact, SlicedContact};
 use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::{AlterationChange, Change, ContactTangent, LinearSlices};
 use crate::contact::unilateral::{
-    JointLinearised, JointProblem, JointSolution, Section, SliceSensitivity, Ties, UnilateralError,
-    solve_joint, solve_tied,
+    JointLinearised, JointProblem, JointSolution, Section, SliceSensitivity, TiedSection, Ties,
+    UnilateralError, solve_joint, solve_tied,
 };
 
 /// Where slices are at one turn.
 struct Stand<'a> {
-    /// The different sections among those of the slices.
+    /// Positions of the different sections among those of the slices.
+    different: Vec<usize>,
+    /// These sections.
     sections: Vec<Section<'a>>,
     /// Number of each slice's among them.
     number: Vec<usize>,
@@ -27,7 +29,7 @@ struct Stand<'a> {
     at: Vec<usize>,
 }
 
-/// The groups of a position's unknowns that slices are tied by: tooth pairs.
+/// The groups of a section's unknowns that slices are tied by: tooth pairs.
 struct TiedPairs {
     groups: Vec<Range<usize>>,
     length: Vec<f64>,
@@ -44,9 +46,8 @@ impl TiedPairs {
         }
     }
 
-    fn by<'b>(&'b self, change: &'b DMatrix<f64>) -> Ties<'b> {
-        Ties {
-            change,
+    fn section(&self) -> TiedSection<'_> {
+        TiedSection {
             groups: &self.groups,
             length: &self.length,
         }
@@ -84,6 +85,7 @@ impl FemContact<'_> {
         };
         Stand {
             sections: different.iter().map(section).collect(),
+            different,
             number,
             at,
         }
@@ -124,8 +126,11 @@ impl FemContact<'_> {
         let problem = self.joint(&stand, gaps);
         let (solution, gaps) = match self.ties {
             Some(ties) => {
-                let pairs = TiedPairs::of(&self.cycle.positions[turn]);
-                let tied = solve_tied(&problem, &pairs.by(&ties[turn]), start).map_err(failed)?;
+                let pairs = self.tied_pairs(&stand);
+                let sections: Vec<TiedSection> = pairs.iter().map(TiedPairs::section).collect();
+                let (change, sections) = (&ties[turn], &sections[..]);
+                let ties = Ties { change, sections };
+                let tied = solve_tied(&problem, &ties, start).map_err(failed)?;
                 (tied.0, Cow::Owned(tied.1))
             }
             None => {
@@ -175,15 +180,29 @@ impl FemContact<'_> {
         let stand = self.stand(turn);
         let gap = |&q: &usize| self.cycle.positions[q].gap.clone();
         let gaps: Vec<Vec<f64>> = stand.at.iter().map(gap).collect();
-        let position = &self.cycle.positions[turn];
-        let pairs = TiedPairs::of(position);
-        let ties = self.ties.map(|ties| pairs.by(&ties[turn]));
+        let pairs = match self.ties {
+            Some(_) => self.tied_pairs(&stand),
+            None => Vec::new(),
+        };
+        let sections: Vec<TiedSection> = pairs.iter().map(TiedPairs::section).collect();
+        let ties = self.ties.map(|ties| Ties {
+            change: &ties[turn],
+            sections: &sections,
+        });
         JointLinearised::new(&self.joint(&stand, &gaps), ties.as_ref(), &active).map_err(
             |source: UnilateralError| ContactError::Unilateral {
-                theta: position.theta,
+                theta: self.cycle.positions[turn].theta,
                 source,
             },
         )
+    }
+
+    /// By section.
+    fn tied_pairs(&self, stand: &Stand<'_>) -> Vec<TiedPairs> {
+        let sections = stand.different.iter();
+        sections
+            .map(|&q| TiedPairs::of(&self.cycle.positions[q]))
+            .collect()
     }
 }
 

@@ -10,12 +10,22 @@
 //! ```
 //! C is the normal displacement at one flank point per line load at another, of both members, of the same and of neighbouring teeth: the peaks under point loads
 //! are the same for all waves and drop out. Even loads stay plane strain to the last bit. The ends of the face are mirrors.
+//!
+//! The cosines are orthogonal with the even load among them, so that this holds for any flank points, one to a slice:
+//!
+//! ```text
+//! E_ij = 2/N Σ_n≥1 [C(κ_n) − C(0)](ρ_i, ρ_j) c_n(i) c_n(j)  = K_|i−j| + K_i+j+1,   K_m = 1/N Σ_n≥1 [C(κ_n) − C(0)] cos(nπ m/N)
+//! ```
+//! K_m is felt m slices from a load, and i + j + 1 is how far it is by way of the mirror. Slices of helical gears stand at other places of the mesh
+//! each, and a tooth that is between two slices' section positions a base pitch apart is one tooth. They are taken as cut from a prism of their section: a tooth turns little over
+//! the length on which waves are felt. As the section's own compliance, that of the inclined tooth is C/cos β_b along the path of contact.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::compliance::member_tooth;
-use crate::contact::cycle::{Cycle, Position};
+use crate::contact::cycle::{Cycle, PairContact, Position};
+use crate::contact::slices::Slices;
 use crate::fem::{FemError, Prism};
 use crate::gear::Gear;
 use crate::material::Elastic;
@@ -36,12 +46,12 @@ pub struct ToothWaves {
     /// Slices, as many as waves and the even load.
     slices: usize,
     /// By wave from the first on, pinion then gear.
-    waves: Vec<[WaveChange; 2]>,
+    waves: Vec<[FlankChange; 2]>,
 }
 
-/// Change of one member's compliance with one wave.
+/// Change of one member's compliance with one wave, or what is felt of it at one distance from the load.
 #[derive(Debug)]
-struct WaveChange {
+struct FlankChange {
     /// Curvature radii of the flank points, mm, ascending.
     rho: Vec<f64>,
     /// By tooth from −[`NEIGHBOURS`] on: displacement at a flank point (row) per line load at one of tooth 0 (column), mm per N/mm.
@@ -83,10 +93,79 @@ impl ToothWaves {
         Ok(Self { slices, waves })
     }
 
-    /// For each position: how far (mm) tooth pair s of slice i gives way per line load (N/mm) of pair t in slice j, row i P + s and column j P + t of P pairs.
-    pub fn ties(&self, cycle: &Cycle) -> Vec<DMatrix<f64>> {
-        let of_position = |position: &Position| self.of_position(position);
-        cycle.positions.par_iter().map(of_position).collect()
+    /// For each turn: how far (mm) a tooth pair (row) gives way per line load (N/mm) of another (column), all pairs of the first of the `slices`, then those of the
+    /// second, and so on.
+    pub fn ties(&self, cycle: &Cycle, slices: &Slices) -> Vec<DMatrix<f64>> {
+        if slices.ahead.iter().all(|ahead| *ahead == 0) {
+            let of_position = |position: &Position| self.of_position(position);
+            return cycle.positions.par_iter().map(of_position).collect();
+        }
+        let by_distance = self.by_distance();
+        let turns = (0..cycle.positions.len()).into_par_iter();
+        turns
+            .map(|turn| self.of_turn(cycle, slices, turn, &by_distance))
+            .collect()
+    }
+
+    /// K_m for m from 0 to the number of slices, pinion then gear.
+    fn by_distance(&self) -> Vec<[FlankChange; 2]> {
+        let n = self.slices as f64;
+        let felt = |m: usize, side: usize| {
+            let rho = self.waves[0][side].rho.clone();
+            let nothing = |change: &DMatrix<f64>| DMatrix::zeros(change.nrows(), change.ncols());
+            let mut change: Vec<_> = self.waves[0][side].change.iter().map(nothing).collect();
+            for (wave, changes) in self.waves.iter().enumerate() {
+                let phase = std::f64::consts::PI * (wave + 1) as f64 * m as f64 / n;
+                for (sum, own) in change.iter_mut().zip(&changes[side].change) {
+                    *sum += own * (phase.cos() / n);
+                }
+            }
+            FlankChange { rho, change }
+        };
+        let distances = (0..=self.slices).into_par_iter();
+        distances.map(|m| [felt(m, 0), felt(m, 1)]).collect()
+    }
+
+    fn of_turn(
+        &self,
+        cycle: &Cycle,
+        slices: &Slices,
+        turn: usize,
+        by_distance: &[[FlankChange; 2]],
+    ) -> DMatrix<f64> {
+        let positions = cycle.positions.len();
+        let place = |i: usize, pair: &PairContact| {
+            let passed = slices.passed(i, turn, positions);
+            [0, 1].map(|side| Place {
+                slice: i,
+                // what the pinion's tooth is on to, the gear's is back from
+                tooth: member_tooth(pair, side) - [passed, -passed][side],
+                weights: by_distance[0][side].weights(pair.frame.rho[side]),
+            })
+        };
+        let place = &place;
+        let places: Vec<[Place; 2]> = (0..self.slices)
+            .flat_map(|i| {
+                let position = &cycle.positions[slices.at(i, turn, positions)];
+                position.pairs.iter().map(move |pair| place(i, pair))
+            })
+            .collect();
+        let inclined = cycle.pair.cos_base_helix();
+        let felt = |to: &Place, from: &Place, side: usize| {
+            let apart = to.slice.abs_diff(from.slice);
+            let mirrored = to.slice + from.slice + 1;
+            let mirrored = mirrored.min(2 * self.slices - mirrored);
+            let at = |m: usize| {
+                let tooth = to.tooth - from.tooth;
+                by_distance[m][side].between(tooth, to.weights, from.weights)
+            };
+            at(apart) + at(mirrored)
+        };
+        let ties = DMatrix::from_fn(places.len(), places.len(), |row, column| {
+            let (to, from) = (&places[row], &places[column]);
+            (felt(&to[0], &from[0], 0) + felt(&to[1], &from[1], 1)) / inclined
+        });
+        0.5 * (&ties + ties.transpose())
     }
 
     fn of_position(&self, position: &Position) -> DMatrix<f64> {
@@ -119,9 +198,23 @@ impl ToothWaves {
     }
 }
 
-impl WaveChange {
+/// Where a tooth pair of a slice touches one member.
+struct Place {
+    slice: usize,
+    /// The member's tooth, counted at the turn of mid-face.
+    tooth: i32,
+    /// Of the flank's points.
+    weights: [(usize, f64); 2],
+}
+
+impl FlankChange {
     /// At the curvature radius `to` of tooth `tooth` per line load at `from` of tooth 0.
     fn at(&self, tooth: i32, [to, from]: [f64; 2]) -> f64 {
+        self.between(tooth, self.weights(to), self.weights(from))
+    }
+
+    /// The same for places between points.
+    fn between(&self, tooth: i32, to: [(usize, f64); 2], from: [(usize, f64); 2]) -> f64 {
         let Some(change) = usize::try_from(tooth + NEIGHBOURS)
             .ok()
             .and_then(|place| self.change.get(place))
@@ -129,10 +222,9 @@ impl WaveChange {
         else {
             return 0.0;
         };
-        let [rows, columns] = [to, from].map(|rho| self.weights(rho));
         let mut sum = 0.0;
-        for (i, a) in rows {
-            for (j, b) in columns {
+        for (i, a) in to {
+            for (j, b) in from {
                 sum += a * b * change[(i, j)];
             }
         }
@@ -154,7 +246,30 @@ fn changes(
     gear: &Gear,
     material: Elastic,
     wave_numbers: &[f64],
-) -> Result<Vec<WaveChange>, WaveError> {
+) -> Result<Vec<FlankChange>, WaveError> {
+    let Compliances { rho, by_wave } = compliances(gear, material, wave_numbers)?;
+    let (even, waves) = by_wave.split_first().expect("the even load is one");
+    let change = |wave: &Vec<DMatrix<f64>>| FlankChange {
+        rho: rho.clone(),
+        change: wave.iter().zip(even).map(|(w, e)| w - e).collect(),
+    };
+    Ok(waves.iter().map(change).collect())
+}
+
+/// Compliances of one member's flank points.
+struct Compliances {
+    /// Their curvature radii, mm, ascending.
+    rho: Vec<f64>,
+    /// By wave number and tooth, as in [`FlankChange`].
+    by_wave: Vec<Vec<DMatrix<f64>>>,
+}
+
+/// Compliances by wave number.
+fn compliances(
+    gear: &Gear,
+    material: Elastic,
+    wave_numbers: &[f64],
+) -> Result<Compliances, WaveError> {
     let module = gear.rack.module;
     // a gear of few teeth has each of them once
     let reach = NEIGHBOURS.min((gear.spec.teeth as i32 - 1) / 2);
@@ -172,19 +287,18 @@ fn changes(
     };
     let mesh = mesh_gear(gear, &spec)?;
     let prism = Prism::new(&mesh, material, &mesh.bore)?;
-    let flanks: Vec<Flank> = (-NEIGHBOURS..=NEIGHBOURS)
+    let mut flanks: Vec<Flank> = (-NEIGHBOURS..=NEIGHBOURS)
         .map(|tooth| Flank::new(&mesh, gear, tooth))
         .collect();
-    let compliances = wave_numbers
+    let by_wave = wave_numbers
         .par_iter()
         .map(|&wave_number| compliance(&prism, &flanks, wave_number))
         .collect::<Result<Vec<_>, FemError>>()?;
-    let (even, waves) = compliances.split_first().expect("the even load is one");
-    let change = |wave: &Vec<DMatrix<f64>>| WaveChange {
-        rho: flanks[NEIGHBOURS as usize].rho.clone(),
-        change: wave.iter().zip(even).map(|(w, e)| w - e).collect(),
-    };
-    Ok(waves.iter().map(change).collect())
+    let loaded = flanks.swap_remove(NEIGHBOURS as usize);
+    Ok(Compliances {
+        rho: loaded.rho,
+        by_wave,
+    })
 }
 
 /// Points of one tooth's flank: the corners of its edges.
@@ -248,22 +362,46 @@ mod tests {
     use crate::contact::cycle::{CycleSpec, Stations};
     use crate::contact::frame::tests::reference;
 
-    /// A body that gives way by c under an even load and not at all under a wave moves as one: the slices give way by c of their mean load, so the ties are
-    /// −c (δ_ij − 1/N) from each member (the cosines are orthogonal, and with the even load complete).
-    #[test]
-    fn where_no_wave_bends_the_teeth_all_slices_move_by_their_mean_load() {
-        const N: usize = 5;
+    const N: usize = 5;
+    const POSITIONS: usize = 8;
+
+    fn cycle() -> Cycle {
         let pair = reference();
         let stations = Stations::new(&pair, 0.05);
         let spec = CycleSpec {
-            positions: 8,
+            positions: POSITIONS,
             spacing: 0.05,
             even: 0.2,
             window: 0.3,
             reach: 0.02,
         };
-        let cycle = Cycle::new(&pair, &stations, spec);
-        let stiff = |c: f64| WaveChange {
+        Cycle::new(&pair, &stations, spec)
+    }
+
+    /// The slices stand turned by so many base pitches from one end to the other.
+    fn turned(overlap: f64) -> Slices {
+        Slices::even(N, 1.0).turned(overlap, POSITIONS)
+    }
+
+    /// Slice and pair of every row at one turn.
+    fn rows<'c>(
+        cycle: &'c Cycle,
+        slices: &'c Slices,
+        turn: usize,
+    ) -> Vec<(usize, &'c PairContact)> {
+        let of_slice = |i: usize| {
+            let position = &cycle.positions[slices.at(i, turn, POSITIONS)];
+            position.pairs.iter().map(move |pair| (i, pair))
+        };
+        (0..N).flat_map(of_slice).collect()
+    }
+
+    /// A body that gives way by c under an even load and not at all under a wave moves as one: the slices give way by c of their mean load, so the ties are
+    /// −c (δ_ij − 1/N) from each member (the cosines are orthogonal, and with the even load complete).
+    #[test]
+    fn where_no_wave_bends_the_teeth_all_slices_move_by_their_mean_load() {
+        let cycle = cycle();
+        let stiff = |c: f64| FlankChange {
             rho: vec![0.0, 100.0],
             change: vec![DMatrix::from_element(2, 2, -c); 5],
         };
@@ -272,19 +410,161 @@ mod tests {
             slices: N,
             waves: (1..N).map(|_| c.map(stiff)).collect(),
         };
-        let all = waves.ties(&cycle);
-        assert!(
-            all.iter()
-                .zip(&cycle.positions)
-                .any(|(_, p)| p.pairs.len() > 1)
-        );
-        for (ties, position) in all.iter().zip(&cycle.positions) {
-            let pairs = position.pairs.len();
-            for (i, j) in (0..N * pairs).flat_map(|i| (0..N * pairs).map(move |j| (i, j))) {
-                let own = f64::from(u8::from(i / pairs == j / pairs));
-                let expected = -(c[0] + c[1]) * (own - 1.0 / N as f64);
-                assert!((ties[(i, j)] - expected).abs() < 1e-18);
+        for slices in [turned(0.0), turned(1.3), turned(-2.0)] {
+            let all = waves.ties(&cycle, &slices);
+            assert!(cycle.positions.iter().any(|p| p.pairs.len() > 1));
+            for (turn, ties) in all.iter().enumerate() {
+                let rows = rows(&cycle, &slices, turn);
+                assert_eq!(ties.nrows(), rows.len());
+                for (a, (i, s)) in rows.iter().enumerate() {
+                    for (b, (j, t)) in rows.iter().enumerate() {
+                        let numbers = [(i, s), (j, t)]
+                            .map(|(i, pair)| pair.tooth - slices.passed(*i, turn, POSITIONS));
+                        let within = (numbers[0] - numbers[1]).abs() <= NEIGHBOURS;
+                        let own = f64::from(u8::from(i == j));
+                        let expected = -(c[0] + c[1]) * (own - 1.0 / N as f64);
+                        let expected = if within { expected } else { 0.0 };
+                        assert!((ties[(a, b)] - expected).abs() < 1e-18);
+                    }
+                }
             }
+        }
+    }
+
+    /// Along the face a tooth's path of contact goes on by the same length from slice to slice, whatever base pitch its section position is in.
+    #[test]
+    fn a_tooth_is_the_same_in_all_slices() {
+        let cycle = cycle();
+        for overlap in [0.7, 1.3, -2.0] {
+            let slices = turned(overlap);
+            for turn in 0..POSITIONS {
+                for (i, pair) in rows(&cycle, &slices, turn) {
+                    let tooth = pair.tooth - slices.passed(i, turn, POSITIONS);
+                    let at_mid_face = cycle.positions[turn].theta + f64::from(tooth);
+                    let on = pair.path / cycle.pair.base_pitch - at_mid_face;
+                    let ahead = slices.ahead[i] as f64 / POSITIONS as f64;
+                    assert!((on - ahead).abs() < 1e-12, "{on} for {ahead}");
+                }
+            }
+        }
+    }
+
+    /// Slices that hardly stand turned are tied as those of spur gears, which have their ties by another way; mirrored slices have mirrored ties.
+    #[test]
+    fn without_a_helix_ties_are_those_of_spur_gears() {
+        let cycle = cycle();
+        let c = |side: usize, a: usize, b: usize, wave: usize| {
+            let apart = 1.0 + (a as f64 - b as f64).powi(2) * (1.0 + side as f64);
+            -1e-6 * (1.0 - 0.5 / wave as f64) / apart
+        };
+        let change = |side: usize, wave: usize| FlankChange {
+            rho: vec![0.0, 5.0, 9.0, 14.0, 40.0],
+            change: (-2..=2)
+                .map(|tooth: i32| {
+                    let felt = 0.3f64.powi(tooth.abs());
+                    DMatrix::from_fn(5, 5, |a, b| felt * c(side, a, b, wave))
+                })
+                .collect(),
+        };
+        let waves = ToothWaves {
+            slices: N,
+            waves: (1..N)
+                .map(|wave| [0, 1].map(|side| change(side, wave)))
+                .collect(),
+        };
+        let upright = turned(0.0);
+        let spur = waves.ties(&cycle, &upright);
+        let by_distance = waves.by_distance();
+        for (turn, spur) in spur.iter().enumerate() {
+            let ties = waves.of_turn(&cycle, &upright, turn, &by_distance);
+            assert!((spur - ties).amax() < 1e-12 * spur.amax());
+        }
+        let (right, left) = (turned(1.3), turned(-1.3));
+        for (turn, ties) in waves.ties(&cycle, &right).iter().enumerate() {
+            let (own, other) = (rows(&cycle, &right, turn), rows(&cycle, &left, turn));
+            let mirrored: Vec<usize> = (own.iter())
+                .map(|(i, pair)| {
+                    let same = |(j, other): &(usize, &PairContact)| {
+                        *j == N - 1 - *i && other.path == pair.path
+                    };
+                    other.iter().position(same).unwrap()
+                })
+                .collect();
+            let left = &waves.ties(&cycle, &left)[turn];
+            for a in 0..own.len() {
+                for b in 0..own.len() {
+                    let off = ties[(a, b)] - left[(mirrored[a], mirrored[b])];
+                    assert!(off.abs() < 1e-12 * ties.amax());
+                }
+            }
+        }
+    }
+
+    /// With what slices give way by themselves the ties are the compliance of the whole prism, wave by wave, and that takes work to load.
+    #[test]
+    fn ties_and_sections_together_are_the_prism() {
+        let pair = reference();
+        let steel = Elastic {
+            youngs_modulus: 2.1e5,
+            poisson_ratio: 0.3,
+        };
+        let width = 20.0;
+        let wave_numbers: Vec<f64> = (0..N)
+            .map(|n| n as f64 * std::f64::consts::PI / width)
+            .collect();
+        let gears = [&pair.pinion, &pair.gear];
+        let all = gears.map(|gear| compliances(gear, steel, &wave_numbers).unwrap());
+        let of = |side: usize, wave: usize| FlankChange {
+            rho: all[side].rho.clone(),
+            change: all[side].by_wave[wave].clone(),
+        };
+        let waves = ToothWaves::new(gears, [steel; 2], width, N).unwrap();
+        let (cycle, slices) = (cycle(), turned(1.3));
+        for (turn, ties) in waves.ties(&cycle, &slices).iter().enumerate() {
+            let rows = rows(&cycle, &slices, turn);
+            let at = |wave: usize, a: usize, b: usize| {
+                let of_side = |side: usize| {
+                    let tooth = |row: usize| {
+                        let (i, pair) = rows[row];
+                        let own = member_tooth(pair, side);
+                        let passed = slices.passed(i, turn, POSITIONS);
+                        if side == 0 {
+                            own - passed
+                        } else {
+                            own + passed
+                        }
+                    };
+                    let rho = [a, b].map(|row| rows[row].1.frame.rho[side]);
+                    of(side, wave).at(tooth(a) - tooth(b), rho)
+                };
+                of_side(0) + of_side(1)
+            };
+            let prism = |a: usize, b: usize| -> f64 {
+                let cosine = |wave: usize, row: usize| {
+                    let phase = wave as f64 * (rows[row].0 as f64 + 0.5) / N as f64;
+                    (std::f64::consts::PI * phase).cos()
+                };
+                let share = |wave: usize| f64::from(1 + u8::from(wave > 0)) / N as f64;
+                (0..N)
+                    .map(|n| share(n) * cosine(n, a) * cosine(n, b) * at(n, a, b))
+                    .sum()
+            };
+            let own = |a: usize, b: usize| match rows[a].0 == rows[b].0 {
+                true => at(0, a, b),
+                false => 0.0,
+            };
+            let size = rows.len();
+            let inclined = cycle.pair.cos_base_helix();
+            assert_eq!(inclined, 1.0);
+            assert_eq!(*ties, ties.transpose());
+            let whole = DMatrix::from_fn(size, size, |a, b| ties[(a, b)] + own(a, b));
+            let expected = DMatrix::from_fn(size, size, prism);
+            let off = (&whole - &expected).amax() / expected.amax();
+            assert!(off < 2e-3, "{off}");
+            let least = whole.symmetric_eigenvalues().min();
+            assert!(least > 0.0, "{least}");
+            // ties take away, and never give
+            assert!(ties.symmetric_eigenvalues().max() < 1e-3 * whole.amax());
         }
     }
 }

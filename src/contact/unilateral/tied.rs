@@ -17,12 +17,30 @@ use super::joint::{Factors, JointProblem, JointSolution, OnSet, SetFactor, on_se
 /// What ties the slices of a [`JointProblem`].
 #[derive(Debug, Clone, Copy)]
 pub struct Ties<'a> {
-    /// E: row i P + s, column j P + t for slices i, j and groups s, t of P.
+    /// E: rows and columns are the groups of the first slice, then those of the second, and so on.
     pub change: &'a DMatrix<f64>,
-    /// The unknowns of each group, the same in every slice.
+    /// By section of the problem.
+    pub sections: &'a [TiedSection<'a>],
+}
+
+/// The groups of a section's unknowns that are tied.
+#[derive(Debug, Clone, Copy)]
+pub struct TiedSection<'a> {
+    /// The unknowns of each group.
     pub groups: &'a [Range<usize>],
     /// Length of every unknown.
     pub length: &'a [f64],
+}
+
+impl Ties<'_> {
+    /// First row of each slice, and the end of the last, for slices at the sections `at`.
+    fn rows(&self, at: &[usize]) -> Vec<usize> {
+        let mut rows = vec![0];
+        for &section in at {
+            rows.push(rows[rows.len() - 1] + self.sections[section].groups.len());
+        }
+        rows
+    }
 }
 
 /// Rounds of sets and shifts.
@@ -32,7 +50,7 @@ const MOST_ROUNDS: usize = 30;
 const MOST_STEPS: usize = 400;
 const SETTLED: f64 = 1e-12;
 
-/// Solves `problem`, whose slices all stand at one section, with these tied, from the sets `start`; also the gaps by slice as the ties leave them.
+/// Solves `problem` with its slices tied, from the sets `start`; also the gaps by slice as the ties leave them.
 ///
 /// # Errors
 /// [`UnilateralError`].
@@ -68,7 +86,7 @@ pub fn solve_tied(
             },
             &sets,
         )?;
-        let next = ties.change * loads(ties, &solution.pressure);
+        let next = ties.change * loads(problem, ties, &solution.pressure);
         let moved = (&next - &shifts).amax();
         if moved <= SETTLED * next.amax() {
             return Ok((solution, gaps));
@@ -82,25 +100,27 @@ pub fn solve_tied(
 }
 
 /// f: the loads of all groups.
-fn loads(ties: &Ties, pressure: &[Vec<f64>]) -> DVector<f64> {
-    let of_group = |pressure: &Vec<f64>, group: &Range<usize>| -> f64 {
-        let own = group.clone();
-        own.map(|k| ties.length[k] * pressure[k]).sum()
-    };
-    let all = pressure
-        .iter()
-        .flat_map(|p| ties.groups.iter().map(move |group| of_group(p, group)));
+fn loads(problem: &JointProblem, ties: &Ties, pressure: &[Vec<f64>]) -> DVector<f64> {
+    let slices = pressure.iter().zip(problem.at);
+    let all = slices.flat_map(|(pressure, &section)| {
+        let TiedSection { groups, length } = ties.sections[section];
+        let of_group = move |group: &Range<usize>| -> f64 {
+            group.clone().map(|k| length[k] * pressure[k]).sum()
+        };
+        groups.iter().map(of_group)
+    });
     DVector::from_iterator(ties.change.nrows(), all)
 }
 
 /// The gaps with every group of every slice shifted.
 fn shifted(problem: &JointProblem, ties: &Ties, shifts: &DVector<f64>) -> Vec<Vec<f64>> {
     let mut gaps = problem.gaps.to_vec();
-    for (i, gap) in gaps.iter_mut().enumerate() {
-        for (s, group) in ties.groups.iter().enumerate() {
-            let shift = shifts[i * ties.groups.len() + s];
+    let mut shifts = shifts.iter();
+    for (gap, &section) in gaps.iter_mut().zip(problem.at) {
+        let TiedSection { groups, length } = ties.sections[section];
+        for (group, shift) in groups.iter().zip(&mut shifts) {
             for k in group.clone() {
-                gap[k] += shift * ties.length[k];
+                gap[k] += shift * length[k];
             }
         }
     }
@@ -115,7 +135,7 @@ fn shifts_on(
 ) -> Result<DVector<f64>, UnilateralError> {
     let on = on_sets(problem, &mut Factors::default(), sets)?;
     let factors: Vec<&SetFactor> = on.iter().map(OnSet::factor).collect();
-    let system = TiedSystem::new(&factors, problem.weights, ties)?;
+    let system = TiedSystem::new(&factors, problem, ties)?;
     let gaps: Vec<DVector<f64>> = on.iter().map(|on| -on.of_gap()).collect();
     Ok(system
         .shifts(&factors, problem.weights, &gaps, problem.load)
@@ -128,26 +148,26 @@ pub(super) struct TiedSystem {
     /// By slice: lengths of each group (columns) on its set.
     lengths: Vec<DMatrix<f64>>,
     equations: LU<f64, Dyn, Dyn>,
-    /// Number of groups.
-    groups: usize,
+    /// First shift of each slice, and the end of the last.
+    rows: Vec<usize>,
 }
 
 impl TiedSystem {
-    /// For slices on the sets of `factors`.
+    /// For the slices of `problem` on the sets of `factors`.
     pub(super) fn new(
         factors: &[&SetFactor],
-        weights: &[f64],
+        problem: &JointProblem,
         ties: &Ties,
     ) -> Result<Self, UnilateralError> {
-        let groups = ties.groups.len();
-        let size = groups * factors.len();
-        let lengths: Vec<DMatrix<f64>> = factors
-            .iter()
-            .map(|factor| {
-                DMatrix::from_fn(factor.active().len(), groups, |i, s| {
+        let rows = ties.rows(problem.at);
+        let size = ties.change.nrows();
+        let lengths: Vec<DMatrix<f64>> = (factors.iter().zip(problem.at))
+            .map(|(factor, &section)| {
+                let TiedSection { groups, length } = ties.sections[section];
+                DMatrix::from_fn(factor.active().len(), groups.len(), |i, s| {
                     let k = factor.active()[i];
-                    let own = ties.groups[s].contains(&k);
-                    if own { ties.length[k] } else { 0.0 }
+                    let own = groups[s].contains(&k);
+                    if own { length[k] } else { 0.0 }
                 })
             })
             .collect();
@@ -158,18 +178,18 @@ impl TiedSystem {
         for (i, (factor, length)) in factors.iter().zip(&lengths).enumerate() {
             let columns = factor.solved(length.clone());
             let own = length.tr_mul(&columns);
-            let first = i * groups;
+            let (first, groups) = (rows[i], length.ncols());
             stiffness
                 .view_mut((first, first), (groups, groups))
                 .copy_from(&own);
             driven
                 .rows_mut(first, groups)
                 .copy_from(&length.tr_mul(factor.of_arm()));
-            let carried = columns.tr_mul(factor.lever()) * -weights[i];
+            let carried = columns.tr_mul(factor.lever()) * -problem.weights[i];
             for s in 0..groups {
                 equations[(size, first + s)] = carried[s];
             }
-            equations[(size, size)] += weights[i] * factor.lever().dot(factor.of_arm());
+            equations[(size, size)] += problem.weights[i] * factor.lever().dot(factor.of_arm());
         }
         let mut shifts = ties.change * stiffness;
         for i in 0..size {
@@ -191,7 +211,7 @@ impl TiedSystem {
             change: ties.change.clone(),
             lengths,
             equations,
-            groups,
+            rows,
         })
     }
 
@@ -203,12 +223,12 @@ impl TiedSystem {
         solved: &[DVector<f64>],
         load: f64,
     ) -> (DVector<f64>, f64) {
-        let size = self.groups * factors.len();
+        let size = self.change.nrows();
         let mut carried = DVector::zeros(size);
         let mut rest = load;
         for (i, (factor, own)) in factors.iter().zip(solved).enumerate() {
             carried
-                .rows_mut(i * self.groups, self.groups)
+                .rows_mut(self.rows[i], self.lengths[i].ncols())
                 .copy_from(&self.lengths[i].tr_mul(own));
             rest -= weights[i] * factor.lever().dot(own);
         }
@@ -221,6 +241,6 @@ impl TiedSystem {
 
     /// L v in slice `i`.
     pub(super) fn shift(&self, i: usize, shifts: &DVector<f64>) -> DVector<f64> {
-        &self.lengths[i] * shifts.rows(i * self.groups, self.groups)
+        &self.lengths[i] * shifts.rows(self.rows[i], self.lengths[i].ncols())
     }
 }

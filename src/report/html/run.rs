@@ -162,10 +162,10 @@ fn contact(run: &Run) -> Section {
              depends on the mesh, until wear has rounded the kink off.",
         );
     }
-    if run.geometry.helix.is_none() {
-        return section;
+    match text::across_helical_gears(run) {
+        Some(said) => section.note(format!("Note: {said}.")),
+        None => section,
     }
-    section.note(format!("Note: {}.", text::HELICAL_SLICES))
 }
 
 fn stress(run: &Run) -> Section {

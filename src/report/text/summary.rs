@@ -5,7 +5,7 @@ use std::path::Path;
 use super::peak::{KINK, at_kinks, elsewhere};
 use super::plausibility::implausible;
 use super::{
-    HELICAL_SLICES, asked_for, corner_pressure, deepest_on_the_face, failed_checks, jammed,
+    across_helical_gears, asked_for, corner_pressure, deepest_on_the_face, failed_checks, jammed,
     new_and_worn,
 };
 use crate::numeric::written::{duration, percent, significant, whole};
@@ -143,13 +143,12 @@ fn notes(run: &Run) -> impl Iterator<Item = String> {
         )
     });
     let linear = mesh.filter(|mesh| mesh.element == "T3");
-    let helix = run.geometry.helix.as_ref();
     [
         jammed(run),
         few_edges,
         linear.map(|_| LINEAR.to_owned()),
         few_slices(run),
-        helix.map(|_| HELICAL_SLICES.to_owned()),
+        across_helical_gears(run).map(str::to_owned),
     ]
     .into_iter()
     .flatten()

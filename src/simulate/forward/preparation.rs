@@ -418,7 +418,7 @@ impl Forward<'_> {
         let pair = &self.cycle.pair;
         let gears = [&pair.pinion, &pair.gear];
         let waves = blanks.waves(gears, self.set.face_width, slices.count())?;
-        Ok(Some(Arc::new(waves.ties(&self.cycle))))
+        Ok(Some(Arc::new(waves.ties(&self.cycle, slices))))
     }
 
     /// Which tooth meets which, if the study or the effects say that teeth differ.

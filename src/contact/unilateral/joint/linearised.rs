@@ -52,7 +52,7 @@ impl JointLinearised {
         let factors: Vec<&SetFactor> = slices.iter().map(Arc::as_ref).collect();
         let tied = ties
             .filter(|_| active.iter().any(|set| !set.is_empty()))
-            .map(|ties| TiedSystem::new(&factors, problem.weights, ties))
+            .map(|ties| TiedSystem::new(&factors, problem, ties))
             .transpose()?;
         Ok(Self {
             slices,
