@@ -32,7 +32,7 @@ CASES = {
     "even, finer face": ("even", 0.5, FINER_FACE, "free"),
 }
 # solved only where they are asked for
-BY_NAME = {"even, at the pitch point, rims held", "crown, between two pairs, rims held", "even, finer mesh", "even, finer face"}
+BY_NAME = {"even, at the pitch point, rims held", "crown, between two pairs, rims held", "even, finer mesh"}
 COUPLINGS = "teeth", "none"
 TEETH = {0.0: (-1, 0, 1), 0.5: (-1, 0)}  # of the pinion, that carry there
 
