@@ -19,10 +19,12 @@ use crate::simulate::result::{Member, Run, State};
 /// What to say of the load across helical gears; figures of validation/face3d.
 pub(super) fn across_helical_gears(run: &Run) -> Option<&'static str> {
     run.geometry.helix.as_ref()?;
-    Some(match run.made.face.coupling {
-        Coupling::None => UNTIED,
-        Coupling::Teeth => TIED,
-    })
+    Some(if slices_are_tied(run) { TIED } else { UNTIED })
+}
+
+/// Whether slices are tied by the teeth; the analytic contact model has none that could.
+pub(super) fn slices_are_tied(run: &Run) -> bool {
+    run.mesh.is_some() && run.made.face.coupling == Coupling::Teeth
 }
 
 const UNTIED: &str = "slices of helical gears that are not tied to their neighbours carry too little where contact lines end: the largest load across the face came out \

@@ -49,7 +49,7 @@ impl Study {
     }
 
     /// The study, if its contact model knows slices, and either these or teeth that differ.
-    fn with_slices(mut self) -> Result<Study, StudyError> {
+    fn with_slices(self) -> Result<Study, StudyError> {
         let sliced = match self.contact {
             ContactKind::Fem => true,
             // of spur gears an effect across the face is a factor on the load of one section there
@@ -60,7 +60,7 @@ impl Study {
             self.one_section(&format!("contact = \"{}\"", self.contact.name()))?;
         }
         if self.contact != ContactKind::Fem {
-            self.untied()?;
+            self.refuse_ties()?;
         }
         if self.contact == ContactKind::Paper {
             self.teeth_alike("contact = \"paper\"")?;
@@ -75,8 +75,8 @@ impl Study {
         Ok(self)
     }
 
-    /// Leaves slices untied where the contact model knows no bodies that tie them; refuses ties that are stated.
-    fn untied(&mut self) -> Result<(), StudyError> {
+    /// Refuses stated ties where the contact model knows no bodies that tie slices; ties that nobody stated are passed over there.
+    fn refuse_ties(&self) -> Result<(), StudyError> {
         let key = "face.coupling";
         if self.face.slices > 1
             && self.face.coupling == Coupling::Teeth
@@ -90,7 +90,6 @@ impl Study {
                 "leave the key away, or compute by finite elements (contact = \"fem\")",
             ));
         }
-        self.face.coupling = Coupling::None;
         Ok(())
     }
 

@@ -89,7 +89,7 @@ pub(super) fn prepare(
             point.bodies.as_bytes(),
             &loads[&point.bodies],
         ];
-        parts.push(outputs.as_bytes());
+        parts.extend(outputs.as_deref().map(str::as_bytes));
         let hash = fingerprint(&parts);
         point.key = hash[..16].iter().map(|b| format!("{b:02x}")).collect();
     }

@@ -97,7 +97,8 @@ impl ToothWaves {
     /// second, and so on.
     pub fn ties(&self, cycle: &Cycle, slices: &Slices) -> Vec<DMatrix<f64>> {
         if slices.ahead.iter().all(|ahead| *ahead == 0) {
-            let of_position = |position: &Position| self.of_position(position);
+            let inclined = cycle.pair.cos_base_helix();
+            let of_position = |position: &Position| self.of_position(position) / inclined;
             return cycle.positions.par_iter().map(of_position).collect();
         }
         let by_distance = self.by_distance();

@@ -1,6 +1,6 @@
 //! What a run was made from: conditions, gears, face and teeth as stated, in tables.
 
-use crate::gear::{Coupling, Face, Hunting, Lead};
+use crate::gear::{Face, Hunting, Lead};
 use crate::numeric::written::{count, plain, significant};
 use crate::report::html::page::Section;
 use crate::report::html::table::{Cell, Table};
@@ -185,9 +185,10 @@ fn across_the_face(run: &Run) -> Option<Table> {
         return None;
     }
     let face: &Face = &run.made.face;
-    let coupling = match face.coupling {
-        Coupling::Teeth => "tied by the teeth",
-        Coupling::None => "turn together, not tied besides",
+    let coupling = if text::slices_are_tied(run) {
+        "tied by the teeth"
+    } else {
+        "turn together, not tied besides"
     };
     let caption = format!("Across the face: {slices} slices, {coupling}");
     type Figure = fn(&Lead) -> String;
