@@ -10,7 +10,7 @@ use super::quantity::{Quantity, Subject};
 use counting::{AROUND_POWER, CYCLES, HOURS, MULTIPLES, PER_MINUTE, POWERS, SPEEDS, TIMES};
 use vocabulary::{
     AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, EXPANDED, FILLERS, FLANKS, FOR_PEOPLE, HINTS,
-    LOSSES, MASSES, MEMBERS, QUANTITIES, SPANS, STOPS,
+    LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, SPANS, STOPS,
 };
 
 /// Which of two measurements of a part.
@@ -224,11 +224,16 @@ pub(super) fn is_deviation(name: &str) -> bool {
     DEVIATIONS.contains(&telling(name).concat().as_str())
 }
 
-/// Whether a text has a word for the deviation from the new profile, and none for what was worn.
+/// Whether a text has a word for the deviation of the profile, near one for the profile or with nothing but a unit, and none for what was worn.
 pub(super) fn speaks_of_deviation(text: &str) -> bool {
     let words = words(text);
     let is_worn =
         |word: &String| quantity(word).is_some_and(|(named, _)| named == Quantity::WearDepth);
+    let says_nothing = |word: &String| {
+        is_filler(word)
+            || member(word).is_some()
+            || ["um", "\u{b5}m", "\u{3bc}m", "mm"].contains(&word.as_str())
+    };
     let deviates = words.iter().enumerate().any(|(at, word)| {
         let before = at
             .checked_sub(1)
@@ -237,7 +242,16 @@ pub(super) fn speaks_of_deviation(text: &str) -> bool {
         // a standard deviation is none: `écart type`, `desviación estándar`
         let is_standard = ["standard", "std", "mean"].contains(&before)
             || ["type", "estandar", "standard"].contains(&behind);
-        DEVIATIONS.contains(&word.as_str()) && !is_standard
+        // `scostamento del profilo`, `deviation of the profile`
+        let around = &words[at.saturating_sub(2)..words.len().min(at + 4)];
+        let of_profile = around.iter().any(|near| PROFILES.contains(&near.as_str()));
+        let is_alone = || {
+            let mut others = words.iter().filter(|other| *other != word);
+            others.all(says_nothing)
+        };
+        let is_compound = PROFILE_DEVIATIONS.contains(&word.as_str());
+        is_compound
+            || DEVIATIONS.contains(&word.as_str()) && !is_standard && (of_profile || is_alone())
     });
     deviates && !words.iter().any(is_worn)
 }
@@ -313,7 +327,10 @@ mod tests {
         for text in [
             "Profilabweichung Ritzel, Versuch A",
             "profile deviation [um]",
-            "Abweichung",
+            "Abweichung [\u{b5}m]",
+            "Flankenabweichung links",
+            "scostamento del profilo",
+            "deviation of the flank, pinion",
         ] {
             assert!(speaks_of_deviation(text), "{text}");
         }
@@ -322,6 +339,8 @@ mod tests {
             "\u{e9}cart type",
             "Verschlei\u{df} (Abweichung vom Neuprofil)",
             "radius",
+            "Torque deviation below 2 percent",
+            "Abweichung der Temperatur",
         ] {
             assert!(!speaks_of_deviation(text), "{text}");
         }

@@ -49,7 +49,7 @@ fn deviations_without_the_new_profile_need_a_sign() {
         "Profilabweichung [\u{b5}m]\nRadius [mm];250000;500000\n26,5;-0,7;-1,8\n27,0;-0,6;-1,2\n";
     let message = refused(&home, table, OPTIONS);
     assert!(
-        message.contains("row 1: `Profilabweichung [\u{b5}m]` names deviations, of which 4 of 4 are negative: say --turn-sign"),
+        message.contains("row 1: `Profilabweichung [\u{b5}m]` names deviations, of which 4 of 4 are negative, and none is of the new profile: write"),
         "{message}"
     );
     let stated = table.replace("[\u{b5}m]", "[\u{b5}m]; negativ = Material fehlt");
@@ -100,5 +100,67 @@ fn a_title_that_is_obeyed_is_not_passed_over() {
     assert!(
         shown.contains("title    row 4 passed over: Pr\u{fc}fer: M. Muster"),
         "{shown}"
+    );
+}
+
+/// What stands in other rows, and deviations of other things than profiles, turn nothing round; what the user states wins.
+#[test]
+fn only_deviations_of_profiles_are_turned_round() {
+    let home = home();
+    let down = "radius;0;10000;20000\n26.5;2.0;1.0;0.5\n27.0;1.0;0.5;0.1\n";
+    let table = format!("Wear test 7\nProfile deviation [um]\n{down}");
+    let (_, written) = rows(&home, &table, OPTIONS);
+    assert!(
+        written.contains("A,pinion,20000,wear_depth,26.5,1.5,0.1,"),
+        "{written}"
+    );
+    let stated = format!("{OPTIONS} --quantity wear_depth");
+    for (title, options) in [
+        ("Torque deviation below 2 percent", OPTIONS),
+        ("Profile deviation [um]", stated.as_str()),
+    ] {
+        let (_, written) = rows(&home, &format!("{title}\n{down}"), options);
+        assert!(
+            written.contains("A,pinion,20000,wear_depth,26.5,0.5,0.1,"),
+            "{title}: {written}"
+        );
+    }
+}
+
+/// Without a sign nothing is read where nothing shows which one it is.
+#[test]
+fn deviations_that_do_not_show_their_sign_are_refused() {
+    let home = home();
+    for (down, why) in [
+        (
+            "radius;10000;20000\n26.5;2.0;1.0\n27.0;1.0;-0.5\n",
+            "1 of 4 are negative, and none is of the new profile",
+        ),
+        (
+            "radius;0;10000;20000\n26.5;0;1.0;2.0\n27.0;0;0.5;1.0\n",
+            "all 0 at 0, and 4 of 4 depths would be negative",
+        ),
+        (
+            "radius;0\n26.5;2.0\n27.0;1.0\n",
+            "at 0 alone, of the new profile",
+        ),
+    ] {
+        let message = refused(&home, &format!("Profile deviation [um]\n{down}"), OPTIONS);
+        assert!(message.contains(why), "{message}");
+    }
+}
+
+#[test]
+fn missing_values_say_nothing_of_the_sign() {
+    let home = home();
+    let down = "radius;10000;20000\n26.5;1.0;2.0\n27.0;0.5;0.7\n";
+    let (_, written) = rows(
+        &home,
+        &format!("Missing values are negative\nVerschleiss [um]\n{down}"),
+        OPTIONS,
+    );
+    assert!(
+        written.contains("A,pinion,20000,wear_depth,26.5,2,0.1,"),
+        "{written}"
     );
 }

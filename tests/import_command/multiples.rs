@@ -118,3 +118,43 @@ fn multiples_are_read_however_they_are_written() {
         assert!(!shown.contains("passed over"), "{shown}");
     }
 }
+
+/// A number of a title is no count, and the title's multiple holds for what stands below.
+#[test]
+fn numbers_of_titles_are_no_counts() {
+    let home = home();
+    let table =
+        "Test 12, load cycles [10^6]\nwear [um]\nradius;0.01;0.02\n26.5;1.0;2.0\n27.0;0.5;0.7\n";
+    let (_, written) = rows(&home, table, OPTIONS);
+    assert!(
+        written.contains("A,pinion,20000,wear_depth,26.5,2,0.1,"),
+        "{written}"
+    );
+    let table = "Pruefstand 3 (1E3)\nVerschleiss [um]\nradius;10000;20000\n26.5;1.0;2.0\n";
+    let message = refused(&home, table, OPTIONS);
+    assert!(
+        message.contains("row 1: `Pruefstand 3 (1E3)` speaks of `a power of ten`"),
+        "{message}"
+    );
+}
+
+/// A header with a multiple in words stays one above a row of units, of which it is said that they are no numbers.
+#[test]
+fn a_row_of_units_makes_no_title_of_the_header() {
+    let home = home();
+    let header = "Test;Lastwechsel in Mio.;Radius;Verschleiss";
+    let table = format!("{header}\n;;mm;um\nA;0.01;26.5;1.0\n");
+    for table in [table.replace(";;", "-;-;"), table] {
+        let message = refused(&home, &table, "--member pinion --sigma 0.1");
+        assert!(
+            message.contains("2: `") && message.contains("is not a number"),
+            "{message}"
+        );
+    }
+    let table = format!("{header}\n;;;\nA;0.01;26.5;1.0\nA;0.02;26.5;2.0\n");
+    let (_, written) = rows(&home, &table, "--member pinion --sigma 0.1");
+    assert!(
+        written.contains("A,pinion,20000,wear_depth,26.5,2,0.1,"),
+        "{written}"
+    );
+}

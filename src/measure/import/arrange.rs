@@ -63,7 +63,8 @@ pub(super) fn arranged(
     Ok(None)
 }
 
-/// Whether a row says in words that cycles are counted in multiples, with no count below these words: a title.
+/// Whether a row says in words that cycles are counted in multiples, with no count below these words and nothing that names another column: a
+/// title. A row of units may stand below a header.
 fn is_title_of_multiples(sheet: &Sheet, row: usize) -> bool {
     let below = |column: usize| {
         let rows = sheet.rows[row + 1..].iter();
@@ -71,8 +72,19 @@ fn is_title_of_multiples(sheet: &Sheet, row: usize) -> bool {
         filled.next().and_then(|cells| cells.get(column))
     };
     let cells = sheet.rows[row].iter().enumerate();
-    let mut named = cells.filter(|(_, cell)| multiples::in_brackets(cell).is_some());
-    named.any(|(column, _)| below(column).is_none_or(|cell| pointed(cell).parse::<f64>().is_err()))
+    let (named, others): (Vec<_>, Vec<_>) =
+        cells.partition(|(_, cell)| multiples::in_brackets(cell).is_some());
+    let is_column = |(_, cell): &(usize, &String)| {
+        let column = columns(std::slice::from_ref(*cell));
+        !cell.is_empty()
+            && column
+                .iter()
+                .any(|column| matches!(column.what, What::Own(_)))
+    };
+    !others.iter().any(is_column)
+        && named.into_iter().any(|(column, _)| {
+            below(column).is_none_or(|cell| pointed(cell).parse::<f64>().is_err())
+        })
 }
 
 /// The table below a header; none if this is no header of a long one.

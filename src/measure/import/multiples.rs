@@ -1,6 +1,6 @@
 //! Headers by which a table counts cycles in multiples: `Lastwechsel [1E6]`, `Lastwechsel in Mio.`, `0,25 [1E6]` in each of them.
 
-use super::numbers::{header_number, number_words};
+use super::numbers::{header_number, number_words, pointed};
 use super::{ImportError, Sheet, cell_name, units};
 use crate::measure::names;
 
@@ -100,7 +100,7 @@ pub(super) fn in_each_header(sheet: &Sheet) -> Result<(Sheet, Vec<String>), Impo
     let mut sheet = sheet.clone();
     let mut said: Vec<String> = Vec::new();
     for row in 0..sheet.rows.len() {
-        for column in 0..sheet.rows[row].len() {
+        for column in places_of_counts(&sheet.rows[row]) {
             let written = sheet.rows[row][column].clone();
             let Some((before, number, behind)) = counted(&written) else {
                 continue;
@@ -125,7 +125,25 @@ pub(super) fn in_each_header(sheet: &Sheet) -> Result<(Sheet, Vec<String>), Impo
     Ok((sheet, said))
 }
 
-/// What stands before the number of a header with a power of ten in its last brackets, the number, and what stands behind the brackets.
+/// The columns of a row that may hold a count with its multiple: all but the first of a header, where each has a number, or the first one beside
+/// values. A title has neither.
+fn places_of_counts(row: &[String]) -> Vec<usize> {
+    let is_count = |text: &String| counted(text).is_some();
+    let is_filled = |text: &&String| !text.is_empty() && !names::is_for_people(text);
+    let behind: Vec<&String> = row.iter().skip(1).filter(is_filled).collect();
+    let first = row.first().filter(|text| is_count(text));
+    let is_value = |text: &&String| pointed(text).parse::<f64>().is_ok();
+    match first {
+        Some(_) if !behind.is_empty() && behind.iter().all(is_value) => vec![0],
+        None if behind.iter().all(|text| !number_words(text).is_empty()) => {
+            (1..row.len()).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// What stands before the number of a header with a power of ten in its last brackets right behind it, the number, and what stands behind the brackets; none
+/// where it has words for other things than cycles.
 fn counted(header: &str) -> Option<(&str, &str, &str)> {
     let unit: String = units::bracketed(header)?.split_whitespace().collect();
     of_unit(&unit)?;
@@ -135,7 +153,17 @@ fn counted(header: &str) -> Option<(&str, &str, &str)> {
     };
     let at = front.find(number)?;
     let behind = &rest[rest.find([']', ')'])? + 1..];
-    Some((&front[..at], number, behind))
+    let before = &front[..at];
+    let says_cycles = |word: &String| {
+        names::revolutions(word).is_some()
+            || names::member(word).is_some()
+            || names::is_filler(word)
+    };
+    let of_cycles = [before, behind]
+        .iter()
+        .all(|text| names::words(text).iter().all(says_cycles));
+    let follows = front[at + number.len()..].trim().is_empty();
+    (of_cycles && follows).then_some((before, number, behind))
 }
 
 /// The factor of a header that names cycles with a power of ten, or a word for one, in its last brackets or behind `in`.
@@ -222,5 +250,12 @@ mod tests {
         );
         assert_eq!(counted("0,25 [mm]"), None);
         assert_eq!(counted("Lastwechsel [1E6]"), None);
+        for title in [
+            "Test 12, load cycles [10^6]",
+            "Pruefstand 3 (1E3)",
+            "Lastwechsel 12 Ritzel [1E6]",
+        ] {
+            assert_eq!(counted(title), None, "{title}");
+        }
     }
 }

@@ -21,16 +21,8 @@ const NEGATIVE: [&str; 9] = [
 const POSITIVE: [&str; 7] = [
     "positive", "positiv", "positivo", "positiva", "positivi", "positif", "plus",
 ];
-const LOST: [&str; 26] = [
+const LOST: [&str; 18] = [
     "lost",
-    "missing",
-    "fehlt",
-    "fehlend",
-    "fehlendes",
-    "mancante",
-    "manque",
-    "manquant",
-    "falta",
     "loss",
     "removed",
     "worn",
@@ -49,6 +41,27 @@ const LOST: [&str; 26] = [
     "usure",
     "perdido",
 ];
+/// Words for what is not there: values too, so they speak of wear beside a word for the material only.
+const MISSING: [&str; 8] = [
+    "missing",
+    "fehlt",
+    "fehlend",
+    "fehlendes",
+    "mancante",
+    "manque",
+    "manquant",
+    "falta",
+];
+const MATERIAL: [&str; 6] = [
+    "material",
+    "materiale",
+    "matiere",
+    "metal",
+    "metall",
+    "werkstoff",
+];
+/// Words between these two at most, `manque de matière`, and one more.
+const BESIDE: usize = 2;
 /// Words that say that nothing but the unit of the values follows: `Unit: mm`, `All values in mm`.
 const UNIT: [&str; 10] = [
     "unit",
@@ -150,7 +163,16 @@ fn lost_is_negative(text: &str) -> Option<bool> {
         let words = names::words(part);
         let says = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
         let negative = says(&NEGATIVE);
-        (says(&LOST) && !says(&NOT) && negative != says(&POSITIVE)).then_some(negative)
+        let places = |known: &[&str]| -> Vec<usize> {
+            let found = words.iter().enumerate();
+            let found = found.filter(|(_, word)| known.contains(&word.as_str()));
+            found.map(|(at, _)| at).collect()
+        };
+        let material = places(&MATERIAL);
+        let is_missing = (places(&MISSING).iter())
+            .any(|at| material.iter().any(|of| at.abs_diff(*of) <= BESIDE));
+        ((says(&LOST) || is_missing) && !says(&NOT) && negative != says(&POSITIVE))
+            .then_some(negative)
     });
     let said: Vec<bool> = said.collect();
     let first = *said.first()?;
@@ -183,6 +205,10 @@ mod tests {
             ("lost material is not negative", None),
             ("negative = wear, positive = wear", None),
             ("Wear of Monday", None),
+            ("Missing values are negative", None),
+            ("fehlende Werte: falta = negativo", None),
+            ("negativ = Material fehlt", Some(true)),
+            ("manque de matière : positif", Some(false)),
         ] {
             assert_eq!(lost_is_negative(text), says, "{text}");
         }

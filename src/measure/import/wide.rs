@@ -105,7 +105,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         Across::Positions => Vec::new(),
     };
     let said = unit_of(&headers, quantity)?;
-    let deviation = deviations::named(sheet, head, quantity);
+    let deviation = deviations::named(sheet, head, quantity, wanted);
     let is_used = |words: &str| {
         let is_of_deviations = deviation.as_ref().is_some_and(|named| named.is_of(words));
         is_of_deviations || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())

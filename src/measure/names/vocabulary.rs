@@ -300,6 +300,40 @@ pub(super) const DEVIATIONS: [&str; 8] = [
     "dev",
 ];
 
+/// Words for the deviation of a profile or a flank that say so in one.
+pub(super) const PROFILE_DEVIATIONS: [&str; 8] = [
+    "profiledeviation",
+    "flankdeviation",
+    "profilabweichung",
+    "profilabweichungen",
+    "profilformabweichung",
+    "profilgesamtabweichung",
+    "flankenabweichung",
+    "flankenabweichungen",
+];
+
+/// Words for what such a deviation is of.
+pub(super) const PROFILES: [&str; 18] = [
+    "profile",
+    "profiles",
+    "profil",
+    "profils",
+    "profilo",
+    "profili",
+    "perfil",
+    "perfiles",
+    "flank",
+    "flanks",
+    "flanke",
+    "flanken",
+    "fianco",
+    "flanc",
+    "flanco",
+    "involute",
+    "evolvente",
+    "neuprofil",
+];
+
 /// Names of the mass of a part: with `loss` they are no longer it.
 pub(super) const MASSES: [&str; 10] = [
     "mass", "weight", "masse", "gewicht", "massa", "peso", "poids", "masa", "massen", "weighing",

@@ -12,29 +12,28 @@ use crate::measure::import::wanted::Wanted;
 use crate::measure::import::{ImportError, Sheet, cell_name};
 use crate::measure::{Quantity, names};
 
+/// How the sign is stated, or that there is none to state.
+const SAY_SIGN: &str = "write `negative = material missing` (or positive) into the title, say --turn-sign where it is negative, or --quantity wear_depth if the values are \
+                        depths, positive where material is missing";
+
 /// Where a table names its values deviations.
 pub(super) struct Deviations {
     row: usize,
     words: String,
 }
 
-/// The first row down to the header that names deviations, where nothing says that the values are what was worn.
-pub(super) fn named(sheet: &Sheet, head: usize, quantity: Quantity) -> Option<Deviations> {
-    if quantity != Quantity::WearDepth {
+/// The first row down to the header that names deviations and says nothing of wear; none where the user says what the values are.
+pub(super) fn named(
+    sheet: &Sheet,
+    head: usize,
+    quantity: Quantity,
+    wanted: &Wanted<'_>,
+) -> Option<Deviations> {
+    if quantity != Quantity::WearDepth || wanted.quantity.is_some() {
         return None;
     }
-    let rows = || sheet.rows.iter().enumerate().take(head + 1);
-    let is_worn = |word: &String| {
-        names::quantity(word).is_some_and(|(named, _)| named == Quantity::WearDepth)
-    };
-    let says_worn = |(_, cells): (usize, &Vec<String>)| {
-        let words = cells.iter().flat_map(|cell| names::words(cell));
-        words.collect::<Vec<_>>().iter().any(is_worn)
-    };
-    if rows().any(says_worn) {
-        return None;
-    }
-    rows().find_map(|(row, cells)| {
+    let mut rows = sheet.rows.iter().enumerate().take(head + 1);
+    rows.find_map(|(row, cells)| {
         let filled: Vec<&str> = (cells.iter())
             .map(String::as_str)
             .filter(|cell| !cell.is_empty())
@@ -54,7 +53,8 @@ impl Deviations {
     /// is positive in them; `states_sign`: the table or the user says which sign lost material has.
     ///
     /// # Errors
-    /// [`ImportError`] where a place has no value at 0, or where there are none at 0 and no sign is stated of values that are negative.
+    /// [`ImportError`] where a place has no value at 0, where nothing but values at 0 stands there, and where no sign is stated though there are none
+    /// at 0, or though these are all 0 and the depths would be negative.
     pub(super) fn as_depths(
         &self,
         entries: &mut Vec<Entry>,
@@ -66,10 +66,13 @@ impl Deviations {
             .cloned()
             .collect();
         if new.is_empty() {
-            return self.without_new(entries, states_sign, turned);
+            return self.without_new(entries, (states_sign, turned));
         }
         (wanted.per_interval).refuse_differences(&[Quantity::WearDepth])?;
         entries.retain(|entry| entry.cycles > 0.0);
+        if entries.is_empty() {
+            return Err(self.refused("and has them at 0 alone, of the new profile: what was worn is the change since then, so add those after running"));
+        }
         for entry in entries.iter_mut() {
             let of_place = |n: &&Entry| (n.member, n.position) == (entry.member, entry.position);
             let Some(before) = new.iter().find(of_place) else {
@@ -83,6 +86,14 @@ impl Deviations {
             let lost = before.value - entry.value;
             entry.value = rounded(if states_sign { -lost } else { lost });
         }
+        let negative = entries.iter().filter(|entry| entry.value < 0.0).count();
+        let says_nothing = new.iter().all(|entry| entry.value == 0.0);
+        if says_nothing && !states_sign && 2 * negative > entries.len() {
+            return Err(self.refused(&format!(
+                "all 0 at 0, and {negative} of {} depths would be negative: {SAY_SIGN}",
+                entries.len()
+            )));
+        }
         Ok(format!(
             "row {}, `{}`: wear depth, the change of the deviation since 0, {}; those at 0 are not written themselves",
             self.row + 1,
@@ -94,15 +105,25 @@ impl Deviations {
         ))
     }
 
+    fn refused(&self, why: &str) -> ImportError {
+        let row = self.row + 1;
+        ImportError(format!(
+            "row {row}: `{}` names deviations, {why}",
+            self.words
+        ))
+    }
+
     /// Where the new profile is not in the table the deviations are the depths.
-    fn without_new(&self, entries: &[Entry], states_sign: bool, turned: bool) -> Result<String> {
-        let negative = entries.iter().filter(|entry| entry.value < 0.0).count();
-        if !states_sign && 2 * negative > entries.len() {
-            return Err(ImportError(format!(
-                "row {}: `{}` names deviations, of which {negative} of {} are negative: say --turn-sign if that is where material is missing; and if the \
-                 new profile was measured too, add its deviations in a column (or row) at 0, and the depths are taken from them",
-                self.row + 1,
-                self.words,
+    fn without_new(
+        &self,
+        entries: &[Entry],
+        (states_sign, turned): (bool, bool),
+    ) -> Result<String> {
+        if !states_sign {
+            let negative = entries.iter().filter(|entry| entry.value < 0.0).count();
+            return Err(self.refused(&format!(
+                "of which {negative} of {} are negative, and none is of the new profile: {SAY_SIGN}; if the new profile was measured too, add its \
+                 deviations in a column (or row) at 0, and the depths are taken from them",
                 entries.len()
             )));
         }
