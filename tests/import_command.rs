@@ -15,6 +15,8 @@ use tempfile::TempDir;
 mod common;
 #[path = "import_command/deviations.rs"]
 mod deviations;
+#[path = "import_command/doubtful.rs"]
+mod doubtful;
 #[path = "import_command/multiples.rs"]
 mod multiples;
 #[path = "import_command/nothing_measured.rs"]

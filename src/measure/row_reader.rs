@@ -15,6 +15,11 @@ use crate::source_text::{Diagnostic, Fault, list};
 /// The word of [`FacePlace::Mean`] in measurement files.
 const MEAN: &str = "mean";
 
+/// A limit as messages give it.
+fn three_digits(limit: f64) -> f64 {
+    format!("{limit:.2e}").parse().unwrap_or(limit)
+}
+
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
 /// Turns rows into observations and collects their traces.
@@ -282,7 +287,7 @@ impl<'k> Reader<'k> {
         let fault = cell.fault(
             Fault::BadValue,
             format!("this {name} is not possible in {unit}"),
-            &format!("at most {} {unit}", limits.above),
+            &format!("at most {} {unit}", three_digits(limits.above)),
         );
         Err(fault.with_hint(format!("this looks like {larger}")).into())
     }

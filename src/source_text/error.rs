@@ -21,6 +21,14 @@ impl TextError {
         Self::new(diagnostic.with_hint(hint), source)
     }
 
+    /// Without its hints, for others that know better.
+    #[must_use]
+    pub fn without_hints(self) -> Self {
+        let (mut diagnostic, source) = *self.0;
+        diagnostic.hints.clear();
+        Self::new(diagnostic, source)
+    }
+
     /// The fault itself.
     pub fn diagnostic(&self) -> &Diagnostic {
         &self.0.0

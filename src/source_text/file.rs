@@ -1,6 +1,6 @@
 //! From the disk to text.
 
-use std::io;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 use super::{Diagnostic, Fault, Source, TextError};
@@ -19,6 +19,9 @@ pub struct Wanted {
     /// How to get one.
     pub hint: &'static str,
 }
+
+/// Bytes of a file within which its header ends, behind comments.
+const LONGEST_START: u64 = 4096;
 
 /// The file as text without a byte order mark.
 ///
@@ -104,8 +107,13 @@ fn has_header(path: &Path, wanted: &Wanted) -> bool {
     if wanted.header.is_empty() {
         return true;
     }
-    let text = std::fs::read(path).map(|bytes| String::from_utf8_lossy(&bytes).to_lowercase());
-    let text = text.unwrap_or_default();
+    let mut bytes = Vec::new();
+    let read =
+        std::fs::File::open(path).and_then(|file| file.take(LONGEST_START).read_to_end(&mut bytes));
+    if read.is_err() {
+        return false;
+    }
+    let text = String::from_utf8_lossy(&bytes).to_lowercase();
     let first = text.lines().find(|line| !line.starts_with('#'));
     first.is_some_and(|first| wanted.header.iter().all(|word| first.contains(word)))
 }

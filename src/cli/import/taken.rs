@@ -67,6 +67,7 @@ impl Taken {
         let source = source(args, self.file.is_some(), name);
         let whole = with_rows(args, name, self.file.as_deref(), &header, &rows)?;
         let mut warnings = wanted.there.swapped(understood.entries());
+        warnings.extend(import::doubtful(understood.entries()));
         self.show(args, name, &understood, (&header, &rows));
         // what cannot be read back is not written
         let read = Dataset::parse(&whole, &source, &study.known());
@@ -232,6 +233,10 @@ fn cannot_be_read(
             ),
         },
         None => {
+            let of_value = fault.fault == Fault::BadValue && fault.key == "value";
+            if let Some(hint) = understood.unit_otherwise().filter(|_| of_value) {
+                return error.without_hints().with_hint(&hint).into();
+            }
             let hints = understood.reading().into_iter();
             hints
                 .fold(error, |error, said| error.with_hint(&said))

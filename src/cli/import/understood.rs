@@ -92,6 +92,25 @@ impl Understood {
         said
     }
 
+    /// What is said of values that are too large for the unit that a title or a header states; none where it is another one's matter.
+    pub(super) fn unit_otherwise(&self) -> Option<String> {
+        const SMALLER: [(&str, &str); 3] = [("mm", "um"), ("g", "mg"), ("kg", "g")];
+        let Understood::Wide(wide) = self else {
+            return None;
+        };
+        let (unit, from) = &wide.unit;
+        let what = match from {
+            UnitFrom::Header => "header",
+            UnitFrom::Title => "title",
+            _ => return None,
+        };
+        let (_, smaller) = SMALLER.iter().find(|(own, _)| own == unit)?;
+        Some(format!(
+            "the {what} says {unit}; the numbers look like {}",
+            written::unit(smaller)
+        ))
+    }
+
     /// The document of `--json`, without what was written.
     pub(super) fn document(&self) -> serde_json::Value {
         let titles = |titles: &import::Titles| {

@@ -105,6 +105,9 @@ pub(super) fn header_number(text: &str, row: usize, column: usize) -> Result<f64
         let cell = cell_name(row, column);
         Err(ImportError(format!("{cell}: {why} in the header `{text}`")))
     };
+    if is_date(text) {
+        return Err(dated(text, row, column));
+    }
     let words = number_words(text);
     let [one] = words[..] else {
         return refuse(if words.is_empty() {
@@ -195,11 +198,36 @@ pub(super) fn number_words(text: &str) -> Vec<&str> {
 pub(super) fn number(text: &str, row: usize, column: usize) -> Result<f64> {
     let found = pointed(text).parse::<f64>().ok().filter(|v| v.is_finite());
     found.ok_or_else(|| {
+        if is_date(text) {
+            return dated(text, row, column);
+        }
         ImportError(format!(
             "{}: `{text}` is not a number; leave cells without a value empty",
             cell_name(row, column)
         ))
     })
+}
+
+/// Whether a text is a date as those of spreadsheets are read (`2024-04-03`), or a time of a day.
+pub(super) fn is_date(text: &str) -> bool {
+    let (date, time) = text.split_once([' ', 'T']).unwrap_or((text, ""));
+    let has_digits = |text: &str, separator: char, counts: &[usize]| {
+        let parts: Vec<&str> = text.split(separator).collect();
+        let fits = |(part, count): (&&str, &usize)| {
+            part.len() == *count && part.bytes().all(|b| b.is_ascii_digit())
+        };
+        parts.len() == counts.len() && parts.iter().zip(counts).all(fits)
+    };
+    has_digits(date, '-', &[4, 2, 2]) || time.is_empty() && has_digits(date, ':', &[2, 2])
+}
+
+/// What is said of a date in the place of a number.
+fn dated(text: &str, row: usize, column: usize) -> ImportError {
+    ImportError(format!(
+        "{}: is a date or a time (`{text}`); a number is wanted here: give the cell the format of a number in the spreadsheet, look whether its number is the \
+         one that was meant, or leave the cell empty",
+        cell_name(row, column)
+    ))
 }
 
 /// With a point for a decimal comma.

@@ -10,7 +10,8 @@ use super::arrange::{self, flank_above};
 use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
 use super::multiples::{self, Multiple};
 use super::numbers::{
-    header_number, number, number_words, plain_cycles, pointed, with_points, without_thousands,
+    header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
+    without_thousands,
 };
 use super::place::PositionKind;
 use super::titles::Titles;
@@ -312,7 +313,9 @@ pub(super) fn header(sheet: &Sheet) -> Result<usize> {
         let cells = cells.filter(|text| !text.is_empty() && !names::is_for_people(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
             // that of `Lastwechsel [1E6]` is no checkpoint
-            let is_number = !number_words(text).is_empty() && multiples::factor(text).is_none();
+            let is_number = !is_date(text)
+                && !number_words(text).is_empty()
+                && multiples::factor(text).is_none();
             (all + 1, good + usize::from(is_number))
         });
         all > 0 && all == good

@@ -4,7 +4,9 @@
 //! xl/workbook.xml (names, r:id) -> xl/_rels/workbook.xml.rels (r:id -> part) -> the sheet's cells; texts in xl/sharedStrings.xml
 //! ```
 //! ECMA-376-1, 18.2 (workbook), 18.3 (worksheets), 18.4 (shared strings); the archive by PKWARE's APPNOTE 6.3, 4.3. Values are what the
-//! spreadsheet last computed; dates are numbers of days. Encrypted and split archives are not read.
+//! spreadsheet last computed; numbers that it shows as dates are read as these (`dates`). Encrypted and split archives are not read.
+
+mod dates;
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -12,6 +14,7 @@ use std::io::Read;
 use flate2::read::DeflateDecoder;
 use roxmltree::{Document, Node};
 
+use self::dates::Dates;
 use super::Sheet;
 
 /// Largest part that is unpacked, bytes: a wide table has a thousandth of it.
@@ -32,6 +35,10 @@ pub(super) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>> {
         Some(_) => shared_texts(&archive.text("xl/sharedStrings.xml")?)?,
         None => Vec::new(),
     };
+    let dates = match archive.part("xl/styles.xml") {
+        Some(_) => Dates::of(&parsed(&archive.text("xl/styles.xml")?)?, &workbook),
+        None => Dates::default(),
+    };
     let targets: BTreeMap<&str, &str> = elements(links.root(), "Relationship")
         .filter_map(|link| Some((link.attribute("Id")?, link.attribute("Target")?)))
         .collect();
@@ -49,7 +56,7 @@ pub(super) fn sheets(bytes: &[u8]) -> Result<Vec<Sheet>> {
         let cells = parsed(&text)?;
         Ok(Sheet {
             name: sheet.attribute("name").unwrap_or_default().to_owned(),
-            rows: rows(&cells, &shared)?,
+            rows: rows(&cells, &shared, &dates)?,
             without_result: without_result(&cells),
             plain_decimals: true,
         })
@@ -79,7 +86,7 @@ fn shared_texts(text: &str) -> Result<Vec<String>> {
     Ok(elements(parsed(text)?.root(), "si").map(words).collect())
 }
 
-fn rows(sheet: &Document<'_>, shared: &[String]) -> Result<Vec<Vec<String>>> {
+fn rows(sheet: &Document<'_>, shared: &[String], dates: &Dates) -> Result<Vec<Vec<String>>> {
     let mut rows: Vec<Vec<String>> = Vec::new();
     for row in elements(sheet.root(), "row") {
         // rows and cells may leave their place unsaid: then they follow the one before
@@ -97,7 +104,7 @@ fn rows(sheet: &Document<'_>, shared: &[String]) -> Result<Vec<Vec<String>>> {
             if cells.len() <= column {
                 cells.resize(column + 1, String::new());
             }
-            cells[column] = value(cell, shared)?;
+            cells[column] = value(cell, shared, dates)?;
         }
         if rows.len() <= at {
             rows.resize(at + 1, Vec::new());
@@ -123,7 +130,7 @@ fn without_result(sheet: &Document<'_>) -> Option<String> {
     Some(found.attribute("r").unwrap_or("a cell").to_owned())
 }
 
-fn value(cell: Node<'_, '_>, shared: &[String]) -> Result<String> {
+fn value(cell: Node<'_, '_>, shared: &[String], dates: &Dates) -> Result<String> {
     let written = || {
         let v = cell.children().find(|n| n.tag_name().name() == "v");
         v.and_then(|v| v.text()).unwrap_or_default().trim()
@@ -140,9 +147,10 @@ fn value(cell: Node<'_, '_>, shared: &[String]) -> Result<String> {
         }
         Some("inlineStr") => words(cell).trim().to_owned(),
         // 26.5 may stand there as 26.499999999999996: numbers by their shortest digits
-        None | Some("n") => written()
-            .parse::<f64>()
-            .map_or_else(|_| written().to_owned(), |number| number.to_string()),
+        None | Some("n") => written().parse::<f64>().map_or_else(
+            |_| written().to_owned(),
+            |number| (dates.shown(cell, number)).unwrap_or_else(|| number.to_string()),
+        ),
         _ => written().to_owned(),
     })
 }

@@ -1,0 +1,168 @@
+//! What is told of values before they are written: dates in the place of numbers, repeats far apart, masses that grew, another unit than the title's.
+
+use std::fs;
+use std::io::Write as _;
+
+use tempfile::TempDir;
+
+use super::{home, line, refused, rows};
+
+const WEIGHED: &str = "test;cycles;member;mass [mg]\nA;0;pinion;1000\nA;100000;pinion;990\n";
+
+/// A workbook of one sheet, its parts stored unpacked; `cells` are those of rows below a header.
+fn workbook(home: &TempDir, header: [&str; 4], cells: [&str; 2]) {
+    let text = |text: &str| format!("<c t='inlineStr'><is><t>{text}</t></is></c>");
+    let head: String = header.into_iter().map(text).collect();
+    let body: String = cells.map(|cells| format!("<row>{cells}</row>")).concat();
+    let ns = "xmlns='urn:s' xmlns:r='urn:r'";
+    let parts = [
+        ("xl/workbook.xml", format!("<workbook {ns}><sheets><sheet name='w' r:id='a'/></sheets></workbook>")),
+        ("xl/_rels/workbook.xml.rels", "<Relationships><Relationship Id='a' Target='s.xml'/></Relationships>".to_owned()),
+        (
+            "xl/styles.xml",
+            "<styleSheet><numFmts><numFmt numFmtId='164' formatCode='dd/mm/yyyy'/></numFmts>\
+             <cellXfs><xf numFmtId='0'/><xf numFmtId='164'/><xf numFmtId='14'/></cellXfs></styleSheet>"
+                .to_owned(),
+        ),
+        ("xl/s.xml", format!("<worksheet><sheetData><row>{head}</row>{body}</sheetData></worksheet>")),
+    ];
+    let mut file = Vec::new();
+    let mut directory = Vec::new();
+    for (name, text) in &parts {
+        let at = file.len() as u32;
+        let size = (text.len() as u32).to_le_bytes();
+        let sizes = [[0; 4], size, size].concat();
+        let name_length = (name.len() as u16).to_le_bytes();
+        file.extend(
+            [
+                b"PK\x03\x04".as_slice(),
+                &[20, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+                &sizes,
+                &name_length,
+                &[0, 0],
+                name.as_bytes(),
+                text.as_bytes(),
+            ]
+            .concat(),
+        );
+        directory.extend(
+            [
+                b"PK\x01\x02".as_slice(),
+                &[20, 0, 20, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+                &sizes,
+                &name_length,
+                &[0; 12],
+                &at.to_le_bytes(),
+                name.as_bytes(),
+            ]
+            .concat(),
+        );
+    }
+    let (at, length, count) = (
+        file.len() as u32,
+        directory.len() as u32,
+        parts.len() as u16,
+    );
+    file.extend(directory);
+    file.extend(
+        [
+            b"PK\x05\x06".as_slice(),
+            &[0; 4],
+            &count.to_le_bytes(),
+            &count.to_le_bytes(),
+            &length.to_le_bytes(),
+            &at.to_le_bytes(),
+            &[0, 0],
+        ]
+        .concat(),
+    );
+    let mut out = fs::File::create(home.path().join("dated.xlsx")).unwrap();
+    out.write_all(&file).unwrap();
+}
+
+const DATED: &str =
+    "import dated.xlsx --study study.toml --member pinion --quantity mass_loss --sigma 2";
+
+#[test]
+fn dates_are_no_numbers() {
+    let home = home();
+    let test = "<c t='inlineStr'><is><t>A</t></is></c>";
+    let row = |cells: &str| format!("{test}{cells}");
+    let good = row("<c><v>0</v></c><c><v>1000</v></c><c s='1'><v>45380</v></c>");
+    for (bad, cell) in [
+        (
+            "<c s='1'><v>45385</v></c><c><v>990</v></c><c s='1'><v>45385</v></c>",
+            "B3",
+        ),
+        (
+            "<c><v>100000</v></c><c s='2'><v>45385</v></c><c s='1'><v>45385</v></c>",
+            "C3",
+        ),
+    ] {
+        workbook(
+            &home,
+            ["test", "cycles", "mass [mg]", "date"],
+            [&good, &row(bad)],
+        );
+        let (code, _, message) = line(&home, DATED);
+        assert_eq!(code, Some(2), "{message}");
+        assert!(
+            message.contains(&format!("{cell}: is a date or a time (`2024-04-03`)")),
+            "{message}"
+        );
+    }
+    // in a column for people they may stand
+    let fine = row("<c><v>100000</v></c><c><v>990</v></c><c s='1'><v>45385</v></c>");
+    workbook(
+        &home,
+        ["test", "cycles", "mass [mg]", "date"],
+        [&good, &fine],
+    );
+    let (code, shown, message) = line(&home, DATED);
+    assert_eq!(code, Some(0), "{message}");
+    assert!(
+        shown.contains("A,pinion,100000,mass_loss,,10,2,"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn repeats_that_lie_far_apart_are_told() {
+    let home = home();
+    let far = format!("{WEIGHED}A;100000;pinion;915\n");
+    let said =
+        "mass_loss of the pinion in test A after 100000 cycles: 10 and 85 mg are taken as repeats";
+    assert!(
+        rows(&home, &far, "--quantity mass_loss --sigma 2")
+            .0
+            .contains(said)
+    );
+    assert!(
+        !rows(&home, &far, "--quantity mass_loss --sigma 20")
+            .0
+            .contains("taken as repeats")
+    );
+}
+
+#[test]
+fn masses_that_grew_are_told() {
+    let home = home();
+    let table = format!("{WEIGHED}A;200000;pinion;1050\nA;300000;pinion;980\n");
+    let (shown, _) = rows(&home, &table, "--quantity mass_loss --sigma 2");
+    assert!(
+        shown.contains("1 of 3 values of mass_loss are negative (mass_loss of the pinion in test A after 200000 cycles: -50 mg)"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn a_title_with_another_unit_is_named() {
+    let home = home();
+    let table = "Wear depth [mm]\nradius [mm];250000\n26,5;2,345\n27;2,1\n";
+    let message = refused(&home, table, "--test A --member pinion --sigma 0.1");
+    assert!(
+        message.contains("the title says mm; the numbers look like \u{b5}m"),
+        "{message}"
+    );
+    assert!(!message.contains("looks like nm"), "{message}");
+}
