@@ -183,7 +183,7 @@ impl Comparison {
             correlation: correlation(fit),
             sanity: sanity(study, data, fit),
             warnings: (misfit_of_one_quantity(study, data, fit).into_iter())
-                .chain(unlike_tests(data, fit))
+                .chain(unlike_tests(study, data, fit))
                 .chain(trend_of_coefficients(study, data, fit))
                 .chain(fit_warnings(data, fit))
                 .collect(),
