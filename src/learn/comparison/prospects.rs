@@ -29,7 +29,7 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
         values.collect::<BTreeSet<u64>>().len()
     };
     let temperatures: BTreeSet<u64> = (measured.iter())
-        .filter_map(|&t| study.tests[t].conditions.bulk_temperature_c)
+        .filter_map(|&t| study.tests[t].conditions.stated_temperature_c())
         .map(f64::to_bits)
         .collect();
     let temperatures = temperatures.len();
@@ -68,14 +68,20 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
         "laws of time (running-in, ageing, coatings)",
         "laws of time (running-in, ageing, coatings): measure a test at three times or more",
     );
+    let [loads, speeds] = [distinct(&|o| o.torque_nmm), distinct(&|o| o.speed_rpm)];
+    let alike = if measured.len() == 2 && loads == 2 && speeds == 2 {
+        "; with two fit tests load and speed cannot be told apart"
+    } else {
+        ""
+    };
     judge(
-        distinct(&|o| o.torque_nmm) >= 2,
-        "laws of the load (pressure exponent, flexibility)",
+        loads >= 2,
+        &format!("laws of the load (pressure exponent, flexibility){alike}"),
         "laws of the load (pressure exponent, flexibility) apart from k: a second torque",
     );
     judge(
-        distinct(&|o| o.speed_rpm) >= 2,
-        "laws of the speed (film thickness, flash temperature, dynamic load)",
+        speeds >= 2,
+        &format!("laws of the speed (film thickness, flash temperature, dynamic load){alike}"),
         "laws of the speed (film thickness, flash temperature, dynamic load) apart from k: a second speed",
     );
     judge(
@@ -156,12 +162,25 @@ mod tests {
         };
         let mut at = |celsius: [f64; 2]| {
             for (&test, celsius) in fit.iter().zip(celsius) {
-                study.tests[test].conditions.bulk_temperature_c = Some(celsius);
+                let conditions = &mut study.tests[test].conditions;
+                *conditions = conditions.at_temperature(celsius);
             }
             let found = prospects(&study, &data);
             [has(&found.can), has(&found.cannot)]
         };
         assert_eq!(at([60.0, 60.0]), [false, true]);
         assert_eq!(at([60.0, 80.0]), [true, false]);
+        // two tests of another load and another speed show laws of either, but not which
+        let mut with_speed = |second: f64| {
+            for (&test, (torque, speed)) in fit.iter().zip([(1e4, 1000.0), (2e4, second)]) {
+                let conditions = &mut study.tests[test].conditions;
+                (conditions.torque_nmm, conditions.speed_rpm) = (torque, speed);
+            }
+            let can = prospects(&study, &data).can;
+            let told = can.iter().filter(|s| s.ends_with("cannot be told apart"));
+            told.count()
+        };
+        assert_eq!(with_speed(2000.0), 2);
+        assert_eq!(with_speed(1000.0), 0);
     }
 }

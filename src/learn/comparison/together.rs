@@ -3,7 +3,8 @@
 //! ```text
 //! r = Σ (x − x̄)(y − ȳ)/√(Σ (x − x̄)² Σ (y − ȳ)²)      x, y: ln torque, ln speed, temperature, misalignment of the fit tests; told where |r| > 0.95
 //! ```
-//! A half of what one of them does at |r| = 0.95 could be the other's: the error of its slope grows by 1/√(1 − r²) = 3.2.
+//! At |r| = 0.95 the error of a slope is 1/√(1 − r²) = 3.2 times what it is where the other condition stays. A temperature that friction losses make
+//! follows torque and speed by construction and says nothing: only what tests state counts.
 
 use crate::study::Operation;
 
@@ -14,7 +15,7 @@ const TOGETHER: f64 = 0.95;
 type Condition = (&'static str, fn(&Operation) -> Option<f64>, f64);
 
 const CONDITIONS: [Condition; 4] = [
-    ("temperature", |o| o.bulk_temperature_c, 2.0),
+    ("temperature", Operation::stated_temperature_c, 2.0),
     ("speed", |o| Some(o.speed_rpm.ln()), 0.01),
     ("torque", |o| Some(o.torque_nmm.ln()), 0.01),
     ("misalignment", |o| Some(o.misalignment_mm), 1e-3),
@@ -38,18 +39,22 @@ pub(super) fn conditions_together(tests: &[&Operation]) -> Vec<String> {
             }
             let r = correlation(&points);
             if r.abs() > TOGETHER {
-                said.push(in_words(one.0, other.0, r));
+                said.push(in_words(one.0, other.0, r, points.len()));
             }
         }
     }
     said
 }
 
-fn in_words(one: &str, other: &str, r: f64) -> String {
+fn in_words(one: &str, other: &str, r: f64, tests: usize) -> String {
+    let turn = if r > 0.0 { "rises" } else { "falls" };
+    // of two points the correlation is 1 always
+    let how = match tests {
+        2 => format!("in these two tests the {one} {turn} with the {other}"),
+        _ => format!("in these tests the {one} {turn} with the {other} (correlation {r:.2})"),
+    };
     format!(
-        "which of {one} and {other} acts: in these tests the {one} {} with the {other} (correlation {r:.2}), so that a law of one looks like a law of the \
-         other: add a test with another {one} at the same {other}",
-        if r > 0.0 { "rises" } else { "falls" }
+        "which of {one} and {other} acts: {how}, so that a law of one looks like a law of the other: add a test with another {one} at the same {other}"
     )
 }
 
@@ -100,6 +105,32 @@ mod tests {
             "{said:?}"
         );
         assert!(said[0].ends_with("add a test with another temperature at the same speed"));
+    }
+
+    /// What friction losses make of the temperature follows the speed by construction; two tests have no correlation to tell.
+    #[test]
+    fn two_tests_are_told_without_a_correlation_and_computed_temperatures_not_at_all() {
+        let said = told(&[(100.0, 1000.0, 50.0), (150.0, 2000.0, 50.0)]);
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(
+            said[0].starts_with("which of speed and torque acts: in these two tests the speed rises with the torque, so that"),
+            "{said:?}"
+        );
+        let computed = |speed: f64, celsius: f64| Operation {
+            torque_nmm: 1e5,
+            speed_rpm: speed,
+            misalignment_mm: 0.0,
+            cycles: 1e6,
+            bulk_temperature_c: Some(celsius),
+            flank_temperature_c: Some(celsius + 10.0),
+            viscosity_pa_s: None,
+            reversed: false,
+        };
+        let tests = [computed(1000.0, 50.0), computed(3000.0, 90.0)];
+        assert_eq!(
+            conditions_together(&[&tests[0], &tests[1]]),
+            Vec::<String>::new()
+        );
     }
 
     #[test]

@@ -95,6 +95,17 @@ impl PredictionUncertainty {
             .max(0.0)
             .sqrt()
     }
+
+    /// Mean variance of the test's predictions for some observations; 0 without any.
+    pub fn mean_square(&self, is_asked: impl Fn(usize) -> bool) -> f64 {
+        let asked = (self.rows.iter().enumerate()).filter(|(_, row)| is_asked(**row));
+        let variance = |i: usize| {
+            let change = self.derivatives.row(i);
+            (change * &self.covariance * change.transpose())[(0, 0)].max(0.0)
+        };
+        let (n, sum) = asked.fold((0, 0.0), |(n, sum), (i, _)| (n + 1, sum + variance(i)));
+        sum / f64::from(n.max(1))
+    }
 }
 
 /// One observation in a fit, in the unit of its quantity.
