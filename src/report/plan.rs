@@ -4,16 +4,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use super::html::{Cell, Page, Section, Table};
-use crate::learn::diagnose::{Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest};
+use crate::learn::diagnose::{
+    Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest, made_up_chi2,
+};
 use crate::numeric::written::{count, plain, probability, significant};
 
 /// Rows of the table shown on the terminal.
 const SHOWN: usize = 12;
 /// The same where more tests than these separate more than enough.
 const MORE_THAN_ENOUGH: usize = 4;
-/// Largest χ² of a first campaign that is written as a figure: 6 shows an effect, and of what is made up nothing is known to more than this.
-const MOST_TOLD: f64 = 1000.0;
-
 /// The table of tests, and for a campaign every effect.
 pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
     let mut text = String::new();
@@ -80,8 +79,8 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
                     text,
                     "  {:<26} {:>12} {:>12}  {}",
                     effect.effect,
-                    bounded(effect.detection_chi2, 4),
-                    bounded(effect.nearest_chi2, 4),
+                    made_up_chi2(effect.detection_chi2, 4),
+                    made_up_chi2(effect.nearest_chi2, 4),
                     effect.nearest
                 );
             }
@@ -203,15 +202,6 @@ fn sentence(plan: &Plan) -> &str {
 fn capped(chi2: f64, digits: usize) -> String {
     if chi2 >= ENOUGH {
         format!("≥ {ENOUGH}")
-    } else {
-        significant(chi2, digits)
-    }
-}
-
-/// χ² of an effect of the catalogue; of huge ones nobody asks how huge.
-fn bounded(chi2: f64, digits: usize) -> String {
-    if chi2 > MOST_TOLD {
-        format!("> {MOST_TOLD}")
     } else {
         significant(chi2, digits)
     }
@@ -349,8 +339,8 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
     for effect in &campaign.effects {
         effects = effects.row([
             Cell::text(effect.effect.clone()),
-            Cell::number(bounded(effect.detection_chi2, 3)),
-            Cell::number(bounded(effect.nearest_chi2, 3)),
+            Cell::number(made_up_chi2(effect.detection_chi2, 3)),
+            Cell::number(made_up_chi2(effect.nearest_chi2, 3)),
             Cell::text(effect.nearest.clone()),
         ]);
     }

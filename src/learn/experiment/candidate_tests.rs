@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::written::count;
+use crate::numeric::written::{count, significant};
 use crate::study::{Operation, Study};
 
 /// Conditions of a test, in the study's units.
@@ -37,6 +37,18 @@ pub const ENOUGH: f64 = 60.0;
 pub(in crate::learn) const APART: f64 = 20.0;
 /// Expected χ² from which one of two is clearly favoured.
 pub(in crate::learn) const CLEAR: f64 = 6.0;
+
+/// Largest χ² of a first campaign that is written as a figure: of what is made up nothing is known to more than this.
+const MOST_TOLD: f64 = 1000.0;
+
+/// χ² of an effect of the catalogue; of huge ones nobody asks how huge.
+pub fn made_up_chi2(chi2: f64, digits: usize) -> String {
+    if chi2 > MOST_TOLD {
+        format!("> {MOST_TOLD}")
+    } else {
+        significant(chi2, digits)
+    }
+}
 
 /// Feasible tests with their number of changes against `plain`, the plainest first; at other temperatures where it states one.
 fn grid(plain: &Operation) -> Vec<(usize, Operation)> {

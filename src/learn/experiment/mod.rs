@@ -12,7 +12,7 @@ mod table;
 mod wording;
 
 pub use campaign::plan_first;
-pub use candidate_tests::{ENOUGH, NextTest};
+pub use candidate_tests::{ENOUGH, NextTest, made_up_chi2};
 pub use decided::Decided;
 pub use next::NextExperiment;
 pub use plan::{

@@ -49,11 +49,12 @@ impl MadeTest {
     }
 }
 
-/// Whether two tests are nearly as warm; one whose temperature is not known is taken to be.
+/// Whether two tests are nearly as warm; one whose temperature is not known is so only beside another such.
 fn near_in_temperature(a: &NextTest, b: &NextTest) -> bool {
     match (a.bulk_temperature, b.bulk_temperature) {
         (Some(a), Some(b)) => (a - b).abs() <= ALIKE_K,
-        _ => true,
+        (None, None) => true,
+        _ => false,
     }
 }
 
@@ -149,6 +150,19 @@ mod tests {
         let order: Vec<f64> = told.iter().map(|r| r.test.torque).collect();
         assert_eq!(order, [200.0, 50.0, 100.0, 100.0]);
         assert_eq!(told[3].quantity, "transmission_error");
+    }
+
+    /// A made test whose temperature nobody stated is not that of every proposed temperature.
+    #[test]
+    fn an_unknown_temperature_is_near_an_unknown_one_only() {
+        let at = |bulk_temperature: Option<f64>| NextTest {
+            bulk_temperature,
+            ..shown(&plain())
+        };
+        let near = |a: Option<f64>, b: Option<f64>| near_in_temperature(&at(a), &at(b));
+        assert!(near(None, None) && near(Some(60.0), Some(63.0)));
+        assert!(!near(None, Some(60.0)) && !near(Some(60.0), None));
+        assert!(!near(Some(60.0), Some(80.0)));
     }
 
     /// Another temperature is another test only where what is measured feels it.

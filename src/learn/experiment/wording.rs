@@ -103,6 +103,26 @@ fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
     })
 }
 
+/// Where a diagnosis sends to the table: how such a clause begins and ends, the study's name between.
+const TO_THE_TABLE: [[&str; 2]; 2] = [
+    [": gearwear plan ", " ranks others"],
+    [" (gearwear plan ", " has the figures)"],
+];
+
+/// What the diagnosis says to do next, without the clauses that send to the table where this is read.
+fn next_step(decided: &Decided) -> String {
+    let mut said = decided.next_step.trim_end_matches('.').to_owned();
+    for [begins, ends] in TO_THE_TABLE {
+        let Some(from) = said.find(begins) else {
+            continue;
+        };
+        if let Some(length) = said[from..].find(ends) {
+            said.replace_range(from..from + length + ends.len(), "");
+        }
+    }
+    said
+}
+
 /// Probability of something that the catalogue does not hold from which that is an open question.
 const OPEN: f64 = 0.05;
 
@@ -123,7 +143,7 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
              the diagnosis: {}. ",
             first.effect,
             100.0 * unknown,
-            decided.next_step.trim_end_matches('.')
+            next_step(decided)
         ),
         Verdict::Effects if !holds_its_leaders => format!(
             "The diagnosis has decided for {} ({:.0} %), which this table does not judge: add them (gearwear add), then plan from the study with them. ",
@@ -139,7 +159,7 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             "The diagnosis has settled already that {} is missing: no test is needed for that. What stands beside it this table cannot tell; next, by the \
              diagnosis: {}. What follows would only confirm the effect against its nearest rivals. ",
             first.effect.trim_end_matches("+unknown"),
-            decided.next_step.trim_end_matches('.')
+            next_step(decided)
         ),
         Verdict::NothingMissing => format!(
             "The diagnosis finds nothing missing ({:.0} %): what follows would show whether {} hides below the noise after all. ",
@@ -273,6 +293,27 @@ mod tests {
         assert!(none.contains("nothing missing (93 %)"), "{none}");
         let pair = left_open(Some(&decided(Verdict::Effects, 0.95, 0.01)), false);
         assert!(pair.contains("which this table does not judge"), "{pair}");
+    }
+
+    #[test]
+    fn the_table_does_not_send_to_itself() {
+        let told = |next: &str| {
+            next_step(&Decided {
+                next_step: next.to_owned(),
+                ..decided(Verdict::Ambiguous, 0.6, 0.3)
+            })
+        };
+        assert_eq!(
+            told(
+                "no test made like these tells them apart clearly: gearwear plan my gears.toml ranks others; or add each in turn"
+            ),
+            "no test made like these tells them apart clearly; or add each in turn"
+        );
+        assert_eq!(
+            told("another quantity might (gearwear plan s.toml has the figures)."),
+            "another quantity might"
+        );
+        assert_eq!(told("tests at several speeds."), "tests at several speeds");
     }
 
     #[test]

@@ -1,13 +1,10 @@
 //! What a test of a first campaign adds to those before it, and which effects all of them leave unseen, in words.
 
-use crate::learn::experiment::candidate_tests::CLEAR;
+use crate::learn::experiment::candidate_tests::{CLEAR, made_up_chi2};
 use crate::learn::experiment::plan::EffectVisibility;
-use crate::numeric::written::significant;
 
 /// Most effects that are named one by one.
 const NAMED: usize = 4;
-/// χ² above which it is not told how large it is.
-const LARGE: f64 = 1000.0;
 
 /// What a test adds: the effects that are newly told apart, else those that newly show, else the one that comes nearest to it.
 pub(super) fn adds(before: &[EffectVisibility], now: &[EffectVisibility]) -> String {
@@ -23,24 +20,31 @@ pub(super) fn adds(before: &[EffectVisibility], now: &[EffectVisibility]) -> Str
     if !shown.is_empty() {
         return format!("newly shows {}", listed(&shown));
     }
-    let gained =
-        |(before, now): &(&EffectVisibility, &EffectVisibility)| capped(now) - capped(before);
-    let best = both().max_by(|a, b| gained(a).total_cmp(&gained(b)));
-    best.filter(|pair| gained(pair) > 0.0).map_or_else(
-        || "adds certainty, but no effect more".to_owned(),
-        |(before, now)| {
-            let (what, chi2): (String, fn(&EffectVisibility) -> f64) = if now.detectable {
-                (format!(" against {}", now.nearest), |e| e.nearest_chi2)
-            } else {
-                (String::new(), |e| e.detection_chi2)
-            };
-            format!(
-                "no effect more; brings {}{what} nearest to the χ² of {CLEAR} that counts, from {} to {}",
-                now.effect,
-                figure(chi2(before)),
-                figure(chi2(now))
-            )
-        },
+    let gains =
+        |(before, now): &(&EffectVisibility, &EffectVisibility)| capped(now) > capped(before);
+    let nearest = both().filter(gains);
+    let nearest = nearest.max_by(|a, b| capped(a.1).total_cmp(&capped(b.1)));
+    let Some((before, now)) = nearest else {
+        return "adds certainty, but no effect more".to_owned();
+    };
+    let figure = |chi2: f64| made_up_chi2(chi2, 2);
+    let (what, figures) = if !now.detectable {
+        let [from, to] = [before, now].map(|e| figure(e.detection_chi2));
+        (String::new(), format!("from {from} to {to}"))
+    } else if before.nearest == now.nearest {
+        let [from, to] = [before, now].map(|e| figure(e.nearest_chi2));
+        (
+            format!(" against {}", now.nearest),
+            format!("from {from} to {to}"),
+        )
+    } else {
+        // another look-alike: what stood against the former one is no beginning
+        let to = figure(now.nearest_chi2);
+        (format!(" against {}", now.nearest), format!("to {to}"))
+    };
+    format!(
+        "no effect more; brings {}{what} nearest to the χ² of {CLEAR} that counts, {figures}",
+        now.effect
     )
 }
 
@@ -48,7 +52,7 @@ pub(super) fn adds(before: &[EffectVisibility], now: &[EffectVisibility]) -> Str
 pub(super) fn not_shown(effects: &[EffectVisibility]) -> String {
     let unseen = effects.iter().filter(|effect| !effect.detectable);
     let unseen: Vec<String> = unseen
-        .map(|e| format!("{} (χ² {})", e.effect, figure(e.detection_chi2)))
+        .map(|e| format!("{} (χ² {})", e.effect, made_up_chi2(e.detection_chi2, 2)))
         .collect();
     match unseen.is_empty() {
         true => String::new(),
@@ -59,14 +63,6 @@ pub(super) fn not_shown(effects: &[EffectVisibility]) -> String {
 /// How near an effect is to being told apart, no nearer than what counts.
 fn capped(effect: &EffectVisibility) -> f64 {
     effect.detection_chi2.min(CLEAR) + effect.nearest_chi2.min(effect.detection_chi2).min(CLEAR)
-}
-
-fn figure(chi2: f64) -> String {
-    if chi2 > LARGE {
-        format!("more than {LARGE}")
-    } else {
-        significant(chi2, 2)
-    }
 }
 
 fn listed(names: &[&str]) -> String {
@@ -113,11 +109,29 @@ mod tests {
         );
     }
 
+    /// The nearest is not the one that gains most, and a χ² against another look-alike is not where it began.
+    #[test]
+    fn the_effect_that_comes_nearest_is_named() {
+        let before = [effect("a", 9.0, 4.5), effect("b", 1.0, 0.5)];
+        let mut now = [effect("a", 20.0, 5.0), effect("b", 5.5, 0.5)];
+        let told = adds(&before, &now);
+        assert!(
+            told.contains("brings a against other nearest") && told.ends_with("from 4.5 to 5.0"),
+            "{told}"
+        );
+        now[0].nearest = "third".to_owned();
+        let told = adds(&before, &now);
+        assert!(
+            told.ends_with("brings a against third nearest to the χ² of 6 that counts, to 5.0"),
+            "{told}"
+        );
+    }
+
     #[test]
     fn what_is_not_shown_is_named() {
         let all = [effect("a", 5.57e11, 9.0), effect("b", 1.25, 0.5)];
         assert_eq!(not_shown(&all), " Not shown: b (χ² 1.2).");
         assert_eq!(not_shown(&all[..1]), "");
-        assert_eq!(figure(5.57e11), "more than 1000");
+        assert_eq!(made_up_chi2(5.57e11, 2), "> 1000");
     }
 }
