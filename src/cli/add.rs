@@ -96,7 +96,8 @@ fn fit(
     let addition = crate::learn::add(&drafts[0].study, data, &forms, &|doing, form| {
         super::fitting::show_form(&progress, doing, drafts[form].form());
     })?;
-    let mut fitted = fitted(drafts, &addition);
+    let besides = decided.and_then(|decided| found_beside(effect, decided));
+    let mut fitted = fitted(drafts, &addition, besides.as_deref());
     if let Some(decided) = decided {
         fitted.text += &named_otherwise(effect, decided);
         fitted.text += &named_beside(effect, decided);
@@ -107,17 +108,50 @@ fn fit(
 /// Probability of all that holds an effect from which a diagnosis does not speak against it.
 const POSSIBLE: f64 = 0.05;
 
+/// Whether a hypothesis has the effect, alone or with others.
+fn holds(hypothesis: &str, effect: &str) -> bool {
+    hypothesis.split('+').any(|name| name == effect)
+}
+
+/// Whether a finished diagnosis does not speak against the effect.
+fn is_possible(effect: &str, decided: &Decided) -> bool {
+    let held = (decided.probabilities.iter()).filter(|(name, _)| holds(name, effect));
+    held.map(|(_, p)| p).sum::<f64>() >= POSSIBLE
+}
+
+/// In which company a finished diagnosis of the same inputs has an effect that it does not speak against.
+fn found_beside(effect: &str, decided: &Decided) -> Option<String> {
+    let held = (decided.probabilities.iter()).filter(|(name, _)| holds(name, effect));
+    let (name, probability) = held
+        .max_by(|a, b| a.1.total_cmp(b.1))
+        .filter(|_| is_possible(effect, decided))?;
+    let others: Vec<&str> = (name.split('+').filter(|other| *other != effect))
+        .map(|other| match other {
+            "unknown" => "something unknown",
+            known => known,
+        })
+        .collect();
+    let figure = format!("({:.1} %)", 100.0 * probability);
+    Some(match &others[..] {
+        [] => {
+            format!("the diagnosis of these measurements has it all the same, by itself {figure}")
+        }
+        _ => format!(
+            "something else is missing besides: the diagnosis has it beside {} {figure}",
+            others.join(" and ")
+        ),
+    })
+}
+
 /// What a finished diagnosis of the same inputs names, if it leaves the effect next to no probability; a line.
 fn named_otherwise(effect: &str, decided: &Decided) -> String {
-    let holds = |hypothesis: &str| hypothesis.split('+').any(|name| name == effect);
-    let held = decided.probabilities.iter().filter(|(name, _)| holds(name));
-    let possible = held.map(|(_, p)| p).sum::<f64>() >= POSSIBLE;
+    let possible = is_possible(effect, decided);
     let named = matches!(
         decided.verdict,
         Verdict::Effect | Verdict::Effects | Verdict::Partial
     );
-    let other =
-        (decided.ranking.first()).filter(|first| named && !possible && !holds(&first.effect));
+    let other = (decided.ranking.first())
+        .filter(|first| named && !possible && !holds(&first.effect, effect));
     other.map_or(String::new(), |other| {
         format!(
             "  the diagnosis of these measurements names {} ({:.1} %), not this\n",

@@ -28,7 +28,9 @@ pub(super) struct Fitted {
 const ASTRAY: f64 = 1.02;
 
 /// A fit in words and in the command's document.
-pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
+///
+/// `besides`: what a diagnosis of the same inputs finds beside the effect, where it does not speak against it.
+pub(super) fn fitted(drafts: &[Draft], addition: &Addition, besides: Option<&str>) -> Fitted {
     let (fit, comparison) = (&addition.compared.fit, &addition.compared.comparison);
     let tried: Vec<(&str, FormFit)> = (drafts.iter().zip(&addition.tried))
         .filter_map(|(draft, tried)| Some((draft.form(), (*tried)?)))
@@ -39,7 +41,7 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let chosen = drafts[addition.form].form();
     let parameters = comparison.parameters.iter();
     let mut lines: Vec<String> = parameters.map(|p| parameter(p, comparison)).collect();
-    lines.extend(no_end(addition));
+    lines.extend(no_end(addition, besides));
     lines.extend(ends_early(comparison));
     lines.extend(chi2_with_and_without(addition));
     lines.extend(measured_by(addition));
@@ -58,7 +60,8 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition) -> Fitted {
     let sanity = comparison.sanity.iter();
     lines.extend(sanity.map(|suspect| format!("check first: {suspect}")));
     let warnings = comparison.warnings.iter();
-    lines.extend(warnings.map(|warning| format!("warning: {warning}")));
+    // k of the tests, say, are those of the model with it
+    lines.extend(warnings.map(|warning| format!("warning, with the effect: {warning}")));
     let forms = tried.iter().map(|(form, tried)| {
         json!({
             "form": form,
@@ -108,13 +111,13 @@ fn parameter(p: &ParameterRecord, comparison: &Comparison) -> String {
 }
 
 /// Why a fit did not come to an end, where it did not.
-fn no_end(addition: &Addition) -> Option<String> {
+fn no_end(addition: &Addition, besides: Option<&str>) -> Option<String> {
     let comparison = &addition.compared.comparison;
     if let Some(share) = addition.compared.given_up {
         return Some(format!(
-            "given up early: the effect explains {:.0} % of what the model without it misses; it is hardly the one \
-             (gearwear diagnose ranks them all)",
-            100.0 * share.max(0.0)
+            "given up early: the effect explains {:.0} % of what the model without it misses; {}",
+            100.0 * share.max(0.0),
+            besides.unwrap_or("it is hardly the one (gearwear diagnose ranks them all)")
         ));
     }
     if comparison.converged {

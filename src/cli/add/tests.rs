@@ -151,3 +151,35 @@ fn a_diagnosis_that_names_something_else_or_more_is_recalled() {
     assert_eq!(named_beside("running_in", &alone), "");
     assert_eq!(named_beside("tip_relief", &pair), "");
 }
+
+/// The fit of the effect alone is given up, but the diagnosis has it beside something else.
+#[test]
+fn what_a_diagnosis_has_the_effect_beside_is_recalled() {
+    let told = |of: &[(&str, f64)], effect: &str| {
+        let probabilities = of.iter().map(|(name, p)| ((*name).to_owned(), *p));
+        let decided = Decided {
+            probabilities: probabilities.collect(),
+            ..decided("partial", of[0].0, of[0].1)
+        };
+        found_beside(effect, &decided)
+    };
+    let all = [
+        ("running_in+unknown", 0.745),
+        ("running_in", 0.01),
+        ("tip_relief", 0.2),
+        ("coating+tip_relief", 0.04),
+    ];
+    assert_eq!(
+        told(&all, "running_in").as_deref(),
+        Some(
+            "something else is missing besides: the diagnosis has it beside something unknown (74.5 %)"
+        )
+    );
+    assert!(
+        told(&all, "tip_relief")
+            .unwrap()
+            .ends_with("has it all the same, by itself (20.0 %)")
+    );
+    assert_eq!(told(&all, "coating"), None);
+    assert_eq!(told(&all, "ageing"), None);
+}

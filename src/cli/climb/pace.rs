@@ -53,6 +53,7 @@ fn told(rungs: usize, most: usize, done: f64, per_step: Option<f32>) -> String {
     // the last diagnosis stands above all steps, and adds nothing
     let (step, last) = (rungs + 1, most + 1);
     let step_of = match step > most {
+        true if most == 1 => "last diagnosis, after 1 step".to_owned(),
         true => format!("last diagnosis, after {most} steps"),
         false => format!("step {step} of at most {most}"),
     };
@@ -84,6 +85,7 @@ mod tests {
             told(5, 5, 0.5, Some(60.0)),
             "last diagnosis, after 5 steps, about 30 s left"
         );
+        assert_eq!(told(1, 1, 0.5, None), "last diagnosis, after 1 step");
     }
 
     #[test]
