@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
-use crate::learn::fitting::region::{FlankRegions, words};
+use crate::learn::fitting::region::{FlankRegions, Stage, words};
 use crate::measure::{Quantity, Subject};
 use crate::numeric::written::{self, count};
 
@@ -116,14 +116,13 @@ fn subject(quantity: Quantity) -> &'static str {
 }
 
 fn when(key: &CellKey, cell: &Cell, map: &FlankRegions) -> String {
-    let intervals = map.intervals(key.0);
-    if intervals < 2 {
+    if map.intervals(key.0) < 2 {
         return String::new();
     }
-    let stage = match key.4 {
-        first if 3 * first < intervals => "early in life",
-        late if 3 * (late + 1) > 2 * intervals => "late in life",
-        _ => "in mid-life",
+    let stage = match map.stage(key.0, key.4) {
+        Stage::Early => "early in life",
+        Stage::Middle => "in mid-life",
+        Stage::Late => "late in life",
     };
     let [from, to] = cell.cycles;
     if from == to {
@@ -272,7 +271,7 @@ fn others(
     cells: &BTreeMap<CellKey, Cell>,
     map: &FlankRegions,
 ) -> String {
-    let stage = |k: &CellKey| 3 * k.4 / map.intervals(k.0).max(1);
+    let stage = |k: &CellKey| map.stage(k.0, k.4);
     let mut like = Vec::new();
     for (k, found) in cells {
         let same_place =

@@ -15,6 +15,16 @@ pub(in crate::learn) struct FlankRegions {
     pairs: Vec<Option<Pair>>,
     /// Ends of the cycle intervals of each test, ascending.
     ends: Vec<Vec<f64>>,
+    /// Length of each test, pinion revolutions.
+    lengths: Vec<f64>,
+}
+
+/// Thirds of a test's length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::learn) enum Stage {
+    Early,
+    Middle,
+    Late,
 }
 
 impl FlankRegions {
@@ -36,14 +46,20 @@ impl FlankRegions {
         Self {
             pairs: study.tests.iter().map(pair).collect(),
             ends: ends.collect(),
+            lengths: (study.tests.iter())
+                .map(|test| test.conditions.cycles)
+                .collect(),
         }
     }
 
-    /// Tests of no geometry, by the ends of their intervals.
+    /// Tests of no geometry, by the ends of their intervals; the last one is that of the test.
     #[cfg(test)]
     pub(in crate::learn) fn of_ends(ends: Vec<Vec<f64>>) -> Self {
         Self {
             pairs: ends.iter().map(|_| None).collect(),
+            lengths: (ends.iter())
+                .map(|of_test| of_test.last().copied().unwrap_or_default())
+                .collect(),
             ends,
         }
     }
@@ -83,6 +99,19 @@ impl FlankRegions {
         [start, ends[interval]]
     }
 
+    /// In which third of the test the middle of a cycle interval lies; of the test's length, however late its last row is.
+    pub(in crate::learn) fn stage(&self, test: usize, interval: usize) -> Stage {
+        let [from, to] = self.cycles(test, interval);
+        let thirds = 3.0 * 0.5 * (from + to) / self.lengths[test].max(to);
+        if thirds < 1.0 {
+            Stage::Early
+        } else if thirds > 2.0 {
+            Stage::Late
+        } else {
+            Stage::Middle
+        }
+    }
+
     /// Number of cycle intervals of a test.
     pub(in crate::learn) fn intervals(&self, test: usize) -> usize {
         self.ends[test].len()
@@ -100,5 +129,20 @@ pub(in crate::learn) fn words(member: Member, region: Region) -> &'static str {
         (Member::Pinion, Region::SingleUpper) | (Member::Gear, Region::SingleLower) => {
             "flank just above the pitch point"
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn early_and_late_go_by_the_length_of_the_test() {
+        let mut map = FlankRegions::of_ends(vec![vec![1e5, 2.5e5, 3e5]]);
+        let stages = |map: &FlankRegions| [0, 1, 2].map(|interval| map.stage(0, interval));
+        assert_eq!(stages(&map), [Stage::Early, Stage::Middle, Stage::Late]);
+        // measured in its first half only
+        map.lengths = vec![6e5];
+        assert_eq!(stages(&map), [Stage::Early, Stage::Early, Stage::Middle]);
     }
 }
