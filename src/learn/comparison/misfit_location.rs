@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use super::lone_row::LoneRow;
 use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
 use crate::learn::fitting::region::{FlankRegions, Stage, words};
@@ -44,6 +45,7 @@ pub(in crate::learn) fn sentence(
     cells: &BTreeMap<CellKey, Cell>,
     ratios: &BTreeMap<(usize, Subject), Vec<Ratio>>,
     map: &FlankRegions,
+    lone: &BTreeMap<CellKey, LoneRow>,
     chi2: Option<f64>,
 ) -> String {
     let fails = |cell: &Cell| significance(cell) > SIGNIFICANT;
@@ -74,7 +76,7 @@ pub(in crate::learn) fn sentence(
             subject(key.2),
             whose(key),
             when(key, cell, map),
-            size(cell),
+            size(cell, lone.get(key)),
             place(key),
             if held_out { "held-out " } else { "" },
             cell.test
@@ -84,7 +86,7 @@ pub(in crate::learn) fn sentence(
             cell.chi2_per_point
         ),
         trend(key, cells),
-        mate(key, cell, cells),
+        mate(key, cell, cells, lone),
         others(key, cell, cells, map),
     ];
     let factor = if key.2 == Quantity::WearDepth {
@@ -131,12 +133,19 @@ fn when(key: &CellKey, cell: &Cell, map: &FlankRegions) -> String {
     format!(" {stage} ({} to {} cycles)", count(from), count(to))
 }
 
-/// Sign and size of the error; its root mean square where it has no one sign.
-fn size(cell: &Cell) -> String {
+/// Sign and size of the error; its root mean square where it has no one sign, or is that of one row.
+fn size(cell: &Cell, lone: Option<&LoneRow>) -> String {
     let unit = match cell.unit.as_str() {
         "1" => "",
         unit => &format!(" {}", written::unit(unit)),
     };
+    if let Some(row) = lone {
+        return format!(
+            "off by {}{unit} (root mean square; {})",
+            short(cell.rms),
+            row.in_words()
+        );
+    }
     if either_sign(cell) {
         return format!(
             "off by {}{unit} (root mean square, either sign)",
@@ -241,17 +250,26 @@ fn factor(ratios: &[Ratio]) -> String {
 }
 
 /// What the mate shows where it meets that region.
-fn mate(key: &CellKey, cell: &Cell, cells: &BTreeMap<CellKey, Cell>) -> String {
+fn mate(
+    key: &CellKey,
+    cell: &Cell,
+    cells: &BTreeMap<CellKey, Cell>,
+    lone: &BTreeMap<CellKey, LoneRow>,
+) -> String {
     let Some(member) = key.1.member() else {
         return String::new();
     };
     let other = Subject::from(member.other());
-    let Some(found) = cells.get(&(key.0, other, key.2, key.3, key.4)) else {
+    let there = (key.0, other, key.2, key.3, key.4);
+    let Some(found) = cells.get(&there) else {
         return String::new();
     };
     let name = other.name();
     if significance(found) > SIGNIFICANT && (either_sign(found) || either_sign(cell)) {
-        format!("; the {name} there is {} too", size(found))
+        format!(
+            "; the {name} there is {} too",
+            size(found, lone.get(&there))
+        )
     } else if !clear(found) || either_sign(cell) {
         format!("; the {name} there is not clearly off ({})", signed(found))
     } else if found.bias * cell.bias > 0.0 {
@@ -365,7 +383,7 @@ mod tests {
                 (key(0), cell(Quantity::MassLoss, 9, of_a)),
                 (key(1), held_out(40.0)),
             ]);
-            sentence(&cells, &BTreeMap::new(), &map, None)
+            sentence(&cells, &BTreeMap::new(), &map, &BTreeMap::new(), None)
         };
         assert!(
             told(20.0).contains("too low in test A (χ² per point 20.0"),

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::far_datums::far_datums;
 use super::fit_warnings::{correlation, fit_warnings};
+use super::lone_row::lone_rows;
 use super::misfit_location::{sentence, worst_first};
 use super::ratio::{Ratio, ratios};
 use super::residual_statistics::{Cell, FittedRow, Group, Share, cells, fitted, role_name, wear};
@@ -162,7 +164,13 @@ impl Comparison {
         let all = Share::of(rows.iter().copied());
         let cells = cells(study, &rows, &map);
         let ratios = ratios(study, &rows);
-        let worst = sentence(&cells, &ratios, &map, all.chi2_per_point);
+        let worst = sentence(
+            &cells,
+            &ratios,
+            &map,
+            &lone_rows(data, &rows, &map),
+            all.chi2_per_point,
+        );
         let places = worst_first(cells);
         let life = |o: &crate::measure::Observation| {
             let share = o.cycles / study.tests[o.test].conditions.cycles;
@@ -185,6 +193,7 @@ impl Comparison {
             warnings: (misfit_of_one_quantity(study, data, fit).into_iter())
                 .chain(unlike_tests(study, data, fit))
                 .chain(trend_of_coefficients(study, data, fit))
+                .chain(far_datums(study, data, fit))
                 .chain(fit_warnings(data, fit))
                 .collect(),
             tests: test_records(study, fit, &rows),

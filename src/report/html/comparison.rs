@@ -303,7 +303,7 @@ fn validation(c: &Comparison) -> Section {
     }
     section.note(
         "Of traces a small E validates nothing: the datum of each is fitted to it, in held-out tests too, and takes the mean error with it; a held-out \
-         test's own k does as much. What counts there is the rms about the datums against that of noise and numerics; beyond what chance makes of \
+         test's own k does as much. What counts there is the rms about the datums against that of noise, numerics and open parameters; beyond what chance makes of \
          it the error is seen in the curve.",
     )
 }
