@@ -107,7 +107,7 @@ fn dates_are_no_numbers() {
         let (code, _, message) = line(&home, DATED);
         assert_eq!(code, Some(2), "{message}");
         assert!(
-            message.contains(&format!("{cell}: is a date or a time (`2024-04-03`)")),
+            message.contains(&format!("{cell}: `2024-04-03` is a date or a time")),
             "{message}"
         );
     }

@@ -207,9 +207,12 @@ impl Measured<'_> {
             };
             let first = match attempt.first(without.is_some())? {
                 FirstFit::Hopeless { fit, share } => {
+                    let mut compared = self.compared(bench, version, fit, promised);
+                    // what a fit that was given up warns of says nothing of the measurements
+                    compared.comparison.warnings.clear();
                     return Ok(Compared {
                         given_up: Some(share),
-                        ..(self.compared(bench, version, fit, promised)).without_intervals()
+                        ..compared.without_intervals()
                     });
                 }
                 FirstFit::Hopeful(fit) => fit,

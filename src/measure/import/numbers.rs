@@ -224,7 +224,7 @@ pub(super) fn is_date(text: &str) -> bool {
 /// What is said of a date in the place of a number.
 fn dated(text: &str, row: usize, column: usize) -> ImportError {
     ImportError(format!(
-        "{}: is a date or a time (`{text}`); a number is wanted here: give the cell the format of a number in the spreadsheet, look whether its number is the \
+        "{}: `{text}` is a date or a time; a number is wanted here: give the cell the format of a number in the spreadsheet, look whether its number is the \
          one that was meant, or leave the cell empty",
         cell_name(row, column)
     ))
