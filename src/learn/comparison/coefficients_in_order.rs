@@ -1,6 +1,6 @@
 //! Whether the tests' own k rise or fall in the order of a condition: with three or four tests a line through them shows nothing, their order may.
 
-use super::unlike_tests::OwnK;
+use super::own_coefficient::OwnK;
 use crate::numeric::written::{plain, significant};
 use crate::study::Operation;
 

@@ -17,6 +17,7 @@ mod left_out;
 mod lone_row;
 mod misfit_location;
 mod missed;
+mod own_coefficient;
 mod prospects;
 mod ratio;
 mod record;

@@ -11,37 +11,14 @@
 
 use super::coefficient_trend::trend_of_coefficients;
 use super::coefficients_in_order::in_order;
+use super::own_coefficient::{NO_CHANCE, OwnK};
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::Dataset;
 use crate::numeric::written::significant;
 use crate::study::{Operation, Role, Study};
 
-/// Quantile of the normal distribution beyond which a difference is no chance: 0.005 on one side.
-const NO_CHANCE: f64 = 2.576;
-/// Factor between two k from which it is worth telling.
-const FACTOR: f64 = 1.25;
 /// Distance from the others, in ranges of theirs, from which a test stands out.
 const APART: f64 = 2.0;
-/// Least relative error of a k.
-const LEAST_ERROR: f64 = 1e-6;
-
-/// One test's own k.
-pub(super) struct OwnK<'a> {
-    pub(super) test: &'a str,
-    /// ln k.
-    pub(super) log: f64,
-    /// Standard deviation of `log`.
-    pub(super) sigma: f64,
-}
-
-impl OwnK<'_> {
-    /// Whether two k differ by more than their errors, and by enough to matter.
-    pub(super) fn is_unlike(&self, other: &OwnK<'_>) -> bool {
-        let far = (self.log - other.log).abs();
-        far > FACTOR.ln() && far > NO_CHANCE * self.sigma.hypot(other.sigma)
-    }
-}
-
 /// Sentences where the own k of fit tests differ by more than their errors, with the one that stands out, and where that of a held-out test differs
 /// from theirs; none where they share one k.
 pub(super) fn unlike_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
@@ -50,11 +27,7 @@ pub(super) fn unlike_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<Stri
         let known = (fit.tests.iter())
             .filter(|t| t.role == role && t.coefficient > 0.0 && measured(t.test));
         let own = known.map(|t| {
-            let own = OwnK {
-                test: &data.tests[t.test],
-                log: t.coefficient.ln(),
-                sigma: t.sigma.max(LEAST_ERROR),
-            };
+            let own = OwnK::new(&data.tests[t.test], t.coefficient, t.sigma);
             (&study.tests[t.test].conditions, own)
         });
         own.collect()
