@@ -2,6 +2,7 @@
 
 mod compliance;
 mod face;
+mod flank_waves;
 mod flanks;
 mod tangent;
 mod ties;
@@ -16,8 +17,9 @@ use crate::contact::slices::{Flanks, Slices};
 use crate::contact::tangent::LinearContact;
 use crate::contact::unilateral::{Drive, Problem, sensitivity, solve};
 pub use compliance::{CycleCompliance, FlankCoupling, member_tooth, member_turns};
+pub use flank_waves::WaveError;
 pub use flanks::{ElasticFlanks, ToothFlank};
-pub use ties::{ToothWaves, WaveError};
+pub use ties::ToothWaves;
 
 /// Flanks that give way by more than this under load, in modules, have left their path of contact: the turn is then no longer
 /// small against the tooth, and gaps taken at the unloaded position no longer hold. What the turn makes up for in wear does

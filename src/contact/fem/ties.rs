@@ -24,21 +24,11 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::compliance::member_tooth;
+use super::flank_waves::{FlankChange, WaveError, changes};
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::slices::Slices;
-use crate::fem::{FemError, Prism};
 use crate::gear::Gear;
 use crate::material::Elastic;
-use crate::mesh::{Mesh, MeshError, MeshSpec, mesh_gear};
-use crate::numeric::Vec2;
-
-/// Edge length of the meshes for waves along fine flanks and in fillets, and on the other teeth, modules: differences of compliances are far from the
-/// contact, and need no more.
-const FINE: f64 = 0.2;
-const COARSE: f64 = 0.8;
-
-/// Neighbours of a tooth on either side that a load on it is felt at.
-const NEIGHBOURS: i32 = 2;
 
 /// Changes of the flanks' compliance with the waves across a face.
 #[derive(Debug)]
@@ -47,26 +37,6 @@ pub struct ToothWaves {
     slices: usize,
     /// By wave from the first on, pinion then gear.
     waves: Vec<[FlankChange; 2]>,
-}
-
-/// Change of one member's compliance with one wave, or what is felt of it at one distance from the load.
-#[derive(Debug)]
-struct FlankChange {
-    /// Curvature radii of the flank points, mm, ascending.
-    rho: Vec<f64>,
-    /// By tooth from −[`NEIGHBOURS`] on: displacement at a flank point (row) per line load at one of tooth 0 (column), mm per N/mm.
-    change: Vec<DMatrix<f64>>,
-}
-
-/// Why there are no waves.
-#[derive(Debug, thiserror::Error)]
-pub enum WaveError {
-    /// No acceptable mesh.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
-    /// The stiffness could not be factored.
-    #[error(transparent)]
-    Fem(#[from] FemError),
 }
 
 impl ToothWaves {
@@ -208,157 +178,9 @@ struct Place {
     weights: [(usize, f64); 2],
 }
 
-impl FlankChange {
-    /// At the curvature radius `to` of tooth `tooth` per line load at `from` of tooth 0.
-    fn at(&self, tooth: i32, [to, from]: [f64; 2]) -> f64 {
-        self.between(tooth, self.weights(to), self.weights(from))
-    }
-
-    /// The same for places between points.
-    fn between(&self, tooth: i32, to: [(usize, f64); 2], from: [(usize, f64); 2]) -> f64 {
-        let Some(change) = usize::try_from(tooth + NEIGHBOURS)
-            .ok()
-            .and_then(|place| self.change.get(place))
-            .filter(|change| change.nrows() > 0)
-        else {
-            return 0.0;
-        };
-        let mut sum = 0.0;
-        for (i, a) in to {
-            for (j, b) in from {
-                sum += a * b * change[(i, j)];
-            }
-        }
-        sum
-    }
-
-    /// The two points that a curvature radius lies between, with their weights; the outermost point beyond it.
-    fn weights(&self, rho: f64) -> [(usize, f64); 2] {
-        let last = self.rho.len() - 1;
-        let after = self.rho.partition_point(|r| *r < rho).clamp(1, last);
-        let (a, b) = (self.rho[after - 1], self.rho[after]);
-        let t = ((rho - a) / (b - a)).clamp(0.0, 1.0);
-        [(after - 1, 1.0 - t), (after, t)]
-    }
-}
-
-/// Changes from the first wave number to each of the others.
-fn changes(
-    gear: &Gear,
-    material: Elastic,
-    wave_numbers: &[f64],
-) -> Result<Vec<FlankChange>, WaveError> {
-    let Compliances { rho, by_wave } = compliances(gear, material, wave_numbers)?;
-    let (even, waves) = by_wave.split_first().expect("the even load is one");
-    let change = |wave: &Vec<DMatrix<f64>>| FlankChange {
-        rho: rho.clone(),
-        change: wave.iter().zip(even).map(|(w, e)| w - e).collect(),
-    };
-    Ok(waves.iter().map(change).collect())
-}
-
-/// Compliances of one member's flank points.
-struct Compliances {
-    /// Their curvature radii, mm, ascending.
-    rho: Vec<f64>,
-    /// By wave number and tooth, as in [`FlankChange`].
-    by_wave: Vec<Vec<DMatrix<f64>>>,
-}
-
-/// Compliances by wave number.
-fn compliances(
-    gear: &Gear,
-    material: Elastic,
-    wave_numbers: &[f64],
-) -> Result<Compliances, WaveError> {
-    let module = gear.rack.module;
-    // a gear of few teeth has each of them once
-    let reach = NEIGHBOURS.min((gear.spec.teeth as i32 - 1) / 2);
-    let spec = MeshSpec {
-        root_spacing: FINE * module,
-        coarse_spacing: COARSE * module,
-        bore_spacing: 2.0 * module,
-        growth: 0.5,
-        ..MeshSpec::new(
-            gear,
-            (-reach..=reach).collect(),
-            FINE * module,
-            gear.rho_form,
-        )
-    };
-    let mesh = mesh_gear(gear, &spec)?;
-    let prism = Prism::new(&mesh, material, &mesh.bore)?;
-    let mut flanks: Vec<Flank> = (-NEIGHBOURS..=NEIGHBOURS)
-        .map(|tooth| Flank::new(&mesh, gear, tooth))
-        .collect();
-    let by_wave = wave_numbers
-        .par_iter()
-        .map(|&wave_number| compliance(&prism, &flanks, wave_number))
-        .collect::<Result<Vec<_>, FemError>>()?;
-    let loaded = flanks.swap_remove(NEIGHBOURS as usize);
-    Ok(Compliances {
-        rho: loaded.rho,
-        by_wave,
-    })
-}
-
-/// Points of one tooth's flank: the corners of its edges.
-struct Flank {
-    nodes: Vec<u32>,
-    /// Into the tooth.
-    normals: Vec<Vec2>,
-    rho: Vec<f64>,
-}
-
-impl Flank {
-    /// Without points where the mesh has no such fine tooth.
-    fn new(mesh: &Mesh, gear: &Gear, tooth: i32) -> Self {
-        let chain = mesh.flanks.iter().find(|chain| chain.tooth == tooth);
-        let nodes: Vec<u32> = chain.map_or_else(Vec::new, |chain| {
-            chain.nodes.iter().copied().step_by(2).collect()
-        });
-        let at = |node: &u32| mesh.points[*node as usize];
-        let normal = |node: &u32| {
-            let point = at(node);
-            let radius = point.norm();
-            let cosine = (gear.base_radius / radius).min(1.0);
-            let outward = point / radius;
-            let along = Vec2::new(-outward.y, outward.x);
-            -(outward * (1.0 - cosine * cosine).sqrt() + along * cosine)
-        };
-        let rho = |node: &u32| gear.rho_at_radius(at(node).norm());
-        Self {
-            normals: nodes.iter().map(normal).collect(),
-            rho: nodes.iter().map(rho).collect(),
-            nodes,
-        }
-    }
-}
-
-/// By tooth: displacements along the normals at its points (rows) per line load at those of tooth 0 (columns).
-fn compliance(
-    prism: &Prism<'_>,
-    flanks: &[Flank],
-    wave_number: f64,
-) -> Result<Vec<DMatrix<f64>>, FemError> {
-    let wave = prism.wave(wave_number)?;
-    let loaded = &flanks[NEIGHBOURS as usize];
-    let empty = |flank: &Flank| DMatrix::zeros(flank.nodes.len(), loaded.nodes.len());
-    let mut out: Vec<DMatrix<f64>> = flanks.iter().map(empty).collect();
-    for (column, (node, normal)) in loaded.nodes.iter().zip(&loaded.normals).enumerate() {
-        let nodes: Vec<u32> = flanks.iter().flat_map(|f| &f.nodes).copied().collect();
-        let mut moved = wave.solve(&[(*node, *normal)], &nodes).into_iter();
-        for (out, flank) in out.iter_mut().zip(flanks) {
-            for (row, normal) in flank.normals.iter().enumerate() {
-                out[(row, column)] = moved.next().map_or(0.0, |u| u.dot(normal));
-            }
-        }
-    }
-    Ok(out)
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::flank_waves::{NEIGHBOURS, compliances};
     use super::*;
     use crate::contact::cycle::{CycleSpec, Stations};
     use crate::contact::frame::tests::reference;
@@ -398,10 +220,12 @@ mod tests {
     }
 
     /// A body that gives way by c under an even load and not at all under a wave moves as one: the slices give way by c of their mean load, so the ties are
-    /// −c (δ_ij − 1/N) from each member (the cosines are orthogonal, and with the even load complete).
+    /// −c (δ_ij − 1/N) from each member (the cosines are orthogonal, and with the even load complete); inclined teeth give way by c/cos β_b.
     #[test]
     fn where_no_wave_bends_the_teeth_all_slices_move_by_their_mean_load() {
-        let cycle = cycle();
+        let mut cycle = cycle();
+        cycle.pair.base_helix = 0.25;
+        let inclined = 0.25f64.cos();
         let stiff = |c: f64| FlankChange {
             rho: vec![0.0, 100.0],
             change: vec![DMatrix::from_element(2, 2, -c); 5],
@@ -423,7 +247,7 @@ mod tests {
                             .map(|(i, pair)| pair.tooth - slices.passed(*i, turn, POSITIONS));
                         let within = (numbers[0] - numbers[1]).abs() <= NEIGHBOURS;
                         let own = f64::from(u8::from(i == j));
-                        let expected = -(c[0] + c[1]) * (own - 1.0 / N as f64);
+                        let expected = -(c[0] + c[1]) / inclined * (own - 1.0 / N as f64);
                         let expected = if within { expected } else { 0.0 };
                         assert!((ties[(a, b)] - expected).abs() < 1e-18);
                     }

@@ -6,6 +6,7 @@ mod learned;
 mod outlook;
 mod ranked;
 mod remainder;
+mod rivals;
 mod sentences;
 mod warnings;
 mod wording;
