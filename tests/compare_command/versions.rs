@@ -46,7 +46,7 @@ fn intervals_of_add_and_ladder_differ_and_it_is_said_why() {
     // and by what noise the two figures of add are
     assert!(
         added.contains(
-            "compare goes on to finer steps, diagnose allows for an error of the model itself"
+            "compare may take finer wear steps (it does so without the effect), and diagnose allows for an error of the model itself"
         ),
         "{added}"
     );

@@ -168,10 +168,10 @@ fn chi2_with_and_without(addition: &Addition) -> impl Iterator<Item = String> {
     .flatten()
 }
 
-/// What the two χ² are measured by, beside those of other commands; nothing where none is told without the effect.
+/// In which sigmas and by which wear steps the two χ² are, and why those of other commands differ; nothing where none is told without the effect.
 fn measured_by(addition: &Addition) -> Option<String> {
     addition.without_chi2_per_point.map(|_| {
-        "(both by the wear steps of this fit, in the rows' own sigmas; compare goes on to finer steps, diagnose allows for an error of the model itself: \
+        "(in the rows' own sigmas; compare may take finer wear steps (it does so without the effect), and diagnose allows for an error of the model itself: \
          their chi2 of the same model may be some per cent lower or higher)"
             .to_owned()
     })
