@@ -166,3 +166,27 @@ fn a_title_with_another_unit_is_named() {
     );
     assert!(!message.contains("looks like nm"), "{message}");
 }
+
+#[test]
+fn two_exchanged_places_are_told_and_two_exchanged_rows_are_not() {
+    let home = home();
+    let told = |radii: [f64; 8], values: [f64; 8]| {
+        let pairs = radii.iter().zip(values);
+        let lines: String = pairs.map(|(r, v)| format!("{r};{v}\n")).collect();
+        let table = format!("radius [mm];250000\n{lines}");
+        rows(&home, &table, "--test A --member pinion --sigma 0.1").0
+    };
+    let radii = [26.0, 26.3, 26.6, 26.9, 27.2, 27.5, 27.8, 28.1];
+    let values = [4.0, 3.0, 2.2, 1.6, 1.2, 1.0, 1.1, 1.4];
+    let mut exchanged = radii;
+    exchanged.swap(1, 2);
+    assert!(!told(radii, values).contains("each other's turn"));
+    let shown = told(exchanged, values);
+    assert!(
+        shown.contains("the places 26.6 and 26.3 stand in each other's turn"),
+        "{shown}"
+    );
+    let mut along = values;
+    along.swap(1, 2);
+    assert!(!told(exchanged, along).contains("each other's turn"));
+}

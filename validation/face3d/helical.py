@@ -30,6 +30,9 @@ CASES = {
     "crown, between two pairs, rims held": ("crown", 0.5, ROUGH, "rim"),
     "even, finer mesh": ("even", 0.5, COARSE, "free"),
     "even, finer face": ("even", 0.5, FINER_FACE, "free"),
+    "even, finer face, rims held": ("even", 0.5, FINER_FACE, "rim"),
+    "even, at the pitch point, finer face, rims held": ("even", 0.0, FINER_FACE, "rim"),
+    "crown, finer face, rims held": ("crown", 0.5, FINER_FACE, "rim"),
 }
 # solved only where they are asked for
 BY_NAME = {"even, at the pitch point, rims held", "crown, between two pairs, rims held", "even, finer mesh"}

@@ -14,6 +14,7 @@ mod counts;
 mod coverage;
 mod decimal_commas;
 mod entry;
+mod exchanged;
 mod flank;
 mod long;
 mod multiples;

@@ -1,9 +1,10 @@
-//! What stands out in the rows of a table before any physics: repeats that lie far apart, and masses that grew.
+//! What stands out in the rows of a table before any physics: repeats that lie far apart, masses that grew, and places that were exchanged.
 
 use std::collections::BTreeMap;
 
 use super::Entry;
 use super::entry::four_digits;
+use super::exchanged::exchanged;
 use crate::measure::Quantity;
 
 /// Standard deviations of a difference beyond which two readings are hardly ones of the same.
@@ -16,7 +17,9 @@ const GAIN_SIGMAS: f64 = 2.0;
 /// Warnings about rows, a line each.
 pub fn doubtful(entries: &[Entry]) -> Vec<String> {
     let far = far_apart(entries).into_iter();
-    far.chain(grown(entries)).collect()
+    far.chain(grown(entries))
+        .chain(exchanged(entries))
+        .collect()
 }
 
 /// Readings of the same at one time and place that differ by more than their noise.
