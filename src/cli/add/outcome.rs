@@ -59,9 +59,12 @@ pub(super) fn fitted(drafts: &[Draft], addition: &Addition, besides: Option<&str
     }
     let sanity = comparison.sanity.iter();
     lines.extend(sanity.map(|suspect| format!("check first: {suspect}")));
+    if !comparison.warnings.is_empty() {
+        // k of the tests, say, are those of the model with it
+        lines.push("of the model with the effect:".to_owned());
+    }
     let warnings = comparison.warnings.iter();
-    // k of the tests, say, are those of the model with it
-    lines.extend(warnings.map(|warning| format!("warning, with the effect: {warning}")));
+    lines.extend(warnings.map(|warning| format!("  warning: {warning}")));
     let forms = tried.iter().map(|(form, tried)| {
         json!({
             "form": form,

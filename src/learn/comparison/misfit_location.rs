@@ -397,6 +397,18 @@ mod tests {
         );
     }
 
+    /// A transmission error is measured on the pair; that of the gear is computed, so that too low is a gear that lags too much.
+    #[test]
+    fn a_transmission_error_is_the_gear_s() {
+        let quantity = Quantity::TransmissionError;
+        let key = (0, Subject::Pair, quantity, None, 0);
+        let cells = BTreeMap::from([(key, cell(quantity, 40, 9.0))]);
+        let map = FlankRegions::of_ends(vec![vec![1e5]]);
+        let told = sentence(&cells, &BTreeMap::new(), &map, &BTreeMap::new(), None);
+        let begins = "The computed transmission error (of the gear) is 1.0 µrad too low in test A (χ² per point 9.0";
+        assert!(told.starts_with(begins), "{told}");
+    }
+
     /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.
     #[test]
     fn a_single_mass_does_not_come_before_a_trace_that_carries_more() {
