@@ -20,6 +20,7 @@ from face3d import COARSE, LEADS, STIFFNESS, STRIPS, asked_for, picture, rows
 HERE = Path(__file__).parent
 ROUGH = (0.08, 1.8, 20, 1)
 FINER_FACE = (0.08, 1.8, 40, 1)
+FINEST_FACE = (0.08, 1.8, 80, 1)
 # lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
 CASES = {
     "even, between two pairs": ("even", 0.5, ROUGH, "free"),
@@ -30,6 +31,7 @@ CASES = {
     "crown, between two pairs, rims held": ("crown", 0.5, ROUGH, "rim"),
     "even, finer mesh": ("even", 0.5, COARSE, "free"),
     "even, finer face": ("even", 0.5, FINER_FACE, "free"),
+    "even, finest face": ("even", 0.5, FINEST_FACE, "free"),
     "even, finer face, rims held": ("even", 0.5, FINER_FACE, "rim"),
     "even, at the pitch point, finer face, rims held": ("even", 0.0, FINER_FACE, "rim"),
     "crown, finer face, rims held": ("crown", 0.5, FINER_FACE, "rim"),

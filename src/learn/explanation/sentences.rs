@@ -8,8 +8,8 @@ use super::wording::{Explanation, added, before, chi2, percent, values};
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::checks::sufficiency::{few, measured_once};
-use crate::learn::decision::Verdict;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
+use crate::learn::decision::{Decision, Verdict};
 use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::experiment::next::NextExperiment;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -34,6 +34,8 @@ const TOLD: usize = 3;
 const CLEARLY: f64 = 1.5;
 /// Log evidence to the runner-up below which what separates the two is told.
 const CLOSE: f64 = 5.0;
+/// Probability from which effects are worth a sentence where an unknown cause leads.
+const POSSIBLE: f64 = 0.05;
 /// Pairs of effects that are looked at for one that they have in common.
 const BEST_PAIRS: usize = 3;
 
@@ -162,20 +164,54 @@ fn unknown(findings: &Findings<'_>) -> Explanation {
     if undecided(findings.context, findings.posterior) {
         return not_decided(findings);
     }
+    let possible = not_ruled_out(decision);
     let next_step = if findings.context.approximate {
         "repeat with --fidelity middle: what is left may be the analytic model's own error"
+            .to_owned()
     } else {
-        "look at the measurements named in the warnings, if any; else write the suspected law as an [[effect]] with kind = \"formula\" and diagnose again"
+        let by_hand =
+            "write the suspected law as an [[effect]] with kind = \"formula\" and diagnose again";
+        let or = (possible.as_ref()).map_or(String::new(), |(_, effects, _)| {
+            let [first, ..] = effects.cards() else {
+                return String::new();
+            };
+            format!("see what gearwear add STUDY {} leaves, or ", first.name)
+        });
+        format!("look at the measurements named in the warnings, if any; else {or}{by_hand}")
     };
+    let possible = possible.map(|(hypothesis, _, probability)| {
+        format!(
+            "{} is not ruled out ({}).",
+            hypothesis.in_words(),
+            percent(probability)
+        )
+    });
     Explanation {
         sentence: format!(
             "Something is missing that the catalogue does not hold (probability {}): the base model stands at χ² {:.2} per point.",
             percent(decision.probability(&Hypothesis::Unknown)),
             before(findings)
         ),
-        reasons: best_of_catalogue(findings).into_iter().collect(),
-        next_step: next_step.to_owned(),
+        reasons: best_of_catalogue(findings)
+            .into_iter()
+            .chain(possible)
+            .collect(),
+        next_step,
     }
+}
+
+/// The most probable effects beside an unknown cause, with or without something unknown beside them, if they are worth a sentence.
+fn not_ruled_out(decision: &Decision) -> Option<(&Hypothesis, &EffectSet, f64)> {
+    let all = decision.log_probabilities.iter();
+    let of_effects = all.filter_map(|(hypothesis, log)| match hypothesis {
+        Hypothesis::Effects(effects) | Hypothesis::EffectsAndUnknown(effects) => {
+            Some((hypothesis, effects, log.exp()))
+        }
+        _ => None,
+    });
+    of_effects
+        .max_by(|a, b| a.2.total_cmp(&b.2))
+        .filter(|(_, _, probability)| *probability >= POSSIBLE)
 }
 
 /// How much of the discrepancy the best of the catalogue accounts for.
@@ -320,5 +356,28 @@ mod tests {
         assert_eq!(common_to_pairs(&pairs).unwrap().name, "micropitting");
         assert!(common_to_pairs(&pairs[..2]).is_none());
         assert!(common_to_pairs(&pairs[2..]).is_none());
+    }
+
+    #[test]
+    fn beside_an_unknown_cause_the_most_probable_effect_is_said_unless_it_is_ruled_out() {
+        let set = |name| EffectSet::new([find(name).unwrap()]);
+        let of = |beside: f64| Decision {
+            verdict: Verdict::Unknown,
+            log_probabilities: [
+                (Hypothesis::Unknown, 0.8_f64),
+                (Hypothesis::Effects(set("coating")), 0.02),
+                (Hypothesis::EffectsAndUnknown(set("oxidative")), beside),
+            ]
+            .map(|(hypothesis, p)| (hypothesis, p.ln()))
+            .into(),
+            effects: Vec::new(),
+            group: Vec::new(),
+        };
+        let decision = of(0.18);
+        let (hypothesis, effects, probability) = not_ruled_out(&decision).unwrap();
+        assert_eq!(hypothesis.in_words(), "oxidative beside something unknown");
+        assert_eq!(effects.cards()[0].name, "oxidative");
+        assert!((probability - 0.18).abs() < 1e-12);
+        assert!(not_ruled_out(&of(0.03)).is_none());
     }
 }
