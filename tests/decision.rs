@@ -303,6 +303,22 @@ fn an_effect_beside_something_unknown_and_something_unknown_alone_can_be_undecid
     assert_eq!(decision.leading_effects(), Some(&own));
 }
 
+/// Figures of measurements whose base model is another one, load shares that jump among it: any parameter gains beside a discrepancy that gains thousands.
+/// Beside a weaker one the same gain is evidence.
+#[test]
+fn a_hundredth_of_what_a_discrepancy_gains_establishes_nothing() {
+    let own = place("corrosive_loss");
+    let with = |unknown: f64| {
+        let beside_unknown = vec![beside(own, 60.8, 31.0, 2.0 * unknown)];
+        decided(&Evidence {
+            beside_unknown,
+            ..evidence(vec![candidate(&[own], 10.0, 31.0)], 2.0 * unknown, unknown)
+        })
+    };
+    assert_eq!(with(7188.0).verdict, Verdict::Unknown);
+    assert_eq!(with(700.0).verdict, Verdict::Partial);
+}
+
 /// Figures of half the points of a set that hides `sliding_speed_exponent` (d 8): noise has moved its share of a weak discrepancy to six tenths. That
 /// something remains beside it is denied by evidence, so it is not passed over; where evidence speaks for a remainder, it is.
 #[test]

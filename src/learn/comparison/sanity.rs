@@ -8,6 +8,7 @@
 
 mod falling;
 mod mass_balance;
+mod reversed;
 mod sigmas;
 mod single_tests;
 
@@ -51,6 +52,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     if let Some(other) = single_tests::cycles_in_another_unit(study, data) {
         return vec![other];
     }
+    if let Some(unit) = sigmas::values_of_another_unit(data) {
+        return vec![unit];
+    }
     let of_one_k = of_one_k(data, fit);
     let judged = |(o, _): &FittedRow<'_>| fit.judges(o.test);
     let rows: Vec<FittedRow<'_>> = (data.observations.iter().zip(&of_one_k))
@@ -85,6 +89,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     }
     if said.is_empty() {
         said.extend(falling::falling(study, &rows));
+        said.extend(reversed::reversed(study, &rows));
     }
     said.extend(sigmas::of_another_unit(data));
     said.extend(gear_revolutions(study, data));

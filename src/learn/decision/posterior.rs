@@ -156,7 +156,10 @@ fn share_with_remainders(
         None => (rule.remainder_odds * rule.prior_pairs / rule.prior_singles / pairs).ln(),
     };
     let prior: Vec<f64> = remainders.iter().map(|r| log_prior(r)).collect();
-    let odds = |(r, prior): (&&RemainderEvidence, &f64)| r.gain_over_unknown / rule.temper + prior;
+    let tolerated = rule.discrepancy_tolerance * evidence.unknown_evidence_gain.max(0.0);
+    let odds = |(r, prior): (&&RemainderEvidence, &f64)| {
+        (r.gain_over_unknown - tolerated) / rule.temper + prior
+    };
     let named: Vec<f64> = remainders.iter().zip(&prior).map(odds).collect();
     let named = log_sum_exp(&named);
     let total = softplus(named);

@@ -56,6 +56,9 @@ pub struct DecisionRule {
     pub free_shape_odds: f64,
     /// Prior odds of one effect beside something unknown, shared evenly among the single effects, to something unknown alone.
     pub remainder_odds: f64,
+    /// Share of the discrepancy's own gain of log evidence that an effect beside it must gain more than: a discrepancy of a slightly other kind gains as much. A free
+    /// parameter of any kind did, in measurements whose base model was another one (DECISIONS.md, "A base model that is far off").
+    pub discrepancy_tolerance: f64,
     /// Share of what an effect and the remainder bring together from which the remainder is more than another form of the effect leaves.
     pub remainder_share: f64,
     /// Its width.
@@ -89,6 +92,7 @@ impl Default for DecisionRule {
             unidentified_odds: 0.5,
             free_shape_odds: 4.0,
             remainder_odds: 0.5,
+            discrepancy_tolerance: 0.01,
             remainder_share: 0.08,
             remainder_share_width: 0.012,
             claim: 0.85,

@@ -14,6 +14,8 @@ use crate::learn::discrepancy::dependence::Driver;
 use crate::learn::experiment::next::NextExperiment;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::context::Context;
+use crate::learn::model_search::second_effects;
+use crate::numeric::written::significant;
 
 /// Probability of nothing missing below which that is undecided. Of the blind sets of the second and third series with 0.8 or more,
 /// 65 of 72 hide nothing and the others an effect of d < 6; of those with 0.5 to 0.8, 31 of 48, and one an effect of d ≥ 6.
@@ -273,6 +275,11 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
         let signature = if own.is_empty() { card.signature } else { own };
         format!("How {} shows: {signature}.", card.name)
     };
+    let weaker = weaker_beside(findings, leader);
+    let mut next_step = added(candidate);
+    if weaker.is_some() {
+        next_step += ", then diagnose the new study: something weaker may be left";
+    }
     Explanation {
         sentence: format!(
             "{} missing: {} (probability {}). With {} χ² per point falls from {:.2} to {:.2}; {}.",
@@ -284,9 +291,30 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
             chi2(findings, leader),
             values(leader)
         ),
-        reasons: candidate.added_forms().map(shows).collect(),
-        next_step: added(candidate),
+        reasons: (candidate.added_forms().map(shows)).chain(weaker).collect(),
+        next_step,
     }
+}
+
+/// What may be missing beside the leader: an effect too weak beside it to be told from another form of the leader itself.
+fn weaker_beside(findings: &Findings<'_>, leader: &FittedCandidate) -> Option<String> {
+    let Findings {
+        context,
+        base,
+        posterior,
+        ..
+    } = findings;
+    if context.approximate {
+        // what is left may be that model's own error
+        return None;
+    }
+    let (effects, fall) = second_effects::next(context, base, &posterior.candidates, leader)?;
+    let name = leader.candidate.effects.in_words();
+    Some(format!(
+        "Something weaker may be missing beside it: {}, or another form of {name}, would take some {} more off χ².",
+        effects.in_words(),
+        significant(fall, 2)
+    ))
 }
 
 fn depends_on(driver: &Driver) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Whether one quantity carries the misfit that a few of its rows make: then its stated σ is to be looked at before any physics.
 
 use crate::learn::fitting::fitted::Fit;
-use crate::measure::{Dataset, Observation, Quantity};
+use crate::measure::{Dataset, Observation, Place, Quantity};
 use crate::study::{Role, Study};
 
 /// Rows of a quantity from which it is looked at.
@@ -29,7 +29,9 @@ pub(in crate::learn) fn carried_by<'d>(
         let own = rows.iter().filter(|(quantity, _)| of(*quantity));
         own.fold((0, 0.0), |(count, square), row| (count + 1, square + row.1))
     };
-    Quantity::ALL.into_iter().find_map(|quantity| {
+    // along curves the scatter of neighbours tells whether sigma is too small (`checks::noise_level`)
+    let whole = |quantity: &Quantity| quantity.place() == Place::Whole;
+    Quantity::ALL.into_iter().filter(whole).find_map(|quantity| {
         let (count, square) = sum(&|q| q == quantity);
         let (others, rest) = sum(&|q| q != quantity);
         if count < LEAST || others < LEAST {
@@ -40,7 +42,7 @@ pub(in crate::learn) fn carried_by<'d>(
         (own > LARGE && own > OVER_OTHERS * other && share > SHARE).then(|| {
             format!(
                 "{:.0} % of the misfit of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): either their sigma is too small, or \
-                 what is missing acts on them alone. Look at that sigma first, of small values above all: a share of each value leaves them almost none",
+                 what is missing shows most in them. Look at that sigma first, of small values above all: a share of each value leaves them almost none",
                 100.0 * share,
                 quantity.name()
             )
@@ -84,5 +86,10 @@ mod tests {
         // both are off alike, or hardly
         assert_eq!(said(9.0, 5.0), None);
         assert_eq!(said(2.5, 1.0), None);
+        // transmission errors see what wears whole flanks more sharply than depths: that says nothing of their sigma
+        let error = row(Quantity::TransmissionError);
+        let errors = (0..72).map(|_| (&error, 6.0));
+        let said = carried_by(errors.chain((0..400).map(|_| (&depth, 2.0))), "");
+        assert_eq!(said, None);
     }
 }

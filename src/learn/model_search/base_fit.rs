@@ -3,13 +3,13 @@
 use super::context::Context;
 use super::high_fidelity::DECIDE;
 use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
-use crate::learn::candidates::fitted_candidate::BaseFit;
+use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::noise_level;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::inference::search::Effort;
 use crate::learn::noise::NoiseModel;
-use crate::learn::prediction::predictor::PredictError;
+use crate::learn::prediction::predictor::{PredictError, Predictor};
 use crate::study::Role;
 
 impl Context<'_> {
@@ -36,17 +36,38 @@ impl Context<'_> {
         let predictor = model(self.middle, &candidate);
         let found = likelihood.fit(&predictor, parameters, start, &DECIDE)?;
         let fitted = self.decide(&candidate, found.state, None, f64::INFINITY)?;
-        let state = &fitted.found.state;
-        let of = |bench| predictions(likelihood, &model(bench, &candidate), &candidate, state);
-        let hertz_offset = offset(likelihood, &of(self.exact)?, &of(self.hertz)?);
-        let anchored = Anchored::new(model(self.hertz, &candidate), hertz_offset.clone());
-        let screened = likelihood.fit(&anchored, parameters, state.clone(), &Effort::STAY)?;
-        let (screened_evidence, _) = likelihood.evidence(&screened, parameters, None);
+        self.anchored(fitted, &model(self.exact, &candidate))
+    }
+
+    /// A fit of the base model, to which the analytic model is brought in its state; `by`: what it was fitted by.
+    pub(super) fn anchored(
+        &self,
+        fitted: FittedCandidate,
+        by: &dyn Predictor,
+    ) -> Result<BaseFit, PredictError> {
+        let (hertz_offset, screened_evidence) = self.analytic_anchor(&fitted, by)?;
         Ok(BaseFit::new(
-            likelihood,
+            &self.likelihood,
             fitted,
             hertz_offset,
             screened_evidence,
         ))
+    }
+
+    /// What `by` and the analytic model differ by at a fit, per test of the data set; and the fit's log evidence by the analytic model so moved.
+    fn analytic_anchor(
+        &self,
+        fitted: &FittedCandidate,
+        by: &dyn Predictor,
+    ) -> Result<(Vec<Vec<f64>>, f64), PredictError> {
+        let likelihood = &self.likelihood;
+        let (candidate, state) = (&fitted.candidate, &fitted.found.state);
+        let of = |predictor: &dyn Predictor| predictions(likelihood, predictor, candidate, state);
+        let hertz_offset = offset(likelihood, &of(by)?, &of(&model(self.hertz, candidate))?);
+        let anchored = Anchored::new(model(self.hertz, candidate), hertz_offset.clone());
+        let parameters = &candidate.parameters;
+        let screened = likelihood.fit(&anchored, parameters, state.clone(), &Effort::STAY)?;
+        let (screened_evidence, _) = likelihood.evidence(&screened, parameters, None);
+        Ok((hertz_offset, screened_evidence))
     }
 }

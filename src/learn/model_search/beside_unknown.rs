@@ -83,6 +83,8 @@ impl Context<'_> {
         let Some(base) = context.base_beside(base) else {
             return Vec::new();
         };
+        // alone it has the k that suits it, as beside effects
+        let unknown = unknown.max(with_discrepancy(plain, &base.fitted));
         let mut fitted = if let Some(few) = few {
             let anew = |alone| context.fitted_from(&base, alone);
             few.into_par_iter().filter_map(anew).collect()
@@ -217,14 +219,8 @@ impl Context<'_> {
             None,
             fitted.fidelity,
         );
-        // all that is held against it is fitted as it is
-        let evidence = fitted.log_evidence;
-        Some(BaseFit::new(
-            &self.likelihood,
-            fitted,
-            base.hertz_offset.clone(),
-            evidence,
-        ))
+        // k beside a discrepancy is another one, and what the analytic model is off by changes with it
+        self.anchored(fitted, &predictor).ok()
     }
 }
 

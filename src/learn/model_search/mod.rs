@@ -16,4 +16,5 @@ mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
 mod screening;
+pub(in crate::learn) mod second_effects;
 mod unseen;

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use super::context::Context;
 use super::pair_exchange;
 use super::pair_fit::{self, PROMISE, PairStart};
+use super::second_effects;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::prediction::fidelity::Fidelity;
 
@@ -120,28 +121,13 @@ fn promising(
             }
         }
     }
-    // Second effects on top of the best one, as fitted: its change makes the residual smaller before the other is looked at. Of either sign: beside
-    // the best one an effect may act the other way than alone.
+    // second effects on top of the best one: its change makes the residual smaller before the other is looked at
     let leader = singles
         .iter()
         .position(|s| std::ptr::eq(s, best))
         .unwrap_or(0);
-    let left = base.left(&context.likelihood, &best.found.model, &best.found.state);
-    let direction = &seen[leader];
-    let length = direction.norm_squared();
-    for b in (0..singles.len()).filter(|&b| singles[b].candidate.effects != best.candidate.effects)
-    {
-        let mut other = seen[b].clone();
-        if length > 0.0 {
-            let share = other.dot(direction) / length;
-            other.axpy(-share, direction, 1.0);
-        }
-        let square = other.norm_squared();
-        let gain = if square > 1e-9 {
-            0.5 * other.dot(&left).powi(2) / square
-        } else {
-            0.0
-        };
+    let all: Vec<&FittedCandidate> = singles.iter().collect();
+    for (gain, b) in second_effects::on_top(context, base, &all, &seen, leader) {
         if gain > promise {
             found.push((single + gain, leader.min(b), leader.max(b)));
         }

@@ -1,7 +1,8 @@
-//! Standard deviations of depths and masses that stand in another unit than the values: of all tests, or of some.
+//! Standard deviations of depths and masses that stand in another unit than the values, or values in another unit than theirs: of all tests, or of some.
 //!
 //! ```text
 //! r_t = median of σ over the largest value, of test t      all r_t < 3e-5: no instrument of wear;  r_t a 200th of the others' median, or 200 times it
+//! largest value < σ, and a 100th of the least largest one of the other tests: mm for µm
 //! ```
 
 use std::collections::BTreeMap;
@@ -18,6 +19,10 @@ const FACTOR: f64 = 200.0;
 /// The same of σ itself: a test without wear to speak of has a large r by the ordinary σ.
 const FACTOR_OF_SIGMA: f64 = 30.0;
 
+/// Fewest values of a test, all below their sigma, and how many times larger those of every other test must be.
+const FEWEST: usize = 8;
+const FAR_LARGER: f64 = 100.0;
+
 /// Of one quantity in one test.
 struct Stated {
     test: usize,
@@ -25,6 +30,8 @@ struct Stated {
     sigma: f64,
     /// Largest value.
     largest: f64,
+    /// Number of values.
+    count: usize,
 }
 
 impl Stated {
@@ -54,6 +61,7 @@ fn stated(data: &Dataset, quantity: Quantity) -> Vec<Stated> {
             test,
             sigma: median(rows.iter().map(|o| o.sigma).collect())?,
             largest: rows.iter().map(|o| o.value.abs()).fold(0.0, f64::max),
+            count: rows.len(),
         })
     };
     (tests.into_iter().filter_map(of_test))
@@ -97,24 +105,67 @@ fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> O
     ))
 }
 
+/// Depths or masses of one test, all below their sigma, that are a hundredth of those of every other: of that alone all else would follow.
+pub(super) fn values_of_another_unit(data: &Dataset) -> Option<String> {
+    let all = [Quantity::WearDepth, Quantity::MassLoss].into_iter();
+    all.filter_map(|quantity| values_unlike_the_others(data, quantity, &stated(data, quantity)))
+        .next()
+}
+
+fn values_unlike_the_others(
+    data: &Dataset,
+    quantity: Quantity,
+    stated: &[Stated],
+) -> Option<String> {
+    let others = |own: &Stated| {
+        let largest = (stated.iter().filter(|s| s.test != own.test)).map(|s| s.largest);
+        largest.reduce(f64::min)
+    };
+    let is_nothing = |s: &Stated| s.count >= FEWEST && s.largest < s.sigma;
+    let (own, others) = stated.iter().find_map(|own| {
+        let others = others(own)?;
+        (is_nothing(own) && others > FAR_LARGER * own.largest).then_some((own, others))
+    })?;
+    let larger = match quantity {
+        Quantity::MassLoss => "g",
+        _ => "mm",
+    };
+    Some(format!(
+        "{} in test {} goes up to {} {} only, less than its sigma, in the other tests to {} at least: are these values in {larger}?",
+        quantity.name(),
+        data.tests[own.test],
+        significant(own.largest, 2),
+        quantity.shown_unit(),
+        rounded(others)
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::study::Study;
 
-    /// Three tests with ten values of 10 to 1 µm, each with its sigma.
-    fn lines(sigmas: [f64; 3]) -> Vec<String> {
+    /// Three tests with ten values of 10 to 1 µm, each with its sigma, those of test B times a factor.
+    fn data(sigmas: [f64; 3], of_second: f64) -> Dataset {
         let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
         let study = Study::parse(study, "study.toml").unwrap();
         let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
         for (test, sigma) in ["A", "B", "C"].iter().zip(sigmas) {
             for i in 0..10 {
-                let (radius, depth) = (26.0 + 0.3 * f64::from(i), 10 - i);
+                let factor = if *test == "B" { of_second } else { 1.0 };
+                let (radius, depth) = (26.0 + 0.3 * f64::from(i), factor * f64::from(10 - i));
                 text += &format!("{test},pinion,100000,wear_depth,{radius},{depth},{sigma}\n");
             }
         }
-        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
-        of_another_unit(&data)
+        Dataset::parse(&text, "m.csv", &study.known()).unwrap()
+    }
+
+    fn lines(sigmas: [f64; 3]) -> Vec<String> {
+        of_another_unit(&data(sigmas, 1.0))
+    }
+
+    fn values(of_second: f64) -> Option<String> {
+        values_of_another_unit(&data([0.2; 3], of_second))
     }
 
     #[test]
@@ -128,6 +179,12 @@ mod tests {
                 "{said:?}"
             );
         }
+        assert_eq!(values(1.0), None);
+        let in_mm = values(1e-3).unwrap();
+        assert!(
+            in_mm.starts_with("wear_depth in test B goes up to 0.010 µm only, less than its sigma, in the other tests to 10 at least"),
+            "{in_mm}"
+        );
         let all = lines([0.0002, 0.0002, 0.0002]);
         assert!(
             all[0].starts_with("sigma of wear_depth is about 0.00020"),
