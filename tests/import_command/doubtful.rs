@@ -190,3 +190,44 @@ fn two_exchanged_places_are_told_and_two_exchanged_rows_are_not() {
     along.swap(1, 2);
     assert!(!told(exchanged, along).contains("each other's turn"));
 }
+
+/// Roll angles of both members overlap, and so do the radii of like ones: nothing is taken for the pinion's by itself.
+#[test]
+fn a_curve_that_either_flank_could_have_wants_its_member() {
+    let home = home();
+    let table =
+        "Gear inspection report;\nroll angle [deg];250000\n18;2.5\n20;2.1\n22;1.5\n24;1.2\n";
+    let message = refused(&home, table, "--test A --sigma 0.1");
+    assert!(
+        message.contains("--member pinion or --member gear")
+            && message.contains("a row above says `Gear inspection report`"),
+        "{message}"
+    );
+    let (_, written) = rows(&home, table, "--test A --sigma 0.1 --member gear");
+    assert!(
+        written.starts_with("A,gear,250000,wear_depth,"),
+        "{written}"
+    );
+}
+
+#[test]
+fn a_second_curve_is_not_put_into_a_trace() {
+    let home = home();
+    let table = |radii: [f64; 3]| {
+        let rows = radii.iter().map(|r| format!("{r};1.5\n"));
+        format!("radius [mm];250000\n{}", rows.collect::<String>())
+    };
+    let option = "--test A --member pinion --sigma 0.1 -o out.csv";
+    let (code, _, message) = super::import(&home, &table([26.0, 26.5, 27.0]), option);
+    assert_eq!(code, Some(0), "{message}");
+    let behind = format!("{option} --append");
+    let (code, _, message) = super::import(&home, &table([26.1, 26.6, 27.1]), &behind);
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("the trace A-pinion-250000 is there already, from 26 to 27"),
+        "{message}"
+    );
+    // the other half of the flank goes on with it
+    let (code, _, message) = super::import(&home, &table([27.1, 27.6, 28.1]), &behind);
+    assert_eq!(code, Some(0), "{message}");
+}

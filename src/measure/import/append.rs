@@ -46,6 +46,7 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
     }
     let records = before.lines().filter(is_record).skip(1).map(record);
     let known = Known::of(records, &names);
+    let mut taken = Vec::new();
     let mut elsewhere = Vec::new();
     for row in &rows {
         let field = |name: &Option<usize>| {
@@ -67,7 +68,9 @@ pub fn appended(before: &str, header: &str, rows: &[String]) -> Result<String, I
         }
         text += &line;
         text.push('\n');
+        taken.push(written);
     }
+    refuse_second_curve(&known.curves, &curves(taken.into_iter(), &names))?;
     // a few equal values may be chance
     match elsewhere.first() {
         Some((line, faces)) if 2 * elsewhere.len() > rows.len() => Err(ImportError(format!(
@@ -104,6 +107,52 @@ impl<'t> Rows<'t> {
     }
 }
 
+/// Places of each trace, by test, member, cycles, quantity, trace, face and tooth.
+type Curves = BTreeMap<Vec<String>, Vec<f64>>;
+
+/// The curves of some rows.
+fn curves(rows: impl Iterator<Item = StringRecord>, names: &[Option<usize>]) -> Curves {
+    let mut curves = Curves::new();
+    for row in rows {
+        let of = |name: &str| field(&row, names, name);
+        let (trace, position) = (of("trace"), of("position").parse::<f64>());
+        let (false, Ok(position)) = (trace.is_empty(), position) else {
+            continue;
+        };
+        let key = [
+            "test", "member", "cycles", "quantity", "trace", "face", "tooth",
+        ]
+        .map(of);
+        curves.entry(key.to_vec()).or_default().push(position);
+    }
+    curves
+}
+
+/// Refuses a second curve in a trace that is there: one at other places of the same stretch of flank. The other half of a curve may follow, and repeats at
+/// the same places.
+fn refuse_second_curve(there: &Curves, new: &Curves) -> Result<(), ImportError> {
+    for (key, places) in new {
+        let Some(known) = there.get(key) else {
+            continue;
+        };
+        let ends = |all: &[f64]| {
+            let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+            (least, all.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((first, last), (low, high)) = (ends(known), ends(places));
+        let within = (places.iter()).filter(|place| (first..=last).contains(place));
+        let elsewhere = within.filter(|place| !known.contains(place)).count();
+        if 2 * elsewhere > places.len() {
+            return Err(ImportError(format!(
+                "the trace {} is there already, from {first} to {last}, and these rows are another curve, from {low} to {high}: of the other \
+                 member (--member), or of another checkpoint? --repeat 2 is for a second measurement of the same",
+                key[4]
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Whether a line of a measurement file is its header or a row.
 fn is_record(line: &&str) -> bool {
     !line.trim().is_empty() && !line.starts_with('#')
@@ -113,6 +162,7 @@ fn is_record(line: &&str) -> bool {
 struct Known {
     readings: BTreeSet<Vec<String>>,
     faces: BTreeMap<Vec<String>, BTreeSet<String>>,
+    curves: Curves,
 }
 
 impl Known {
@@ -120,7 +170,10 @@ impl Known {
         let mut known = Self {
             readings: BTreeSet::new(),
             faces: BTreeMap::new(),
+            curves: Curves::new(),
         };
+        let rows: Vec<StringRecord> = rows.collect();
+        known.curves = curves(rows.iter().cloned(), names);
         for row in rows {
             known.readings.insert(reading(&row, names, &["sigma"]));
             let anywhere = reading(&row, names, &ANYWHERE);

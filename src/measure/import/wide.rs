@@ -13,7 +13,7 @@ use super::numbers::{
     header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
     without_thousands,
 };
-use super::place::PositionKind;
+use super::place::{PositionKind, on_flank};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{ImportError, Sheet, cell_name, columns, counts, decimal_commas, nameless, units};
@@ -82,7 +82,8 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let head = header(sheet)?;
     decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
-    let member = (wanted.stated_member(sheet, quantity)?).unwrap_or(Subject::Pinion);
+    let stated_member = wanted.stated_member(sheet, quantity)?;
+    let member = stated_member.unwrap_or(Subject::Pinion);
     let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
     without_thousands(&mut sheet.rows[head]);
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
@@ -128,6 +129,9 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         multiple: multiple.as_ref(),
     };
     let (mut entries, empty) = reading.entries(&grid)?;
+    if stated_member.is_none() {
+        refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
+    }
     let joined = wanted.there.join(&mut entries, true);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
     if let Some(named) = &deviation {
@@ -164,6 +168,42 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         entries,
         test,
     })
+}
+
+/// Refuses places that lie on the flank of either member, where nothing says whose they are.
+fn refuse_either_flank(
+    entries: &[Entry],
+    kind: PositionKind,
+    wanted: &Wanted<'_>,
+    sheet: &Sheet,
+    head: usize,
+) -> Result<()> {
+    let [pinion, gear] = wanted.gears;
+    let on_other = |entry: &Entry| {
+        let radius =
+            (entry.position).map(|radius| kind.position(kind.told(radius, pinion), Some(gear)));
+        radius.is_some_and(|radius| on_flank(gear, radius))
+    };
+    let is_on_flank = |entry: &Entry| entry.quantity.place() == Place::Flank;
+    if entries.is_empty()
+        || !entries
+            .iter()
+            .all(|entry| is_on_flank(entry) && on_other(entry))
+    {
+        return Ok(());
+    }
+    let titles = sheet.rows[..head].iter().flatten();
+    let named = titles
+        .map(|cell| cell.trim())
+        .find(|words| names::one_member(words).is_some());
+    let named = named.map_or(String::new(), |words| {
+        format!(" (a row above says `{words}`)")
+    });
+    Err(ImportError(format!(
+        "{}: the pinion's flank has places of this {} and the gear's too{named}: say whose they are, --member pinion or --member gear",
+        cell_name(head, 0),
+        kind.word()
+    )))
 }
 
 /// Sorts entries by time and place and names their traces.
