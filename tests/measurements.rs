@@ -196,7 +196,7 @@ refusals! {
     radians: with("-14.2,0.5", "-14.2e-6,5e-7")
         => BadValue "value" at 6:39, "`-14.2e-6`, the largest", "in µrad", "looks like rad";
     percent: with("wear_depth,26.31,3.42,0.15,A-p-1", "load_share,26.31,63,1,")
-        => BadValue "value" at 3:34, "`63`", "at most 2 1", "looks like percent";
+        => BadValue "value" at 3:34, "`63`", "at most 2", "looks like percent";
     pascals: with("wear_depth,26.31,3.42,0.15,A-p-1", "contact_pressure,26.31,8e8,1e7,")
         => BadValue "value" at 3:40, "`8e8`", "at most 30000 MPa", "looks like Pa";
     trace_of_two_quantities: with("A-te-1", "A-p-1")

@@ -284,10 +284,14 @@ impl<'k> Reader<'k> {
             return Ok(value);
         }
         let (name, larger) = (quantity.name(), limits.larger);
+        let (in_unit, of_unit) = match unit.as_str() {
+            "1" => ("parts of 1".to_owned(), String::new()),
+            unit => (unit.to_owned(), format!(" {unit}")),
+        };
         let fault = cell.fault(
             Fault::BadValue,
-            format!("this {name} is not possible in {unit}"),
-            &format!("at most {} {unit}", three_digits(limits.above)),
+            format!("this {name} is not possible in {in_unit}"),
+            &format!("at most {}{of_unit}", three_digits(limits.above)),
         );
         Err(fault.with_hint(format!("this looks like {larger}")).into())
     }

@@ -109,13 +109,13 @@ impl<'a> Table<'a> {
         let path = shown(&self.path_of(key));
         let written = self.written(&span);
         let units: Vec<&str> = units::known(quantity).collect();
-        let allowed = if units.is_empty() {
-            format!("a number without unit, {quantity}")
-        } else {
-            format!(
+        let allowed = match units[..] {
+            [] => format!("a number without unit, {quantity}"),
+            [only] => format!("{quantity}; a plain number, or a text with the unit {only}"),
+            _ => format!(
                 "{quantity}; a plain number, or a text with one of the units {}",
                 units.join(", ")
-            )
+            ),
         };
         let (message, found, hint) = match fault {
             UnitFault::NoUnit => {

@@ -158,3 +158,20 @@ fn a_row_of_units_makes_no_title_of_the_header() {
         "{written}"
     );
 }
+
+/// Commas between the thousands of the headers, where the values have points as decimal marks.
+#[test]
+fn english_thousands_are_read_above_values_with_points() {
+    let home = home();
+    let table = "radius [mm],\"40,000 rev\",\"250,000 rev\"\n26.5,1.25,3.5\n27.5,0.75,2.5\n";
+    let (_, written) = rows(&home, table, "--test A --member pinion --sigma 0.1");
+    assert!(
+        written.contains("A,pinion,40000,wear_depth,26.5,1.25,")
+            && written.contains("A,pinion,250000,wear_depth,26.5,3.5,"),
+        "{written}"
+    );
+    // with decimal commas below nobody knows
+    let table = "radius [mm];40,000 rev;250,000 rev\n26,5;1,25;3,5\n27,5;0,75;2,5\n";
+    let message = refused(&home, table, "--test A --member pinion --sigma 0.1");
+    assert!(message.contains("marked between thousands"), "{message}");
+}

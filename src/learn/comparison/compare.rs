@@ -180,7 +180,9 @@ impl Measured<'_> {
             });
         };
         told(0);
-        let sized = bench.is_elastic() && !version.effects.is_empty();
+        let stated = (version.free.iter()).find(|free| free.name == WEAR_COEFFICIENT);
+        let sized = bench.is_elastic() && !version.effects.is_empty()
+            || stated.is_some_and(|k| self.wears_away(k.value));
         let version = &if sized {
             self.sized(version)
         } else {

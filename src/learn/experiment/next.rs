@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::candidate_tests::{
-    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, feasible, ranked, shown, strength,
+    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, feasible, ranked, repeats, shown, strength,
 };
 use super::discrimination::{Discrimination, PlannedResponse, Whitening};
 use super::measurement_design::MeasurementDesign;
@@ -81,13 +81,14 @@ fn experiment(
 ) -> Option<NextExperiment> {
     let study = context.likelihood.measured.study();
     let plain = plain(context);
-    let mut tests: Vec<(usize, Operation)> = feasible(study, &plain);
+    let made = |test: &Operation| (study.tests.iter()).any(|made| repeats(test, &made.conditions));
+    let is_new = |(_, test): &(usize, Operation)| !made(test);
+    let mut tests: Vec<(usize, Operation)> = (feasible(study, &plain).into_iter())
+        .filter(is_new)
+        .collect();
     let count = tests.len();
-    tests.extend(
-        existing(context)
-            .into_iter()
-            .map(|operation| (0, operation)),
-    );
+    let existing = existing(context).into_iter();
+    tests.extend(existing.map(|operation| (0, operation)));
     let found: Vec<Option<TestDiscrimination>> = tests
         .par_iter()
         .map(|(_, operation)| discrimination(context, shop, operation, a, b))
@@ -296,8 +297,13 @@ fn sentence(
             told.place.member, told.place.cycles
         ),
     };
+    let again = if repetition > alone {
+        ", which tells more"
+    } else {
+        ""
+    };
     format!(
-        "A test with {} {verb} {} from {}: after refitting they differ there by χ² {alone:.0}, {strength} (a repetition of a test made already: {:.0}); {place}.",
+        "A test with {} {verb} {} from {}: after refitting they differ there by χ² {alone:.0}, {strength} (a repetition of a test made already{again}: {:.0}); {place}.",
         changes(test, plain),
         names[0],
         names[1],

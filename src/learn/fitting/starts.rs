@@ -18,6 +18,10 @@ const FAINT: f64 = 0.05;
 /// How far the analytic model may be off from finite elements in the wear coefficient of the same measurements, ln.
 const ANALYTIC_ERROR: f64 = 0.25;
 
+/// Depth in modules from which a guessed wear coefficient would leave no teeth, and one by which hardly anything is worn, mm²/N.
+const WORN_AWAY: f64 = 0.5;
+const FAINT_WEAR: f64 = 1e-14;
+
 /// How much is spent on telling where a fit starts, and on telling what it promises.
 const STARTS: Budget = Budget {
     places: 6,
@@ -66,14 +70,30 @@ impl Measured<'_> {
         };
         let noise = NoiseModel::of(&self.study().noise);
         let own = version.own_values();
+        let begins = self.wears_away(k.value).then_some(FAINT_WEAR);
         let measured = self.by(Cheaper::Analytic, version, noise, |analytic| {
-            Some(analytic.scaled(&own)?.coefficient)
+            Some(analytic.beginning_at(begins).scaled(&own)?.coefficient)
         });
         let off = |measured: &f64| (measured / k.value).ln().abs() > ANALYTIC_ERROR;
         if let Some(measured) = measured.filter(off) {
             k.value = measured.clamp(k.lower, k.upper);
         }
         sized
+    }
+
+    /// Whether a wear coefficient would leave no teeth in a test, so that no history with it ends: by the depth that load times a sliding as long as the
+    /// flank rolls would wear, k F' N.
+    pub(in crate::learn) fn wears_away(&self, k: f64) -> bool {
+        let gears = &self.study().gears;
+        let pinion = &gears.pinion;
+        let depth = |torque_nmm: f64, cycles: f64| {
+            k * torque_nmm / (pinion.base_radius * gears.face_width) * cycles
+        };
+        let all = self.study().tests.iter().map(|test| &test.conditions);
+        let deepest = all
+            .map(|c| depth(c.torque_nmm, c.cycles))
+            .fold(0.0, f64::max);
+        deepest > WORN_AWAY * pinion.rack.module
     }
 
     /// Where a fit of a version's `problem` is to start: where a cheaper model's own fit to the measurements ends, from the best of `places` and of

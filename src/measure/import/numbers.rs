@@ -170,18 +170,23 @@ pub(super) fn plain_count(
     plain_cycles(text, row, column)
 }
 
-/// A header row without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are.
-pub(super) fn without_thousands(header: &mut [String]) {
+/// The header row `head` without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are; or where they are commas and
+/// the values below have points as decimal marks.
+pub(super) fn without_thousands(rows: &mut [Vec<String>], head: usize) {
     let marked = |text: &String, least: usize| {
         let words = number_words(text).into_iter();
         let several = |word: &&str| in_thousands(word) && word.matches(['.', ',']).count() >= least;
         words.filter(several).map(str::to_owned).next()
     };
-    if header.iter().any(|text| marked(text, 2).is_some()) {
-        for text in header {
-            if let Some(word) = marked(text, 1) {
-                *text = text.replacen(&word, &word.replace(['.', ','], ""), 1);
-            }
+    let (above, below) = rows.split_at_mut(head + 1);
+    let header = &mut above[head];
+    let has = |mark: char| below.iter().flatten().any(|cell| cell.contains(mark));
+    let commas = has('.') && !has(',');
+    let several = header.iter().any(|text| marked(text, 2).is_some());
+    for text in header {
+        let word = marked(text, 1).filter(|word| several || commas && !word.contains('.'));
+        if let Some(word) = word {
+            *text = text.replacen(&word, &word.replace(['.', ','], ""), 1);
         }
     }
 }

@@ -49,10 +49,11 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         None => header(sheet).map_err(|_| no_header(sheet))?,
     };
     decimal_commas::refuse(sheet, head)?;
-    let mut sheet = with_points(sheet, wanted.decimal, |row, column| {
+    let mut sheet = sheet.clone();
+    without_thousands(&mut sheet.rows, head);
+    let mut sheet = with_points(&sheet, wanted.decimal, |row, column| {
         row > head && column > 0
     })?;
-    without_thousands(&mut sheet.rows[head]);
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple

@@ -84,8 +84,9 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let test = wanted.one_test(sheet)?;
     let stated_member = wanted.stated_member(sheet, quantity)?;
     let member = stated_member.unwrap_or(Subject::Pinion);
-    let mut sheet = with_points(sheet, wanted.decimal, |row, _| row > head)?;
-    without_thousands(&mut sheet.rows[head]);
+    let mut sheet = sheet.clone();
+    without_thousands(&mut sheet.rows, head);
+    let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple

@@ -105,18 +105,10 @@ fn unlike_the_others(data: &Dataset, quantity: Quantity, stated: &[Stated]) -> O
     ))
 }
 
-/// Depths or masses of one test, all below their sigma, that are a hundredth of those of every other: of that alone all else would follow.
+/// Depths of one test, all below their sigma, that are a hundredth of those of every other: of that alone all else would follow. What masses say against
+/// depths is another matter (`mass_balance`).
 pub(super) fn values_of_another_unit(data: &Dataset) -> Option<String> {
-    let all = [Quantity::WearDepth, Quantity::MassLoss].into_iter();
-    all.filter_map(|quantity| values_unlike_the_others(data, quantity, &stated(data, quantity)))
-        .next()
-}
-
-fn values_unlike_the_others(
-    data: &Dataset,
-    quantity: Quantity,
-    stated: &[Stated],
-) -> Option<String> {
+    let stated = stated(data, Quantity::WearDepth);
     let others = |own: &Stated| {
         let largest = (stated.iter().filter(|s| s.test != own.test)).map(|s| s.largest);
         largest.reduce(f64::min)
@@ -126,16 +118,10 @@ fn values_unlike_the_others(
         let others = others(own)?;
         (is_nothing(own) && others > FAR_LARGER * own.largest).then_some((own, others))
     })?;
-    let larger = match quantity {
-        Quantity::MassLoss => "g",
-        _ => "mm",
-    };
     Some(format!(
-        "{} in test {} goes up to {} {} only, less than its sigma, in the other tests to {} at least: are these values in {larger}?",
-        quantity.name(),
+        "wear_depth in test {} goes up to {} µm only, less than its sigma, in the other tests to {} at least: are these values in mm?",
         data.tests[own.test],
         significant(own.largest, 2),
-        quantity.shown_unit(),
         rounded(others)
     ))
 }
