@@ -156,6 +156,18 @@ fn masses_that_grew_are_told() {
 }
 
 #[test]
+fn teeth_that_grew_are_told() {
+    let home = home();
+    let table =
+        "test,member,cycles,quantity,position,value,sigma\nA,pinion,1e5,chordal_loss,26.8,-15,1\n";
+    let (shown, _) = rows(&home, table, "");
+    assert!(
+        shown.contains("1 of 1 values of chordal_loss are negative"),
+        "{shown}"
+    );
+}
+
+#[test]
 fn a_title_with_another_unit_is_named() {
     let home = home();
     let table = "Wear depth [mm]\nradius [mm];250000\n26,5;2,345\n27;2,1\n";

@@ -1,4 +1,4 @@
-//! What stands out in the rows of a table before any physics: repeats that lie far apart, masses that grew, and places that were exchanged.
+//! What stands out in the rows of a table before any physics: repeats that lie far apart, masses and teeth that grew, and places that were exchanged.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,12 @@ const GAIN_SIGMAS: f64 = 2.0;
 /// Warnings about rows, a line each.
 pub fn doubtful(entries: &[Entry]) -> Vec<String> {
     let far = far_apart(entries).into_iter();
-    far.chain(grown(entries))
+    let losses = [
+        Quantity::MassLoss,
+        Quantity::SpanLoss,
+        Quantity::ChordalLoss,
+    ];
+    far.chain(losses.into_iter().filter_map(|loss| grown(entries, loss)))
         .chain(exchanged(entries))
         .collect()
 }
@@ -65,20 +70,26 @@ fn farthest<'e>(group: &[&'e Entry]) -> Option<[&'e Entry; 2]> {
     (largest.value - least.value > limit).then_some(both)
 }
 
-/// Losses of mass that are negative beyond their noise.
-fn grown(entries: &[Entry]) -> Option<String> {
-    let masses = || (entries.iter()).filter(|entry| entry.quantity == Quantity::MassLoss);
+/// Losses of mass or thickness that are negative beyond their noise.
+fn grown(entries: &[Entry], loss: Quantity) -> Option<String> {
+    let losses = || (entries.iter()).filter(|entry| entry.quantity == loss);
     let is_grown = |entry: &&Entry| entry.value < -GAIN_SIGMAS * entry.sigma.unwrap_or_default();
-    let first = masses().find(is_grown)?;
-    let (grown, all) = (masses().filter(is_grown).count(), masses().count());
+    let first = losses().find(is_grown)?;
+    let (grown, all) = (losses().filter(is_grown).count(), losses().count());
+    let (lost, reading) = match loss {
+        Quantity::MassLoss => ("mass", "weighing"),
+        _ => ("thickness", "reading"),
+    };
     let advice = match 2 * grown > all {
-        true => "turn the sign of these values (--turn-sign)",
-        false => "is a weighing wrong?",
+        true => "turn the sign of these values (--turn-sign)".to_owned(),
+        false => format!("is a {reading} wrong?"),
     };
     Some(format!(
-        "{grown} of {all} values of mass_loss are negative ({}: {} mg), and lost mass counts positive: {advice}",
+        "{grown} of {all} values of {} are negative ({}: {} {}), and lost {lost} counts positive: {advice}",
+        loss.name(),
         of(first),
-        four_digits(first.value)
+        four_digits(first.value),
+        loss.shown_unit()
     ))
 }
 
