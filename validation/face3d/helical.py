@@ -34,6 +34,7 @@ CASES = {
     "even, finest face": ("even", 0.5, FINEST_FACE, "free"),
     "even, finer face, rims held": ("even", 0.5, FINER_FACE, "rim"),
     "even, at the pitch point, finer face, rims held": ("even", 0.0, FINER_FACE, "rim"),
+    "even, at the pitch point, finer face, mirrors": ("even", 0.0, FINER_FACE, "mirror"),
     "crown, finer face, rims held": ("crown", 0.5, FINER_FACE, "rim"),
 }
 # solved only where they are asked for

@@ -22,12 +22,16 @@ const LOOK: Effort = Effort {
     share: 2e-3,
     ..Effort::STAY
 };
-/// From so many free parameters of an effect on, or with a phase among them, places spread over their priors are looked at: so many for each
-/// parameter, and so many for a wave, whose lengths and phases all have valleys of their own, unless it runs around the teeth: these meet all
-/// teeth of the other member in turn, which levels out most of its phase.
-const MANY: usize = 3;
+/// Places spread over the priors that are looked at: so many for each free parameter of an effect, and so many for a wave, whose lengths and phases all
+/// have valleys of their own, unless it runs around the teeth: these meet all teeth of the other member in turn, which levels out most of its phase.
 const SPREAD: usize = 8;
 const WAVES: usize = 64;
+/// From fewer free parameters than these, without a phase among them, the fit goes on from so many of them at most: a threshold, a length or a sign may
+/// have two valleys.
+const MANY: usize = 3;
+const OF_FEW: usize = 2;
+/// The same by finite elements, where each place costs a history: places in all, of which one is fitted on.
+const BY_ELEMENTS: usize = 4;
 /// How weak the waves looked at are, as a share of the prior's median: weak ones come nearer to the measurements the more they are like what
 /// is missing, strong ones only if their size is right too.
 const WEAK: f64 = 0.25;
@@ -99,19 +103,18 @@ impl Measured<'_> {
     ) -> Option<Fit> {
         let wave = version.of_last().any(is_phase);
         let on_teeth = (version.effects.specs().last()).is_some_and(EffectSpec::acts_on_teeth);
-        let spread = match version.of_last().count() {
-            // thousands of histories by elements cost more than they save
-            _ if cheaper == Cheaper::Coarse => 0,
+        let smooth = (version.of_last()).all(|free| free.role == ParamRole::SmoothPart);
+        let by_elements =
+            cheaper == Cheaper::Coarse && self.study().contact != StudiedContact::Hertz;
+        let (spread, most) = match version.of_last().count() {
             // the coefficients of a smooth function have no valleys to be told apart
-            _ if version
-                .of_last()
-                .all(|free| free.role == ParamRole::SmoothPart) =>
-            {
-                0
-            }
-            n if wave && !on_teeth => n * WAVES,
-            n if wave || n >= MANY => n * SPREAD,
-            _ => 0,
+            _ if smooth => (0, 0),
+            // thousands of histories by elements cost more than they save
+            n if by_elements && (wave || n >= MANY) => (0, 0),
+            _ if by_elements => (BY_ELEMENTS, 1),
+            n if wave && !on_teeth => (n * WAVES, spent.places),
+            n if wave || n >= MANY => (n * SPREAD, spent.places),
+            n => (n * SPREAD, OF_FEW.min(spent.places)),
         };
         self.by(cheaper, version, noise, |problem| {
             let better = anchor.fine.predictions.clone();
@@ -125,8 +128,9 @@ impl Measured<'_> {
             };
             let mut all = problem.places(spread);
             all.iter_mut().for_each(|place| settle(version, place));
+            let stated = places.len().min(spent.places);
             all.extend(places);
-            let mut starts = anchored.nearest(all, spent.places);
+            let mut starts = anchored.nearest(all, most.max(stated));
             let mut look = LOOK;
             match cheaper {
                 Cheaper::Analytic => starts.extend([version.own_values(), version.medians()]),

@@ -201,7 +201,12 @@ impl Parameter {
     pub(in crate::learn) fn estimate(&self, mode: f64, centre: f64, sd: f64) -> Estimate {
         let prior = self.natural_prior();
         let value = self.value(mode);
-        let at = |p| self.value(quantile(p, centre, sd, prior.lower, prior.upper));
+        // an angle goes on where its range ends
+        let [lower, upper] = match self.is_angle() {
+            true => [f64::NEG_INFINITY, f64::INFINITY],
+            false => [prior.lower, prior.upper],
+        };
+        let at = |p| self.value(quantile(p, centre, sd, lower, upper));
         // A parameter that the data say nothing about is known by its bounds.
         let sd = sd.min((prior.upper - prior.lower) / 12f64.sqrt());
         let near = AT_BOUND * sd;
