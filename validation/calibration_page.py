@@ -10,8 +10,8 @@ BINS = 10
 # What is asked of the 90 % intervals, and the chance below which ranks are not uniform; fits from which on each is judged.
 ASKED, CHANCE = (0.87, 0.93), 1e-3
 ENOUGH, ENOUGH_TO_BIN = 20, 5 * BINS
-# Fall of χ² up to which `add` says that an effect betters nothing and states no interval.
-UNSEEN = 11.3
+# Fall of χ² up to which `add` says that an effect betters nothing, and χ² per point from which a fit is far off: it states no interval then.
+UNSEEN, TOO_LARGE = 11.3, 2.0
 # Distance from the truth that no fit at its end has, standard deviations.
 FAR = 5.0
 K = "wear.coefficient"
@@ -55,20 +55,23 @@ class Normal:
             below, above = (middle, above) if self.share(middle) < p else (below, middle)
         return middle
 
+
 def natural(parameter, card, truth):
-    """The stated posterior and the true value, on the scale on which the fit has the posterior normal: ln where the prior is log-normal."""
-    scale = (lambda x: math.log(x) if x > 0.0 else -math.inf) if card["prior"].startswith("log-normal") else (lambda x: x)
-    value, interval = parameter["value"], parameter["interval_95"]
+    """The stated posterior, the true value and the 95 % interval on the scale on which a fit's posterior is normal: ln where the prior is log-normal."""
+    value, sd, interval = parameter["value"], parameter["sigma"], parameter["interval_95"]
     low, high = float(card["lower"]), float(card["upper"])
-    if card["prior"].startswith("uniform"):
-        ends = [float(words.split()[-1]) for words in card["prior"].split(" to ")]
-        low, high = max(low, ends[0]), min(high, ends[1])
     if card["unit"] == "rad" and abs(high - low - 2.0 * math.pi) < 1e-9:
         # the other side of the turn is near
         turned = truth - 2.0 * math.pi * round((truth - value) / (2.0 * math.pi))
-        return Normal(value, parameter["sigma"]), turned
-    sd = parameter["sigma"] / value if scale(2.0) != 2.0 else parameter["sigma"]
-    return Normal.stated(scale(value), sd, [*map(scale, interval)], scale(low), scale(high)), scale(truth)
+        return Normal(value, sd), turned, interval
+    if card["prior"].startswith("uniform"):
+        ends = [float(words.split()[-1]) for words in card["prior"].split(" to ")]
+        low, high = max(low, ends[0]), min(high, ends[1])
+    scale = float
+    if card["prior"].startswith("log-normal"):
+        scale, sd = (lambda x: math.log(x) if x > 0.0 else -math.inf), sd / value
+    interval = [*map(scale, interval)]
+    return Normal.stated(scale(value), sd, interval, scale(low), scale(high)), scale(truth), interval
 
 
 def exceeded(square, freedom):
@@ -104,12 +107,17 @@ class Row:
 
     def __init__(self, effect, card, name, answers):
         self.effect, self.name = effect, name
-        fits = [(a, next(p for p in a["parameters"] if p["name"] == name)) for a in answers]
-        placed = [(a, p, *natural(p, card, a["truth"][name])) for a, p in fits]
-        self.shares = [posterior.share(truth) for _, _, posterior, truth in placed]
-        self.far = [a["draw"] for a, _, posterior, truth in placed if abs(truth - posterior.centre) > FAR * posterior.sd]
-        n = self.count = len(placed)
-        self.hits = [sum(abs(2.0 * u - 1.0) <= level for u in self.shares) for level in LEVELS]
+        self.shares, self.far, held = [], [], 0
+        for answer in answers:
+            parameter = next(p for p in answer["parameters"] if p["name"] == name)
+            posterior, truth, interval = natural(parameter, card, answer["truth"][name])
+            self.shares.append(posterior.share(truth))
+            held += interval[0] <= truth <= interval[1]
+            if abs(truth - posterior.centre) > FAR * posterior.sd:
+                self.far.append(answer["draw"])
+        n = self.count = len(answers)
+        # the 95 % interval is the stated one, the others are of the same normal
+        self.hits = [sum(abs(2.0 * u - 1.0) <= level for u in self.shares) for level in LEVELS[:2]] + [held]
         self.p = uniformity(self.shares) if n >= ENOUGH_TO_BIN else math.nan
         low, high = wilson(self.hits[1], n) if n else (0.0, 1.0)
         self.off = high < ASKED[0] or low > ASKED[1]
@@ -135,15 +143,18 @@ class Row:
 
 
 def why_none(answer):
-    """Why a fit states no interval, or is not at its end; None where it is and does."""
+    """Why a fit states no interval of some parameter; None where it states all."""
     if "failure" in answer:
         return "failed"
+    if all(p["interval_95"] is not None for p in answer["parameters"]):
+        return None
     if answer["given_up"] is not None:
         return "given up"
-    if all(p["interval_95"] is not None for p in answer["parameters"]):
-        return None if answer["converged"] else "not converged"
-    fall = (answer["without_chi2"] - answer["chi2"]) * answer["points"] if answer["without_chi2"] is not None else math.inf
-    return "not seen" if fall < UNSEEN else "far off"
+    if answer["without_chi2"] is not None and (answer["without_chi2"] - answer["chi2"]) * answer["points"] < UNSEEN:
+        return "not seen"
+    if not answer["converged"]:
+        return "not converged"
+    return "far off" if answer["chi2"] > TOO_LARGE else "not determined"
 
 
 class Effect:
@@ -243,8 +254,8 @@ fits without an interval are left out by what was measured, not by what is true,
 
 ## Parameters
 
-*Not simulated*: draws of which `synthesize` made no measurements. *No interval*: fits that state none, or are not at their end: the effect is *not seen* in the measurements (χ² falls by less than {UNSEEN}), the fit was *given up*, ended
-*far off* or did *not converge*. *Fits*: the others, of which ranks are. 50, 90 and 95 %: intervals that hold the true value, in brackets the 95 % range of that share (Wilson's). *p*: chance of ranks as uneven as these (χ² of {BINS} bins, from {ENOUGH_TO_BIN} fits on).
+*Not simulated*: draws of which `synthesize` made no measurements. *No interval*: fits that state none: the effect is *not seen* in the measurements (χ² falls by less than {UNSEEN}), the fit was *given up*, ended
+*far off* (χ² above {TOO_LARGE:g} per point) or did *not converge*. *Fits*: the others, of which ranks are. 50, 90 and 95 %: intervals that hold the true value, in brackets the 95 % range of that share (Wilson's). *p*: chance of ranks as uneven as these (χ² of {BINS} bins, from {ENOUGH_TO_BIN} fits on).
 *Far*: fits more than {FAR:.0f} standard deviations from the truth. A parameter is not calibrated where the range of its 90 % coverage lies wholly outside {100 * ASKED[0]:.0f} to {100 * ASKED[1]:.0f} %, or where p < {CHANCE:g}; with fewer than {ENOUGH} fits it is not judged.
 
 | effect | parameter | draws | not simulated | no interval | fits | 50 % | 90 % | 95 % | p | far | calibrated |
