@@ -7,9 +7,10 @@
     python3 validation/calibration.py --self-check
 
 A draw takes an effect's fitted parameters from their priors and k from a log-normal, lets `synthesize` measure the study of recovery.py with them and
-`add` fit the effect to that from the catalogue's defaults. Each answer is kept in WORKFOLDER/answers_I.jsonl and not asked for again; draws come
-one after another over all effects, so that every effect has had as many. With --part I/N every Nth draw is made, so that N of these share the
-work. --page writes validation/CALIBRATION.md and calibration.svg of all answers. Only the standard library is needed.
+`add` fit the effect to that from the catalogue's defaults; once more it is fitted with the true values given, which tells whether the fit ended at the
+best place. Each answer is kept in WORKFOLDER/answers_I.jsonl and not asked for again; draws come one after another over all effects, so that every
+effect has had as many. With --part I/N every Nth draw is made, so that N of these share the work. --page writes validation/CALIBRATION.md and
+calibration.svg of all answers. Only the standard library is needed.
 """
 import json
 import math
@@ -20,7 +21,7 @@ import time
 from pathlib import Path
 
 import calibration_page
-from calibration_page import Normal
+from calibration_page import K, Normal
 from recovery import EFFECTS, NOISE, START_K, STUDY, TRUE_K, program
 
 # One standard deviation of k as a factor: the prior of fits, a factor of 18, would leave most flanks new or without teeth.
@@ -53,7 +54,7 @@ def draw(effect, parameters, number):
     """What is true in a draw, and the seed of its noise: the same whenever it is asked for."""
     source = random.Random(f"{effect} {number}")
     k = TRUE_K * math.exp(source.gauss(0.0, 1.0) * math.log(K_FACTOR))
-    truth = {"wear.coefficient": k} | {f"{effect}.{p['name']}": drawn(p, source) for p in parameters}
+    truth = {K: k} | {f"{effect}.{p['name']}": drawn(p, source) for p in parameters}
     return truth, source.getrandbits(32)
 
 
@@ -61,8 +62,8 @@ def fitted(binary, folder, effect, truth, seed, contact):
     """What one synthesis and one fit come to."""
     folder.mkdir(parents=True, exist_ok=True)
     extra = EFFECTS.get(effect, ({}, ""))[1]
-    table = "".join(f"{name.split('.')[1]} = {value!r}\n" for name, value in truth.items() if name.startswith(f"{effect}."))
-    true = STUDY.format(effect=effect, k=truth["wear.coefficient"], contact=contact, extra=extra)
+    table = "".join(f"{name.split('.')[1]} = {value!r}\n" for name, value in truth.items() if name != K)
+    true = STUDY.format(effect=effect, k=truth[K], contact=contact, extra=extra)
     (folder / "true.toml").write_text(f'{true}[[effect]]\nkind = "{effect}"\n{table}')
     made = folder / "made"
     try:
@@ -71,14 +72,20 @@ def fitted(binary, folder, effect, truth, seed, contact):
         return {"not_simulated": str(error).splitlines()[0]}
     start = STUDY.format(effect=effect, k=START_K, contact=contact, extra=extra)
     (made / "start.toml").write_text(f'{start}[measurements]\nfile = "measurements.csv"\n')
+
+    def add(*settings):
+        return program(binary, "add", made / "start.toml", effect, "--form", "own", "-o", made / "fitted.toml", "--force", *settings)["fit"]
+
     try:
-        fit = program(binary, "add", made / "start.toml", effect, "--form", "own", "-o", made / "fitted.toml", "--force")["fit"]
+        fit = add()
+        at_truth = add(*(word for name, value in truth.items() if name != K for word in ("--set", f"{name.split('.')[1]}={value!r}")))
     except RuntimeError as error:
         return {"failure": str(error).splitlines()[0]}
     return {
         "parameters": fit["parameters"],
         "converged": fit["converged"],
         "chi2": fit["fit"]["chi2_per_point"],
+        "truth_chi2": at_truth["fit"]["chi2_per_point"],
         "without_chi2": fit["without_chi2_per_point"],
         "points": fit["fit"]["points"],
         "given_up": fit["given_up_explaining"],

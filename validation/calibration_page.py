@@ -157,6 +157,11 @@ def why_none(answer):
     return "far off" if answer["chi2"] > TOO_LARGE else "not determined"
 
 
+def elsewhere(answer):
+    """Whether a fit ended at a place that is worse than the true values."""
+    return "failure" not in answer and (answer["chi2"] - answer["truth_chi2"]) * answer["points"] > UNSEEN
+
+
 class Effect:
     """All draws of one effect with one contact model."""
 
@@ -166,15 +171,24 @@ class Effect:
         made = [a for a in answers if "not_simulated" not in a]
         self.none = Counter(why for a in made if (why := why_none(a)))
         self.fits = [a for a in made if not why_none(a)]
-        self.failures = [a for a in made if "failure" in a]
-        self.rows = [Row(name, card, f"{name}.{card['name']}", self.fits) for card in parameters]
+        self.elsewhere = [a for a in made if elsewhere(a)]
+        self.failures = Counter(a["failure"].removeprefix("error: ") for a in made if "failure" in a)
+        self.parameters = parameters
+        self.rows = self.of(self.fits)
+
+    def of(self, fits):
+        """A row for each parameter, of some fits."""
+        return [Row(self.name, card, f"{self.name}.{card['name']}", fits) for card in self.parameters]
 
     def table(self):
         none = ", ".join(f"{n} {why}" for why, n in self.none.most_common()) or "0"
         return [
-            f"| {row.effect} | {row.name.split('.')[1]} | {self.draws} | {len(self.unmade)} | {none} | {row.count} | {' | '.join(row.cells())} | {row.verdict()} |"
+            f"| {row.effect} | {row.name.split('.')[1]} | {self.draws} | {len(self.unmade)} | {none} | {len(self.elsewhere)} | {row.count} | {' | '.join(row.cells())} | {row.verdict()} |"
             for row in self.rows
         ]
+
+    def unmade_because(self):
+        return f"{self.name} {len(self.unmade)} ({self.unmade[0]['not_simulated'].removeprefix('error: ')})"
 
 
 def band(count):
@@ -210,6 +224,11 @@ def listed(names):
     return ", ".join(names) if names else "none"
 
 
+def some(numbers, most=5):
+    numbers = list(numbers)
+    return ", ".join(map(str, numbers[:most])) + (", …" if len(numbers) > most else "")
+
+
 def write(answers, cards):
     hertz, fem = ([a for a in answers if a["contact"] == contact] for contact in ("hertz", "fem"))
     effects = [Effect(name, parameters, [a for a in hertz if a["effect"] == name]) for name, parameters in cards.items()]
@@ -223,11 +242,15 @@ def write(answers, cards):
     each = f"{min(draws)}" if min(draws) == max(draws) else f"{min(draws)} to {max(draws)}"
     made = sum(draws) - sum(len(effect.unmade) for effect in effects)
     without = sum((effect.none for effect in effects), Counter())
-    unmade = [f"{effect.name} {len(effect.unmade)} ({effect.unmade[0]['not_simulated'].removeprefix('error: ')})" for effect in effects if effect.unmade]
-    failed = [f"{a['effect']} draw {a['draw']} ({a['failure'].removeprefix('error: ')})" for effect in effects for a in effect.failures]
+    unmade = [effect.unmade_because() for effect in effects if effect.unmade]
+    failed = [f"{effect.name} {n} ({why})" for effect in effects for why, n in effect.failures.items()]
+    astray = [f"{effect.name} {len(effect.elsewhere)} (draws {some(a['draw'] for a in effect.elsewhere)})" for effect in effects if effect.elsewhere]
     few = [row.name for row in rows if not row.judged]
+    # the same of the fits that ended at the best place
+    there = [row for effect in effects for row in effect.of([a for a in effect.fits if not elsewhere(a)])]
+    held, asked = (sum(row.hits[2] for row in there), sum(row.count for row in there)) if there else (0, 0)
     pooled = [sum(row.hits[i] for row in rows) / max(1, sum(row.count for row in rows)) for i in range(3)]
-    far = [f"{row.name} {len(row.far)} (draws {', '.join(map(str, row.far[:4]))}{', …' if len(row.far) > 4 else ''})" for row in rows if row.far]
+    far = [f"{row.name} {len(row.far)} (draws {some(row.far)})" for row in rows if row.far]
     table = "\n".join(line for effect in effects for line in effect.table())
     notes = HERE / "calibration_notes.md"
     (HERE / "CALIBRATION.md").write_text(
@@ -255,23 +278,26 @@ fits without an interval are left out by what was measured, not by what is true,
 ## Parameters
 
 *Not simulated*: draws of which `synthesize` made no measurements. *No interval*: fits that state none: the effect is *not seen* in the measurements (χ² falls by less than {UNSEEN}), the fit was *given up*, ended
-*far off* (χ² above {TOO_LARGE:g} per point) or did *not converge*. *Fits*: the others, of which ranks are. 50, 90 and 95 %: intervals that hold the true value, in brackets the 95 % range of that share (Wilson's). *p*: chance of ranks as uneven as these (χ² of {BINS} bins, from {ENOUGH_TO_BIN} fits on).
+*far off* (χ² above {TOO_LARGE:g} per point) or did *not converge*. *Elsewhere*: fits, with or without an interval, whose χ² is larger by more than {UNSEEN} than at the true values: they ended in a worse place. *Fits*: those
+with intervals, of which ranks are. 50, 90 and 95 %: intervals that hold the true value, in brackets the 95 % range of that share (Wilson's). *p*: chance of ranks as uneven as these (χ² of {BINS} bins, from {ENOUGH_TO_BIN} fits on).
 *Far*: fits more than {FAR:.0f} standard deviations from the truth. A parameter is not calibrated where the range of its 90 % coverage lies wholly outside {100 * ASKED[0]:.0f} to {100 * ASKED[1]:.0f} %, or where p < {CHANCE:g}; with fewer than {ENOUGH} fits it is not judged.
 
-| effect | parameter | draws | not simulated | no interval | fits | 50 % | 90 % | 95 % | p | far | calibrated |
-|---|---|---|---|---|---|---|---|---|---|---|---|
+| effect | parameter | draws | not simulated | no interval | elsewhere | fits | 50 % | 90 % | 95 % | p | far | calibrated |
+|---|---|---|---|---|---|---|---|---|---|---|---|---|
 {table}
-| all effects | {K} | {sum(draws)} | {sum(draws) - made} | {sum(without.values())} | {of_k.count} | {' | '.join(of_k.cells())} | {of_k.verdict()} |
+| all effects | {K} | {sum(draws)} | {sum(draws) - made} | {sum(without.values())} | {sum(len(effect.elsewhere) for effect in effects)} | {of_k.count} | {' | '.join(of_k.cells())} | {of_k.verdict()} |
 
 ![Histograms of the ranks of the true values in the stated posteriors, one for each parameter](calibration.svg)
 
 Ranks of the true values from 0 to 1 in {BINS} bins, with the number of fits; between the edges of the grey band lie 99 % of a bin's counts if ranks are uniform. Red: not calibrated.
 
 Of {sum(draws)} draws {made} were simulated and {made - sum(without.values())} of these fits end with an interval; of the others {listed(f'{n} {why}' for why, n in without.most_common())}.
+Of the intervals of fits that did not end elsewhere those of 95 % hold the true value in {100 * held / max(1, asked):.1f} %; this tells where misses come from, and not how good intervals are, as it takes the true values to say it.
 
 - Not judged, with fewer than {ENOUGH} fits: {listed(few)}.
 - Not simulated: {listed(unmade)}.
 - Failed fits: {listed(failed)}.
+- Ended elsewhere: {listed(astray)}.
 - Far from the truth: {listed(far)}.
 
 {by_elements(fem, cards)}{notes.read_text() if notes.exists() else ''}"""
