@@ -3,14 +3,15 @@
 
     cargo build --release
     python3 validation/calibration.py target/release/gearwear WORKFOLDER [--draws N] [--contact hertz|fem] [--part I/N] [EFFECT ...]
+    python3 validation/calibration.py target/release/gearwear WORKFOLDER --draw NUMBER EFFECT ...
     python3 validation/calibration.py --page WORKFOLDER
     python3 validation/calibration.py --self-check
 
 A draw takes an effect's fitted parameters from their priors and k from a log-normal, lets `synthesize` measure the study of recovery.py with them and
-`add` fit the effect to that from the catalogue's defaults; once more it is fitted with the true values given, which tells whether the fit ended at the
-best place. Each answer is kept in WORKFOLDER/answers_I.jsonl and not asked for again; draws come one after another over all effects, so that every
-effect has had as many. With --part I/N every Nth draw is made, so that N of these share the work. --page writes validation/CALIBRATION.md and
-calibration.svg of all answers. Only the standard library is needed.
+`add` fit the effect to that from the catalogue's defaults; once more it is fitted with the true values given, which tells whether the fit ended at
+the best place. Each answer is kept in WORKFOLDER/answers_I.jsonl and not asked for again; draws come one after another over all effects, so that
+every effect has had as many. With --part I/N every Nth draw is made, so that N of these share the work. --draw makes one draw again, in a folder of
+its own, to look into it. --page writes validation/CALIBRATION.md and calibration.svg of all answers. Only the standard library is needed.
 """
 import json
 import math
@@ -97,6 +98,15 @@ def read(work):
     return [json.loads(line) for file in sorted(work.glob("answers*.jsonl")) for line in file.read_text().splitlines()]
 
 
+def once_more(binary, work, effects, contact, number):
+    """One draw of some effects, with its files kept."""
+    cards = catalogue(binary)
+    for effect in effects:
+        truth, seed = draw(effect, cards[effect], number)
+        folder = work / f"{contact}_draw_{number}" / effect
+        print(json.dumps({"folder": str(folder), "truth": truth} | fitted(binary, folder, effect, truth, seed, contact), indent=2))
+
+
 def study(binary, work, effects, contact, draws, part, parts):
     cards = catalogue(binary)
     work.mkdir(parents=True, exist_ok=True)
@@ -155,7 +165,7 @@ def self_check():
 
 def main():
     arguments = sys.argv[1:]
-    options = {"--draws": "200", "--contact": "hertz", "--part": "1/1"}
+    options = {"--draws": "200", "--contact": "hertz", "--part": "1/1", "--draw": ""}
     for option in options:
         if option in arguments:
             at = arguments.index(option)
@@ -166,6 +176,8 @@ def main():
     elif len(arguments) == 2 and arguments[0] == "--page":
         work = Path(arguments[1])
         calibration_page.write(read(work), json.loads((work / "catalogue.json").read_text()))
+    elif len(arguments) >= 3 and options["--draw"]:
+        once_more(arguments[0], Path(arguments[1]), arguments[2:], options["--contact"], int(options["--draw"]))
     elif len(arguments) >= 2:
         part, parts = map(int, options["--part"].split("/"))
         study(arguments[0], Path(arguments[1]), arguments[2:], options["--contact"], int(options["--draws"]), part, parts)
