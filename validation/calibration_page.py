@@ -229,6 +229,15 @@ def some(numbers, most=5):
     return ", ".join(map(str, numbers[:most])) + (", …" if len(numbers) > most else "")
 
 
+def answer(judged, flagged, draws):
+    """What the study says, in a sentence."""
+    if not judged:
+        return f"No parameter has had {ENOUGH} fits after {draws} draws of each effect, so none is judged yet."
+    right = f"{len(judged) - len(flagged) or 'none'} are covered by their 90 % intervals as asked, {100 * ASKED[0]:.0f} to {100 * ASKED[1]:.0f} % within the uncertainty of {draws} draws of each effect"
+    wrong = f"; these are not: {listed(row.name for row in flagged)}" if flagged else ""
+    return f"Of {len(judged)} parameters with {ENOUGH} fits or more {right}, with uniform ranks{wrong}."
+
+
 def write(answers, cards):
     hertz, fem = ([a for a in answers if a["contact"] == contact] for contact in ("hertz", "fem"))
     effects = [Effect(name, parameters, [a for a in hertz if a["effect"] == name]) for name, parameters in cards.items()]
@@ -256,8 +265,8 @@ def write(answers, cards):
     (HERE / "CALIBRATION.md").write_text(
         f"""# Whether stated intervals are right
 
-Of {len(judged)} parameters with {ENOUGH} fits or more, {len(judged) - len(flagged)} are covered by their 90 % intervals as asked, {100 * ASKED[0]:.0f} to {100 * ASKED[1]:.0f} % within the uncertainty of {each} draws of each effect,
-and their ranks are uniform; these {len(flagged)} are not: {listed(row.name for row in flagged)}. Of all intervals together those of 50, 90 and 95 % hold the true value in {', '.join(f'{100 * share:.1f}' for share in pooled)} % of the fits.
+{answer(judged, flagged, each)}
+Of all intervals together those of 50, 90 and 95 % hold the true value in {', '.join(f'{100 * share:.1f}' for share in pooled)} % of the fits.
 
 Simulation-based calibration ([Talts et al. 2018](https://arxiv.org/abs/1804.06788)): true values are drawn from the priors with which they are fitted, measurements are made of
 them, and the fit's posterior is asked for the share of it that lies below the true value. If posteriors are right that share, the rank, is uniform between 0 and 1, and an interval of 90 % holds 90 % of the true values.
