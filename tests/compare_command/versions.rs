@@ -77,3 +77,35 @@ fn sigmas_of_one_file_are_told_once() {
     assert_eq!(told.matches("note: ").count(), 1, "{told}");
     assert!(told.contains("estimated"), "{told}");
 }
+
+/// A wear coefficient that would leave no teeth is no place to begin: k is measured with one that leaves them, and that of transmission errors alone is not the
+/// one that it was measured with.
+#[test]
+fn a_coefficient_that_leaves_no_teeth_is_sized_first() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    write("truth.toml", BASE.to_owned());
+    succeed(&home, "synthesize truth.toml -o data --seed 5");
+    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+    let of = |quantity: &str| {
+        let rows = data.lines();
+        let rows = rows.filter(|row| row.starts_with("test,") || row.contains(quantity));
+        rows.map(|row| format!("{row}\n")).collect::<String>()
+    };
+    let absurd = format!("{}{FILE}", BASE.replace("2e-10", "1e-6"));
+    for quantity in ["wear_depth", "transmission_error"] {
+        write("measurements.csv", of(quantity));
+        write("base.toml", absurd.clone());
+        let told = succeed(&home, "compare base.toml --json");
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let k = number(&told, "/parameters/0/value");
+        assert!((k / 2e-10 - 1.0).abs() < 0.1, "{quantity}: {k}");
+        let told = succeed(
+            &home,
+            "add base.toml pressure_exponent --form own -o more.toml --force --json",
+        );
+        let told: Value = serde_json::from_str(&told).unwrap();
+        let k = number(&told, "/fit/parameters/0/value");
+        assert!((k / 2e-10 - 1.0).abs() < 0.3, "{quantity} with it: {k}");
+    }
+}

@@ -170,6 +170,10 @@ fn english_thousands_are_read_above_values_with_points() {
             && written.contains("A,pinion,250000,wear_depth,26.5,3.5,"),
         "{written}"
     );
+    // `0,250` is no number of thousands, nor what stands beside it
+    let table = "radius [mm],\"0,250\",\"1,000\"\n26.5,1.25,3.5\n27.5,0.75,2.5\n";
+    let message = refused(&home, table, "--test A --member pinion --sigma 0.1");
+    assert!(message.contains("1,000"), "{message}");
     // with decimal commas below nobody knows
     let table = "radius [mm];40,000 rev;250,000 rev\n26,5;1,25;3,5\n27,5;0,75;2,5\n";
     let message = refused(&home, table, "--test A --member pinion --sigma 0.1");

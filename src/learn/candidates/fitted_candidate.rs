@@ -47,7 +47,7 @@ pub(in crate::learn) struct BaseFit {
     adjustable: DMatrix<f64>,
     /// Whitened residual, and −ε_t/σ_k.
     pub(in crate::learn) residual: DVector<f64>,
-    /// Exact minus analytic model at the fit, per test of the data set.
+    /// What it was fitted by minus the analytic model at the fit, per test of the data set.
     pub(in crate::learn) hertz_offset: Vec<Vec<f64>>,
     /// Log evidence of the same fit with the analytic model's derivatives, which the candidates of the screening are fitted by.
     screened_evidence: f64,
@@ -101,7 +101,7 @@ impl FittedCandidate {
 }
 
 impl BaseFit {
-    /// `hertz_offset`: exact minus analytic model at the fit, per test of the data set; `screened_evidence`: log evidence with the analytic
+    /// `hertz_offset`: what it was fitted by minus the analytic model at the fit, per test of the data set; `screened_evidence`: log evidence with the analytic
     /// model's derivatives on it.
     pub(in crate::learn) fn new(
         likelihood: &Likelihood<'_>,

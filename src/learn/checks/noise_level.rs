@@ -82,7 +82,7 @@ pub(in crate::learn) fn scatter_in_words(sigma: SigmaModel) -> Option<String> {
     let depths = |found: String| {
         format!(
             "the stated sigma of the depths does not fit how neighbouring points scatter, which is by {found}: leave the column sigma empty, and it \
-             is estimated for every command (sharp bends that the model has not, where load steps from pair to pair, look like scatter; if that is \
+             is estimated for every command (sharp bends that the model does not have, where load steps from pair to pair, look like scatter; if that is \
              what they are, the stated sigma is right)"
         )
     };

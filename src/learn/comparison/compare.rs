@@ -180,9 +180,8 @@ impl Measured<'_> {
             });
         };
         told(0);
-        let stated = (version.free.iter()).find(|free| free.name == WEAR_COEFFICIENT);
-        let sized = bench.is_elastic() && !version.effects.is_empty()
-            || stated.is_some_and(|k| self.wears_away(k.value));
+        let has_effects = bench.is_elastic() && !version.effects.is_empty();
+        let sized = has_effects || self.wears_away(version);
         let version = &if sized {
             self.sized(version)
         } else {

@@ -56,13 +56,14 @@ impl<'m> BaselineMisfit<'m> {
     fn fitted(&self, measured: &Measured<'_>) -> Option<&Base> {
         let base = self.base.get_or_init(|| {
             let noise = NoiseModel::of(&measured.study().noise);
-            let own = self.version.own_values();
+            let version = measured.with_teeth_left(self.version);
+            let own = version.own_values();
             let effort = Effort {
                 iterations: 2 + 2 * own.len(),
                 settle: 0,
                 ..Effort::for_simulations()
             };
-            measured.with_problem(self.bench, self.version, noise, &|_| {}, |problem| {
+            measured.with_problem(self.bench, &version, noise, &|_| {}, |problem| {
                 let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
                 let judged = problem.judged(fit.clone(), &effort).ok();
                 Some(Base {

@@ -28,7 +28,7 @@
 //! `n` single effects, r the share of all that is left once the effect is in, if that is more than noise):
 //!
 //! ```text
-//! v(R) = exp(Δ ln Z_R/T) o_R/n                  Δ ln Z_R: over that of the discrepancy alone
+//! v(R) = exp((Δ ln Z_R − ε Δ ln Z_GP)/T) o_R/n    Δ ln Z_R: over that of the discrepancy alone;  ε: `discrepancy_tolerance`
 //! unknown: W/(1 + Σ v),  R and unknown: W w Σ v/(1 + Σ v)      of which o/(1 + o) is unknown's if R is not identified or a free shape
 //! R and unknown besides:  weight(R) S((r_min − r)/width),      taken from R
 //! ```

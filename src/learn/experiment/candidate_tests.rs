@@ -95,23 +95,6 @@ pub(in crate::learn) fn feasible(study: &Study, plain: &Operation) -> Vec<(usize
     grid(plain).into_iter().filter(holds).collect()
 }
 
-/// Whether a test is made under the conditions of another, and lasts as long.
-pub(in crate::learn) fn repeats(test: &Operation, other: &Operation) -> bool {
-    let [test, other] = [shown(test), shown(other)];
-    let temperatures = (test.bulk_temperature, other.bulk_temperature);
-    let warmer = match temperatures {
-        (Some(one), Some(another)) => differs(one, another),
-        (one, another) => one != another,
-    };
-    let pairs = [
-        (test.torque, other.torque),
-        (test.speed, other.speed),
-        (test.misalignment, other.misalignment),
-        (test.cycles, other.cycles),
-    ];
-    test.reversed == other.reversed && !warmer && !pairs.iter().any(|(a, b)| differs(*a, *b))
-}
-
 /// The order of scores, the largest first; among those nearly as large as the largest left, the plainest first.
 pub(in crate::learn) fn ranked(scores: &[(f64, usize)]) -> Vec<usize> {
     let mut left: Vec<usize> = (0..scores.len()).collect();
@@ -220,20 +203,6 @@ fn differs(a: f64, b: f64) -> bool {
 #[cfg(test)]
 pub(in crate::learn) mod tests {
     use super::*;
-
-    #[test]
-    fn a_test_repeats_another_under_its_conditions_for_as_long() {
-        let longer = Operation {
-            cycles: 2.0 * plain().cycles,
-            ..plain()
-        };
-        let reversed = Operation {
-            reversed: !plain().reversed,
-            ..plain()
-        };
-        assert!(repeats(&plain(), &plain()));
-        assert!(!repeats(&longer, &plain()) && !repeats(&reversed, &plain()));
-    }
 
     /// A study's operation.
     pub(in crate::learn) fn plain() -> Operation {

@@ -4,9 +4,10 @@
 use rayon::prelude::*;
 
 use super::candidate_tests::{
-    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, feasible, ranked, repeats, shown, strength,
+    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, feasible, ranked, shown, strength,
 };
 use super::discrimination::{Discrimination, PlannedResponse, Whitening};
+use super::made_tests::made;
 use super::measurement_design::MeasurementDesign;
 use crate::learn::candidates::fitted_candidate::BaseFit;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
@@ -81,8 +82,11 @@ fn experiment(
 ) -> Option<NextExperiment> {
     let study = context.likelihood.measured.study();
     let plain = plain(context);
-    let made = |test: &Operation| (study.tests.iter()).any(|made| repeats(test, &made.conditions));
-    let is_new = |(_, test): &(usize, Operation)| !made(test);
+    let made = made(&study.tests, &context.likelihood.measured.data);
+    let is_new = |(_, test): &(usize, Operation)| {
+        let test = shown(test);
+        !made.iter().any(|made| made.is_repeated_by(&test))
+    };
     let mut tests: Vec<(usize, Operation)> = (feasible(study, &plain).into_iter())
         .filter(is_new)
         .collect();

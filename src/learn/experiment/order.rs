@@ -1,69 +1,21 @@
 //! In which order feasible tests are told, and which are not told at all.
 
-use super::candidate_tests::{ENOUGH, NextTest, ranked, shown};
+use super::candidate_tests::{ENOUGH, NextTest, ranked};
+use super::made_tests::MadeTest;
 use super::plan::RankedTest;
-use crate::measure::{Dataset, Quantity};
-use crate::study::Test;
+use crate::measure::Quantity;
 
-/// Relative difference up to which two conditions are nearly the same, and that of misalignments, mm.
-const ALIKE: f64 = 0.05;
-const ALIKE_MM: f64 = 0.02;
-/// That of temperatures, K.
-const ALIKE_K: f64 = 5.0;
 /// Relative difference of χ² up to which two tests show the same.
 const SAME: f64 = 1e-6;
-
-/// A made test, with what was measured in it.
-pub(super) struct MadeTest {
-    test: NextTest,
-    quantities: Vec<Quantity>,
-}
-
-/// The tests of a study that have rows.
-pub(super) fn made(tests: &[Test], data: &Dataset) -> Vec<MadeTest> {
-    let of = |(number, test): (usize, &Test)| {
-        let own = data.observations.iter().filter(|o| o.test == number);
-        let mut quantities: Vec<Quantity> = own.map(|o| o.quantity).collect();
-        quantities.sort();
-        quantities.dedup();
-        MadeTest {
-            test: shown(&test.conditions),
-            quantities,
-        }
-    };
-    tests.iter().enumerate().map(of).collect()
-}
-
-impl MadeTest {
-    /// Whether a row would measure (nearly) here once more what was measured here.
-    fn is_repeated_by(&self, row: &RankedTest) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
-        let (own, other) = (&self.test, &row.test);
-        near(own.torque, other.torque)
-            && near(own.speed, other.speed)
-            && near(own.cycles, other.cycles)
-            && (own.misalignment - other.misalignment).abs() <= ALIKE_MM
-            && own.reversed == other.reversed
-            && near_in_temperature(own, other)
-            && self.quantities.iter().any(|q| q.name() == row.quantity)
-    }
-}
-
-/// Whether two tests are nearly as warm; one whose temperature is not known is so only beside another such.
-fn near_in_temperature(a: &NextTest, b: &NextTest) -> bool {
-    match (a.bulk_temperature, b.bulk_temperature) {
-        (Some(a), Some(b)) => (a - b).abs() <= ALIKE_K,
-        (None, None) => true,
-        _ => false,
-    }
-}
 
 /// The rows in the order in which they are told.
 ///
 /// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer cycles, then fewer
 /// changes, then what takes less measuring. Then the others by what they separate. What does not feel speed or temperature is told at one.
 pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
-    let is_made = |row: &RankedTest| made.iter().any(|made| made.is_repeated_by(row));
+    let is_made = |row: &RankedTest| {
+        (made.iter()).any(|made| made.has(&row.quantity) && made.is_repeated_by(&row.test))
+    };
     let (again, mut new): (Vec<RankedTest>, Vec<RankedTest>) = rows.into_iter().partition(is_made);
     // a made test at a temperature that its measurements do not feel is that test once more
     let is_again = |row: &RankedTest| {
@@ -119,6 +71,7 @@ fn shows_the_same(a: &RankedTest, b: &RankedTest) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::candidate_tests::shown;
     use super::super::candidate_tests::tests::plain;
     use super::*;
 
@@ -150,19 +103,6 @@ mod tests {
         let order: Vec<f64> = told.iter().map(|r| r.test.torque).collect();
         assert_eq!(order, [200.0, 50.0, 100.0, 100.0]);
         assert_eq!(told[3].quantity, "transmission_error");
-    }
-
-    /// A made test whose temperature nobody stated is not that of every proposed temperature.
-    #[test]
-    fn an_unknown_temperature_is_near_an_unknown_one_only() {
-        let at = |bulk_temperature: Option<f64>| NextTest {
-            bulk_temperature,
-            ..shown(&plain())
-        };
-        let near = |a: Option<f64>, b: Option<f64>| near_in_temperature(&at(a), &at(b));
-        assert!(near(None, None) && near(Some(60.0), Some(63.0)));
-        assert!(!near(None, Some(60.0)) && !near(Some(60.0), None));
-        assert!(!near(Some(60.0), Some(80.0)));
     }
 
     /// Another temperature is another test only where what is measured feels it.

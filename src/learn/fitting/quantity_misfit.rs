@@ -1,7 +1,9 @@
 //! Whether one quantity carries the misfit that a few of its rows make: then its stated σ is to be looked at before any physics.
 
+use std::collections::BTreeMap;
+
 use crate::learn::fitting::fitted::Fit;
-use crate::measure::{Dataset, Observation, Place, Quantity};
+use crate::measure::{Dataset, FacePlace, Observation, Quantity};
 use crate::study::{Role, Study};
 
 /// Rows of a quantity from which it is looked at.
@@ -10,6 +12,8 @@ const LEAST: usize = 6;
 const LARGE: f64 = 9.0;
 const OVER_OTHERS: f64 = 5.0;
 const SHARE: f64 = 0.3;
+/// Share of it that the scatter of neighbours must make up, where there are curves, for their sigma to be asked about.
+const OF_SCATTER: f64 = 0.25;
 
 /// The quantity that carries the misfit of a fit to its tests, in words; None if none does.
 pub fn misfit_of_one_quantity(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
@@ -24,14 +28,16 @@ pub(in crate::learn) fn carried_by<'d>(
     rows: impl Iterator<Item = (&'d Observation, f64)>,
     with: &str,
 ) -> Option<String> {
-    let rows: Vec<(Quantity, f64)> = rows.map(|(o, z)| (o.quantity, z * z)).collect();
+    let observations: Vec<(&Observation, f64)> = rows.collect();
+    let rows: Vec<(Quantity, f64)> = (observations.iter())
+        .map(|(o, z)| (o.quantity, z * z))
+        .collect();
     let sum = |of: &dyn Fn(Quantity) -> bool| {
         let own = rows.iter().filter(|(quantity, _)| of(*quantity));
         own.fold((0, 0.0), |(count, square), row| (count + 1, square + row.1))
     };
-    // along curves the scatter of neighbours tells whether sigma is too small (`checks::noise_level`)
-    let whole = |quantity: &Quantity| quantity.place() == Place::Whole;
-    Quantity::ALL.into_iter().filter(whole).find_map(|quantity| {
+    let scatter = |quantity| neighbour_scatter(&observations, quantity);
+    Quantity::ALL.into_iter().find_map(|quantity| {
         let (count, square) = sum(&|q| q == quantity);
         let (others, rest) = sum(&|q| q != quantity);
         if count < LEAST || others < LEAST {
@@ -39,7 +45,10 @@ pub(in crate::learn) fn carried_by<'d>(
         }
         let (own, other) = (square / count as f64, rest / others as f64);
         let share = square / (square + rest);
-        (own > LARGE && own > OVER_OTHERS * other && share > SHARE).then(|| {
+        let carried = own > LARGE && own > OVER_OTHERS * other && share > SHARE;
+        // along curves neighbours tell: what their scatter is not, a larger sigma would but hide
+        let by_sigma = |scatter: f64| scatter > OF_SCATTER * own;
+        (carried && scatter(quantity).is_none_or(by_sigma)).then(|| {
             format!(
                 "{:.0} % of the misfit of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): either their sigma is too small, or \
                  what is missing shows most in them. Look at that sigma first, of small values above all: a share of each value leaves them almost none",
@@ -48,6 +57,34 @@ pub(in crate::learn) fn carried_by<'d>(
             )
         })
     })
+}
+
+/// χ² per point that the scatter of neighbours along the curves of a quantity makes: Σ (z_{i−1} − 2 z_i + z_{i+1})²/6 over their number, 1 where sigma is right;
+/// None where there are few.
+fn neighbour_scatter(rows: &[(&Observation, f64)], quantity: Quantity) -> Option<f64> {
+    let mut curves: BTreeMap<_, Vec<(f64, f64)>> = BTreeMap::new();
+    for (o, z) in rows.iter().filter(|(o, _)| o.quantity == quantity) {
+        let Some(place) = o.position else { continue };
+        let face = o.face.map(FacePlace::key);
+        let key = (
+            o.test,
+            o.member,
+            o.cycles.to_bits(),
+            o.trace,
+            face,
+            &o.tooth,
+        );
+        curves.entry(key).or_default().push((place, *z));
+    }
+    let (mut count, mut square) = (0, 0.0);
+    for curve in curves.values_mut() {
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for three in curve.windows(3) {
+            count += 1;
+            square += (three[0].1 - 2.0 * three[1].1 + three[2].1).powi(2) / 6.0;
+        }
+    }
+    (count >= LEAST).then(|| square / f64::from(count as u32))
 }
 
 #[cfg(test)]
@@ -87,9 +124,19 @@ mod tests {
         assert_eq!(said(9.0, 5.0), None);
         assert_eq!(said(2.5, 1.0), None);
         // transmission errors see what wears whole flanks more sharply than depths: that says nothing of their sigma
-        let error = row(Quantity::TransmissionError);
-        let errors = (0..72).map(|_| (&error, 6.0));
-        let said = carried_by(errors.chain((0..400).map(|_| (&depth, 2.0))), "");
-        assert_eq!(said, None);
+        let errors: Vec<Observation> = (0..72)
+            .map(|i| Observation {
+                position: Some(0.01 * f64::from(i)),
+                ..row(Quantity::TransmissionError)
+            })
+            .collect();
+        let said = |off: &dyn Fn(usize) -> f64| {
+            let errors = errors.iter().enumerate().map(|(i, error)| (error, off(i)));
+            carried_by(errors.chain((0..400).map(|_| (&depth, 2.0))), "")
+        };
+        assert_eq!(said(&|i| 6.0 + 0.02 * i as f64), None);
+        // neighbours that scatter so do call for another sigma
+        let scattered = said(&|i| if i % 2 == 0 { 6.0 } else { -6.0 });
+        assert!(scattered.is_some_and(|s| s.contains("72 rows of transmission_error")));
     }
 }

@@ -18,9 +18,9 @@ const FAINT: f64 = 0.05;
 /// How far the analytic model may be off from finite elements in the wear coefficient of the same measurements, ln.
 const ANALYTIC_ERROR: f64 = 0.25;
 
-/// Depth in modules from which a guessed wear coefficient would leave no teeth, and one by which hardly anything is worn, mm²/N.
+/// Depth in modules from which a guessed wear coefficient would leave no teeth, and the share of that with which it is measured instead.
 const WORN_AWAY: f64 = 0.5;
-const FAINT_WEAR: f64 = 1e-14;
+const WITH_TEETH: f64 = 0.1;
 
 /// How much is spent on telling where a fit starts, and on telling what it promises.
 const STARTS: Budget = Budget {
@@ -70,20 +70,36 @@ impl Measured<'_> {
         };
         let noise = NoiseModel::of(&self.study().noise);
         let own = version.own_values();
-        let begins = self.wears_away(k.value).then_some(FAINT_WEAR);
+        let worn = self.worn_away(k.value);
+        let begins = (worn > 1.0).then_some(WITH_TEETH * k.value / worn);
         let measured = self.by(Cheaper::Analytic, version, noise, |analytic| {
             Some(analytic.beginning_at(begins).scaled(&own)?.coefficient)
         });
-        let off = |measured: &f64| (measured / k.value).ln().abs() > ANALYTIC_ERROR;
+        let off = |measured: &f64| worn > 1.0 || (measured / k.value).ln().abs() > ANALYTIC_ERROR;
         if let Some(measured) = measured.filter(off) {
             k.value = measured.clamp(k.lower, k.upper);
         }
         sized
     }
 
-    /// Whether a wear coefficient would leave no teeth in a test, so that no history with it ends: by the depth that load times a sliding as long as the
-    /// flank rolls would wear, k F' N.
-    pub(in crate::learn) fn wears_away(&self, k: f64) -> bool {
+    /// The version with a wear coefficient, if that is free, that leaves teeth.
+    pub(in crate::learn) fn with_teeth_left(&self, version: &ModelVersion) -> ModelVersion {
+        if self.wears_away(version) {
+            self.sized(version)
+        } else {
+            version.clone()
+        }
+    }
+
+    /// Whether the wear coefficient with which a version's fit begins would leave no teeth in a test, so that no history with it ends.
+    pub(in crate::learn) fn wears_away(&self, version: &ModelVersion) -> bool {
+        let mut free = version.free.iter();
+        let k = free.find(|free| free.name == WEAR_COEFFICIENT);
+        k.is_some_and(|k| self.worn_away(k.value) > 1.0)
+    }
+
+    /// The deepest wear of any test, held-out ones among them, by load times a sliding as long as the flank rolls, k F' N, over what leaves no teeth.
+    fn worn_away(&self, k: f64) -> f64 {
         let gears = &self.study().gears;
         let pinion = &gears.pinion;
         let depth = |torque_nmm: f64, cycles: f64| {
@@ -93,7 +109,7 @@ impl Measured<'_> {
         let deepest = all
             .map(|c| depth(c.torque_nmm, c.cycles))
             .fold(0.0, f64::max);
-        deepest > WORN_AWAY * pinion.rack.module
+        deepest / (WORN_AWAY * pinion.rack.module)
     }
 
     /// Where a fit of a version's `problem` is to start: where a cheaper model's own fit to the measurements ends, from the best of `places` and of

@@ -107,6 +107,9 @@ impl<'t> Rows<'t> {
     }
 }
 
+/// New places within the stretch of a trace from which they are another curve: a point or two may have been missing.
+const FEWEST: usize = 3;
+
 /// Places of each trace, by test, member, cycles, quantity, trace, face and tooth.
 type Curves = BTreeMap<Vec<String>, Vec<f64>>;
 
@@ -142,7 +145,7 @@ fn refuse_second_curve(there: &Curves, new: &Curves) -> Result<(), ImportError> 
         let ((first, last), (low, high)) = (ends(known), ends(places));
         let within = (places.iter()).filter(|place| (first..=last).contains(place));
         let elsewhere = within.filter(|place| !known.contains(place)).count();
-        if 2 * elsewhere > places.len() {
+        if elsewhere >= FEWEST && 2 * elsewhere > places.len() {
             return Err(ImportError(format!(
                 "the trace {} is there already, from {first} to {last}, and these rows are another curve, from {low} to {high}: of the other \
                  member (--member), or of another checkpoint? --repeat 2 is for a second measurement of the same",

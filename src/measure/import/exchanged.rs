@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use super::Entry;
 
 /// Fewest points of a curve for which an order is told.
-const FEWEST: usize = 6;
+const FEWEST: usize = 10;
 /// How much smoother the order of the table must be: sum of squared second differences over that of the places' order.
 const SMOOTHER: f64 = 0.5;
 
@@ -26,11 +26,11 @@ pub(super) fn exchanged(entries: &[Entry]) -> Option<String> {
     let [one, other] = found.first()?;
     let others = match found.len() - 1 {
         0 => String::new(),
-        n => format!(" ({n} more curves so)"),
+        n => format!(" ({n} more such)"),
     };
     let [first, second] = [one, other].map(|entry| entry.position.unwrap_or_default());
     Some(format!(
-        "{} of the {} in test {} after {} cycles: the places {first} and {second} stand in each other's turn, and the values would make a smoother \
+        "{} of the {} in test {} after {} cycles: the places {first} and {second} are out of order, and the values would make a smoother \
          curve if the two were exchanged{others}: is that a slip?",
         one.quantity.name(),
         one.member.name(),

@@ -172,16 +172,28 @@ pub(super) fn plain_count(
 
 /// The header row `head` without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are; or where they are commas and
 /// the values below have points as decimal marks.
-pub(super) fn without_thousands(rows: &mut [Vec<String>], head: usize) {
+pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, head: usize) {
     let marked = |text: &String, least: usize| {
         let words = number_words(text).into_iter();
         let several = |word: &&str| in_thousands(word) && word.matches(['.', ',']).count() >= least;
         words.filter(several).map(str::to_owned).next()
     };
-    let (above, below) = rows.split_at_mut(head + 1);
+    // the numbers of a spreadsheet's cells say nothing of how its texts are written
+    let is_text = sheet.name.is_empty() && decimal != Some(Decimal::Comma);
+    let (above, below) = sheet.rows.split_at_mut(head + 1);
     let header = &mut above[head];
-    let has = |mark: char| below.iter().flatten().any(|cell| cell.contains(mark));
-    let commas = has('.') && !has(',');
+    let numbers = || {
+        below
+            .iter()
+            .flatten()
+            .filter(|cell| number_words(cell) == [cell.as_str()])
+    };
+    let has = |mark: char| numbers().any(|cell| cell.contains(mark));
+    let is_decimal = |word: &&str| word.contains(',') && !in_thousands(word);
+    let decimals = header
+        .iter()
+        .any(|text| number_words(text).iter().any(is_decimal));
+    let commas = is_text && has('.') && !has(',') && !decimals;
     let several = header.iter().any(|text| marked(text, 2).is_some());
     for text in header {
         let word = marked(text, 1).filter(|word| several || commas && !word.contains('.'));

@@ -50,7 +50,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     };
     decimal_commas::refuse(sheet, head)?;
     let mut sheet = sheet.clone();
-    without_thousands(&mut sheet.rows, head);
+    without_thousands(&mut sheet, wanted.decimal, head);
     let mut sheet = with_points(&sheet, wanted.decimal, |row, column| {
         row > head && column > 0
     })?;

@@ -82,10 +82,11 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let head = header(sheet)?;
     decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
-    let stated_member = wanted.stated_member(sheet, quantity)?;
+    let stated_member =
+        (wanted.stated_member(sheet, quantity)?).or_else(|| member_of_corner(sheet, head));
     let member = stated_member.unwrap_or(Subject::Pinion);
     let mut sheet = sheet.clone();
-    without_thousands(&mut sheet.rows, head);
+    without_thousands(&mut sheet, wanted.decimal, head);
     let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
@@ -171,6 +172,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     })
 }
 
+/// The member that the first header names.
+fn member_of_corner(sheet: &Sheet, head: usize) -> Option<Subject> {
+    let corner = sheet.rows[head].first()?;
+    names::one_member(corner).filter(|named| named.member().is_some())
+}
+
 /// Refuses places that lie on the flank of either member, where nothing says whose they are.
 fn refuse_either_flank(
     entries: &[Entry],
@@ -201,7 +208,7 @@ fn refuse_either_flank(
         format!(" (a row above says `{words}`)")
     });
     Err(ImportError(format!(
-        "{}: the pinion's flank has places of this {} and the gear's too{named}: say whose they are, --member pinion or --member gear",
+        "{}: these places ({}) lie on the pinion's flank and on the gear's{named}: say whose they are, --member pinion or --member gear",
         cell_name(head, 0),
         kind.word()
     )))

@@ -19,9 +19,11 @@ const FACTOR: f64 = 200.0;
 /// The same of σ itself: a test without wear to speak of has a large r by the ordinary σ.
 const FACTOR_OF_SIGMA: f64 = 30.0;
 
-/// Fewest values of a test, all below their sigma, and how many times larger those of every other test must be.
+/// Fewest values of a test, all below their sigma; share of them that must be positive, for noise about nothing is not; and how many times larger those of every
+/// other test must be, between which a thousand lies.
 const FEWEST: usize = 8;
-const FAR_LARGER: f64 = 100.0;
+const POSITIVE: f64 = 0.8;
+const FAR_LARGER: [f64; 2] = [200.0, 5000.0];
 
 /// Of one quantity in one test.
 struct Stated {
@@ -30,8 +32,9 @@ struct Stated {
     sigma: f64,
     /// Largest value.
     largest: f64,
-    /// Number of values.
+    /// Number of values, and of positive ones.
     count: usize,
+    positive: usize,
 }
 
 impl Stated {
@@ -62,6 +65,7 @@ fn stated(data: &Dataset, quantity: Quantity) -> Vec<Stated> {
             sigma: median(rows.iter().map(|o| o.sigma).collect())?,
             largest: rows.iter().map(|o| o.value.abs()).fold(0.0, f64::max),
             count: rows.len(),
+            positive: rows.iter().filter(|o| o.value > 0.0).count(),
         })
     };
     (tests.into_iter().filter_map(of_test))
@@ -113,13 +117,18 @@ pub(super) fn values_of_another_unit(data: &Dataset) -> Option<String> {
         let largest = (stated.iter().filter(|s| s.test != own.test)).map(|s| s.largest);
         largest.reduce(f64::min)
     };
-    let is_nothing = |s: &Stated| s.count >= FEWEST && s.largest < s.sigma;
+    let is_nothing = |s: &Stated| {
+        let wears = s.positive as f64 > POSITIVE * s.count as f64;
+        s.count >= FEWEST && s.largest < s.sigma && wears
+    };
+    let [least, most] = FAR_LARGER;
     let (own, others) = stated.iter().find_map(|own| {
         let others = others(own)?;
-        (is_nothing(own) && others > FAR_LARGER * own.largest).then_some((own, others))
+        let factor = others / own.largest;
+        (is_nothing(own) && (least..most).contains(&factor)).then_some((own, others))
     })?;
     Some(format!(
-        "wear_depth in test {} goes up to {} µm only, less than its sigma, in the other tests to {} at least: are these values in mm?",
+        "wear_depth in test {} goes up to {} µm only, less than its sigma, in every other test to {} µm or more: are these values in mm, or did it hardly wear?",
         data.tests[own.test],
         significant(own.largest, 2),
         rounded(others)
@@ -168,7 +177,7 @@ mod tests {
         assert_eq!(values(1.0), None);
         let in_mm = values(1e-3).unwrap();
         assert!(
-            in_mm.starts_with("wear_depth in test B goes up to 0.010 µm only, less than its sigma, in the other tests to 10 at least"),
+            in_mm.starts_with("wear_depth in test B goes up to 0.010 µm only, less than its sigma, in every other test to 10 µm or more"),
             "{in_mm}"
         );
         let all = lines([0.0002, 0.0002, 0.0002]);

@@ -189,7 +189,7 @@ pub(super) fn of_the_other_member(study: &Study, data: &Dataset, fit: &Fit) -> V
             Some(said(what, "divide its torque"))
         } else if off_by_ratio && by > 0.0 && among(cycles(test) * ratio, &cycles) {
             let what = format!(
-                "wears with a k {} times that of the others, near {gear}/{pinion}, and they agree; by the study it lasts {} revolutions",
+                "wears with a k {} times that of the others, near {gear}/{pinion}, and they agree; the study says that it lasts {} revolutions",
                 two_digits((k - mean).exp()),
                 cycles(test)
             );
