@@ -29,7 +29,7 @@ pub struct ImportArgs {
     /// Id of the test [default: what the table or the sheet's name says, or the study's only one]
     #[arg(long, value_name = "ID")]
     pub(super) test: Option<String>,
-    /// What was measured on [default: what the table or the sheet's name says, the pinion otherwise]
+    /// What was measured on [default: what the table or the sheet's name says, the pinion otherwise, if the places cannot lie on the gear's flank]
     #[arg(long, value_enum, value_name = "MEMBER")]
     pub(super) member: Option<On>,
     /// What was measured [default: what a column of values is called, wear_depth otherwise]
