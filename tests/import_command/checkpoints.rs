@@ -1,0 +1,301 @@
+//! What a checkpoint is: revolutions of either member, running times, multiples of a thousand.
+
+use super::*;
+
+/// At 2000 rpm an hour has 120,000 revolutions; 8.333 h are the test's end, 1,000,000, to within what is written.
+#[test]
+fn running_times_are_turned_into_revolutions() {
+    let home = home();
+    let times =
+        "Run,Part,Time (h),Radius (mm),Wear (um)\nA,pinion,1.5,26.5,1\nA,pinion,8.333,26.5,2\n";
+    let (shown, written) = rows(&home, times, "--sigma 0.1");
+    assert_eq!(
+        written,
+        "A,pinion,180000,wear_depth,26.5,1,0.1,\nA,pinion,1000000,wear_depth,26.5,2,0.1,\n"
+    );
+    assert!(
+        shown.contains(
+            "`Time (h)`: running time, turned into pinion revolutions by the speed of each test"
+        ),
+        "{shown}"
+    );
+    let minutes = "Run,Part,Laufzeit [min],Radius (mm),Wear (um)\nA,pinion,90,26.5,1\n";
+    assert!(
+        rows(&home, minutes, "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,180000,")
+    );
+    // decimal commas; a time of whole hours is no rounded end of the test
+    let commas =
+        "Run;Part;Time (h);Radius (mm);Wear (um)\nA;pinion;8,000;26,5;1\nA;pinion;8,333;26,5;2\n";
+    let written = rows(&home, commas, "--sigma 0.1").1;
+    assert!(
+        written.starts_with("A,pinion,960000,") && written.contains("\nA,pinion,1000000,"),
+        "{written}"
+    );
+    let whole = "Run,Part,Time (h),Radius (mm),Wear (um)\nA,pinion,8,26.5,1\n";
+    assert!(
+        rows(&home, whole, "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,960000,")
+    );
+    // beside cycles a time says nothing more
+    let both = "Run,Part,Time (h),cycles,Radius (mm),Wear (um)\nA,pinion,7,1e5,26.5,1\n";
+    let (shown, written) = rows(&home, both, "--sigma 0.1");
+    assert!(written.starts_with("A,pinion,100000,"), "{written}");
+    assert!(
+        shown.contains("passed over the column `Time (h)`"),
+        "{shown}"
+    );
+    let unknown = "Run,Part,Time,Radius (mm),Wear (um)\nA,pinion,7,26.5,1\n";
+    assert!(refused(&home, unknown, "--sigma 0.1").contains("missing: cycles"));
+}
+
+/// Hours become revolutions by the speed of the study's test, 2000 rpm, so no other one may stand beside them.
+#[test]
+fn a_speed_beside_running_times_is_that_of_the_test() {
+    let home = home();
+    let column = |header: &str, speed: &str| {
+        format!(
+            "test,member,hours,{header},radius,depth\nA,pinion,1.5,{speed},26,1\nA,pinion,1.5,{speed},27,2\n"
+        )
+    };
+    let lines = |speed: &str| {
+        format!(
+            "Test: A\nPart: pinion\n{speed}\nRun time [h]: 1.5\n\nradius [mm],depth [um]\n26,1\n27,2\n"
+        )
+    };
+    for (table, says) in [
+        (
+            column("speed [rpm]", "1500"),
+            "D2: `1500` below `speed [rpm]` is another speed than that of test A in the study, 2000 rpm",
+        ),
+        (
+            lines("Speed: 1500 rpm"),
+            "row 3: `Speed: 1500 rpm` is another speed than that of test A in the study, 2000 rpm",
+        ),
+        (lines("Drehzahl [1/min]: 1500"), "2000 rpm"),
+        (lines("n = 1500 1/min"), "2000 rpm"),
+        (lines("Speed: 1500rpm"), "2000 rpm"),
+        (column("speed_rpm", "1500"), "2000 rpm"),
+        (column("n_rpm", "1500"), "2000 rpm"),
+        // 2000 of 27 teeth are 1018.9 of 53
+        (lines("Gear speed: 2000 rpm"), "1019 rpm"),
+    ] {
+        let message = refused(&home, &table, "--sigma 0.1");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    for table in [
+        column("speed [rpm]", "2000"),
+        column("Drehzahl", "1998"),
+        column("rpm", "2000 rpm"),
+        lines("Speed: 2000 rpm"),
+        lines("Speed: 2.000 rpm"),
+        lines("Gear speed: 1019 rpm"),
+    ] {
+        let (shown, written) = rows(&home, &table, "--sigma 0.1");
+        assert!(written.starts_with("A,pinion,180000,"), "{table}{written}");
+        assert!(!shown.contains("passed over"), "{shown}");
+    }
+    // beside revolutions it is passed over
+    let cycles = column("speed [rpm]", "1500").replace("hours", "cycles");
+    let (shown, _) = rows(&home, &cycles.replace("1.5,", "40000,"), "--sigma 0.1");
+    assert!(
+        shown.contains("passed over the column `speed [rpm]`"),
+        "{shown}"
+    );
+}
+
+#[test]
+fn what_counts_no_revolutions_is_no_checkpoint() {
+    let home = home();
+    let options = "--test A --member pinion --sigma 0.1";
+    for header in [
+        "70 hrs",
+        "2 wk",
+        "25 %",
+        "2000 rpm",
+        "100 T",
+        "20 °C",
+        "50 Nm",
+        "5 mm",
+        "1 tooth",
+        "100000 left",
+        "70 [hrs]",
+    ] {
+        let message = refused(
+            &home,
+            &format!("radius [mm],{header}\n26,300\n27,200\n"),
+            options,
+        );
+        assert!(
+            message.contains(&format!("B1: the header `{header}` has `"))
+                && message.contains("a checkpoint is a number of revolutions"),
+            "{header}: {message}"
+        );
+    }
+    let stages = refused(
+        &home,
+        "radius [mm],stage 1,stage 2\n26,3,4\n27,2,3\n",
+        options,
+    );
+    assert!(
+        stages.contains("B1: the header `stage 1` counts stages or measurements"),
+        "{stages}"
+    );
+    for header in [
+        "100000 load cycles",
+        "100000 U",
+        "100000 [um]",
+        "100000 cycles, um",
+        "wear after 100000 rev",
+    ] {
+        let table = format!("radius [mm];{header}\n26;3\n27;2\n");
+        assert!(
+            rows(&home, &table, options)
+                .1
+                .starts_with("A,pinion,100000,"),
+            "{header}"
+        );
+    }
+    // a degree is no word before the name of a test
+    let study = STUDY.replace("id = \"B\"", "id = \"C\"");
+    fs::write(home.path().join("study.toml"), study).unwrap();
+    let message = refused(
+        &home,
+        "radius [mm],20 °C,40 °C\n26,3,2\n",
+        "--test A --sigma 0.1",
+    );
+    assert!(message.contains("`°C` behind its number"), "{message}");
+    // masses
+    let masses = "member,70 hrs\npinion,3\n";
+    let message = refused(&home, masses, "--test A --quantity mass_loss --sigma 1");
+    assert!(message.contains("`hrs` behind its number"), "{message}");
+    for (text, word) in [
+        (
+            "Wear depth in um after running hours\nradius [mm],0.83,2.08\n26,3,4\n",
+            "hours",
+        ),
+        (
+            "Verschleiß [µm] nach Stunden\nradius [mm],0.83,2.08\n26,3,4\n",
+            "Stunden",
+        ),
+        (
+            "Cycles x 1e6\nradius [mm],0.1,0.25\n26,3,4\n",
+            "a power of ten",
+        ),
+        ("hours,26,27\n2,3,4\n4,5,6\n", "hours"),
+    ] {
+        let message = refused(&home, text, options);
+        let says = format!("row 1: `{}", text.split([',', '\n']).next().unwrap());
+        assert!(
+            message.contains(&says) && message.contains(&format!("speaks of `{word}`")),
+            "{message}"
+        );
+    }
+    let long = "Wear depth, cycles in millions\ncycles,radius [mm],wear depth [um]\n0.1,26,3\n";
+    let message = refused(&home, long, options);
+    assert!(
+        message.contains("row 1: `Wear depth cycles in millions` speaks of multiples"),
+        "{message}"
+    );
+    let fact = "Operating hours of the rig: 1234\nradius [mm],100000\n26,3\n";
+    assert!(
+        rows(&home, fact, options)
+            .0
+            .contains("title    row 1 passed over")
+    );
+}
+
+/// 509 434 revolutions of 53 teeth are 1 000 000.07 of 27: the end of the test, rounded.
+#[test]
+fn rounded_revolutions_of_the_gear_may_be_the_end_of_the_test() {
+    let home = home();
+    for text in [
+        "Test: A\nPart: gear\nRevolutions of gear: 509434\n\nradius [mm],depth [um]\n52,1\n",
+        "test,member,gear revolutions,radius [mm],depth [um]\nA,gear,509434,52,1\n",
+        "Test: A\nPart: gear\nradius [mm],509434 gear rev\n52,1\n",
+    ] {
+        let written = rows(&home, text, "--sigma 0.1").1;
+        assert!(
+            written.starts_with("A,gear,1000000,wear_depth,52,"),
+            "{text}{written}"
+        );
+    }
+    let later = "test,member,gear revolutions,radius [mm],depth [um]\nA,gear,509435,52,1\n";
+    assert!(refused(&home, later, "--sigma 0.1").contains("ends before these cycles"));
+}
+
+#[test]
+fn a_running_time_above_the_header_has_its_unit_where_it_may_stand() {
+    let home = home();
+    let curve = |line: &str, separator: &str| {
+        format!(
+            "Test: A\nPart: pinion\n{line}\n\nradius [mm]{separator}depth [um]\n26{separator}1\n27{separator}2\n"
+        )
+    };
+    for (line, separator) in [
+        ("Run time: 8.333 h", ","),
+        ("Run time [h]: 8.333", ","),
+        ("Run time [h]: 8.333 h", ","),
+        ("Run time: 500 min", ","),
+        ("Run time (h);8,333", ";"),
+        ("Laufzeit;8,333;Std.", ";"),
+        ("Temps de marche [h]: 8.333", ","),
+        ("Running hours: 8.333", ","),
+    ] {
+        let (shown, written) = rows(&home, &curve(line, separator), "--sigma 0.1");
+        assert!(
+            written.starts_with("A,pinion,1000000,"),
+            "{line}: {written}"
+        );
+        assert!(shown.contains("layout   row 3, `"), "{shown}");
+    }
+    for line in ["Run time: 8.333", "Run time: 8 h 20 min", "Run time: long"] {
+        let message = refused(&home, &curve(line, ","), "--sigma 0.1");
+        assert!(
+            message.contains("row 3: `Run time` says `")
+                && message.contains("one number with a unit of h, min, s or d"),
+            "{line}: {message}"
+        );
+    }
+    let far = refused(&home, &curve("Run time: 70 h", ","), "--sigma 0.1");
+    assert!(
+        far.contains("found `8400000`")
+            && far.contains("the cycles are those of `Run time [h]`: running time"),
+        "{far}"
+    );
+    // beside cycles it says nothing more, and a time of day is none
+    for line in [
+        "Run time: 70 h\nCycles: 40000",
+        "Time: 12:30\nCycles: 40000",
+    ] {
+        let (_, written) = rows(&home, &curve(line, ","), "--sigma 0.1");
+        assert!(written.starts_with("A,pinion,40000,"), "{written}");
+    }
+}
+
+#[test]
+fn checkpoints_within_a_thousandth_are_one() {
+    let home = home();
+    let table = "test,member,cycles,radius,depth\nA,pinion,99997,26,1\nA,pinion,99997,27,2\nA,gear,100000,52,1\nA,gear,100000,53,2\n\
+                 A,gear,100101,52,3\nA,gear,100101,53,4\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    assert!(
+        written.starts_with("A,pinion,100000,wear_depth,26,1,0.1,A-pinion-100000\n")
+            && written.contains("A,gear,100101,wear_depth,52,"),
+        "{written}"
+    );
+    assert!(
+        shown
+            .contains("layout   test A: 99997 read as the checkpoint 100000, within 0.1 % of it\n"),
+        "{shown}"
+    );
+    // what has no place may be a record of many times
+    let record = "test,member,cycles,mass loss [mg]\nA,pinion,99997,1\nA,pinion,100000,2\n";
+    assert!(
+        rows(&home, record, "--sigma 0.1")
+            .1
+            .starts_with("A,pinion,99997,")
+    );
+}
