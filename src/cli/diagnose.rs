@@ -52,7 +52,7 @@ const COLUMNS: [each::Column; 6] = [
 enum Deciding {
     /// The analytic contact model alone
     Screening,
-    /// Finite elements, coarse ones for what effects change: about two thirds of the time of full
+    /// Finite elements, coarse ones for what effects change: for many data sets. Laws that depend sharply on pressure may come out with rough values: repeat with full before acting
     Middle,
     /// Finite elements as the study resolves them
     Full,

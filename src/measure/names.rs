@@ -224,7 +224,7 @@ pub(super) fn is_deviation(name: &str) -> bool {
     DEVIATIONS.contains(&telling(name).concat().as_str())
 }
 
-/// Whether a text has a word for the deviation of the profile, near one for the profile or with nothing but a unit, and none for what was worn.
+/// Whether a text has a word for the deviation of the profile, near one for the profile or with nothing but a unit, and none for what was worn before it.
 pub(super) fn speaks_of_deviation(text: &str) -> bool {
     let words = words(text);
     let is_worn =
@@ -234,7 +234,7 @@ pub(super) fn speaks_of_deviation(text: &str) -> bool {
             || member(word).is_some()
             || ["um", "\u{b5}m", "\u{3bc}m", "mm"].contains(&word.as_str())
     };
-    let deviates = words.iter().enumerate().any(|(at, word)| {
+    let deviates = words.iter().enumerate().position(|(at, word)| {
         let before = at
             .checked_sub(1)
             .map_or("", |before| words[before].as_str());
@@ -253,7 +253,9 @@ pub(super) fn speaks_of_deviation(text: &str) -> bool {
         is_compound
             || DEVIATIONS.contains(&word.as_str()) && !is_standard && (of_profile || is_alone())
     });
-    deviates && !words.iter().any(is_worn)
+    // `Profilabweichung nach Verschleiß` is a deviation, `Verschleiß (Abweichung vom Neuprofil)` is what was worn
+    let worn = words.iter().position(is_worn);
+    deviates.is_some_and(|deviates| worn.is_none_or(|worn| deviates < worn))
 }
 
 /// Which weighing of a part a name means.
@@ -331,6 +333,9 @@ mod tests {
             "Flankenabweichung links",
             "scostamento del profilo",
             "deviation of the flank, pinion",
+            "Profilabweichung nach Verschlei\u{df} [\u{b5}m], Ritzel",
+            "Profile deviation of the pinion after wear [um]",
+            "Deviazione del profilo dopo usura",
         ] {
             assert!(speaks_of_deviation(text), "{text}");
         }

@@ -183,6 +183,13 @@ fn parameters(entry: &Ranked) -> String {
         .iter()
         .map(|p| {
             let figure = match p.skewed_interval() {
+                // no width that the fit does not support
+                _ if !entry.converged => {
+                    format!(
+                        "about {} (not converged)",
+                        with_unit(significant(p.value, 3), &p.unit)
+                    )
+                }
                 Some([low, high]) => format!(
                     "{} (95 %: {} to {})",
                     with_unit(significant(p.value, 3), &p.unit),

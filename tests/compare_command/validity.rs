@@ -62,3 +62,25 @@ fn a_mean_that_datums_make_small_is_no_validation() {
     assert!(page.contains("seen in the curve"), "{page}");
     assert!(page.contains("Of traces a small E validates nothing"));
 }
+
+/// A member that the study does not wear, and that wore: no figure of the comparison means anything until its coefficient is stated.
+#[test]
+fn a_member_without_a_coefficient_that_wore_is_told() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    write("truth.toml", BASE.to_owned());
+    succeed(&home, "synthesize truth.toml -o data --seed 5");
+    let file = FILE.replace("measurements.csv", "data/measurements.csv");
+    write(
+        "base.toml",
+        format!("{BASE}[wear.gear]\ncoefficient = 0.0\n{file}"),
+    );
+    let told = succeed(&home, "compare base.toml --json");
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let said = told["sanity"].as_array().unwrap();
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(
+        said[0].as_str().unwrap().starts_with("[wear.gear] coefficient is 0, so the gear does not wear here, but its wear_depth goes up to"),
+        "{said:?}"
+    );
+}

@@ -164,3 +164,25 @@ fn missing_values_say_nothing_of_the_sign() {
         "{written}"
     );
 }
+
+/// A title may say after what the profile was measured; one that speaks of wear first means depths, and these are nothing at the start.
+#[test]
+fn a_title_that_names_wear_behind_deviations_is_one_of_deviations() {
+    let home = home();
+    let table = |title: &str| {
+        format!("{title};;\nradius [mm];0;250000\n26,5;-6,0;-7,0\n27,0;0,5;-0,5\n27,5;0,0;-1,5\n")
+    };
+    let options = "--test A --member pinion --sigma 0.1";
+    let title = "Profilabweichung nach Verschlei\u{df} [\u{b5}m]";
+    let (_, written) = rows(&home, &table(title), options);
+    assert!(
+        written.contains("A,pinion,250000,wear_depth,26.5,1,0.1,")
+            && !written.contains("A,pinion,0,"),
+        "{written}"
+    );
+    let (shown, _) = rows(&home, &table("Verschlei\u{df}, Profil [\u{b5}m]"), options);
+    assert!(
+        shown.contains("after 0 cycles at 26.5: -6 \u{b5}m, where nothing is worn yet"),
+        "{shown}"
+    );
+}

@@ -11,6 +11,7 @@ mod mass_balance;
 mod reversed;
 mod sigmas;
 mod single_tests;
+mod unworn_members;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -60,6 +61,10 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     let rows: Vec<FittedRow<'_>> = (data.observations.iter().zip(&of_one_k))
         .filter(judged)
         .collect();
+    let unworn = unworn_members::unworn_members(study, &rows);
+    if !unworn.is_empty() {
+        return unworn;
+    }
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
     if said.is_empty() {
         let k = fit.coefficient;

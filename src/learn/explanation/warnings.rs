@@ -142,7 +142,9 @@ fn of_curves(
     if let Some(one_test) = one_test {
         vec![one_test]
     } else if suspects.is_empty() {
-        let mut models = std::iter::once(&base.fitted).chain(posterior.leader());
+        // what a fit that has not come to its end leaves speaks of the fit
+        let leader = posterior.leader().filter(|leader| leader.converged);
+        let mut models = std::iter::once(&base.fitted).chain(leader);
         let alone = models.find_map(|j| outlying_curves::alone(likelihood, base, &j.found.model));
         alone.into_iter().collect()
     } else {

@@ -47,6 +47,14 @@ pub(super) fn values(j: &FittedCandidate) -> String {
                 format!(" {}", written::unit(&p.unit))
             };
             match p.skewed_interval() {
+                // no width that the fit does not support
+                _ if !j.converged => {
+                    format!(
+                        "{} about {}{unit} (not converged)",
+                        p.name,
+                        significant(p.value, 3)
+                    )
+                }
                 Some([low, high]) => format!(
                     "{} {}{unit} (95 %: {} to {})",
                     p.name,

@@ -1,4 +1,4 @@
-//! What stands out in the rows of a table before any physics: repeats that lie far apart, masses and teeth that grew, and places that were exchanged.
+//! What stands out in the rows of a table before any physics: repeats that lie far apart, masses and teeth that grew, depths at the start, and places that were exchanged.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,8 @@ pub fn doubtful(entries: &[Entry]) -> Vec<String> {
         Quantity::SpanLoss,
         Quantity::ChordalLoss,
     ];
-    far.chain(losses.into_iter().filter_map(|loss| grown(entries, loss)))
+    far.chain(before_the_first_cycle(entries))
+        .chain(losses.into_iter().filter_map(|loss| grown(entries, loss)))
         .chain(exchanged(entries))
         .collect()
 }
@@ -68,6 +69,21 @@ fn farthest<'e>(group: &[&'e Entry]) -> Option<[&'e Entry; 2]> {
     let mut both = [least, largest];
     both.sort_by_key(|entry| entry.cell);
     (largest.value - least.value > limit).then_some(both)
+}
+
+/// Depths at 0 cycles, where nothing is worn: deviations of the new profile, it may be.
+fn before_the_first_cycle(entries: &[Entry]) -> Option<String> {
+    let depths = (entries.iter()).filter(|entry| entry.quantity == Quantity::WearDepth);
+    let at_start = depths.filter(|entry| entry.cycles == 0.0);
+    let largest = at_start.max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()))?;
+    (largest.value.abs() > FAR * largest.sigma?).then(|| {
+        format!(
+            "{}: {} \u{b5}m, where nothing is worn yet: are these deviations from the nominal profile? A title that begins with them (`Profile deviation`) has what \
+             they change by taken for the depth",
+            of(largest),
+            four_digits(largest.value)
+        )
+    })
 }
 
 /// Losses of mass or thickness that are negative beyond their noise.

@@ -289,12 +289,13 @@ pub(super) const QUANTITIES: [(Quantity, &[&str]); 8] = [
 ];
 
 /// Names of the deviation from the new profile.
-pub(super) const DEVIATIONS: [&str; 8] = [
+pub(super) const DEVIATIONS: [&str; 9] = [
     "deviation",
     "profiledeviation",
     "abweichung",
     "profilabweichung",
     "scostamento",
+    "deviazione",
     "ecart",
     "desviacion",
     "dev",
