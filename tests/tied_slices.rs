@@ -233,7 +233,7 @@ fn without_a_wave_a_prism_is_in_plane_strain() {
 #[test]
 fn the_validation_family_of_slices_passes() {
     let figures = face_slices::all(Effort::Quick).unwrap();
-    assert_eq!(figures.len(), 11);
+    assert_eq!(figures.len(), 13);
     for figure in &figures {
         assert!(figure.passed(), "{figure}");
     }

@@ -2,6 +2,7 @@
 
 mod compliance;
 mod face;
+mod flank_ends;
 mod flank_waves;
 mod flanks;
 mod tangent;

@@ -25,14 +25,16 @@ const UNKNOWNS: usize = 18;
 
 /// A prismatic body, held at some nodes all along.
 pub struct Prism<'m> {
-    mesh: &'m Mesh,
-    material: Elastic,
+    pub(super) mesh: &'m Mesh,
+    pub(super) material: Elastic,
     equation: Vec<[u32; 3]>,
     pattern: StiffnessPattern,
 }
 
 /// A [`Prism`] factored for one wave number.
 pub struct Wave<'p> {
+    /// Wave number, 1/mm.
+    pub(super) number: f64,
     prism: &'p Prism<'p>,
     factor: Factor,
 }
@@ -60,6 +62,16 @@ impl<'m> Prism<'m> {
         })
     }
 
+    /// Nodes of the section.
+    pub fn nodes(&self) -> usize {
+        self.mesh.points.len()
+    }
+
+    /// Whether a node is held.
+    pub(super) fn is_held(&self, node: usize) -> bool {
+        self.equation[node][0] == FIXED
+    }
+
     /// Factors the stiffness for `wave_number`, 1/mm.
     ///
     /// # Errors
@@ -79,6 +91,7 @@ impl<'m> Prism<'m> {
                 FemError::NotPositiveDefinite { node, ratio }
             })?;
         Ok(Wave {
+            number: wave_number,
             prism: self,
             factor,
         })
@@ -98,15 +111,36 @@ impl Wave<'_> {
             }
         }
         self.factor.solve(&mut values);
-        let at = |number: u32| match number {
-            FIXED => 0.0,
-            number => values[number as usize],
-        };
         let moved = |&node: &u32| {
-            let [x, y, _] = equation[node as usize];
-            Vec2::new(at(x), at(y))
+            let [x, y, _] = self.amplitudes(&values, node as usize);
+            Vec2::new(x, y)
         };
         nodes.iter().map(moved).collect()
+    }
+
+    /// Amplitudes of all three displacements, mm, at all nodes under nodal loads in all three directions, amplitudes in N per mm of width.
+    pub fn field(&self, loads: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let equation = &self.prism.equation;
+        let mut values = vec![0.0; self.prism.pattern.column_start.len() - 1];
+        for (load, numbers) in loads.iter().zip(equation) {
+            for (load, &number) in load.iter().zip(numbers) {
+                if number != FIXED {
+                    values[number as usize] += load;
+                }
+            }
+        }
+        self.factor.solve(&mut values);
+        (0..equation.len())
+            .map(|node| self.amplitudes(&values, node))
+            .collect()
+    }
+
+    /// Of one node in a solution.
+    fn amplitudes(&self, values: &[f64], node: usize) -> [f64; 3] {
+        self.prism.equation[node].map(|number| match number {
+            FIXED => 0.0,
+            number => values[number as usize],
+        })
     }
 }
 

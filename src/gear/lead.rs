@@ -55,6 +55,16 @@ pub enum Coupling {
     None,
 }
 
+/// The ends of a face whose slices are tied by the teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum FaceEnds {
+    /// Free of load, as those of a gear are.
+    #[default]
+    Free,
+    /// Held along the axis, as if the gear went on behind them.
+    Held,
+}
+
 /// The face: in how many slices it is computed, and what both members' flanks lack across it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Face {
@@ -62,6 +72,8 @@ pub struct Face {
     pub slices: usize,
     /// What ties them.
     pub coupling: Coupling,
+    /// How it ends.
+    pub ends: FaceEnds,
     /// Of pinion and gear.
     pub lead: [Lead; 2],
 }

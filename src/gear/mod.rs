@@ -33,7 +33,7 @@ pub use cycle::{Region, ToothContact, contacts_at};
 pub use error::{GearError, PairError};
 pub use fillet::Trochoid;
 pub use involute::{inv, inverse_inv};
-pub use lead::{Coupling, Face, Lead};
+pub use lead::{Coupling, Face, FaceEnds, Lead};
 pub use outline::{ProfileResolution, polygon_area};
 pub use pair::{JAM_TOLERANCE, Pair};
 pub use rack::BasicRack;

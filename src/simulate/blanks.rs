@@ -8,7 +8,7 @@ use rayon::join;
 use crate::contact::cycle::Stations;
 use crate::contact::fem::ToothWaves;
 use crate::contact::strips::Strips;
-use crate::gear::{self, Gear, Pair, WornFlank};
+use crate::gear::{self, FaceEnds, Gear, Pair, WornFlank};
 use crate::material::Elastic;
 use crate::mesh::{
     Cells, Mesh, MeshError, MeshSpec, Order, Quality, mesh_gear, mesh_worn_gear, relocate,
@@ -28,7 +28,7 @@ pub struct Blanks {
     spacing: f64,
     of_user: bool,
     /// By the bits of the face width and the number of slices.
-    waves: Mutex<HashMap<(u64, usize), Arc<ToothWaves>>>,
+    waves: Mutex<HashMap<(u64, usize, FaceEnds), Arc<ToothWaves>>>,
 }
 
 /// The mesh of a worn member.
@@ -115,15 +115,22 @@ impl Blanks {
         gears: [&Gear; 2],
         width: f64,
         slices: usize,
+        ends: FaceEnds,
     ) -> Result<Arc<ToothWaves>, MemberError> {
         let known = || self.waves.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = (width.to_bits(), slices);
+        let key = (width.to_bits(), slices, ends);
         let found = known().get(&key).cloned();
         if let Some(found) = found {
             return Ok(found);
         }
         // not made under the lock: a thread that waits for parts of it may turn to work that asks for them too
-        let made = Arc::new(ToothWaves::new(gears, self.materials, width, slices)?);
+        let made = Arc::new(ToothWaves::new(
+            gears,
+            self.materials,
+            width,
+            slices,
+            ends == FaceEnds::Free,
+        )?);
         Ok(Arc::clone(known().entry(key).or_insert(made)))
     }
 

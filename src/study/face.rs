@@ -6,10 +6,17 @@ use super::gears::Gears;
 use super::quantity as q;
 use super::reader::Table;
 use super::relative;
-use crate::gear::{Coupling, Face, Lead, Member};
+use crate::gear::{Coupling, Face, FaceEnds, Lead, Member};
 use crate::source_text::{Diagnostic, Fault};
 
-pub(super) const KEYS: &[&str] = &["slices", "coupling", "helix_angle", "pinion", "gear"];
+pub(super) const KEYS: &[&str] = &[
+    "slices",
+    "coupling",
+    "ends",
+    "helix_angle",
+    "pinion",
+    "gear",
+];
 pub(super) const MEMBER_KEYS: &[&str] = &[
     "lead_slope",
     "crowning",
@@ -23,6 +30,9 @@ const SLICES_PER_BASE_PITCH: f64 = 10.0;
 
 /// What couples slices, but for the common turn.
 pub(super) const COUPLINGS: &[&str] = &["teeth", "none"];
+
+/// How the face ends.
+pub(super) const ENDS: &[&str] = &["free", "held"];
 
 /// The most slices; a slice is then thinner than any measurement resolves.
 pub(super) const MOST_SLICES: usize = 201;
@@ -64,6 +74,8 @@ pub(super) fn read(
         Coupling::None
     };
     face.coupling = table.choice("coupling", &couplings)?.unwrap_or(usual);
+    let ends = [(ENDS[0], FaceEnds::Free), (ENDS[1], FaceEnds::Held)];
+    face.ends = table.choice("ends", &ends)?.unwrap_or_default();
     if overlap > 0.0 && face.slices < 2 {
         let mut refusal = table.refuse("helix_angle", "needs slices", "face.slices of 2 or more");
         refusal.fault = Fault::Inconsistent;

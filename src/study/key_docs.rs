@@ -232,6 +232,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
 
     doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face"), "sections across the face that turn together, each with its own wear; 1: one section represents the whole face, and effects across it are a factor on the load there"),
     doc("face", "coupling", Value::Word(super::face::COUPLINGS), Words("`\"teeth\"` for stated slices by finite elements, else `\"none\"`"), "what couples slices besides the common rotation: the teeth that they are cut from, or nothing"),
+    doc("face", "ends", Value::Word(super::face::ENDS), Default("\"free\""), "the ends of a face whose slices are coupled by the teeth: free, or held along the axis as if the gear went on behind them"),
     number("face", "helix_angle", &q::HELIX_ANGLE, Default("0.0"), "of helical gears at the reference circle, positive: the pinion is right-handed, and its end +face_width/2 comes into mesh first; needs slices. `[gears]` then states the normal section"),
     number("face.pinion", "lead_slope", &q::LEAD, Default("0.0"), "from end to end of the face, positive: material missing at the end +face_width/2, standing proud at the other"),
     number("face.pinion", "crowning", &q::LEAD, Default("0.0"), "material missing at both ends, a parabola from mid-face"),

@@ -4,6 +4,8 @@
 //! rigid wedge on springs     X = F c/(2w):  K_Hβ = 1 + X for X ≤ 1, 2√X beyond             ISO 6336-1, linear bedding
 //! rigid crown on springs     X = C c/w:     w(0)/w = 1 + X/3 for X ≤ 3/2, (3/2)^⅔ X^⅓ beyond
 //! waves along a plate        D (∂⁴X − 2κ² ∂²X + κ⁴ X) = 0, clamped at one edge, q cos κz on the other      Kirchhoff
+//! free ends: a beam b x h    bent     F a³/(3 E I) + F a/(5/6 G A)                          plane strain would have E/(1 − nu²)
+//!                            twisted  T a/(G J), J = 0.22868 b h³ for b = 2 h               Timoshenko & Goodier (1970), section 109
 //! ```
 
 use nalgebra::DMatrix;
@@ -20,11 +22,11 @@ use crate::verify::{CaseError, Measured};
 pub const ID: &str = "S1";
 
 /// Whence the targets come.
-pub const SOURCE: &str =
-    "closed forms: ISO 6336-1 on linear bedding, Kirchhoff's plate; the model of one section";
+pub const SOURCE: &str = "closed forms: ISO 6336-1 on linear bedding, Kirchhoff's plate, beams that bend and twist; the model of one section";
 
 /// Why the tolerances are what they are.
-pub const REASON: &str = "1e-3 of a load is what the last of 2000 slices stands from the end of the face; 1 % is what a plate a hundredth of its reach thick shears; \
+pub const REASON: &str = "1e-3 of a load is what the last of 2000 slices stands from the end of the face; 1 % is what a plate a hundredth of its reach thick shears, and what a clamp a fortieth \
+     of its width from the load stiffens a beam by; \
      slices without ties are sections to rounding";
 
 /// Springs of every slice, N/(mm µm), and the mean load, N/mm.
@@ -70,6 +72,7 @@ pub fn all(_: Effort) -> Result<Vec<Measured>, CaseError> {
     }
     out.push(sections()?);
     out.extend(plate()?);
+    out.extend(beam()?);
     Ok(out)
 }
 
@@ -173,6 +176,62 @@ fn plate() -> Result<Vec<Measured>, FemError> {
         out.push(Measured::relative(ID, name, found, target, 0.01));
     }
     Ok(out)
+}
+
+/// The node of the middle line that is next to a place along a patch.
+fn along(patch: &Patch, x: f64) -> u32 {
+    let points = &patch.mesh.points;
+    let apart = |node: usize| (points[node] - Vec2::new(x, 0.0)).norm();
+    let nearest = (0..points.len()).min_by(|a, b| apart(*a).total_cmp(&apart(*b)));
+    nearest.unwrap_or(0) as u32
+}
+
+/// A beam between free ends: its section along the reach as the mesh, its width as the length of the prism.
+fn beam() -> Result<Vec<Measured>, FemError> {
+    let (reach, width, height) = (40.0, 1.0, 0.5);
+    let steel = Elastic {
+        youngs_modulus: 2.1e5,
+        poisson_ratio: 0.3,
+    };
+    let shear = steel.youngs_modulus / (2.0 * (1.0 + steel.poisson_ratio));
+    let map = |s, t| Vec2::new(reach * s, height * (t - 0.5));
+    let patch = Patch::new(80, 2, Order::Quadratic, map)?;
+    let prism = Prism::new(&patch.mesh, steel, &patch.left)?;
+    let down = Vec2::new(0.0, 1.0);
+    let edge = patch.right[2];
+    let waves: Vec<_> = (0..12)
+        .map(|n| prism.wave(f64::from(n) * std::f64::consts::PI / width))
+        .collect::<Result<_, _>>()?;
+    // a twist goes all along the beam, and the longest wave only as far as it is wide
+    let loads: Vec<(u32, Vec2)> = (1..=16)
+        .map(|place| (along(&patch, reach * f64::from(place) / 16.0), down))
+        .collect();
+    let shapes = prism.end_shapes(&waves, &loads, &[0.3 / reach, 0.5 / height])?;
+    let modes = prism.end_modes(&waves, &shapes, &[(edge, down)], width)?;
+    let deflection = |wave: usize| {
+        let mirrored = waves[wave].solve(&[(edge, down)], &[edge])[0].y;
+        let norm = if wave == 0 { width } else { 0.5 * width };
+        mirrored + norm * modes[wave].norm_squared()
+    };
+    let bent = 4.0 * (reach / height).powi(3) / steel.youngs_modulus;
+    let sheared = reach / (5.0 / 6.0 * shear * height);
+    // the torque of a load cos πz/b, and the cosine in what the twist displaces
+    let (torque, share) = (2.0 * width * width, 4.0 * width);
+    let polar = shear * 0.22868 * width * height.powi(3);
+    let twisted = torque * share / std::f64::consts::PI.powi(4) * reach / polar;
+    let figure = |name: &str, found, target| Measured::relative(ID, name, found, target, 0.01);
+    Ok(vec![
+        figure(
+            "beam with free ends, even load at its tip: deflection, mm per N/mm",
+            deflection(0),
+            bent + sheared,
+        ),
+        figure(
+            "beam with free ends, twisted at its tip: amplitude of the deflection, mm per N/mm",
+            deflection(1),
+            twisted,
+        ),
+    ])
 }
 
 /// Deflection times rigidity of a clamped plate's free edge at `x` under q cos κz with q = 1: B (x cosh κx − sinh κx/κ) + E x sinh κx.

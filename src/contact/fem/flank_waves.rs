@@ -3,7 +3,8 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use crate::fem::{FemError, Prism};
+use super::flank_ends::{FlankEnds, LEAST_WAVES};
+use crate::fem::{FemError, Prism, Wave};
 use crate::gear::Gear;
 use crate::material::Elastic;
 use crate::mesh::{Mesh, MeshError, MeshSpec, mesh_gear};
@@ -76,19 +77,21 @@ impl FlankChange {
     }
 }
 
-/// Changes from the first wave number to each of the others.
+/// Changes from the even load to each of the waves across a face `width` (mm) in so many `slices`, and what free ends let the flanks give way by.
 pub(super) fn changes(
     gear: &Gear,
     material: Elastic,
-    wave_numbers: &[f64],
-) -> Result<Vec<FlankChange>, WaveError> {
-    let Compliances { rho, by_wave } = compliances(gear, material, wave_numbers)?;
+    width: f64,
+    slices: usize,
+    free_ends: bool,
+) -> Result<(Vec<FlankChange>, Option<FlankEnds>), WaveError> {
+    let Compliances { rho, by_wave, ends } = compliances(gear, material, width, slices, free_ends)?;
     let (even, waves) = by_wave.split_first().expect("the even load is one");
     let change = |wave: &Vec<DMatrix<f64>>| FlankChange {
         rho: rho.clone(),
         change: wave.iter().zip(even).map(|(w, e)| w - e).collect(),
     };
-    Ok(waves.iter().map(change).collect())
+    Ok((waves.iter().map(change).collect(), ends))
 }
 
 /// Compliances of one member's flank points.
@@ -97,13 +100,17 @@ pub(super) struct Compliances {
     pub(super) rho: Vec<f64>,
     /// By wave number and tooth, as in [`FlankChange`].
     pub(super) by_wave: Vec<Vec<DMatrix<f64>>>,
+    /// Of free ends.
+    pub(super) ends: Option<FlankEnds>,
 }
 
-/// Compliances by wave number.
+/// Compliances by wave across a face `width` (mm) in so many `slices`, the even load first.
 pub(super) fn compliances(
     gear: &Gear,
     material: Elastic,
-    wave_numbers: &[f64],
+    width: f64,
+    slices: usize,
+    free_ends: bool,
 ) -> Result<Compliances, WaveError> {
     let module = gear.rack.module;
     // a gear of few teeth has each of them once
@@ -125,22 +132,34 @@ pub(super) fn compliances(
     let mut flanks: Vec<Flank> = (-NEIGHBOURS..=NEIGHBOURS)
         .map(|tooth| Flank::new(&mesh, gear, tooth))
         .collect();
-    let by_wave = wave_numbers
-        .par_iter()
-        .map(|&wave_number| compliance(&prism, &flanks, wave_number))
-        .collect::<Result<Vec<_>, FemError>>()?;
+    let count = if free_ends {
+        slices.max(LEAST_WAVES)
+    } else {
+        slices
+    };
+    let waves = (0..count)
+        .into_par_iter()
+        .map(|n| prism.wave(n as f64 * std::f64::consts::PI / width))
+        .collect::<Result<Vec<Wave<'_>>, FemError>>()?;
+    let by_wave = (waves[..slices].par_iter())
+        .map(|wave| compliance(wave, &flanks))
+        .collect();
+    let ends = free_ends
+        .then(|| FlankEnds::new(&prism, &waves, &flanks, module, width, slices))
+        .transpose()?;
     let loaded = flanks.swap_remove(NEIGHBOURS as usize);
     Ok(Compliances {
         rho: loaded.rho,
         by_wave,
+        ends,
     })
 }
 
 /// Points of one tooth's flank: the corners of its edges.
-struct Flank {
-    nodes: Vec<u32>,
+pub(super) struct Flank {
+    pub(super) nodes: Vec<u32>,
     /// Into the tooth.
-    normals: Vec<Vec2>,
+    pub(super) normals: Vec<Vec2>,
     rho: Vec<f64>,
 }
 
@@ -170,12 +189,7 @@ impl Flank {
 }
 
 /// By tooth: displacements along the normals at its points (rows) per line load at those of tooth 0 (columns).
-fn compliance(
-    prism: &Prism<'_>,
-    flanks: &[Flank],
-    wave_number: f64,
-) -> Result<Vec<DMatrix<f64>>, FemError> {
-    let wave = prism.wave(wave_number)?;
+fn compliance(wave: &Wave<'_>, flanks: &[Flank]) -> Vec<DMatrix<f64>> {
     let loaded = &flanks[NEIGHBOURS as usize];
     let empty = |flank: &Flank| DMatrix::zeros(flank.nodes.len(), loaded.nodes.len());
     let mut out: Vec<DMatrix<f64>> = flanks.iter().map(empty).collect();
@@ -188,5 +202,5 @@ fn compliance(
             }
         }
     }
-    Ok(out)
+    out
 }

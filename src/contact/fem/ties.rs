@@ -9,7 +9,8 @@
 //! v_i = Σ_n≥1 [C(κ_n) − C(0)] F_n c_n(i)                    what slice i gives way by besides its own plane strain
 //! ```
 //! C is the normal displacement at one flank point per line load at another, of both members, of the same and of neighbouring teeth: the peaks under point loads
-//! are the same for all waves and drop out. Even loads stay plane strain to the last bit. The ends of the face are mirrors.
+//! are the same for all waves and drop out. Even loads stay plane strain to the last bit. Waves end in mirrors; what free ends let
+//! the flanks give way by more (`flank_ends`) is added.
 //!
 //! The cosines are orthogonal with the even load among them, so that this holds for any flank points, one to a slice:
 //!
@@ -24,6 +25,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::compliance::member_tooth;
+use super::flank_ends::{FacePlace, FlankEnds};
 use super::flank_waves::{FlankChange, WaveError, changes};
 use crate::contact::cycle::{Cycle, PairContact, Position};
 use crate::contact::slices::Slices;
@@ -37,10 +39,12 @@ pub struct ToothWaves {
     slices: usize,
     /// By wave from the first on, pinion then gear.
     waves: Vec<[FlankChange; 2]>,
+    /// Of pinion and gear, where the ends of the face are free.
+    ends: Option<[FlankEnds; 2]>,
 }
 
 impl ToothWaves {
-    /// Of two gears with a face `width` (mm) in so many `slices`.
+    /// Of two gears with a face `width` (mm) in so many `slices`, its ends free or mirrors.
     ///
     /// # Errors
     /// [`WaveError`].
@@ -49,18 +53,24 @@ impl ToothWaves {
         materials: [Elastic; 2],
         width: f64,
         slices: usize,
+        free_ends: bool,
     ) -> Result<Self, WaveError> {
-        let wave_numbers: Vec<f64> = (0..slices)
-            .map(|n| n as f64 * std::f64::consts::PI / width)
-            .collect();
-        let of_member = |side: usize| changes(gears[side], materials[side], &wave_numbers);
+        let of_member =
+            |side: usize| changes(gears[side], materials[side], width, slices, free_ends);
         let (pinion, gear) = rayon::join(|| of_member(0), || of_member(1));
-        let waves = pinion?
-            .into_iter()
-            .zip(gear?)
-            .map(|(p, g)| [p, g])
-            .collect();
-        Ok(Self { slices, waves })
+        let ((pinion, pinion_ends), (gear, gear_ends)) = (pinion?, gear?);
+        let waves = pinion.into_iter().zip(gear).map(|(p, g)| [p, g]).collect();
+        Ok(Self {
+            slices,
+            waves,
+            ends: pinion_ends.zip(gear_ends).map(|(p, g)| [p, g]),
+        })
+    }
+
+    /// What free ends let a place on one tooth of a member give way by per line load on another of its teeth.
+    fn by_ends(&self, side: usize, tooth: i32, to: FacePlace, from: FacePlace) -> f64 {
+        let ends = self.ends.as_ref();
+        ends.map_or(0.0, |ends| ends[side].between(tooth, to, from))
     }
 
     /// For each turn: how far (mm) a tooth pair (row) gives way per line load (N/mm) of another (column), all pairs of the first of the `slices`, then those of the
@@ -130,7 +140,13 @@ impl ToothWaves {
                 let tooth = to.tooth - from.tooth;
                 by_distance[m][side].between(tooth, to.weights, from.weights)
             };
-            at(apart) + at(mirrored)
+            let places = [to, from].map(|place| FacePlace {
+                slice: place.slice,
+                weights: place.weights,
+            });
+            at(apart)
+                + at(mirrored)
+                + self.by_ends(side, to.tooth - from.tooth, places[0], places[1])
         };
         let ties = DMatrix::from_fn(places.len(), places.len(), |row, column| {
             let (to, from) = (&places[row], &places[column]);
@@ -162,6 +178,24 @@ impl ToothWaves {
                     let mut block = ties.view_mut((i * pairs, j * pairs), (pairs, pairs));
                     block += &change * share;
                 }
+            }
+        }
+        if let Some(ends) = &self.ends {
+            for side in 0..2 {
+                let weights: Vec<_> = (position.pairs.iter())
+                    .map(|pair| self.waves[0][side].weights(pair.frame.rho[side]))
+                    .collect();
+                let teeth: Vec<i32> = (position.pairs.iter())
+                    .map(|pair| member_tooth(pair, side))
+                    .collect();
+                let place = |row: usize| FacePlace {
+                    slice: row / pairs,
+                    weights: weights[row % pairs],
+                };
+                ties += DMatrix::from_fn(n * pairs, n * pairs, |a, b| {
+                    let tooth = teeth[a % pairs] - teeth[b % pairs];
+                    ends[side].between(tooth, place(a), place(b))
+                });
             }
         }
         // rounding and interpolation between points leave no more than that
@@ -234,6 +268,7 @@ mod tests {
         let waves = ToothWaves {
             slices: N,
             waves: (1..N).map(|_| c.map(stiff)).collect(),
+            ends: None,
         };
         for slices in [turned(0.0), turned(1.3), turned(-2.0)] {
             let all = waves.ties(&cycle, &slices);
@@ -296,6 +331,7 @@ mod tests {
             waves: (1..N)
                 .map(|wave| [0, 1].map(|side| change(side, wave)))
                 .collect(),
+            ends: None,
         };
         let upright = turned(0.0);
         let spur = waves.ties(&cycle, &upright);
@@ -325,6 +361,38 @@ mod tests {
         }
     }
 
+    /// Free ends only ever give way, alike at either end, and by more under an even load near the ends of a wide face than in its middle.
+    #[test]
+    fn free_ends_give_way_more_than_mirrors() {
+        let pair = reference();
+        let steel = Elastic {
+            youngs_modulus: 2.1e5,
+            poisson_ratio: 0.3,
+        };
+        let gears = [&pair.pinion, &pair.gear];
+        let waves = |free| ToothWaves::new(gears, [steel; 2], 20.0, N, free).unwrap();
+        let (free, held) = (waves(true), waves(false));
+        let (cycle, upright) = (cycle(), turned(0.0));
+        let by_distance = free.by_distance();
+        let ties = free.ties(&cycle, &upright);
+        for (turn, (ties, mirrored)) in ties.iter().zip(held.ties(&cycle, &upright)).enumerate() {
+            let other_way = free.of_turn(&cycle, &upright, turn, &by_distance);
+            assert!((ties - other_way).amax() < 1e-12 * ties.amax());
+            let more = ties - mirrored;
+            let [least, most] = [more.symmetric_eigenvalues().min(), more.amax()];
+            assert!(most > 0.0 && least > -1e-3 * most, "{least} {most}");
+            let pairs = more.nrows() / N;
+            for a in 0..more.nrows() {
+                for b in 0..more.nrows() {
+                    let across = |row: usize| (N - 1 - row / pairs) * pairs + row % pairs;
+                    let off = more[(a, b)] - more[(across(a), across(b))];
+                    assert!(off.abs() < 1e-6 * most, "{off} of {most}");
+                }
+            }
+            assert!(more[(0, 0)] > 2.0 * more[(N / 2 * pairs, N / 2 * pairs)]);
+        }
+    }
+
     /// With what slices give way by themselves the ties are the compliance of the whole prism, wave by wave, and that takes work to load.
     #[test]
     fn ties_and_sections_together_are_the_prism() {
@@ -334,16 +402,13 @@ mod tests {
             poisson_ratio: 0.3,
         };
         let width = 20.0;
-        let wave_numbers: Vec<f64> = (0..N)
-            .map(|n| n as f64 * std::f64::consts::PI / width)
-            .collect();
         let gears = [&pair.pinion, &pair.gear];
-        let all = gears.map(|gear| compliances(gear, steel, &wave_numbers).unwrap());
+        let all = gears.map(|gear| compliances(gear, steel, width, N, false).unwrap());
         let of = |side: usize, wave: usize| FlankChange {
             rho: all[side].rho.clone(),
             change: all[side].by_wave[wave].clone(),
         };
-        let waves = ToothWaves::new(gears, [steel; 2], width, N).unwrap();
+        let waves = ToothWaves::new(gears, [steel; 2], width, N, false).unwrap();
         let (cycle, slices) = (cycle(), turned(1.3));
         for (turn, ties) in waves.ties(&cycle, &slices).iter().enumerate() {
             let rows = rows(&cycle, &slices, turn);

@@ -417,7 +417,8 @@ impl Forward<'_> {
         };
         let pair = &self.cycle.pair;
         let gears = [&pair.pinion, &pair.gear];
-        let waves = blanks.waves(gears, self.set.face_width, slices.count())?;
+        let face = &self.set.face;
+        let waves = blanks.waves(gears, self.set.face_width, slices.count(), face.ends)?;
         Ok(Some(Arc::new(waves.ties(&self.cycle, slices))))
     }
 
