@@ -25,6 +25,7 @@ mod short_series;
 mod sigma;
 mod surface;
 mod table;
+mod thousands;
 mod units;
 
 use std::path::Path;
@@ -38,7 +39,7 @@ pub use outliers::Outlier;
 pub use quantity::{Place, Quantity, Subject};
 pub use surface::{Surface, surfaces};
 
-pub(crate) use dialect::in_thousands;
+pub(crate) use thousands::{CountMarks, both_readings, without_certain};
 
 use dialect::Dialect;
 use header::Columns;
