@@ -9,6 +9,7 @@
 mod exchanged_masses;
 mod falling;
 mod mass_balance;
+mod no_wear;
 mod reversed;
 mod sigmas;
 mod single_tests;
@@ -65,6 +66,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     let unworn = unworn_members::unworn_members(study, &rows);
     if !unworn.is_empty() {
         return unworn;
+    }
+    if let Some(nothing) = no_wear::no_wear(study, &rows) {
+        return vec![nothing];
     }
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
     if said.is_empty() {
