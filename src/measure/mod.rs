@@ -8,6 +8,7 @@
 //! Knows the study by [`Known`] only: ids and lengths of the tests, the flanks' radii, the face width.
 
 mod cell;
+mod checkpoints;
 mod curve_scatter;
 mod dialect;
 mod face_places;
@@ -32,6 +33,7 @@ use std::path::Path;
 
 use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted};
 
+pub use checkpoints::checkpoints;
 pub use header::COLUMNS;
 pub use known::{Known, KnownTest};
 pub use observation::{FacePlace, Observation};
