@@ -117,7 +117,9 @@ refusals! {
         => UnknownKey "test|member|cycles|quantity|position|value|sigma|trace" at 2:1, "`test|member", "test, member", "commas, semicolons or tabs";
     points_and_commas: GOOD.replace(',', ";").replace("2.1;", "2,1;")
         => Inconsistent "" at 4:31, "`2,1`", "one of the two in all numbers", "marks between thousands";
-    thousands: european().replace("A;pinion;250000", "A;pinion;250.000")
+    thousands: GOOD.replace(',', ";").replace("A;pinion;250000", "A;pinion;250.000")
+        => BadValue "cycles" at 3:10, "`250.000`", "without marks between thousands", "is that 250000, or 250.000 with decimals?";
+    thousands_beside_commas: GOOD.replacen("A,pinion,250000", "A,pinion,250.000", 1)
         => BadValue "cycles" at 3:10, "`250.000`", "without marks between thousands", "250000 or 2.5e5";
     another_unit_in_the_header: with("position,value", "position [m],value")
         => Inconsistent "position" at 3:28, "`26.31`", "position of wear_depth in mm", "the header says position in m";
@@ -310,6 +312,8 @@ fn the_forms_that_spreadsheets_write_are_read_and_told() {
     };
     let semicolons = "semicolons between columns, decimal commas";
     assert_eq!(read(&european()), semicolons);
+    let thousands = european().replace("A;pinion;250000", "A;pinion;250.000");
+    assert_eq!(read(&thousands), semicolons);
     assert_eq!(
         read(&GOOD.replace(',', ";")),
         "semicolons between columns, decimal points"

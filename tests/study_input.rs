@@ -782,9 +782,9 @@ fn faults_in_a_table_of_tests_name_its_line_and_column() {
     }
     for (table, position, says) in [
         (
-            "id;torque;speed\nA;2,5;1.000\n",
+            "id;torque;speed\nA;2.5;1.000\n",
             (2, 7),
-            "may have a thousands mark",
+            "is that 1000, or 1.000 with decimals?",
         ),
         (
             "id;torque\nA;2,5\nB;1.5\n",
@@ -797,12 +797,16 @@ fn faults_in_a_table_of_tests_name_its_line_and_column() {
             "decimal points and decimal commas stand in one file",
         ),
         (
-            "id;torque;cycles\nA;2,5;1.000.000\n",
-            (2, 7),
-            "has thousands marks",
+            "id;cycles\nA;13,333\n",
+            (2, 3),
+            "is that 13333, or 13.333 with decimals?",
+        ),
+        (
+            "id,cycles\nA,1.000\n",
+            (2, 3),
+            "is that 1000, or 1.000 with",
         ),
         ("id;torque\nA;1.000,5\n", (2, 3), "has thousands marks"),
-        ("id,cycles\nA,1.000.000\n", (2, 3), "has thousands marks"),
     ] {
         let (at, _, message) = refusal(table);
         assert_eq!(at, Some(position), "{table}: {message}");
@@ -811,6 +815,17 @@ fn faults_in_a_table_of_tests_name_its_line_and_column() {
             "{message}"
         );
         assert!(!message.contains("unit"), "{message}");
+    }
+    for (table, cycles) in [
+        ("id;torque;cycles\nA;2,5;1.000.000\n", 1e6),
+        ("id,cycles\nA,1.000.000\n", 1e6),
+        ("id;cycles\nA;250.000\nB;1.000.000\n", 250e3),
+        ("id;torque;cycles\nA;2,5;250.000\n", 250e3),
+        ("id;torque;cycles\nA;2.5;13,333\n", 13333.0),
+    ] {
+        let study = tabled(TABLED, table).expect(table);
+        let test = study.tests.iter().find(|test| test.id == "A").unwrap();
+        assert_eq!(test.conditions.cycles, cycles, "{table}");
     }
     let with_unit = tabled(TABLED, "id;torque\nA;2,5 N m\n").unwrap();
     assert_eq!(with_unit.tests[1].conditions.torque_nmm, 2500.0);

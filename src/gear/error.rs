@@ -161,7 +161,7 @@ pub enum PairError {
     /// The teeth jam: no backlash left.
     #[error(
         "centre distance {centre_distance:.4} mm is too small, the teeth jam (backlash {backlash_um:.2} µm): at least {min:.4} mm is \
-         needed, a misalignment of at least {min_misalignment:.4} mm"
+         needed, misalignment included"
     )]
     Jam {
         /// Working centre distance, mm.
@@ -170,8 +170,6 @@ pub enum PairError {
         backlash_um: f64,
         /// Smallest working centre distance, mm.
         min: f64,
-        /// The same as misalignment, mm.
-        min_misalignment: f64,
     },
     /// A tip touches the mate's root circle.
     #[error(

@@ -88,7 +88,7 @@ impl<'c> Cell<'c, '_> {
                 .fault(Fault::MissingKey, format!("{key} is missing"), allowed)
                 .into());
         }
-        match self.row.dialect.point(self.text()).parse::<f64>() {
+        match self.row.dialect.plain(self.key, self.text()).parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(value),
             Ok(_) => Err(self
                 .fault(

@@ -3,6 +3,7 @@
 use super::cell::shown;
 use super::header::{Columns, column_named};
 use super::table::{Table, field_spans, first_row};
+use super::thousands::{CountMarks, both_readings, without_certain};
 use crate::source_text::{Diagnostic, Fault, Source};
 
 /// How a table is written.
@@ -14,6 +15,8 @@ pub(super) struct Dialect {
     pub(super) decimal_comma: bool,
     /// Bytes before the header that are no rows: the line `sep=;` of a spreadsheet program.
     pub(super) skipped: usize,
+    /// What is known of marks in counts of cycles.
+    counts: CountMarks,
 }
 
 /// The columns that hold numbers.
@@ -26,6 +29,7 @@ impl Dialect {
             separator: b',',
             decimal_comma: false,
             skipped: 0,
+            counts: CountMarks::default(),
         };
         let line = first_row(text, 0);
         let written = text[line.clone()].trim_matches(['"', ' ', '\t']);
@@ -58,29 +62,25 @@ impl Dialect {
         source: &Source,
         columns: &Columns,
     ) -> Result<Self, Box<Diagnostic>> {
-        if self.separator == b',' {
-            return Ok(self);
-        }
-        let mut table = Table::new(source, self);
-        table.next()?;
+        self.counts = self.marks_of_counts(source, columns)?;
         // the first number with a point and the first with a comma: line, written, place
         let mut first: [Option<(String, std::ops::Range<usize>)>; 2] = [None, None];
+        let mut table = Table::new(source, self);
+        table.next()?;
         while let Some(row) = table.next()? {
-            for name in NUMBERS {
-                let Some(column) = columns.of(name) else {
-                    continue;
-                };
+            for (name, column) in numbers(columns) {
                 let text = row.record.get(column).unwrap_or_default();
-                if !text.starts_with(|c: char| c.is_ascii_digit() || "+-.,".contains(c)) {
-                    continue;
-                }
-                if name == "cycles" && in_thousands(text) {
+                if name == "cycles" && self.is_unclear_count(text) {
+                    let says = format!("cycles {text}: {}", both_readings(text));
                     return Err(Box::new(
-                        Diagnostic::new(Fault::BadValue, name, "cycles in thousands or in parts?")
+                        Diagnostic::new(Fault::BadValue, name, says)
                             .with_values(shown(text), "a number without marks between thousands")
                             .with_hint("write 250000 or 2.5e5 for a quarter of a million")
                             .with_span(row.span_of(column)),
                     ));
+                }
+                if !begins_a_number(text) || self.without_thousands(name, text).is_some() {
+                    continue;
                 }
                 for (mark, first) in ['.', ','].into_iter().zip(&mut first) {
                     if first.is_none() && text.contains(mark) {
@@ -88,6 +88,9 @@ impl Dialect {
                     }
                 }
             }
+        }
+        if self.separator == b',' {
+            return Ok(self);
         }
         match first {
             [Some((point, at_point)), Some((comma, at_comma))] => {
@@ -114,8 +117,48 @@ impl Dialect {
         }
     }
 
-    /// A number as it stands, with a point for its decimals.
-    pub(super) fn point(self, text: &str) -> std::borrow::Cow<'_, str> {
+    /// What the numbers tell of marks in counts of cycles.
+    fn marks_of_counts(
+        self,
+        source: &Source,
+        columns: &Columns,
+    ) -> Result<CountMarks, Box<Diagnostic>> {
+        let mut marks = CountMarks::default();
+        let mut table = Table::new(source, self);
+        table.next()?;
+        while let Some(row) = table.next()? {
+            for (name, column) in numbers(columns) {
+                let text = row.record.get(column).unwrap_or_default();
+                match name {
+                    _ if !begins_a_number(text) => {}
+                    "cycles" => marks.see(text),
+                    _ => marks.see_elsewhere(text),
+                }
+            }
+        }
+        Ok(marks)
+    }
+
+    /// Whether a count of cycles may have marks between its thousands. Where commas stand between columns a point is a decimal one, but
+    /// nobody counts 18 revolutions as `18.000`.
+    fn is_unclear_count(self, text: &str) -> bool {
+        let is_decimal = self.separator == b',' && !text.contains(',') && !text.ends_with('0');
+        self.counts.is_unclear(text) && !is_decimal
+    }
+
+    /// A number of a column without the marks that are known to stand between its thousands; none if it has none.
+    fn without_thousands(self, column: &str, text: &str) -> Option<String> {
+        match column {
+            "cycles" => self.counts.plain(text),
+            _ => without_certain(text),
+        }
+    }
+
+    /// A number of a column without marks between thousands, with a point for its decimals.
+    pub(super) fn plain<'t>(self, column: &str, text: &'t str) -> std::borrow::Cow<'t, str> {
+        if let Some(plain) = self.without_thousands(column, text) {
+            return plain.into();
+        }
         if self.decimal_comma && text.matches(',').count() == 1 {
             text.replace(',', ".").into()
         } else {
@@ -145,6 +188,17 @@ impl Dialect {
     }
 }
 
+/// The columns that hold numbers, with their places.
+fn numbers(columns: &Columns) -> impl Iterator<Item = (&'static str, usize)> {
+    NUMBERS
+        .into_iter()
+        .filter_map(|name| Some((name, columns.of(name)?)))
+}
+
+fn begins_a_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit() || "+-.,".contains(c))
+}
+
 /// The separator that a line `sep=;` states.
 fn stated(line: &str) -> Option<u8> {
     line.get(..4).filter(|s| s.eq_ignore_ascii_case("sep="))?;
@@ -156,32 +210,9 @@ fn stated(line: &str) -> Option<u8> {
     }
 }
 
-/// Whether a number looks like one with marks between its thousands: `250.000`.
-pub(crate) fn in_thousands(text: &str) -> bool {
-    let mut groups = text.split(['.', ',']);
-    let digits = |group: &str| group.bytes().all(|b| b.is_ascii_digit());
-    let first = groups.next().unwrap_or_default();
-    let mut rest = groups.peekable();
-    rest.peek().is_some()
-        && digits(first)
-        && (1..=3).contains(&first.len())
-        && !first.starts_with('0')
-        && rest.all(|group| group.len() == 3 && digits(group))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn thousands_are_told_from_decimals() {
-        for text in ["250.000", "1.000.000", "250,000"] {
-            assert!(in_thousands(text), "{text}");
-        }
-        for text in ["250000", "250000.000", "0.000", "2.5", "2.5e5", ""] {
-            assert!(!in_thousands(text), "{text}");
-        }
-    }
 
     #[test]
     fn separators_are_found_by_the_header() {

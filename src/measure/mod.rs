@@ -8,6 +8,7 @@
 //! Knows the study by [`Known`] only: ids and lengths of the tests, the flanks' radii, the face width.
 
 mod cell;
+mod checkpoints;
 mod curve_scatter;
 mod dialect;
 mod face_places;
@@ -25,12 +26,14 @@ mod short_series;
 mod sigma;
 mod surface;
 mod table;
+mod thousands;
 mod units;
 
 use std::path::Path;
 
 use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted};
 
+pub use checkpoints::checkpoints;
 pub use header::COLUMNS;
 pub use known::{Known, KnownTest};
 pub use observation::{FacePlace, Observation};
@@ -38,7 +41,7 @@ pub use outliers::Outlier;
 pub use quantity::{Place, Quantity, Subject};
 pub use surface::{Surface, surfaces};
 
-pub(crate) use dialect::in_thousands;
+pub(crate) use thousands::{CountMarks, both_readings, without_certain};
 
 use dialect::Dialect;
 use header::Columns;

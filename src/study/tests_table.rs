@@ -16,6 +16,7 @@ use super::edit::quoted;
 use super::operation::TEST_KEYS;
 use super::profile::trimmed;
 use crate::source_text::{self, Diagnostic, Fault, Source, TextError, Wanted, list};
+use decimals::Decimals;
 
 const WANTED: Wanted = Wanted {
     what: "table of tests",
@@ -94,7 +95,7 @@ impl TestsTable {
         let separator = separator(&whole[header.clone()]);
         let columns = columns(&whole, header, separator)?;
         let below = super::profile::lines(&whole).skip(1);
-        let decimal_comma = decimals::decimal_comma(&whole, below, &columns, separator)?;
+        let decimals = Decimals::of(&whole, below, &columns, separator)?;
         let mut rows = 0;
         for line in lines {
             let cells = cells(&whole, line.clone(), separator);
@@ -116,7 +117,7 @@ impl TestsTable {
                 let (Some(column), false) = (column, cell.is_empty()) else {
                     continue;
                 };
-                let value = column.value(&whole[cell.clone()], decimal_comma);
+                let value = column.value(&whole[cell.clone()], &decimals);
                 self.put(&column.key, column.place.clone());
                 self.text.push_str(" = ");
                 self.put(&value, cell);
@@ -152,7 +153,7 @@ impl Column {
     }
 
     /// A cell as it stands in a study file.
-    fn value(&self, cell: &str, decimal_comma: bool) -> String {
+    fn value(&self, cell: &str, decimals: &Decimals) -> String {
         if ["id", "role"].contains(&self.key.as_str()) {
             return quoted(cell);
         }
@@ -160,12 +161,7 @@ impl Column {
         if ["true", "false"].contains(&word.as_str()) {
             return word;
         }
-        let comma = decimal_comma && cell.matches(',').count() == 1;
-        let point = if comma {
-            cell.replace(',', ".")
-        } else {
-            cell.to_owned()
-        };
+        let point = decimals.plain(self, cell);
         match (point.parse::<f64>(), &self.unit) {
             (Ok(value), None) if value.is_finite() => format!("{value:?}"),
             (Ok(_), Some(unit)) => quoted(&format!("{point} {unit}")),

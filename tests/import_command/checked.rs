@@ -289,3 +289,29 @@ fn a_check_finds_a_transmission_error_that_runs_the_other_way() {
         "{said}"
     );
 }
+
+/// A formula that is 0 leaves nothing that a sign, a unit or a zero could be told by.
+#[test]
+fn a_check_of_a_study_without_wear_says_so() {
+    let home = home();
+    fs::write(
+        home.path().join("m.csv"),
+        "test,member,cycles,quantity,position,value,sigma\nA,pinion,500000,wear_depth,26,5,0.1\nA,pinion,500000,wear_depth,27,2,0.1\n\
+         A,pinion,500000,wear_depth,28,4,0.1\nA,pinion,1000000,mass_loss,,40,1\n",
+    )
+    .unwrap();
+    let with = |factor: &str| {
+        let formula = format!(
+            "[[effect]]\nkind = \"formula\"\nname = \"none\"\nwear_factor = \"{factor}\"\n"
+        );
+        fs::write(home.path().join("study.toml"), STUDY.to_owned() + &formula).unwrap();
+        succeed(&home, "check study.toml")
+    };
+    let told = with("0");
+    assert!(
+        told.contains("check first: no wear comes of this study at any measured row")
+            && !told.contains("look right"),
+        "{told}"
+    );
+    assert!(!with("1").contains("no wear comes"));
+}

@@ -25,6 +25,21 @@ fn running_times_are_turned_into_revolutions() {
             .1
             .starts_with("A,pinion,180000,")
     );
+    for header in [
+        "Ore [h]",
+        "Stunden [h]",
+        "Heures de marche (h)",
+        "Horas de funcionamiento [h]",
+        "Heures",
+    ] {
+        let hours = format!("Prova,Ruota,{header},Raggio [mm],Usura [um]\nA,pignone,1.5,26.5,1\n");
+        assert!(
+            rows(&home, &hours, "--sigma 0.1")
+                .1
+                .starts_with("A,pinion,180000,"),
+            "{header}"
+        );
+    }
     // decimal commas; a time of whole hours is no rounded end of the test
     let commas =
         "Run;Part;Time (h);Radius (mm);Wear (um)\nA;pinion;8,000;26,5;1\nA;pinion;8,333;26,5;2\n";

@@ -179,3 +179,31 @@ fn english_thousands_are_read_above_values_with_points() {
     let message = refused(&home, table, "--test A --member pinion --sigma 0.1");
     assert!(message.contains("marked between thousands"), "{message}");
 }
+
+/// Two marks of a kind can only stand between thousands, and tell of a single one in the same column.
+#[test]
+fn counts_with_several_marks_are_read() {
+    let home = home();
+    let table = "Versuch;Rad;Lastspiele;Radius [mm];Verschlei\u{df} [\u{b5}m]\nA;Ritzel;250.000;26,5;1,2\nA;Ritzel;1.000.000;26,5;2,4\n";
+    let (_, written) = rows(&home, table, "--sigma 0.1");
+    assert!(
+        written.contains("A,pinion,250000,wear_depth,26.5,1.2,")
+            && written.contains("A,pinion,1000000,wear_depth,26.5,2.4,"),
+        "{written}"
+    );
+    // down the first column of a wide table
+    let table = "Lastspiele;26,5;27,0\n500.000;1,5;0,5\n1.000.000;2,5;1,5\n";
+    let (_, written) = rows(&home, table, "--test A --member pinion --sigma 0.1");
+    assert!(
+        written.contains("A,pinion,500000,wear_depth,26.5,1.5,")
+            && written.contains("A,pinion,1000000,wear_depth,27,1.5,"),
+        "{written}"
+    );
+    // a single one alone may be either
+    let alone = "test;member;cycles;radius;depth\nA;pinion;13.333;26.5;1.2\n";
+    let message = refused(&home, alone, "--sigma 0.1");
+    assert!(
+        message.contains("13.333: is that 13333, or 13.333 with decimals?"),
+        "{message}"
+    );
+}

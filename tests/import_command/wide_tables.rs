@@ -737,3 +737,24 @@ fn typeset_numbers_are_read() {
         "A,pinion,250000,wear_depth,26,1,0.1,A-pinion-250000\nA,pinion,1000000,wear_depth,26,2,0.1,A-pinion-1000000\n"
     );
 }
+
+/// The roll length by its other German name, and by those of other languages, is none other than `roll length`: 26.5 mm of a base circle
+/// of 27 mm cos 20° are √(26.5² − 25.3717²) = 7.6503 mm.
+#[test]
+fn roll_lengths_are_known_in_other_languages() {
+    let home = home();
+    for name in [
+        "W\u{e4}lzweg [mm]",
+        "Waelzweg [mm]",
+        "W\u{e4}lzl\u{e4}nge [mm]",
+        "lunghezza di rotolamento [mm]",
+        "longueur de roulement [mm]",
+        "longitud de rodadura [mm]",
+    ] {
+        let table = format!("Test,Ruota,{name},cicli,usura [um]\nA,pignone,7.6503,250000,1.5\n");
+        let (shown, written) = rows(&home, &table, "--sigma 0.1");
+        let position = written.split(',').nth(4).unwrap_or_default();
+        let radius: f64 = position.parse().unwrap_or(0.0);
+        assert!((radius - 26.5).abs() < 1e-3, "{name}: {written}{shown}");
+    }
+}

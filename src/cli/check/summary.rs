@@ -2,7 +2,7 @@
 
 use super::{Key, curves};
 use crate::learn::Prospects;
-use crate::measure::{Dataset, Observation, Quantity};
+use crate::measure::{Dataset, Observation, Quantity, checkpoints};
 use crate::numeric::written::{count, plain, significant};
 use crate::study::{Role, Study, Test};
 
@@ -96,7 +96,7 @@ fn row(study: &Study, (test, member, quantity): Key, own: &[&Observation]) -> [S
         member.to_owned(),
         quantity.to_owned(),
         own.len().to_string(),
-        distinct(own.iter().map(|o| o.cycles.to_bits()).collect()),
+        checkpoints(own.iter().copied()).to_string(),
         distinct(positions.map(f64::to_bits).collect()),
         significant(values().fold(f64::INFINITY, f64::min), 3),
         significant(values().fold(f64::NEG_INFINITY, f64::max), 3),

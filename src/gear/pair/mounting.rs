@@ -24,7 +24,7 @@ impl Pair {
         let base_sum = pinion.base_radius + gear.base_radius;
         if a <= base_sum {
             let backlash = f64::NEG_INFINITY;
-            return Err(jam(&pinion, &gear, [a, centre_distance], backlash));
+            return Err(jam(&pinion, &gear, a, backlash));
         }
         let (z1, z2) = (f64::from(pinion.spec.teeth), f64::from(gear.spec.teeth));
         let pitch_radius_pinion = a * z1 / (z1 + z2);
@@ -33,7 +33,7 @@ impl Pair {
             - pinion.thickness(pitch_radius_pinion)
             - gear.thickness(pitch_radius_gear);
         if backlash < least_backlash {
-            return Err(jam(&pinion, &gear, [a, centre_distance], backlash));
+            return Err(jam(&pinion, &gear, a, backlash));
         }
         check_root_clearance(&pinion, &gear, a)?;
         let line_length = ((a - base_sum) * (a + base_sum)).sqrt();
@@ -122,13 +122,11 @@ fn common_base_pitch(pinion: &Gear, gear: &Gear) -> Result<f64, PairError> {
 }
 
 /// The teeth jam at the working centre distance `a` with this `backlash`, mm.
-fn jam(pinion: &Gear, gear: &Gear, [a, nominal]: [f64; 2], backlash: f64) -> PairError {
-    let min = Pair::tight_centre_distance(pinion, gear);
+fn jam(pinion: &Gear, gear: &Gear, a: f64, backlash: f64) -> PairError {
     PairError::Jam {
         centre_distance: a,
         backlash_um: 1e3 * backlash,
-        min,
-        min_misalignment: min - nominal,
+        min: Pair::tight_centre_distance(pinion, gear),
     }
 }
 

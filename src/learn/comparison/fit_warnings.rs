@@ -3,6 +3,7 @@
 
 use std::collections::HashSet;
 
+use super::shifted_places::shifted_places;
 use crate::learn::fitting::collinear::act_together;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::hypothesis::parameters::short;
@@ -32,7 +33,9 @@ pub(in crate::learn) fn fit_warnings(data: &Dataset, fit: &Fit) -> Vec<String> {
 
 /// What there is to say of the measurements alone, all rows that stand apart among it.
 pub fn data_warnings(data: &Dataset) -> Vec<String> {
-    of_measurements(data, data.outliers_in_words())
+    let mut warnings = of_measurements(data, data.outliers_in_words());
+    warnings.extend(shifted_places(data));
+    warnings
 }
 
 fn of_measurements(data: &Dataset, outliers: Option<String>) -> Vec<String> {

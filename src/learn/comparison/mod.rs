@@ -23,6 +23,7 @@ mod ratio;
 mod record;
 mod residual_statistics;
 mod sanity;
+mod shifted_places;
 pub(in crate::learn) mod synthesize;
 mod together;
 mod uncertainty;

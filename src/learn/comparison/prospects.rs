@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::together::conditions_together;
-use crate::measure::{Dataset, Observation, Quantity, Subject};
+use crate::measure::{Dataset, Observation, Quantity, Subject, checkpoints};
 use crate::study::{Operation, Role, Study};
 
 /// Sentences, what can be said first and what cannot after.
@@ -36,14 +36,10 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
     let has = |quantity: Quantity| rows(Role::Fit).any(|o| o.quantity == quantity);
     let members =
         [Subject::Pinion, Subject::Gear].map(|member| rows(Role::Fit).any(|o| o.member == member));
-    let checkpoints = measured.iter().map(|&test| {
-        let of_test = rows(Role::Fit).filter(|o| o.test == test && o.cycles > 0.0);
-        of_test
-            .map(|o| o.cycles.to_bits())
-            .collect::<BTreeSet<u64>>()
-            .len()
-    });
-    let checkpoints = checkpoints.max().unwrap_or(0);
+    let of_each = measured
+        .iter()
+        .map(|&test| checkpoints(rows(Role::Fit).filter(|o| o.test == test && o.cycles > 0.0)));
+    let checkpoints = of_each.max().unwrap_or(0);
     let mut said = Prospects::default();
     let mut judge = |good: bool, can: &str, cannot: &str| {
         let (list, words) = if good {

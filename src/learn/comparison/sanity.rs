@@ -6,8 +6,10 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod exchanged_masses;
 mod falling;
 mod mass_balance;
+mod no_wear;
 mod reversed;
 mod sigmas;
 mod single_tests;
@@ -65,13 +67,19 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     if !unworn.is_empty() {
         return unworn;
     }
+    if let Some(nothing) = no_wear::no_wear(study, &rows) {
+        return vec![nothing];
+    }
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
     if said.is_empty() {
         let k = fit.coefficient;
-        let of_tests = single_tests::depths_and_masses(study, &rows, k);
-        said.extend(
-            of_tests.unwrap_or_else(|| depths_and_masses(study, &rows, k).into_iter().collect()),
-        );
+        // exchanged masses are at odds with the depths of both members
+        said.extend(exchanged_masses::exchanged_masses(study, &rows));
+        if said.is_empty() {
+            let of_tests = single_tests::depths_and_masses(study, &rows, k);
+            let of_all = || depths_and_masses(study, &rows, k).into_iter().collect();
+            said.extend(of_tests.unwrap_or_else(of_all));
+        }
         if said.is_empty() {
             said.extend(mass_balance::masses_and_depths(study, data));
         }

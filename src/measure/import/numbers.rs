@@ -1,7 +1,7 @@
 //! Numbers in the cells of tables: decimal marks, counts in headers, what is ambiguous.
 
 use super::{ImportError, Sheet, cell_name};
-use crate::measure::dialect::in_thousands;
+use crate::measure::thousands::{CountMarks, both_readings, in_thousands, without_certain};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -24,10 +24,13 @@ pub(super) fn with_points(
     counts: impl Fn(usize, usize) -> bool,
 ) -> Result<Sheet> {
     let is_text = sheet.name.is_empty();
-    if !is_text && decimal.is_none() {
-        return Ok(sheet.clone());
-    }
     let mut sheet = sheet.clone();
+    if decimal.is_none() {
+        leave_out_certain_thousands(&mut sheet);
+        if !is_text {
+            return Ok(sheet);
+        }
+    }
     let plain = sheet.plain_decimals;
     // the first number with a point and the first with a comma
     let mut first: [Option<(String, String)>; 2] = [None, None];
@@ -36,7 +39,7 @@ pub(super) fn with_points(
     for (row, cells) in sheet.rows.iter_mut().enumerate() {
         for (column, text) in cells.iter_mut().enumerate() {
             let number = text.contains(['.', ',']) && number_words(text) == [text.as_str()];
-            // with several marks it is refused where it is read, as a count in thousands
+            // with several that are not all between thousands it is refused where it is read
             let several = text.matches(['.', ',']).count() > 1;
             if !number || several && decimal.is_none() {
                 continue;
@@ -70,6 +73,27 @@ pub(super) fn with_points(
             text.replace(',', "."),
             text.replace(['.', ','], "")
         ))),
+    }
+}
+
+/// Leaves the marks between thousands out of numbers where they can be nothing else: `1.000.000`, and `250.000` in the same column.
+fn leave_out_certain_thousands(sheet: &mut Sheet) {
+    let is_number = |text: &str| number_words(text) == [text];
+    let width = sheet.rows.iter().map(Vec::len).max().unwrap_or(0);
+    for column in 0..width {
+        let mut marks = CountMarks::default();
+        let cells = || sheet.rows.iter().filter_map(|row| row.get(column));
+        let numbers = || cells().filter(|text| is_number(text));
+        if numbers().all(|text| without_certain(text).is_none()) {
+            continue;
+        }
+        numbers().for_each(|text| marks.see(text));
+        let own = sheet.rows.iter_mut().filter_map(|row| row.get_mut(column));
+        for text in own.filter(|text| is_number(text)) {
+            if let Some(plain) = marks.plain(text) {
+                *text = plain;
+            }
+        }
     }
 }
 
@@ -149,8 +173,9 @@ pub(super) fn plain_cycles(text: &str, row: usize, column: usize) -> Result<()> 
     {
         None => Ok(()),
         Some(word) => Err(ImportError(format!(
-            "{}: are the cycles `{word}` marked between thousands? Write them without marks",
-            cell_name(row, column)
+            "{}: are the cycles `{word}` marked between thousands? {word}: {} Write them without marks",
+            cell_name(row, column),
+            both_readings(word)
         ))),
     }
 }

@@ -58,9 +58,20 @@ impl PositionKind {
     fn of_header(text: &str) -> Self {
         let text = text.to_lowercase();
         let says = |words: &[&str]| words.iter().any(|word| text.contains(word));
-        if says(&["angle", "winkel", "[deg]", "(deg)", "[°]", "(°)", "_deg"]) {
+        if says(&[
+            "angle", "winkel", "angolo", "angulo", "ángulo", "[deg]", "(deg)", "[°]", "(°)", "_deg",
+        ]) {
             PositionKind::RollAngle
-        } else if says(&["roll", "wälz"]) {
+        } else if says(&[
+            "roll",
+            "wälz",
+            "waelz",
+            "rotolamento",
+            "roulement",
+            "développement",
+            "developpement",
+            "rodadura",
+        ]) {
             PositionKind::RollLength
         } else if says(&[
             "diam",

@@ -19,38 +19,60 @@ pub(super) const CYCLES: &[&str] = &[
     "schwingspielzahl",
     "zyklenzahl",
     "lw",
+    "uberrollungen",
     "umdrehung",
     "umdrehungen",
     "zyklen",
     "cicli",
+    "ciclicarico",
     "giri",
+    "rotazioni",
     "tours",
+    "cyclescharge",
     "ciclos",
+    "cicloscarga",
     "revoluciones",
     "vueltas",
 ];
 
 /// Names of running times.
-pub(super) const TIMES: [&str; 19] = [
+pub(super) const TIMES: [&str; 36] = [
     "time",
     "runningtime",
     "runtime",
     "testtime",
     "operatingtime",
     "hours",
+    "runninghours",
+    "operatinghours",
     "zeit",
     "laufzeit",
     "betriebszeit",
     "versuchszeit",
+    "stunden",
+    "betriebsstunden",
+    "laufstunden",
     "tempo",
     "tempofunzionamento",
+    "durata",
+    "ore",
+    "orefunzionamento",
+    "oremarcia",
+    "orelavoro",
     "temps",
     "tempsmarche",
     "tempsfonctionnement",
     "duree",
+    "heures",
+    "heuresmarche",
+    "heuresfonctionnement",
     "tiempo",
     "tiempofuncionamiento",
     "duracion",
+    "horas",
+    "horasmarcha",
+    "horasfuncionamiento",
+    "horasservicio",
 ];
 
 /// Names of speeds of rotation.
@@ -116,7 +138,7 @@ pub(super) const AROUND_POWER: [(&str, &str); 6] = [
 ];
 
 /// Hours of each unit of time.
-pub(super) const HOURS: [(&str, f64); 24] = [
+pub(super) const HOURS: [(&str, f64); 33] = [
     ("h", 1.0),
     ("hr", 1.0),
     ("hrs", 1.0),
@@ -141,4 +163,13 @@ pub(super) const HOURS: [(&str, f64); 24] = [
     ("runninghours", 1.0),
     ("operatinghours", 1.0),
     ("betriebsstunden", 1.0),
+    ("laufstunden", 1.0),
+    ("orefunzionamento", 1.0),
+    ("oremarcia", 1.0),
+    ("orelavoro", 1.0),
+    ("heuresmarche", 1.0),
+    ("heuresfonctionnement", 1.0),
+    ("horasmarcha", 1.0),
+    ("horasfuncionamiento", 1.0),
+    ("horasservicio", 1.0),
 ];

@@ -3,7 +3,7 @@
 use super::super::columns::{Column, What, columns, known_by_content};
 use super::super::numbers::pointed;
 use super::super::{ImportError, Sheet, Wanted, cell_name, units};
-use crate::measure::dialect::in_thousands;
+use crate::measure::thousands::in_thousands;
 use crate::measure::{Subject, names};
 
 /// Part of a speed by which a stated one may differ from the study's: a motor under load, or a rounded number.
