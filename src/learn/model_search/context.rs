@@ -1,5 +1,6 @@
 //! What a search works with: the likelihood, and the model at three fidelities.
 
+use super::stages::Stages;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::prediction::bench::Bench;
 use crate::learn::prediction::fidelity::Fidelity;
@@ -29,6 +30,8 @@ pub(in crate::learn) struct Context<'a> {
     pub(in crate::learn) hertz: &'a Bench<'a>,
     pub(in crate::learn) middle: &'a Bench<'a>,
     pub(in crate::learn) exact: &'a Bench<'a>,
+    /// Told of every fit.
+    pub(in crate::learn) stages: &'a Stages<'a>,
     /// By which candidates are compared at last.
     pub(in crate::learn) fidelity: Fidelity,
     /// Whether that is the analytic model in place of the study's finite elements.

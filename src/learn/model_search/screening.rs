@@ -66,7 +66,9 @@ impl Context<'_> {
                 let behind = leader - best(&starts);
                 let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
                 let effort = if hopeless { &Effort::STAY } else { &LOOK };
-                self.look(candidate, predictor, starts, effort)
+                let look = self.look(candidate, predictor, starts, effort);
+                self.stages.one_done();
+                look
             })
             .collect();
         let least = (looks.iter().flatten()).map(|found| found.objective);
