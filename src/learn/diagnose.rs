@@ -31,8 +31,9 @@ pub use crate::learn::explanation::{
 };
 pub use crate::learn::hypothesis::candidate::NotJudged;
 pub use crate::learn::hypothesis::{EffectSet, Hypothesis};
-pub use crate::learn::model_search::context::{DiagnoseError, Watch};
+pub use crate::learn::model_search::context::DiagnoseError;
 pub use crate::learn::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
+pub use crate::learn::model_search::stages::Watch;
 pub use crate::learn::prediction::fidelity::Fidelity;
 
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};

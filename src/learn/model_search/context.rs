@@ -21,9 +21,6 @@ pub enum DiagnoseError {
     BaseFit(#[from] PredictError),
 }
 
-/// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
-pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
-
 /// What is judged on, and the benches: the analytic one to screen, coarse finite elements for changes, the exact one that decides.
 pub(in crate::learn) struct Context<'a> {
     pub(in crate::learn) likelihood: Likelihood<'a>,

@@ -2,7 +2,8 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use super::context::Watch;
+/// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
+pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
 
 /// Share of its stage that as many fits as were foreseen make up. Nobody knows before how many there will be: more come ever nearer to its end.
 const FORESEEN: f64 = 0.8;
