@@ -163,6 +163,13 @@ fn before_measurements_a_campaign_is_chosen() {
         let (_, unseen) = sentence.split_once("Not shown: ").unwrap();
         assert!(unseen.contains(name), "{name} in {sentence}");
     }
+    let hours = |test: &Value| test["test"]["hours"].as_f64().unwrap();
+    let chosen = plan["tests"].as_array().unwrap();
+    let all = gearwear::numeric::written::significant(chosen.iter().map(hours).sum(), 3);
+    assert!(
+        sentence.contains(&format!("; {all} h on the rig)")),
+        "{sentence}"
+    );
     let alone = plan["alone"].as_array().unwrap();
     let at = |celsius: f64| {
         alone
