@@ -352,9 +352,18 @@ fn sentence(
         false => "",
     };
     format!(
-        "{proposal} {verb} {} from {}: after refitting they differ there by χ² {alone:.0}, {strength} ({beside}: {other:.0}{why_not}); {place}.",
-        names[0], names[1],
+        "{proposal} {verb} {} from {}: after refitting they differ there by χ² {}, {strength} ({beside}: {}{why_not}); {place}.",
+        names[0],
+        names[1],
+        figure(alone),
+        figure(other),
     )
+}
+
+/// A χ² between candidates: of small ones the first decimal counts.
+fn figure(chi2: f64) -> String {
+    let digits = usize::from(chi2 < 10.0);
+    format!("{chi2:.digits$}")
 }
 
 #[cfg(test)]
@@ -447,7 +456,7 @@ mod tests {
             "{again}"
         );
         assert!(
-            again.contains("(under other conditions none tells as much: 4)"),
+            again.contains("(under other conditions none tells as much: 4.0)"),
             "{again}"
         );
         let new = said(None, 3.0, 10.0);
