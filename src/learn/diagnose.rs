@@ -63,6 +63,8 @@ const PAIRS: f64 = 0.50;
 const BESIDE: f64 = 0.72;
 const EXPERIMENT: f64 = 0.87;
 const LAWS: f64 = 0.90;
+/// Steps of the screening for each effect: its starts, and a look at it.
+const PER_SCREENED: usize = 2;
 /// About how many fits by coarse elements the leaders take, and how many the pairs.
 const COARSE_FITS: usize = 40;
 const PAIR_FITS: usize = 20;
@@ -142,7 +144,8 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     let measured = likelihood.measured;
     let (singles, not_judged) = Candidate::singles_for(measured.study(), &measured.data);
     let screening = format!("screening {} effects", singles.len());
-    stages.begin([SCREENING, MEDIUM], screening, singles.len());
+    let foreseen = PER_SCREENED * singles.len();
+    stages.begin([SCREENING, MEDIUM], screening, foreseen);
     let mut fitted = context.screen(base, &singles);
     let unknown = gaussian_process::log_evidence(
         likelihood,
@@ -178,7 +181,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     // by the analytic model what remains would be its own error
     let beside = if smooth.is_real() && !context.approximate {
         let doing = "effects beside something unknown".to_owned();
-        let foreseen = singles.len() + COARSE_FITS;
+        let foreseen = PER_SCREENED * singles.len() + COARSE_FITS;
         stages.begin([BESIDE, EXPERIMENT], doing, foreseen);
         context.beside_unknown(base, &singles, &fitted)
     } else {

@@ -80,7 +80,7 @@ pub fn plan_after(
     let leaders = diagnosed.unwrap_or_else(|| {
         let (singles, _) = Candidate::singles_for(study, &measured.data);
         let doing = format!("screening {} effects", singles.len());
-        stages.begin([0.2, 0.6], doing, singles.len());
+        stages.begin([0.2, 0.6], doing, 2 * singles.len());
         leaders(&base.fitted, &context.screen(&base, &singles))
     });
     stages.begin([0.6, 1.0], "trying feasible tests".to_owned(), 1);

@@ -57,7 +57,11 @@ impl Context<'_> {
             .map(|candidate| Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone()))
             .collect();
         let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter().zip(&predictors))
-            .map(|(candidate, predictor)| self.starts(base, candidate, predictor))
+            .map(|(candidate, predictor)| {
+                let starts = self.starts(base, candidate, predictor);
+                self.stages.one_done();
+                starts
+            })
             .collect();
         let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
         let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
