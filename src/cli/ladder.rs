@@ -1,10 +1,12 @@
 //! `gearwear ladder`: versions of a model side by side, each fitted to its measurements.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use serde::Deserialize;
 
-use super::{CliError, Context, Outcome, fitting, folder};
+use super::{CliError, Context, Outcome, fitting, folder, inputs};
+use crate::learn::diagnose::Fidelity;
 use crate::learn::{self, Item, Version, compare_all, contact_of, precursors};
 use crate::measure::Dataset;
 use crate::report::{self, ladder};
@@ -22,6 +24,25 @@ pub struct LadderArgs {
     /// Result folder; a finished one is replaced, any other that is not empty is refused [default: STUDYSTEM.out/ladder beside the first study]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
+}
+
+/// What a ladder says of a finished diagnosis: by which model it decided.
+#[derive(Debug, Deserialize)]
+struct Diagnosed {
+    ranking: Vec<Ranked>,
+}
+
+/// A line of its ranking.
+#[derive(Debug, Deserialize)]
+struct Ranked {
+    decided_by: Fidelity,
+}
+
+/// By which model the finished diagnosis of a study decided on what leads; None without one.
+fn diagnosed(path: &Path, study: &Study) -> Result<Option<Fidelity>, CliError> {
+    let found: Option<Diagnosed> = inputs::finished(path, study, false)?;
+    let leader = found.and_then(|diagnosis| diagnosis.ranking.into_iter().next());
+    Ok(leader.map(|leader| leader.decided_by))
 }
 
 /// Checks all input and the folder, fits one version after the other, writes.
@@ -78,7 +99,15 @@ pub(super) fn execute(args: &LadderArgs, context: &Context) -> Result<Outcome, C
             before: before.filter(|&before| learn::differences(items[before], items[i]).is_empty()),
         })
         .collect();
+    let mut by = None;
+    for ((path, name), (study, _)) in args.studies.iter().zip(&names).zip(&loaded) {
+        by = diagnosed(path, study)?.map(|fidelity| (name.as_str(), fidelity));
+        if by.is_some() {
+            break;
+        }
+    }
     let result = ladder::Result {
+        diagnosed: by,
         title: &loaded[0].0.title,
         steps: learn::ladder(&versions),
         comparisons: compared.iter().map(|c| &c.comparison).collect(),

@@ -7,6 +7,9 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+/// Time between two drawings of a bar of which nothing new is told.
+const REDRAWN: Duration = Duration::from_secs(1);
+
 /// How far a command has come. Quiet ones cost nothing.
 #[derive(Debug)]
 pub(crate) struct Progress {
@@ -55,6 +58,10 @@ impl Progress {
                 let _ = out.write_str(&left(state.fraction(), state.elapsed()));
             })
             .progress_chars("=> ");
+        if !bar.is_hidden() {
+            // so that the time left grows while nothing is told
+            bar.enable_steady_tick(REDRAWN);
+        }
         let is_log = !quiet && !std::io::stderr().is_terminal();
         Self {
             bar: bar.with_style(style),

@@ -31,8 +31,9 @@ pub use crate::learn::explanation::{
 };
 pub use crate::learn::hypothesis::candidate::NotJudged;
 pub use crate::learn::hypothesis::{EffectSet, Hypothesis};
-pub use crate::learn::model_search::context::{DiagnoseError, Watch};
+pub use crate::learn::model_search::context::DiagnoseError;
 pub use crate::learn::model_search::learned_drivers::{LearnedAnswer, OtherDriver};
+pub use crate::learn::model_search::stages::Watch;
 pub use crate::learn::prediction::fidelity::Fidelity;
 
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
@@ -45,11 +46,28 @@ use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
+use crate::learn::model_search::stages::Stages;
 use crate::learn::model_search::{learned_drivers, matching_pursuit, nested_forms, pairs};
 use crate::learn::noise::{ModelError, NoiseModel};
 use crate::learn::prediction::bench::Workshop;
 use crate::simulate::forward::ContactKind;
 use crate::study::{ContactKind as StudiedContact, Role};
+
+/// Shares of a whole diagnosis at which its stages begin, by their times on data with much that is missed (pairs and effects beside something unknown
+/// are most of it there) and on data that one effect explains.
+const BASE: f64 = 0.04;
+const SCREENING: f64 = 0.08;
+const MEDIUM: f64 = 0.20;
+const DECIDING: f64 = 0.40;
+const PAIRS: f64 = 0.50;
+const BESIDE: f64 = 0.72;
+const EXPERIMENT: f64 = 0.87;
+const LAWS: f64 = 0.90;
+/// Steps of the screening for each effect: its starts, and a look at it.
+const PER_SCREENED: usize = 2;
+/// About how many fits by coarse elements the leaders take, and how many the pairs.
+const COARSE_FITS: usize = 40;
+const PAIR_FITS: usize = 20;
 
 /// Diagnoses a study's measurements: screened by the analytic model, decided by `fidelity`.
 ///
@@ -60,7 +78,8 @@ pub fn diagnose(
     fidelity: Fidelity,
     watch: Watch<'_>,
 ) -> Result<Diagnosis, DiagnoseError> {
-    watch(0.0, "preparing the gears".to_owned());
+    let stages = Stages::new(watch);
+    stages.begin([0.0, BASE], "preparing the gears".to_owned(), 1);
     // a study whose own model is the analytic one is decided by it at the study's own resolution
     let own = fidelity == Fidelity::Screening && measured.study().contact == StudiedContact::Hertz;
     let approximate = fidelity == Fidelity::Screening && !own;
@@ -110,25 +129,23 @@ pub fn diagnose(
         hertz: &hertz,
         middle,
         exact,
+        stages: &stages,
         fidelity,
         approximate,
     };
-    watch(0.08, "fitting the base model".to_owned());
+    stages.begin([BASE, SCREENING], "fitting the base model".to_owned(), 4);
     let base = context.base_by_scatter()?;
-    Ok(search(&context, &base, &analytic, watch))
+    Ok(search(&context, &base, &analytic))
 }
 
 /// The diagnosis from the base model's fit on.
-fn search(
-    context: &Context<'_>,
-    base: &BaseFit,
-    workshop: &Workshop,
-    watch: Watch<'_>,
-) -> Diagnosis {
-    let likelihood = &context.likelihood;
+fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnosis {
+    let (likelihood, stages) = (&context.likelihood, context.stages);
     let measured = likelihood.measured;
     let (singles, not_judged) = Candidate::singles_for(measured.study(), &measured.data);
-    watch(0.2, format!("screening {} effects", singles.len()));
+    let screening = format!("screening {} effects", singles.len());
+    let foreseen = PER_SCREENED * singles.len();
+    stages.begin([SCREENING, MEDIUM], screening, foreseen);
     let mut fitted = context.screen(base, &singles);
     let unknown = gaussian_process::log_evidence(
         likelihood,
@@ -141,19 +158,18 @@ fn search(
     let sparse_regression = matching_pursuit::selection(context, base, &fitted);
     fitted.extend(nested_forms::of(context, base, &fitted, &smooth));
     if context.fidelity != Fidelity::Screening {
-        watch(0.35, "the leaders by coarse finite elements".to_owned());
+        let doing = "the leaders by coarse finite elements".to_owned();
+        stages.begin([MEDIUM, DECIDING], doing, COARSE_FITS);
         fitted = context.refine(base, fitted, smooth.is_real(), smooth.drop);
         fitted = context.with_unseen(base, fitted, &smooth);
     }
     if context.fidelity != Fidelity::Middle {
-        fitted = decide_leaders(context, base, fitted, &|done, what| {
-            watch(0.5 + 0.25 * done, what);
-        });
+        fitted = decide_leaders(context, base, fitted, [DECIDING, PAIRS]);
     }
     let not_fitted = not_fitted(&singles, &fitted);
     if !context.approximate {
         // by the analytic model second effects would mend its own error
-        watch(0.75, "looking at pairs".to_owned());
+        stages.begin([PAIRS, BESIDE], "looking at pairs".to_owned(), PAIR_FITS);
         fitted.extend(pairs::pairs(context, base, &fitted));
     }
     let rule = if context.approximate {
@@ -164,13 +180,16 @@ fn search(
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     // by the analytic model what remains would be its own error
     let beside = if smooth.is_real() && !context.approximate {
-        watch(0.85, "effects beside something unknown".to_owned());
+        let doing = "effects beside something unknown".to_owned();
+        let foreseen = PER_SCREENED * singles.len() + COARSE_FITS;
+        stages.begin([BESIDE, EXPERIMENT], doing, foreseen);
         context.beside_unknown(base, &singles, &fitted)
     } else {
         Vec::new()
     };
     let posterior = JudgedCandidates::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
-    watch(0.95, "held-out tests and the next experiment".to_owned());
+    let doing = "held-out tests and the next experiment".to_owned();
+    stages.begin([EXPERIMENT, LAWS], doing, 1);
     let diagnosis = Diagnosis::new(Findings {
         context,
         workshop,
@@ -184,15 +203,13 @@ fn search(
     // beside an established effect that comes first: with it in, the next diagnosis learns what is left; and by the analytic model a law would
     // learn that one's own error
     let learned = if posterior.decision.verdict == Verdict::Unknown && !context.approximate {
-        watch(
-            0.97,
-            "laws of one driver for what the catalogue does not explain".to_owned(),
-        );
+        let doing = "laws of one driver for what the catalogue does not explain".to_owned();
+        stages.begin([LAWS, 1.0], doing, 1);
         learned_drivers::learned_driver(context, &base.fitted)
     } else {
         None
     };
-    watch(1.0, "done".to_owned());
+    stages.begin([1.0; 2], "done".to_owned(), 1);
     diagnosis.with_learned(learned)
 }
 

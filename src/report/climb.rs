@@ -134,6 +134,7 @@ pub fn page(result: &Result<'_>, study: &str) -> Page {
         title: result.title,
         steps: learn::ladder(&versions),
         comparisons: versions.iter().map(|v| v.comparison).collect(),
+        diagnosed: None,
         notes: vec![Vec::new(); versions.len()],
     };
     let mut page = html::ladder(&rungs);

@@ -44,7 +44,7 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
 }
 
 /// What the χ² of a diagnosis is measured by, beside that of other commands.
-pub(crate) const NOISE_MODEL: &str = "χ²/point: in the rows' own sigmas, of fits that allow for a small error of the model itself beside the noise; compare and add fit without it, and their χ² \
+pub(crate) const NOISE_MODEL: &str = "χ²/point: in the rows' own sigmas, of fits that allow for a small error of the model itself beside the noise; compare, add and ladder fit without it, and their χ² \
      of the same model may be some per cent lower or higher, their intervals narrower";
 
 /// The first lines of the ranking below a header, and what is unknown.

@@ -47,7 +47,7 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
                     }
                 );
             }
-            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough; of tests that reach that the cheapest stands first (fewer cycles, fewer changes, less to measure), of others that do nearly as well\n(within a fifth) those with fewer changes. What was measured already, or nearly, is left out.\n";
+            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough; of tests that reach that the cheapest stands first (fewer hours on the rig, fewer changes, less to measure), of others\nthat do nearly as well (within a fifth) too. What was measured already, or nearly, is left out.\n";
             let _ = writeln!(
                 text,
                 "repetition of the best test made already, with all that was measured: χ² mean {}",
@@ -142,7 +142,7 @@ pub fn page(title: &str, plan: &Plan, study: &str) -> Page {
 ///
 /// Columns `rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why` after measurements,
 /// `chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart` for a campaign: N·m, rpm, mm, revolutions. Both end with
-/// `bulk_temperature`, °C; empty where the study states none.
+/// `bulk_temperature`, °C, empty where the study states none, and `hours`, on the rig.
 pub fn csv(plan: &Plan) -> String {
     let mut text = String::new();
     let warmth = |t: &NextTest| t.bulk_temperature.map_or(String::new(), |c| c.to_string());
@@ -154,11 +154,11 @@ pub fn csv(plan: &Plan) -> String {
     };
     match plan {
         Plan::NextTests(next) => {
-            text.push_str("rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why,bulk_temperature\n");
+            text.push_str("rank,torque,speed,misalignment,cycles,reversed,quantity,changes,expected_chi2,least_chi2,why,bulk_temperature,hours\n");
             for (i, row) in next.tests.iter().enumerate() {
                 let _ = writeln!(
                     text,
-                    "{},{},{},{},{},{},\"{}\",{}",
+                    "{},{},{},{},{},{},\"{}\",{},{:.2}",
                     i + 1,
                     conditions(&row.test),
                     row.quantity,
@@ -166,24 +166,26 @@ pub fn csv(plan: &Plan) -> String {
                     row.expected_chi2,
                     least(row),
                     row.why.replace('"', "\"\""),
-                    warmth(&row.test)
+                    warmth(&row.test),
+                    row.test.hours()
                 );
             }
         }
         Plan::Campaign(campaign) => {
             text.push_str(
-                "chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart,bulk_temperature\n",
+                "chosen,torque,speed,misalignment,cycles,reversed,changes,detectable,told_apart,bulk_temperature,hours\n",
             );
             for test in &campaign.alone {
                 let _ = writeln!(
                     text,
-                    "{},{},{},{},{},{}",
+                    "{},{},{},{},{},{},{:.2}",
                     test.chosen.map_or(String::new(), |c| c.to_string()),
                     conditions(&test.test),
                     test.changes,
                     test.detectable,
                     test.told_apart,
-                    warmth(&test.test)
+                    warmth(&test.test),
+                    test.test.hours()
                 );
             }
         }
@@ -232,6 +234,11 @@ fn short(value: f64) -> String {
     plain(value).replace('\u{202f}', "")
 }
 
+/// Hours of a column: three digits, without the blank of thousands.
+fn in_table(hours: f64) -> String {
+    significant(hours, 3).replace('\u{202f}', "")
+}
+
 /// The header of a table of tests; with a column of temperatures where `warmth` says so.
 fn heading(text: &mut String, warmth: bool, what: &str, figures: [&str; 2]) {
     let celsius = if warmth {
@@ -241,8 +248,8 @@ fn heading(text: &mut String, warmth: bool, what: &str, figures: [&str; 2]) {
     };
     let _ = writeln!(
         text,
-        "  {:>8} {:>8} {:>6}{celsius} {:>9} {:>8}  {:<38} {:>12} {:>12}",
-        "N·m", "rpm", "mm", "cycles", "reversed", what, figures[0], figures[1]
+        "  {:>8} {:>8} {:>6}{celsius} {:>9} {:>6} {:>8}  {:<38} {:>12} {:>12}",
+        "N·m", "rpm", "mm", "cycles", "hours", "reversed", what, figures[0], figures[1]
     );
 }
 
@@ -255,11 +262,12 @@ fn line(text: &mut String, warmth: bool, test: &NextTest, what: &str, figures: [
     };
     let _ = writeln!(
         text,
-        "  {:>8} {:>8} {:>6}{celsius} {:>9.2e} {:>8}  {:<38} {:>12} {:>12}",
+        "  {:>8} {:>8} {:>6}{celsius} {:>9.2e} {:>6} {:>8}  {:<38} {:>12} {:>12}",
         short(test.torque),
         short(test.speed),
         short(test.misalignment),
         test.cycles,
+        in_table(test.hours()),
         if test.reversed { "yes" } else { "" },
         what,
         figures[0],
@@ -274,6 +282,7 @@ fn conditions(test: &NextTest) -> Vec<Cell> {
         Cell::number(plain(test.misalignment)),
         Cell::number(test.bulk_temperature.map_or("–".to_owned(), plain)),
         Cell::number(count(test.cycles)),
+        Cell::number(significant(test.hours(), 3)),
         Cell::text(if test.reversed { "yes" } else { "" }),
     ]
 }
@@ -285,6 +294,7 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
         "misalignment, mm",
         "temperature, °C",
         "cycles",
+        "hours",
         "reversed",
         "measure",
         "χ² mean",
@@ -305,7 +315,7 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
     vec![
         Section::new("What is to be separated").paragraph(separated(next, study)),
         Section::new("Feasible tests")
-            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to 60, which is more than enough; mean: by how probable the rivals are. Of tests that reach that the cheapest stands first: fewer cycles, fewer changes, less to measure; among other near-equals the plainest. What was measured already, or nearly, is left out.")
+            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to 60, which is more than enough; mean: by how probable the rivals are. Of tests that reach that the cheapest stands first: fewer hours on the rig, fewer changes, less to measure; among other near-equals (within a fifth) too. What was measured already, or nearly, is left out.")
             .table(table),
     ]
 }
@@ -317,6 +327,7 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
         "misalignment, mm",
         "temperature, °C",
         "cycles",
+        "hours",
         "reversed",
         "shown",
         "told apart",
@@ -390,6 +401,8 @@ mod tests {
         });
         let text = summary("", &plan, "s.toml", Path::new("out"));
         assert!(text.contains("≥ 60 ") && !text.contains("99.89"), "{text}");
+        // a million revolutions at 2000 rpm
+        assert!(text.contains("1.00e6   8.33 "), "{text}");
     }
 
     #[test]
@@ -439,7 +452,7 @@ mod tests {
         let table = csv(&plan);
         assert_eq!(table.lines().count(), 2);
         assert!(table.ends_with(
-            "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\",\n"
+            "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\",,8.33\n"
         ));
         assert!(summary("", &plan, "s.toml", Path::new("out")).contains("wear_depth"));
         assert!(

@@ -69,7 +69,7 @@ fn it_writes_what_it_prints_and_threads_change_nothing() {
         "{next}"
     );
     let page = std::fs::read_to_string(target.join("report.html")).unwrap();
-    let measured_by = "compare and add fit without it, and their χ² of the same model may be some per cent lower or higher";
+    let measured_by = "compare, add and ladder fit without it, and their χ² of the same model may be some per cent lower or higher";
     assert!(page.contains(measured_by));
     let map = std::fs::read_to_string(target.join("discrepancy.csv")).unwrap();
     assert!(

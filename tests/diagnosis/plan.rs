@@ -163,6 +163,13 @@ fn before_measurements_a_campaign_is_chosen() {
         let (_, unseen) = sentence.split_once("Not shown: ").unwrap();
         assert!(unseen.contains(name), "{name} in {sentence}");
     }
+    let hours = |test: &Value| test["test"]["hours"].as_f64().unwrap();
+    let chosen = plan["tests"].as_array().unwrap();
+    let all = gearwear::numeric::written::significant(chosen.iter().map(hours).sum(), 3);
+    assert!(
+        sentence.contains(&format!("; {all} h on the rig)")),
+        "{sentence}"
+    );
     let alone = plan["alone"].as_array().unwrap();
     let at = |celsius: f64| {
         alone
@@ -171,7 +178,12 @@ fn before_measurements_a_campaign_is_chosen() {
     };
     assert!(at(40.0) && at(60.0) && at(80.0), "{plan}");
     let table = std::fs::read_to_string(folder.path().join("plan/plan.csv")).unwrap();
-    assert!(table.lines().next().unwrap().ends_with(",bulk_temperature"));
+    let header = table.lines().next().unwrap();
+    assert!(header.ends_with(",bulk_temperature,hours"), "{header}");
+    for row in alone {
+        let of = |key: &str| row["test"][key].as_f64().unwrap();
+        assert!((60.0 * of("speed") * of("hours") / of("cycles") - 1.0).abs() < 1e-12);
+    }
     for pair in tests.windows(2) {
         assert!(pair[0]["detectable"].as_u64() <= pair[1]["detectable"].as_u64());
         assert!(pair[0]["told_apart"].as_u64() <= pair[1]["told_apart"].as_u64());

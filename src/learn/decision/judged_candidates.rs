@@ -101,12 +101,15 @@ impl JudgedCandidates {
 
     /// Share of the attainable fall of χ² that the leading effects account for, in their best form; None without a discrepancy.
     pub(in crate::learn) fn share_of_leader(&self) -> Option<f64> {
+        (self.falls_of_leader()).map(|[fall, attainable]| fall / attainable)
+    }
+
+    /// The two falls of χ² that this share is made of: by the leading effects, and the attainable one.
+    pub(in crate::learn) fn falls_of_leader(&self) -> Option<[f64; 2]> {
         let leader = self.decision.leading_effects()?;
         let mut all = self.evidence.candidates.iter();
         let best = all.find(|c| c.effects == *leader)?;
-        self.evidence
-            .is_discrepant()
-            .then(|| self.evidence.share(best))
+        (self.evidence.is_discrepant()).then(|| [best.chi2_drop, self.evidence.attainable_drop])
     }
 }
 

@@ -18,10 +18,12 @@ use self::score::{DiscriminationTable, Score};
 use super::candidate_tests::{CLEAR, changes, feasible, purpose, ranked, shown};
 use super::plan::{AloneTest, Campaign, ChosenTest, EffectVisibility, Plan};
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::model_search::context::{DiagnoseError, Watch};
+use crate::learn::model_search::context::DiagnoseError;
+use crate::learn::model_search::stages::Watch;
 use crate::learn::prediction::bench::Workshop;
 use crate::learn::prediction::fidelity::Fidelity;
 use crate::learn::prediction::predictor::PredictError;
+use crate::numeric::written::significant;
 use crate::simulate::forward::ContactKind;
 use crate::study::{Operation, Study};
 
@@ -232,10 +234,12 @@ fn sentence(study: &Study, made: &[ChosenTest], effects: &[String]) -> String {
         .iter()
         .map(|m| changes(&m.test, &study.operation))
         .collect();
+    let hours = made.iter().map(|m| m.test.hours()).sum::<f64>();
     format!(
-        "{} tests ({}) show {} of {} effects at their median strength and tell {} from every look-alike.",
+        "{} tests ({}; {} h on the rig) show {} of {} effects at their median strength and tell {} from every look-alike.",
         made.len(),
         tests.join(" | "),
+        significant(hours, 3),
         last.detectable,
         effects.len(),
         last.told_apart

@@ -1,6 +1,8 @@
 //! Tests that could be made: the study's operation with torque, speed, misalignment, bulk temperature, length or drive direction changed.
 
-use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::numeric::written::{count, significant};
 use crate::study::{Operation, Study};
@@ -21,6 +23,25 @@ pub struct NextTest {
     /// °C; None where the study states none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bulk_temperature: Option<f64>,
+}
+
+impl NextTest {
+    /// Hours on the rig: what a test costs.
+    pub fn hours(&self) -> f64 {
+        self.cycles / (60.0 * self.speed)
+    }
+}
+
+/// A test in a document, with its hours.
+pub(super) fn with_hours<S: Serializer>(test: &NextTest, to: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct WithHours<'t> {
+        #[serde(flatten)]
+        test: &'t NextTest,
+        hours: f64,
+    }
+    let hours = test.hours();
+    WithHours { test, hours }.serialize(to)
 }
 
 /// Factors on torque and speed, misalignments (mm) and temperatures (K) added, factor on the length.
@@ -95,8 +116,9 @@ pub(in crate::learn) fn feasible(study: &Study, plain: &Operation) -> Vec<(usize
     grid(plain).into_iter().filter(holds).collect()
 }
 
-/// The order of scores, the largest first; among those nearly as large as the largest left, the plainest first.
-pub(in crate::learn) fn ranked(scores: &[(f64, usize)]) -> Vec<usize> {
+/// The order of scores, the largest first; among those nearly as large as the largest left, the one of the least cost first: its number of
+/// changes or its hours on the rig, or one of these and then the other.
+pub(in crate::learn) fn ranked<C: PartialOrd>(scores: &[(f64, C)]) -> Vec<usize> {
     let mut left: Vec<usize> = (0..scores.len()).collect();
     left.sort_by(|&a, &b| scores[b].0.total_cmp(&scores[a].0).then(a.cmp(&b)));
     let mut order = Vec::with_capacity(left.len());
@@ -106,7 +128,10 @@ pub(in crate::learn) fn ranked(scores: &[(f64, usize)]) -> Vec<usize> {
             .iter()
             .enumerate()
             .filter(|(_, i)| scores[**i].0 >= bar);
-        let place = near.min_by_key(|(place, i)| (scores[**i].1, *place));
+        let place = near.min_by(|(_, a), (_, b)| {
+            let costs = scores[**a].1.partial_cmp(&scores[**b].1);
+            costs.unwrap_or(Ordering::Equal)
+        });
         order.push(left.remove(place.map_or(0, |(place, _)| place)));
     }
     order
@@ -149,6 +174,11 @@ pub(in crate::learn) fn changes(test: &NextTest, plain: &Operation) -> String {
         ));
     }
     changed.join(", ")
+}
+
+/// A test's time on the rig, in words.
+pub(in crate::learn) fn duration(test: &NextTest) -> String {
+    format!("{} h", significant(test.hours(), 3))
 }
 
 /// What a test's changes do, in plain words.
@@ -260,6 +290,20 @@ pub(in crate::learn) mod tests {
         assert_eq!(ranked(&[(7.0, 0), (10.0, 2), (9.0, 1)]), [2, 1, 0]);
         // without near-equals the larger goes first
         assert_eq!(ranked(&[(1.0, 0), (10.0, 2), (5.0, 1)]), [1, 2, 0]);
+        // as plain, but shorter on the rig
+        let costs = [(10.0, (1, 80.0)), (9.0, (1, 8.0)), (9.5, (2, 1.0))];
+        assert_eq!(ranked(&costs), [1, 0, 2]);
+    }
+
+    #[test]
+    fn a_fast_test_takes_fewer_hours() {
+        let slow = shown(&plain());
+        let fast = NextTest {
+            speed: 3.0 * slow.speed,
+            ..slow.clone()
+        };
+        assert_eq!(duration(&slow), "8.33 h");
+        assert_eq!(duration(&fast), "2.78 h");
     }
 
     #[test]

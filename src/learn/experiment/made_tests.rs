@@ -35,20 +35,24 @@ pub(super) fn made(tests: &[Test], data: &Dataset) -> Vec<MadeTest> {
 impl MadeTest {
     /// Whether another test is made under (nearly) these conditions, for as long.
     pub(super) fn is_repeated_by(&self, other: &NextTest) -> bool {
-        let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
-        let own = &self.test;
-        near(own.torque, other.torque)
-            && near(own.speed, other.speed)
-            && near(own.cycles, other.cycles)
-            && (own.misalignment - other.misalignment).abs() <= ALIKE_MM
-            && own.reversed == other.reversed
-            && near_in_temperature(own, other)
+        alike(&self.test, other)
     }
 
     /// Whether a quantity was measured in it.
     pub(super) fn has(&self, quantity: &str) -> bool {
         self.quantities.iter().any(|own| own.name() == quantity)
     }
+}
+
+/// Whether two tests are made under (nearly) the same conditions, for as long.
+pub(in crate::learn) fn alike(a: &NextTest, b: &NextTest) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
+    near(a.torque, b.torque)
+        && near(a.speed, b.speed)
+        && near(a.cycles, b.cycles)
+        && (a.misalignment - b.misalignment).abs() <= ALIKE_MM
+        && a.reversed == b.reversed
+        && near_in_temperature(a, b)
 }
 
 /// Whether two tests are nearly as warm; one whose temperature is not known is so only beside another such.

@@ -4,7 +4,7 @@ mod campaign;
 pub(in crate::learn) mod candidate_tests;
 pub(in crate::learn) mod decided;
 mod discrimination;
-mod made_tests;
+pub(in crate::learn) mod made_tests;
 mod measurement_design;
 pub(in crate::learn) mod next;
 mod order;

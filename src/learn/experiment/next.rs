@@ -4,7 +4,8 @@
 use rayon::prelude::*;
 
 use super::candidate_tests::{
-    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, feasible, ranked, shown, strength,
+    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, duration, feasible, ranked, shown, strength,
+    with_hours,
 };
 use super::discrimination::{Discrimination, PlannedResponse, Whitening};
 use super::made_tests::made;
@@ -26,7 +27,11 @@ pub struct NextExperiment {
     /// What it separates.
     pub separates: Vec<String>,
     /// Its conditions.
+    #[serde(serialize_with = "with_hours")]
     pub test: NextTest,
+    /// Id of the test that it repeats; None of one under new conditions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub repeats: Option<String>,
     /// Why it does.
     pub why: String,
     /// Expected difference of the two in χ² after refitting.
@@ -97,38 +102,60 @@ fn experiment(
         .par_iter()
         .map(|(_, operation)| discrimination(context, shop, operation, a, b))
         .collect();
-    let repetition = found[count..]
-        .iter()
-        .flatten()
-        .map(TestDiscrimination::chi2)
-        .fold(0.0, f64::max);
-    let best = found[..count]
-        .iter()
-        .flatten()
-        .map(|t| t.chi2().min(ENOUGH))
-        .fold(0.0, f64::max);
+    let [of_new, of_made] = [&found[..count], &found[count..]].map(best);
     let chosen = (0..count)
         .filter(|&i| {
             found[i]
                 .as_ref()
-                .is_some_and(|t| t.chi2().min(ENOUGH) >= NEARLY * best)
+                .is_some_and(|t| t.chi2().min(ENOUGH) >= NEARLY * of_new.1.min(ENOUGH))
         })
-        .min_by_key(|&i| tests[i].0)?;
+        .min_by(|&i, &j| {
+            let [a, b] = [i, j].map(|i| cost(&tests[i]));
+            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+        })?;
+    let repeated = is_better_repeated(of_new.1, of_made.1).then_some(of_made.0);
+    let repeats = repeated.map(|i| study.tests[context.likelihood.tests[i]].id.clone());
+    let chosen = repeated.map_or(chosen, |i| count + i);
     let (operation, told) = (&tests[chosen].1, found[chosen].as_ref()?);
     let names = [a, b].map(|j| j.candidate.hypothesis().to_string());
     let test = shown(operation);
     let (beside, together) = beside(&told.discrimination, &found[..count], &tests);
     let further: Vec<NextTest> = beside.into_iter().map(|i| shown(&tests[i].1)).collect();
+    let other = match repeats {
+        Some(_) => of_new.1,
+        None => of_made.1,
+    };
+    let what = proposal(&test, repeats.as_deref(), &plain);
     Some(NextExperiment {
-        why: sentence(&plain, &test, &names, told, [repetition, together])
+        why: sentence(&what, &names, told, [other, together], repeats.is_some())
             + &more(&test, &further, &plain, together),
         separates: names.to_vec(),
         test,
+        repeats,
         expected_chi2: told.chi2(),
-        repetition_chi2: repetition,
+        repetition_chi2: of_made.1,
         further,
         together_chi2: together,
     })
+}
+
+/// The test of the largest χ², and that χ²; 0 where none has one.
+fn best(found: &[Option<TestDiscrimination>]) -> (usize, f64) {
+    let chi2 = |told: &Option<TestDiscrimination>| told.as_ref().map_or(0.0, |t| t.chi2());
+    let all = found.iter().map(chi2).enumerate();
+    // of equals the first
+    all.fold((0, 0.0), |best, at| if at.1 > best.1 { at } else { best })
+}
+
+/// Whether a test made already is to be made once more: where one under new conditions tells clearly less, and not enough either. New conditions
+/// are preferred: what is wrong with a test is wrong in its repetition too.
+fn is_better_repeated(of_new: f64, of_made: f64) -> bool {
+    of_new.min(ENOUGH) < NEARLY * of_made.min(ENOUGH)
+}
+
+/// What makes one of near-equal tests the better: fewer changes, then fewer hours on the rig.
+fn cost((changes, operation): &(usize, Operation)) -> (usize, f64) {
+    (*changes, shown(operation).hours())
 }
 
 /// The tests that best join a first one, one after the other until all together are enough, and what they then tell.
@@ -145,8 +172,8 @@ fn beside(
         };
         let joined: Vec<Option<Discrimination>> = found.iter().map(with).collect();
         let score = |t: &Option<Discrimination>| t.as_ref().map_or(0.0, Discrimination::chi2);
-        let changes = tests.iter().map(|t| t.0);
-        let scores: Vec<(f64, usize)> = joined.iter().map(score).zip(changes).collect();
+        let costs = tests.iter().map(cost);
+        let scores: Vec<_> = joined.iter().map(score).zip(costs).collect();
         let next = ranked(&scores)[0];
         let Some(joined) = joined.into_iter().nth(next).flatten() else {
             break;
@@ -276,12 +303,24 @@ fn discrimination(
     })
 }
 
+/// The beginning of the sentence on a proposed test.
+fn proposal(test: &NextTest, repeats: Option<&str>, plain: &Operation) -> String {
+    let hours = duration(test);
+    match repeats {
+        Some(id) => {
+            format!("Test {id} made once more ({hours}), with all that was measured in it,")
+        }
+        None => format!("A test with {} ({hours})", changes(test, plain)),
+    }
+}
+
+/// `other`: χ² of the best repetition, or where that is what is proposed of the best test under new conditions.
 fn sentence(
-    plain: &Operation,
-    test: &NextTest,
+    proposal: &str,
     names: &[String; 2],
     told: &TestDiscrimination,
-    [repetition, together]: [f64; 2],
+    [other, together]: [f64; 2],
+    is_repetition: bool,
 ) -> String {
     let alone = told.chi2();
     let verb = if alone < CLEAR {
@@ -301,18 +340,30 @@ fn sentence(
             told.place.member, told.place.cycles
         ),
     };
-    let again = if repetition > alone {
-        ", which tells more"
+    let beside = if is_repetition {
+        "under other conditions none tells as much"
     } else {
-        ""
+        "a repetition of a test made already"
+    };
+    // why not that one, if it seems to tell more
+    let why_not = match other > alone && !is_repetition {
+        true if alone >= ENOUGH => ", more than is needed as well",
+        true => ", hardly more",
+        false => "",
     };
     format!(
-        "A test with {} {verb} {} from {}: after refitting they differ there by χ² {alone:.0}, {strength} (a repetition of a test made already{again}: {:.0}); {place}.",
-        changes(test, plain),
+        "{proposal} {verb} {} from {}: after refitting they differ there by χ² {}, {strength} ({beside}: {}{why_not}); {place}.",
         names[0],
         names[1],
-        repetition
+        figure(alone),
+        figure(other),
     )
+}
+
+/// A χ² between candidates: of small ones the first decimal counts.
+fn figure(chi2: f64) -> String {
+    let digits = usize::from(chi2 < 10.0);
+    format!("{chi2:.digits$}")
 }
 
 #[cfg(test)]
@@ -385,5 +436,46 @@ mod tests {
         let (beside, together) = joined(1.0, &[told(1.0)], &[0]);
         assert_eq!(beside.len(), FURTHER);
         assert!((together - 4.0).abs() < 1e-9 && together < APART);
+    }
+
+    /// One piece of advice: what tells more is what is proposed, but for what is hardly better or more than anybody needs.
+    #[test]
+    fn a_test_is_repeated_where_new_conditions_tell_less() {
+        assert!(is_better_repeated(4.0, 6.0) && is_better_repeated(20.0, 366.0));
+        assert!(!is_better_repeated(5.0, 6.0) && !is_better_repeated(275.0, 366.0));
+        assert!(!is_better_repeated(0.0, 0.0));
+        let names = ["a".to_owned(), "b".to_owned()];
+        let said = |repeats, sigmas: f64, other| {
+            let what = proposal(&shown(&plain()), repeats, &plain());
+            let told = told(sigmas).unwrap();
+            sentence(&what, &names, &told, [other, 100.0], repeats.is_some())
+        };
+        let again = said(Some("P2"), 3.0, 4.0);
+        assert!(
+            again.starts_with("Test P2 made once more (8.33 h), with all that was measured in it, separates a from b: "),
+            "{again}"
+        );
+        assert!(
+            again.contains("(under other conditions none tells as much: 4.0)"),
+            "{again}"
+        );
+        let new = said(None, 3.0, 10.0);
+        assert!(
+            new.contains("(a repetition of a test made already: 10, hardly more)"),
+            "{new}"
+        );
+        let enough = said(None, 9.0, 366.0);
+        assert!(
+            enough.contains("made already: 366, more than is needed as well)"),
+            "{enough}"
+        );
+    }
+
+    #[test]
+    fn the_most_telling_test_is_the_first_of_equals() {
+        let (place, chi2) = best(&[None, told(2.0), told(3.0), told(3.0)]);
+        assert_eq!(place, 2);
+        assert!((chi2 - 9.0).abs() < 1e-12);
+        assert_eq!(best(&[None]), (0, 0.0));
     }
 }

@@ -10,8 +10,9 @@ const SAME: f64 = 1e-6;
 
 /// The rows in the order in which they are told.
 ///
-/// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer cycles, then fewer
-/// changes, then what takes less measuring. Then the others by what they separate. What does not feel speed or temperature is told at one.
+/// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer hours on the rig,
+/// then fewer changes, then what takes less measuring. Then the others by what they separate, of near-equals those of fewer hours, then of fewer
+/// changes. What does not feel speed or temperature is told at one: of near-equals at the one that costs least.
 pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
     let is_made = |row: &RankedTest| {
         (made.iter()).any(|made| made.has(&row.quantity) && made.is_repeated_by(&row.test))
@@ -29,10 +30,11 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
     let (mut enough, rest): (Vec<_>, Vec<_>) =
         (new.into_iter()).partition(|row| row.expected_chi2 >= ENOUGH);
     enough.sort_by(|a, b| {
-        let cycles = a.test.cycles.total_cmp(&b.test.cycles);
-        cycles.then_with(|| (a.changes, effort(a)).cmp(&(b.changes, effort(b))))
+        let hours = a.test.hours().total_cmp(&b.test.hours());
+        hours.then_with(|| (a.changes, effort(a)).cmp(&(b.changes, effort(b))))
     });
-    let scores: Vec<(f64, usize)> = rest.iter().map(|r| (r.expected_chi2, r.changes)).collect();
+    let cost = |row: &RankedTest| (row.test.hours(), row.changes);
+    let scores: Vec<_> = (rest.iter().map(|r| (r.expected_chi2, cost(r)))).collect();
     let rest = ranked(&scores).into_iter().map(|i| rest[i].clone());
     let mut told: Vec<RankedTest> = Vec::new();
     for row in enough.into_iter().chain(rest) {
@@ -103,6 +105,31 @@ mod tests {
         let order: Vec<f64> = told.iter().map(|r| r.test.torque).collect();
         assert_eq!(order, [200.0, 50.0, 100.0, 100.0]);
         assert_eq!(told[3].quantity, "transmission_error");
+    }
+
+    /// What a rig costs is its hours: as many revolutions at a higher speed are cheaper.
+    #[test]
+    fn of_tests_that_say_as_much_the_one_of_fewer_hours_stands_first() {
+        let at = |speed: f64, changes: usize, chi2: f64| {
+            let mut row = row(100.0, 1e6, "wear_depth", changes, chi2);
+            row.test.speed = speed;
+            // what is measured feels the speed
+            row.separates = vec![crate::learn::experiment::plan::Separated {
+                pair: ["a".to_owned(), "b".to_owned()],
+                chi2: chi2 + 1e-3 * speed,
+            }];
+            row
+        };
+        let order = |rows: Vec<RankedTest>| -> Vec<f64> {
+            let told = in_order(rows, &[]);
+            told.iter().map(|r| r.test.speed).collect()
+        };
+        // more than enough
+        let rows = vec![at(600.0, 1, 60.0), at(2000.0, 1, 60.0), at(6000.0, 2, 60.0)];
+        assert_eq!(order(rows), [6000.0, 2000.0, 600.0]);
+        // nearly as much, and clearly less
+        let rows = vec![at(600.0, 1, 20.0), at(6000.0, 1, 17.0), at(9000.0, 1, 10.0)];
+        assert_eq!(order(rows), [6000.0, 600.0, 9000.0]);
     }
 
     /// Another temperature is another test only where what is measured feels it.

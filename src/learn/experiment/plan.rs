@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::candidate_tests::NextTest;
+use super::candidate_tests::{NextTest, with_hours};
 use crate::learn::hypothesis::candidate::NotJudged;
 
 /// Log posterior behind the first from which a candidate leads no longer.
@@ -65,6 +65,7 @@ impl Leader {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RankedTest {
     /// Conditions.
+    #[serde(serialize_with = "with_hours")]
     pub test: NextTest,
     /// What is measured: `wear_depth`, `transmission_error` or `mass_loss`.
     pub quantity: String,
@@ -113,6 +114,7 @@ pub struct Campaign {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChosenTest {
     /// Conditions.
+    #[serde(serialize_with = "with_hours")]
     pub test: NextTest,
     /// Effects that show with this and the tests before.
     pub detectable: usize,
@@ -148,6 +150,7 @@ pub struct EffectVisibility {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AloneTest {
     /// Conditions.
+    #[serde(serialize_with = "with_hours")]
     pub test: NextTest,
     /// Number of changes against the study's operation.
     pub changes: usize,

@@ -18,7 +18,8 @@ use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::model_search::context::Context;
-use crate::learn::model_search::context::{DiagnoseError, Watch};
+use crate::learn::model_search::context::DiagnoseError;
+use crate::learn::model_search::stages::{Stages, Watch};
 use crate::learn::noise::{NoiseModel, SigmaModel};
 use crate::learn::prediction::bench::Workshop;
 use crate::learn::prediction::fidelity::Fidelity;
@@ -57,28 +58,32 @@ pub fn plan_after(
     let set = study.gear_set();
     let shop = Workshop::new(set, numerics, ContactKind::Hertz, measured.tests())?;
     let hertz = measured.bench(&shop)?;
+    let stages = Stages::new(watch);
     let mut context = Context {
         likelihood,
         hertz: &hertz,
         middle: &hertz,
         exact: &hertz,
+        stages: &stages,
         fidelity: Fidelity::Screening,
         approximate: true,
     };
-    watch(0.0, "fitting the base model".to_owned());
+    stages.begin([0.0, 0.2], "fitting the base model".to_owned(), 4);
     let base = context.base_by_scatter()?;
     let diagnosed = decided.map(|decided| {
-        watch(0.2, "fitting what the diagnosis left".to_owned());
+        let doing = "fitting what the diagnosis left".to_owned();
+        stages.begin([0.2, 0.6], doing, LEADERS[1]);
         decided.fitted(&context, &base)
     });
     let diagnosed = diagnosed.filter(|leaders| leaders.len() >= LEADERS[0]);
     let from_diagnosis = diagnosed.is_some();
     let leaders = diagnosed.unwrap_or_else(|| {
         let (singles, _) = Candidate::singles_for(study, &measured.data);
-        watch(0.2, format!("screening {} effects", singles.len()));
+        let doing = format!("screening {} effects", singles.len());
+        stages.begin([0.2, 0.6], doing, 2 * singles.len());
         leaders(&base.fitted, &context.screen(&base, &singles))
     });
-    watch(0.6, "trying feasible tests".to_owned());
+    stages.begin([0.6, 1.0], "trying feasible tests".to_owned(), 1);
     let plainest = plain(&context);
     let tests = feasible(study, &plainest);
     let found: Vec<Vec<QuantityDiscrimination>> = tests

@@ -1,6 +1,6 @@
 //! The table of feasible tests in sentences.
 
-use super::candidate_tests::{APART, CLEAR, NextTest, changes, purpose, shown, strength};
+use super::candidate_tests::{APART, CLEAR, NextTest, changes, duration, purpose, shown, strength};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
@@ -29,9 +29,10 @@ pub(super) fn sentence(
         _ => format!(": {}", purpose(&best.test, plain)),
     };
     format!(
-        "Next: measure the {} in a test with {}{purpose}. {}{}",
+        "Next: measure the {} in a test with {} ({} on the rig){purpose}. {}{}",
         best.quantity.replace('_', " "),
         changes(&best.test, plain),
+        duration(&best.test),
         pairs(&best.separates),
         repeated(best, repetition)
     )
@@ -97,7 +98,8 @@ fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
     let better = repetition.filter(|again| again.chi2 > best.expected_chi2);
     better.map_or(String::new(), |again| {
         format!(
-            " Repeating test {} with all its measurements does better: mean χ² {:.1} against {:.1}.",
+            " Repeating test {} with all its measurements does better (mean χ² {:.1} against {:.1}): make that first, where all of them can be made once \
+             more.",
             again.test, again.chi2, best.expected_chi2
         )
     })
@@ -226,9 +228,13 @@ pub(super) fn proposed(decided: Option<&Decided>, best: &RankedTest, plain: &Ope
     );
     if next.test != best.test {
         return format!(
-            " The diagnosis proposed a test with {}, where {} differ most with everything measured at once ({expects}); here one quantity is \
-             measured, and all leaders count by their probability.",
-            changes(&next.test, plain),
+            " The diagnosis proposed {} ({}), where {} differ most with everything measured at once ({expects}); here one quantity is \
+             measured, all leaders count by their probability, and of tests that say as much the one of fewer hours comes first.",
+            next.repeats.as_ref().map_or_else(
+                || format!("a test with {}", changes(&next.test, plain)),
+                |id| format!("to make test {id} once more")
+            ),
+            duration(&next.test),
             next.separates.join(" and ")
         );
     }
@@ -355,13 +361,15 @@ mod tests {
         let plainest = best(0, 100.0, vec![separated("b", 87.0), separated("c", 45.0)]);
         assert_eq!(
             sentence(&plainest, &plain(), None),
-            "Next: measure the transmission error in a test with 1\u{202f}000\u{202f}000 cycles at the study's operation. It tells a from b (χ² 87), and \
+            "Next: measure the transmission error in a test with 1\u{202f}000\u{202f}000 cycles at the study's operation (8.33 h on the rig). It tells a from b (χ² 87), and \
              tells a from c (χ² 45), the hardest pair."
         );
         let other = best(1, 50.0, vec![separated("b", 87.0), separated("c", 2.0)]);
         let said = sentence(&other, &plain(), None);
         assert!(
-            said.contains("50 N·m: another pressure at the same sliding. It tells"),
+            said.contains(
+                "50 N·m (8.33 h on the rig): another pressure at the same sliding. It tells"
+            ),
             "{said}"
         );
         assert!(
@@ -383,6 +391,7 @@ mod tests {
                 },
                 why: String::new(),
                 expected_chi2,
+                repeats: None,
                 repetition_chi2: 0.0,
                 further: Vec::new(),
                 together_chi2: expected_chi2,
@@ -411,7 +420,7 @@ mod tests {
             sentence(&best, &plain(), Some(&again))
         };
         assert!(again(57.7).ends_with(
-            "Repeating test B with all its measurements does better: mean χ² 57.7 against 50.0."
+            "Repeating test B with all its measurements does better (mean χ² 57.7 against 50.0): make that first, where all of them can be made once more."
         ));
         assert!(!again(49.0).contains("Repeating"));
     }

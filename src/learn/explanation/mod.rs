@@ -7,6 +7,7 @@ mod outlook;
 mod ranked;
 mod remainder;
 mod rivals;
+mod scatter;
 mod sentences;
 mod warnings;
 mod wording;

@@ -70,6 +70,7 @@ mod tests {
             },
             why: String::new(),
             expected_chi2: 0.5 * together_chi2,
+            repeats: None,
             repetition_chi2: 0.0,
             further: Vec::new(),
             together_chi2,

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
 use super::ranked::form;
-use super::wording::{Explanation, added, before, chi2, percent, values};
+use super::wording::{Explanation, added, before, chi2, of_attainable, percent, values};
 use crate::learn::decision::Verdict;
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -37,17 +37,23 @@ pub(super) fn established(findings: &Findings<'_>) -> Vec<EffectSet> {
 pub(super) fn remainder(findings: &Findings<'_>) -> Option<Remainder> {
     let effects = established(findings).into_iter().next()?;
     let fitted = findings.posterior.best_form(&effects)?;
-    let figures = (findings.posterior.evidence.beside_unknown.iter())
-        .find(|beside| beside.effects == effects)?;
+    let [remaining, attainable] = falls(findings, &effects)?;
     let likelihood = &findings.context.likelihood;
-    let remaining = figures.remaining_drop.max(0.0);
     let model = &fitted.found.model;
     let drivers = dependence::drivers(likelihood, model, remaining);
     Some(Remainder {
         chi2_per_point: likelihood.chi2_per_point(model),
-        share: remaining / (remaining + figures.chi2_drop.max(0.0)).max(f64::MIN_POSITIVE),
+        share: remaining / attainable.max(f64::MIN_POSITIVE),
         driver: drivers.into_iter().next(),
     })
+}
+
+/// By how much χ² could still fall once the effects are in, and by how much with them and that.
+fn falls(findings: &Findings<'_>, effects: &EffectSet) -> Option<[f64; 2]> {
+    let mut all = findings.posterior.evidence.beside_unknown.iter();
+    let figures = all.find(|beside| beside.effects == *effects)?;
+    let remaining = figures.remaining_drop.max(0.0);
+    Some([remaining, remaining + figures.chi2_drop.max(0.0)])
 }
 
 /// What of the catalogue may be the second cause, where a set with the established effect is nearly as probable as something unknown.
@@ -131,11 +137,12 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let leading = group.first();
     let second = leading.and_then(|effects| second_cause(findings, effects));
     let mut reasons: Vec<String> = second.into_iter().collect();
-    if let Some(remainder) = remainder(findings) {
+    let left = leading.and_then(|effects| falls(findings, effects));
+    if let Some((remainder, falls)) = remainder(findings).zip(left) {
         reasons.push(format!(
-            "What remains beside {} is {} of the attainable reduction of χ² (χ² {:.2} per point is left).",
+            "What remains beside {} is {}; χ² {:.2} per point is left.",
             group[0].in_words(),
-            percent(remainder.share),
+            of_attainable(falls),
             remainder.chi2_per_point
         ));
         if let Some(driver) = remainder.driver {

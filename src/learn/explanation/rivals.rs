@@ -2,7 +2,7 @@
 
 use super::findings::Findings;
 use super::outlook::Outlook;
-use super::wording::{Explanation, before, percent};
+use super::wording::{Explanation, before, of_attainable, percent};
 use crate::effects::Card;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::decision::Decision;
@@ -29,20 +29,20 @@ pub(super) fn ambiguous(findings: &Findings<'_>, next: Option<&NextExperiment>) 
         let common = common.as_ref();
         common.is_some_and(|(common, _)| common.contains(effects))
     };
-    let reason = match (unidentified, leader, posterior.share_of_leader()) {
+    let reason = match (unidentified, leader, posterior.falls_of_leader()) {
         (Some((card, parameter)), ..) => Some(format!(
             "These data do not determine {parameter}, the mark of {}: another cause with the same pattern would look alike. What would show it: {}.",
             card.name, card.separated_by
         )),
-        (None, Some(leader), Some(share)) if is_common(&leader.candidate.effects) => Some(format!(
-            "{} accounts for {} of the attainable reduction of χ²: whether the rest is another cause, or a spoiled measurement, is open.",
+        (None, Some(leader), Some(falls)) if is_common(&leader.candidate.effects) => Some(format!(
+            "{} accounts for {}: whether the rest is another cause, or a spoiled measurement, is open.",
             leader.candidate.effects,
-            percent(share.max(0.0))
+            of_attainable(falls)
         )),
-        (None, Some(leader), Some(share)) => Some(format!(
-            "{} accounts for {} of the attainable reduction of χ²: neither it nor an uncatalogued cause, or a spoiled measurement, can be ruled out.",
+        (None, Some(leader), Some(falls)) => Some(format!(
+            "{} accounts for {}: neither it nor an uncatalogued cause, or a spoiled measurement, can be ruled out.",
             leader.candidate.effects,
-            percent(share.max(0.0))
+            of_attainable(falls)
         )),
         _ => None,
     };

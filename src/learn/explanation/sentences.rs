@@ -4,7 +4,8 @@ use super::findings::Findings;
 use super::outlook::Outlook;
 use super::remainder::partial;
 use super::rivals::ambiguous;
-use super::wording::{Explanation, added, before, chi2, percent, values};
+use super::scatter::{made_twice, of_scatter};
+use super::wording::{Explanation, added, before, chi2, of_attainable, percent, values};
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::checks::sufficiency::{few, measured_once};
@@ -107,11 +108,9 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
     });
     let scatter = findings.base.fitted.found.scatter;
     let scatters = (scatter > LARGE_SCATTER && likelihood.tests.len() > 1).then(|| {
-        format!(
-            "k scatters by {:.0} % from test to test, which is taken as chance: a cause that acts alike on all of a test (its oil, its batch, its \
-             temperature) would look the same; a test made twice tells them apart.",
-            100.0 * scatter
-        )
+        let twice = made_twice(likelihood, &findings.base.fitted.found.state.epsilon);
+        let other_question = next.is_some_and(|next| next.repeats.is_none());
+        of_scatter(scatter, twice.as_ref(), other_question)
     });
     let next_step = if too_few {
         "measure more before concluding anything: gearwear plan STUDY proposes tests"
@@ -219,7 +218,8 @@ fn not_ruled_out(decision: &Decision) -> Option<(&Hypothesis, &EffectSet, f64)> 
 /// How much of the discrepancy the best of the catalogue accounts for.
 fn best_of_catalogue(findings: &Findings<'_>) -> Option<String> {
     let posterior = findings.posterior;
-    let (leader, share) = (posterior.decision.leader()?, posterior.share_of_leader()?);
+    let (leader, falls) = (posterior.decision.leader()?, posterior.falls_of_leader()?);
+    let share = falls[0] / falls[1];
     if share < NEGLIGIBLE {
         return Some(format!(
             "No effect of the catalogue accounts for even {} of the attainable reduction of χ².",
@@ -236,9 +236,9 @@ fn best_of_catalogue(findings: &Findings<'_>) -> Option<String> {
             .to_owned()
     };
     Some(format!(
-        "The best of the catalogue, {}, accounts for {} of the attainable reduction of χ².{why_not}{common}",
+        "The best of the catalogue, {}, accounts for {}.{why_not}{common}",
         leader.in_words(),
-        percent(share)
+        of_attainable(falls)
     ))
 }
 

@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::ranked::parameters;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::numeric::written::{self, significant, uncertain};
+use crate::numeric::written::{self, fixed, significant, uncertain};
 
 /// The verdict in words.
 pub(super) struct Explanation {
@@ -34,6 +34,19 @@ pub(super) fn percent(p: f64) -> String {
         let digits = usize::from(!(0.1..=0.9).contains(&p));
         format!("{:.digits$} %", 100.0 * p)
     }
+}
+
+/// By how much of the attainable the whole χ² falls, with both falls: a reader cannot form the share from χ² per point, which knows nothing of
+/// correlated errors and falls by another one.
+pub(super) fn of_attainable([fall, attainable]: [f64; 2]) -> String {
+    let [fall, attainable] = [fall.max(0.0), attainable];
+    format!(
+        "{} of the attainable reduction of χ² ({} of about {} by which χ² of all rows together, with their covariance, could fall; χ² per point, in each \
+         row's own sigma, falls by another share)",
+        percent(fall / attainable.max(f64::MIN_POSITIVE)),
+        fixed(fall, 0),
+        fixed(attainable, 0)
+    )
 }
 
 /// `amplitude 1.81 ± 0.04, decay_cycles 127 000 ± 3000 cycles`.
@@ -78,4 +91,24 @@ pub(super) fn added(candidate: &Candidate) -> String {
         Some(form) => format!("gearwear add STUDY {} --form \"{}\"", card.name, form.name),
     });
     (added.collect::<Vec<_>>()).join(", then the same with the new study: ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_attainable;
+
+    /// The share is the one of the figures beside it.
+    #[test]
+    fn a_share_of_the_attainable_stands_with_what_it_is_made_of() {
+        let said = of_attainable([4261.27, 18368.8]);
+        assert!(
+            said.starts_with(
+                "23 % of the attainable reduction of χ² (4261 of about 18\u{202f}369 "
+            ),
+            "{said}"
+        );
+        assert!(said.contains("falls by another share"), "{said}");
+        let none = of_attainable([-3.0, 50.0]);
+        assert!(none.starts_with("0.0 % of the attainable"), "{none}");
+    }
 }

@@ -189,6 +189,7 @@ impl Context<'_> {
         let predictor = Anchored::new(model(bench, &alone.candidate), offset.clone());
         let (parameters, start) = (&alone.candidate.parameters, alone.found.state.clone());
         let found = self.likelihood.fit(&predictor, parameters, start, &SCREEN);
+        self.stages.one_done();
         Some(FittedCandidate::new(
             &self.likelihood,
             alone.candidate.clone(),

@@ -1,5 +1,6 @@
 //! What a search works with: the likelihood, and the model at three fidelities.
 
+use super::stages::Stages;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::prediction::bench::Bench;
 use crate::learn::prediction::fidelity::Fidelity;
@@ -20,15 +21,14 @@ pub enum DiagnoseError {
     BaseFit(#[from] PredictError),
 }
 
-/// What is told while a diagnosis runs: the share done, 0 to 1, and what is going on.
-pub type Watch<'w> = &'w (dyn Fn(f64, String) + Sync);
-
 /// What is judged on, and the benches: the analytic one to screen, coarse finite elements for changes, the exact one that decides.
 pub(in crate::learn) struct Context<'a> {
     pub(in crate::learn) likelihood: Likelihood<'a>,
     pub(in crate::learn) hertz: &'a Bench<'a>,
     pub(in crate::learn) middle: &'a Bench<'a>,
     pub(in crate::learn) exact: &'a Bench<'a>,
+    /// Told of every fit.
+    pub(in crate::learn) stages: &'a Stages<'a>,
     /// By which candidates are compared at last.
     pub(in crate::learn) fidelity: Fidelity,
     /// Whether that is the analytic model in place of the study's finite elements.

@@ -80,6 +80,7 @@ impl Context<'_> {
             let next = self
                 .likelihood
                 .fit(&predictor, parameters, state.clone(), &DECIDE)?;
+            self.stages.one_done();
             let promised = here.objective - next.objective;
             let better = best
                 .as_ref()
@@ -175,12 +176,13 @@ impl Context<'_> {
     }
 }
 
-/// Finite elements for the leaders of the screening; the others stay as screened.
+/// Finite elements for the leaders of the screening; the others stay as screened. `from` and `to`: the shares of the search at which this begins and
+/// ends.
 pub(in crate::learn) fn decide_leaders(
     context: &Context<'_>,
     base: &BaseFit,
     mut screened: Vec<FittedCandidate>,
-    watch: &dyn Fn(f64, String),
+    [from, to]: [f64; 2],
 ) -> Vec<FittedCandidate> {
     screened.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     let before = base.fitted.log_evidence;
@@ -201,7 +203,10 @@ pub(in crate::learn) fn decide_leaders(
         .count();
     let mut least = base.fitted.found.objective;
     let mut decided = |candidate: FittedCandidate, share: f64| {
-        watch(share, format!("deciding: {}", candidate.candidate.effects));
+        let at = from + (to - from) * share;
+        let end = at + (to - from) / (chosen + 1) as f64;
+        let doing = format!("deciding: {}", candidate.candidate.effects);
+        context.stages.begin([at, end], doing, ANCHORS);
         let start = candidate.found.state.clone();
         let decided = context.decide(&candidate.candidate, start, Some(base), least);
         let decided = decided.unwrap_or(candidate);
@@ -220,17 +225,20 @@ pub(in crate::learn) fn decide_leaders(
                     .iter()
                     .all(|form| form.found.objective < found.found.objective)
             });
-        judged.push(by_sibling.unwrap_or_else(|| decided(candidate, i as f64 / chosen as f64)));
+        judged
+            .push(by_sibling.unwrap_or_else(|| decided(candidate, i as f64 / (chosen + 1) as f64)));
     }
     judged.extend(rest);
+    let last = chosen as f64 / (chosen + 1) as f64;
     let alike = look_alikes_left(&judged, before, (GAIN, &|_| ALIKE_SHARE));
     let mut judged: Vec<FittedCandidate> = (judged.into_iter().zip(alike))
-        .map(|(j, alike)| if alike { decided(j, 1.0) } else { j })
+        .map(|(j, alike)| if alike { decided(j, last) } else { j })
         .collect();
     let rest = judged.split_off(chosen);
     judged.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     if let Some(leader) = judged.first_mut().filter(|j| !j.converged) {
-        watch(1.0, format!("polishing: {}", leader.candidate.effects));
+        let doing = format!("polishing: {}", leader.candidate.effects);
+        context.stages.begin([to; 2], doing, 1);
         if let Some(better) = context.polish(base, leader) {
             *leader = better;
         }

@@ -117,9 +117,9 @@ impl Context<'_> {
         let fit = |place: usize, start: State, effort: &Effort| -> Option<SearchEnd> {
             let predictor = AnchoredOn::new(models[place].as_ref()?, base.fitted.offset.clone());
             let parameters = &screened[place].candidate.parameters;
-            self.likelihood
-                .fit(&predictor, parameters, start, effort)
-                .ok()
+            let found = self.likelihood.fit(&predictor, parameters, start, effort);
+            self.stages.one_done();
+            found.ok()
         };
         let places = || (0..screened.len()).into_par_iter();
         let looks: Vec<Option<SearchEnd>> = places()

@@ -17,4 +17,5 @@ pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;
 mod screening;
 pub(in crate::learn) mod second_effects;
+pub(in crate::learn) mod stages;
 mod unseen;

@@ -112,9 +112,9 @@ pub(in crate::learn) fn fit(
     }
     let looked = |both: &Candidate, start: State| {
         let predictor = Anchored::new(model(context.hertz, both), anchor.clone());
-        likelihood
-            .fit(&predictor, &both.parameters, start, &LOOK)
-            .ok()
+        let found = likelihood.fit(&predictor, &both.parameters, start, &LOOK);
+        context.stages.one_done();
+        found.ok()
     };
     let mut looks: Vec<(f64, Candidate, State)> = (chosen.into_par_iter())
         .filter_map(|(_, both, start)| {

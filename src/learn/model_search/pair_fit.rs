@@ -75,10 +75,9 @@ pub(in crate::learn) fn fit(
         let pair = &starts[place];
         let predictor = AnchoredOn::new(&models[place], pair.offset.clone());
         let parameters = &pair.candidate.parameters;
-        context
-            .likelihood
-            .fit(&predictor, parameters, state, effort)
-            .ok()
+        let found = (context.likelihood).fit(&predictor, parameters, state, effort);
+        context.stages.one_done();
+        found.ok()
     };
     let mut looks: Vec<(usize, SearchEnd)> = (0..starts.len())
         .into_par_iter()

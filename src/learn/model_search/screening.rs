@@ -57,7 +57,11 @@ impl Context<'_> {
             .map(|candidate| Anchored::new(model(self.hertz, candidate), base.hertz_offset.clone()))
             .collect();
         let starts: Vec<Vec<(f64, State)>> = (candidates.par_iter().zip(&predictors))
-            .map(|(candidate, predictor)| self.starts(base, candidate, predictor))
+            .map(|(candidate, predictor)| {
+                let starts = self.starts(base, candidate, predictor);
+                self.stages.one_done();
+                starts
+            })
             .collect();
         let best = |starts: &[(f64, State)]| starts.first().map_or(0.0, |s| s.0);
         let leader = starts.iter().map(|s| best(s)).fold(0.0, f64::max);
@@ -66,7 +70,9 @@ impl Context<'_> {
                 let behind = leader - best(&starts);
                 let hopeless = behind > FAR_BEHIND && behind > FAR_BEHIND_SHARE * leader;
                 let effort = if hopeless { &Effort::STAY } else { &LOOK };
-                self.look(candidate, predictor, starts, effort)
+                let look = self.look(candidate, predictor, starts, effort);
+                self.stages.one_done();
+                look
             })
             .collect();
         let least = (looks.iter().flatten()).map(|found| found.objective);

@@ -75,7 +75,11 @@ impl Context<'_> {
             (found.log_evidence > judged.log_evidence).then_some(found)
         };
         let better: Vec<Option<FittedCandidate>> = (refined.par_iter().zip(&wanted))
-            .map(|(judged, wanted)| wanted.then(|| anew(judged)).flatten())
+            .map(|(judged, wanted)| {
+                let better = wanted.then(|| anew(judged))?;
+                self.stages.one_done();
+                better
+            })
             .collect();
         (refined.into_iter().zip(better))
             .map(|(judged, better)| better.unwrap_or(judged))

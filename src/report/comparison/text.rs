@@ -3,7 +3,7 @@ use std::path::Path;
 
 use crate::learn::{Comparison, ParameterRecord, TestRecord};
 use crate::numeric::written::{self, percent, significant, uncertain, whole};
-use crate::study::Study;
+use crate::study::{Study, WEAR_COEFFICIENT};
 
 /// χ² per point above which the model is reported to lack something: three standard deviations √(2/n) above 1.
 fn noise_floor(points: usize) -> f64 {
@@ -142,19 +142,50 @@ fn figures(lines: &mut Vec<String>, c: &Comparison) {
 
 /// The scatter of k between tests. From one test there is none: what a fit holds is its prior.
 pub(crate) fn scatter(c: &Comparison) -> String {
-    let fitted = c.tests.iter().filter(|t| t.role == "fit" && t.points > 0);
     let [low, high] = c.coefficient_scatter_interval;
-    match fitted.count() {
+    match fitted_tests(c).count() {
         0 | 1 if high > low => {
             "not known from one test; what stands for it is an assumption".to_owned()
         }
-        _ => format!(
-            "{} between tests (68 %: {} to {})",
+        count => format!(
+            "{} between tests (68 %: {} to {}){}",
             percent(c.coefficient_scatter, 2),
             percent(low, 2),
-            percent(high, 2)
+            percent(high, 2),
+            match is_widened_by_few_tests(c) {
+                true => format!(
+                    "; the interval of the common k is wide because {count} tests alone tell that scatter, and k between others may differ by more"
+                ),
+                false => String::new(),
+            }
         ),
     }
+}
+
+/// The tests that the model was fitted to.
+fn fitted_tests(c: &Comparison) -> impl Iterator<Item = &TestRecord> {
+    c.tests.iter().filter(|t| t.role == "fit" && t.points > 0)
+}
+
+/// Most tests that are few.
+const FEW: usize = 5;
+/// How many times what the tests' own k would give by themselves the standard deviation of the common k is, from which its width asks for a reason.
+const WIDE: f64 = 1.5;
+
+/// Whether the common k is known much less well than the mean of the tests' own, for few tests tell their scatter.
+fn is_widened_by_few_tests(c: &Comparison) -> bool {
+    let k = c.parameters.iter().find(|p| p.name == WEAR_COEFFICIENT);
+    let count = fitted_tests(c).count();
+    let [low, high] = c.coefficient_scatter_interval;
+    // a stated scatter is known
+    let Some(k) = k.filter(|_| high > low && (2..=FEW).contains(&count)) else {
+        return false;
+    };
+    let own = |t: &TestRecord| (t.coefficient_sigma / t.coefficient).powi(2);
+    let n = count as f64;
+    let of_tests = fitted_tests(c).map(own).sum::<f64>() / n;
+    let of_mean = ((c.coefficient_scatter.powi(2) + of_tests) / n).sqrt();
+    k.sigma / k.value > WIDE * of_mean
 }
 
 fn parameters(lines: &mut Vec<String>, c: &Comparison) {
@@ -243,5 +274,44 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
         format!(
             "χ² per point is that of noise; gearwear diagnose {name} looks for trends weaker than that"
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learn::Comparison;
+    use serde_json::{from_value, json};
+
+    /// A comparison of some fit tests with own k known to 0.3 %, and the relative standard deviation of the common k.
+    fn compared(tests: usize, scatter: f64, sigma: f64) -> Comparison {
+        let test = |i: usize| {
+            json!({"test": i.to_string(), "role": "fit", "coefficient": 1.0, "coefficient_sigma": 0.003, "points": 10, "chi2_per_point": 1.0,
+                "bias_um": null, "rms_um": null})
+        };
+        let share = json!({"points": 10, "chi2_per_point": 1.0});
+        let none: [u8; 0] = [];
+        from_value(json!({
+            "points": 10, "chi2_per_point": 1.0, "rms_um": null, "noise_rms_um": null, "fit": share, "holdout": share,
+            "parameters": [{"name": "wear.coefficient", "value": 1.0, "sigma": sigma, "at_bound": false, "interval_95": [0.9, 1.1], "unit": "mm2/N"}],
+            "where": none, "worst": "", "warnings": none, "tests": (0..tests).map(test).collect::<Vec<_>>(),
+            "coefficient_scatter": scatter, "coefficient_scatter_interval": [0.5 * scatter, 2.0 * scatter],
+            "by_member": none, "by_region": none, "by_life": none, "by_quantity": none, "ratios": none, "validation": none, "outliers": none,
+            "converged": true, "log_evidence": 0.0, "evaluations": 1
+        }))
+        .unwrap()
+    }
+
+    /// Of three tests whose k agree to 0.5 % the common k may still be off by the scatter that three tests do not rule out.
+    #[test]
+    fn a_wide_interval_of_k_has_its_reason() {
+        let said = scatter(&compared(3, 0.0054, 0.0186));
+        assert!(
+            said.contains("wide because 3 tests alone tell that scatter"),
+            "{said}"
+        );
+        assert!(!scatter(&compared(3, 0.1, 0.06)).contains("wide"));
+        assert!(!scatter(&compared(12, 0.0054, 0.0186)).contains("wide"));
+        assert!(scatter(&compared(1, 0.25, 0.25)).contains("not known from one test"));
     }
 }

@@ -234,6 +234,12 @@ fn conditions(experiment: &NextExperiment) -> Table {
         "Conditions of the next test",
         [
             ("separates", experiment.separates.join(", ")),
+            (
+                "conditions",
+                (experiment.repeats.as_ref()).map_or("new".to_owned(), |id| {
+                    format!("those of test {id}, made once more")
+                }),
+            ),
             ("torque", format!("{} N·m", plain(test.torque))),
             ("speed", format!("{} rpm", plain(test.speed))),
             ("misalignment", format!("{} mm", plain(test.misalignment))),
@@ -243,6 +249,7 @@ fn conditions(experiment: &NextExperiment) -> Table {
                     .map_or("not stated".to_owned(), |c| format!("{} °C", plain(c))),
             ),
             ("pinion revolutions", count(test.cycles)),
+            ("on the rig", format!("{} h", significant(test.hours(), 3))),
             ("direction", direction(test).to_owned()),
             (
                 "expected difference in χ²",

@@ -4,7 +4,7 @@ use super::table::{Cell, Table};
 use crate::learn::Improvement;
 use crate::numeric::written::significant;
 use crate::report::comparison::{estimate, interval};
-use crate::report::ladder::{Result, conclusion, effects, factor};
+use crate::report::ladder::{Result, beside_diagnosis, conclusion, effects, factor};
 use crate::report::plots;
 
 /// The page of a ladder.
@@ -99,7 +99,11 @@ fn parameters(result: &Result<'_>) -> Section {
             ]);
         }
     }
-    Section::new("Parameters").table(table)
+    let section = Section::new("Parameters").table(table);
+    match beside_diagnosis(result) {
+        Some(said) => section.note(said),
+        None => section,
+    }
 }
 
 /// Where each version fails worst, and what is doubtful about it.

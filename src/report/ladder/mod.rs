@@ -4,9 +4,10 @@ mod text;
 use serde_json::{Value, json};
 
 use super::error::OutputError;
+use crate::learn::diagnose::Fidelity;
 use crate::learn::{Comparison, LadderStep};
 
-pub use text::{conclusion, summary};
+pub use text::{beside_diagnosis, conclusion, summary};
 
 /// All that `ladder` shows.
 #[derive(Debug, Clone)]
@@ -17,6 +18,8 @@ pub struct Result<'a> {
     pub steps: Vec<LadderStep>,
     /// How each compares.
     pub comparisons: Vec<&'a Comparison>,
+    /// The first of the studies that has been diagnosed, and by which model.
+    pub diagnosed: Option<(&'a str, Fidelity)>,
     /// What keeps a version's error from being judged against the first's, in words; for each version.
     pub notes: Vec<Vec<&'static str>>,
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 use super::super::comparison::estimate;
 use super::{Result, effects, factor};
 use crate::learn::LadderStep;
+use crate::learn::diagnose::Fidelity;
 use crate::numeric::written::significant;
 
 /// The error by which a version is judged: that of the held-out tests, without any that of the fit tests.
@@ -155,6 +156,26 @@ fn against_another_line(result: &Result<'_>) -> bool {
     pairs.into_iter().any(other)
 }
 
+/// Why its figures are not those of a diagnosis that has been made; None without one.
+pub fn beside_diagnosis(result: &Result<'_>) -> Option<String> {
+    let (study, fidelity) = result.diagnosed?;
+    let (by, size) = match fidelity {
+        Fidelity::Screening => (
+            "the analytic contact model",
+            "some per cent, more where a law is sharp in pressure or the teeth bend",
+        ),
+        Fidelity::Middle => (
+            "coarse finite elements",
+            "some per cent, more where a law is sharp in pressure",
+        ),
+        Fidelity::Full => ("finite elements like these", "some per cent"),
+    };
+    Some(format!(
+        "The diagnosis of {study} fitted by {by} and allowed for a small error of the model itself beside the noise; here each version is fitted by its \
+         study's own contact model and resolution, without that: χ² and values of the same effect that differ by {size}, and narrower intervals, are expected."
+    ))
+}
+
 /// A table for the terminal, the conclusion, where the files are.
 pub fn summary(result: &Result<'_>, folder: &Path) -> String {
     let mut lines = Vec::new();
@@ -200,6 +221,7 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
     }
     lines.push(String::new());
     lines.push(conclusion(result));
+    lines.extend(beside_diagnosis(result));
     for (step, comparison) in result.steps.iter().zip(&result.comparisons) {
         for warning in &comparison.warnings {
             lines.push(format!("warning: {}: {warning}", step.study));
@@ -214,7 +236,9 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::not_judged;
+    use super::super::Result;
+    use super::{beside_diagnosis, not_judged};
+    use crate::learn::diagnose::Fidelity;
     use crate::learn::{Improvement, LadderStep};
 
     fn step(fit: f64, held: f64, evidence: Option<f64>) -> LadderStep {
@@ -234,6 +258,30 @@ mod tests {
             }),
             sound: true,
         }
+    }
+
+    /// Whoever has a diagnosis beside the ladder reads why its figures are others.
+    #[test]
+    fn figures_of_a_diagnosis_may_be_others() {
+        let result = |diagnosed| Result {
+            title: "",
+            steps: Vec::new(),
+            comparisons: Vec::new(),
+            diagnosed,
+            notes: Vec::new(),
+        };
+        assert!(beside_diagnosis(&result(None)).is_none());
+        let said = |by| beside_diagnosis(&result(Some(("study.toml", by)))).unwrap();
+        let coarse = said(Fidelity::Middle);
+        assert!(
+            coarse.starts_with("The diagnosis of study.toml fitted by coarse finite elements and"),
+            "{coarse}"
+        );
+        assert!(
+            coarse.contains("more where a law is sharp in pressure"),
+            "{coarse}"
+        );
+        assert!(!said(Fidelity::Full).contains("sharp in pressure"));
     }
 
     #[test]
