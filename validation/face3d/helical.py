@@ -21,6 +21,8 @@ HERE = Path(__file__).parent
 ROUGH = (0.08, 1.8, 20, 1)
 FINER_FACE = (0.08, 1.8, 40, 1)
 FINEST_FACE = (0.08, 1.8, 80, 1)
+# layers of 0.16 mm within 2.5 mm of mid-face, where contact lines end between two pairs, and ten of 0.75 mm on either side
+FINE_MIDDLE = (0.08, 1.8, (10, 32, 2.5), 1)
 # lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
 CASES = {
     "even, between two pairs": ("even", 0.5, ROUGH, "free"),
@@ -36,9 +38,11 @@ CASES = {
     "even, at the pitch point, finer face, rims held": ("even", 0.0, FINER_FACE, "rim"),
     "even, at the pitch point, finer face, mirrors": ("even", 0.0, FINER_FACE, "mirror"),
     "crown, finer face, rims held": ("crown", 0.5, FINER_FACE, "rim"),
+    "even, fine middle, rims held": ("even", 0.5, FINE_MIDDLE, "rim"),
+    "crown, fine middle, rims held": ("crown", 0.5, FINE_MIDDLE, "rim"),
 }
 # ten minutes of processor time each and more, or not needed for the others: solved only where they are asked for, and not drawn
-BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, COARSE) or "finer face, " in name} | {
+BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, FINE_MIDDLE, COARSE) or "finer face, " in name} | {
     "even, at the pitch point, rims held",
     "crown, between two pairs, rims held",
 }
@@ -74,6 +78,19 @@ def new_flanks(file):
     return [row for row in rows(file) if float(row["cycles"]) == 0]
 
 
+def face_layers(width, count, end):
+    """Even layers, or fine ones in the middle: so many on either side, so many in the middle, and how far that reaches, mm."""
+    import numpy as np
+
+    from model import layers
+
+    if not isinstance(count, tuple):
+        return layers(width, count, end)
+    outside, middle, reach = count
+    half = np.linspace(reach, 0.5 * width, outside + 1)
+    return np.concatenate([-half[:0:-1], np.linspace(-reach, reach, middle + 1), half[1:]])
+
+
 def turn_of(run, rotation):
     """Turn of the pinion in µrad, between the positions of the program."""
     import numpy as np
@@ -86,14 +103,14 @@ def of_bricks(folder, name, pair):
     """The same of CalculiX, kept in `folder`."""
     import numpy as np
 
-    from model import Mesh, layers, solve
+    from model import Mesh, solve
 
     lead, rotation, (size, body, count, end), ends = CASES[name]
     kept = folder / f"helical_{name.replace(', ', '_').replace(' ', '_')}.json"
     if not kept.exists() and not shutil.which("ccx"):
         return solved()[name]["bricks"]
     if not kept.exists():
-        z = layers(pair.width, count, end)
+        z = face_layers(pair.width, count, end)
         missing = lambda at: LEADS[lead][1](at, pair.width)
         base = pair.gears()[0].base
         guess = (max(map(missing, z)) + 0.003) / base  # at first the flanks overlap by 3 µm where they do least
