@@ -68,6 +68,40 @@ struct Along {
     g_sin: f64,
 }
 
+/// Nodal forces of a shape, without the integrals over the length that they go with.
+struct EndForces {
+    /// With ∫ q cos: of the stresses in the plane; along the axis σ_zz, times the wave number.
+    by_q: Vec<[f64; 3]>,
+    /// With ∫ g' cos.
+    by_slope: Vec<[f64; 3]>,
+    /// With ∫ g sin: of σ_zx and σ_zy; in the plane times the wave number.
+    by_g: Vec<[f64; 3]>,
+}
+
+impl EndForces {
+    /// L_n: on one wave, integrated over the length.
+    fn on_wave(&self, wave: usize, length: f64) -> Vec<[f64; 3]> {
+        let number = wave as f64 * std::f64::consts::PI / length;
+        let Along {
+            q_cos,
+            slope_cos,
+            g_sin,
+        } = along(wave, length);
+        let nodes = self.by_q.iter().zip(&self.by_slope).zip(&self.by_g);
+        nodes
+            .map(|((q, slope), g)| {
+                let in_plane =
+                    |d: usize| q_cos * q[d] + slope_cos * slope[d] + number * g_sin * g[d];
+                [
+                    in_plane(0),
+                    in_plane(1),
+                    number * q_cos * q[2] + g_sin * g[2],
+                ]
+            })
+            .collect()
+    }
+}
+
 /// Strains of a shape at a point, without their functions of z.
 struct Strains {
     xx: f64,
@@ -190,11 +224,15 @@ impl Prism<'_> {
         length: f64,
     ) -> Result<Vec<DMatrix<f64>>, FemError> {
         let mut by_wave = Vec::with_capacity(waves.len());
+        let forces: Vec<EndForces> = (shapes.par_iter())
+            .map(|shape| self.end_forces(shape))
+            .collect::<Result<_, _>>()?;
         let of_wave = waves.par_iter().enumerate().map(|(n, wave)| {
-            self.end_answer(wave, n, shapes, points, length)
-                .map(|(work, followed)| (EndMotion::of_wave(n), work, followed))
+            let own: Vec<_> = forces.iter().map(|f| f.on_wave(n, length)).collect();
+            let (work, followed) = end_answer(wave, n, &own, shapes, points, length);
+            (EndMotion::of_wave(n), work, followed)
         });
-        let answers: Vec<_> = of_wave.collect::<Result<_, FemError>>()?;
+        let answers: Vec<_> = of_wave.collect();
         let softening = |motion| {
             let mut stiffness = self.end_energy(shapes, motion, length)?;
             for (_, work, _) in answers.iter().filter(|(own, ..)| *own == motion) {
@@ -218,34 +256,6 @@ impl Prism<'_> {
             by_wave.push(modes);
         }
         Ok(by_wave)
-    }
-
-    /// L_nᵀ K_n⁻¹ L_n/h_n of one wave, and t_n/h_n by shape (row) and point (column).
-    fn end_answer(
-        &self,
-        wave: &Wave<'_>,
-        number: usize,
-        shapes: &[EndShape],
-        points: &[(u32, Vec2)],
-        length: f64,
-    ) -> Result<(DMatrix<f64>, DMatrix<f64>), FemError> {
-        let norm = if number == 0 { length } else { 0.5 * length };
-        let forces: Vec<Vec<[f64; 3]>> = (shapes.iter())
-            .map(|shape| self.end_forces(shape, number, length))
-            .collect::<Result<_, _>>()?;
-        let fields: Vec<Vec<[f64; 3]>> = forces.iter().map(|f| wave.field(f)).collect();
-        let work = DMatrix::from_fn(shapes.len(), shapes.len(), |k, l| {
-            let pairs = forces[k].iter().flatten().zip(fields[l].iter().flatten());
-            pairs.map(|(f, u)| f * u).sum::<f64>() / norm
-        });
-        let share = along(number, length).q_cos;
-        let followed = DMatrix::from_fn(shapes.len(), points.len(), |k, point| {
-            let (node, direction) = points[point];
-            let [x, y, _] = fields[k][node as usize];
-            let moved = share * shapes[k].in_plane(node) - Vec2::new(x, y);
-            moved.dot(&direction) / norm
-        });
-        Ok((work, followed))
     }
 
     /// S_0 of shapes that move both ends so.
@@ -282,43 +292,38 @@ impl Prism<'_> {
         Ok(energy)
     }
 
-    /// L_n of a shape on a wave: nodal forces, integrated over the length.
-    fn end_forces(
-        &self,
-        shape: &EndShape,
-        wave: usize,
-        length: f64,
-    ) -> Result<Vec<[f64; 3]>, FemError> {
+    /// Nodal forces of a shape on waves.
+    fn end_forces(&self, shape: &EndShape) -> Result<EndForces, FemError> {
         let (lambda, mu) = lame_constants(self.material);
-        let number = wave as f64 * std::f64::consts::PI / length;
-        let Along {
-            q_cos,
-            slope_cos,
-            g_sin,
-        } = along(wave, length);
-        let mut forces = vec![[0.0; 3]; self.mesh.points.len()];
+        let none = || vec![[0.0; 3]; self.mesh.points.len()];
+        let [mut by_q, mut by_slope, mut by_g] = [none(), none(), none()];
         self.at_points(|element, at, weight| {
             let s = strains(shape, element, at);
-            let volume = s.xx + s.yy;
-            let mean = lambda * (q_cos * volume + slope_cos * s.axial);
-            let axial = lambda * q_cos * volume + (lambda + 2.0 * mu) * slope_cos * s.axial;
-            let [xx, yy] = [s.xx, s.yy].map(|own| mean + 2.0 * mu * q_cos * own);
-            let xy = mu * q_cos * s.xy;
-            let shear = mu * g_sin * s.shear;
+            let mean = lambda * (s.xx + s.yy);
+            let [xx, yy, xy] = [mean + 2.0 * mu * s.xx, mean + 2.0 * mu * s.yy, mu * s.xy];
+            let shear = mu * s.shear;
             let nodes = element.nodes().iter().zip(&at.gradient).zip(&at.value);
             for ((&node, gradient), value) in nodes {
-                let turned = number * value;
-                let own = [
-                    gradient.x * xx + gradient.y * xy - turned * shear.x,
-                    gradient.y * yy + gradient.x * xy - turned * shear.y,
-                    turned * axial + gradient.dot(&shear),
-                ];
-                for (sum, own) in forces[node as usize].iter_mut().zip(own) {
-                    *sum += weight * own;
-                }
+                let node = node as usize;
+                let add = |forces: &mut Vec<[f64; 3]>, own: [f64; 3]| {
+                    for (sum, own) in forces[node].iter_mut().zip(own) {
+                        *sum += weight * own;
+                    }
+                };
+                let x = gradient.x * xx + gradient.y * xy;
+                let y = gradient.y * yy + gradient.x * xy;
+                add(&mut by_q, [x, y, value * mean]);
+                let axial = lambda * s.axial;
+                add(&mut by_slope, [gradient.x * axial, gradient.y * axial, 0.0]);
+                let turned = -*value * shear;
+                add(&mut by_g, [turned.x, turned.y, gradient.dot(&shear)]);
             }
         })?;
-        Ok(forces)
+        Ok(EndForces {
+            by_q,
+            by_slope,
+            by_g,
+        })
     }
 
     /// At the points of quadrature of all elements, with their weights.
@@ -344,6 +349,31 @@ fn inverse_root(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(kept.len(), values.len(), |row, shape| {
         vectors[(shape, kept[row])] / values[kept[row]].sqrt()
     })
+}
+
+/// L_nᵀ K_n⁻¹ L_n/h_n of one wave, and t_n/h_n by shape (row) and point (column), of the shapes' forces on it.
+fn end_answer(
+    wave: &Wave<'_>,
+    number: usize,
+    forces: &[Vec<[f64; 3]>],
+    shapes: &[EndShape],
+    points: &[(u32, Vec2)],
+    length: f64,
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    let norm = if number == 0 { length } else { 0.5 * length };
+    let fields: Vec<Vec<[f64; 3]>> = forces.iter().map(|f| wave.field(f)).collect();
+    let work = DMatrix::from_fn(shapes.len(), shapes.len(), |k, l| {
+        let pairs = forces[k].iter().flatten().zip(fields[l].iter().flatten());
+        pairs.map(|(f, u)| f * u).sum::<f64>() / norm
+    });
+    let share = along(number, length).q_cos;
+    let followed = DMatrix::from_fn(shapes.len(), points.len(), |k, point| {
+        let (node, direction) = points[point];
+        let [x, y, _] = fields[k][node as usize];
+        let moved = share * shapes[k].in_plane(node) - Vec2::new(x, y);
+        moved.dot(&direction) / norm
+    });
+    (work, followed)
 }
 
 fn strains(shape: &EndShape, element: &Element, at: &ShapeAt) -> Strains {
