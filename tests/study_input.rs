@@ -87,6 +87,8 @@ refusals! {
         => BadValue "face.slices" at 22:10, "0", "1 to 201", "out of range";
     half_a_slice: format!("{SHORT}[face]\nslices = 2.5\n")
         => WrongType "face.slices" at 22:10, "2.5", "1 to 201", "whole number";
+    unknown_ends_of_the_face: format!("{SHORT}[face]\nslices = 3\nends = \"loose\"\n")
+        => BadValue "face.ends" at 23:8, "\"loose\"", "\"held\"", "not known";
     an_unknown_coupling: format!("{SHORT}[face]\nslices = 3\ncoupling = \"springs\"\n")
         => BadValue "face.coupling" at 23:12, "\"springs\"", "\"none\"", "not known";
     a_lead_without_slices: format!("{SHORT}[face.gear]\ncrowning = 5.0\n")

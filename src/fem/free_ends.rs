@@ -68,6 +68,111 @@ struct Along {
     g_sin: f64,
 }
 
+/// How points of a prism's section follow the modes of its free ends.
+#[derive(Debug)]
+pub struct EndModes {
+    length: f64,
+    points: usize,
+    motions: [MotionModes; 2],
+}
+
+/// Modes of one motion of the ends: S^(−1/2) times what the shapes do at the points, by mode (row) and point (column).
+#[derive(Debug)]
+struct MotionModes {
+    motion: EndMotion,
+    waves: Vec<WaveMotion>,
+    /// ψ
+    axial: DMatrix<f64>,
+}
+
+/// How a wave follows the modes.
+#[derive(Debug)]
+struct WaveMotion {
+    wave: usize,
+    /// t_n/h_n, with the cosine.
+    in_plane: DMatrix<f64>,
+    /// −K_n⁻¹ L_n/h_n along the axis, with the sine.
+    axial: DMatrix<f64>,
+}
+
+impl EndModes {
+    /// Amplitude of a wave (0 the even load), mm, that a point moves by more between free ends, per N/mm of that of the load on it.
+    pub fn of_wave(&self, wave: usize, point: usize) -> f64 {
+        let norm = if wave == 0 {
+            self.length
+        } else {
+            0.5 * self.length
+        };
+        let mut waves = self.motions.iter().flat_map(|modes| &modes.waves);
+        let own = waves.find(|own| own.wave == wave);
+        own.map_or(0.0, |own| norm * own.in_plane.column(point).norm_squared())
+    }
+
+    /// What a load, N per mm, on a length dz at `z` (mm from one end) does to the modes (rows) at the points (columns), over dz; the modes move the points by the
+    /// same times their amplitudes. The load pushes along the points' directions and, `inclined` times that, along the axis. Of waves the first `most` are taken.
+    pub fn at(&self, z: f64, inclined: f64, most: usize) -> DMatrix<f64> {
+        let count = |modes: &MotionModes| modes.axial.nrows();
+        let mut all = DMatrix::zeros(self.motions.iter().map(count).sum(), self.points);
+        let mut first = 0;
+        for modes in &self.motions {
+            let g = match modes.motion {
+                EndMotion::Apart => 1.0 - 2.0 * z / self.length,
+                EndMotion::Along => 1.0,
+            };
+            let mut own = &modes.axial * (g * inclined);
+            for wave in modes.waves.iter().filter(|wave| wave.wave < most) {
+                let phase = wave.wave as f64 * std::f64::consts::PI * z / self.length;
+                own += &wave.in_plane * phase.cos() + &wave.axial * (phase.sin() * inclined);
+            }
+            all.rows_mut(first, own.nrows()).copy_from(&own);
+            first += own.nrows();
+        }
+        all
+    }
+}
+
+/// What a wave does under the shapes.
+struct EndAnswer {
+    /// L_nᵀ K_n⁻¹ L_n/h_n.
+    work: DMatrix<f64>,
+    /// As in [`WaveMotion`], by shape (row) and point (column).
+    in_plane: DMatrix<f64>,
+    axial: DMatrix<f64>,
+}
+
+impl EndAnswer {
+    fn new(
+        wave: &Wave<'_>,
+        number: usize,
+        forces: &[EndForces],
+        shapes: &[EndShape],
+        points: &[(u32, Vec2)],
+        length: f64,
+    ) -> Self {
+        let norm = if number == 0 { length } else { 0.5 * length };
+        let forces: Vec<Vec<[f64; 3]>> =
+            (forces.iter()).map(|f| f.on_wave(number, length)).collect();
+        let fields: Vec<Vec<[f64; 3]>> = forces.iter().map(|f| wave.field(f)).collect();
+        let work = |k: usize, l: usize| {
+            let pairs = forces[k].iter().flatten().zip(fields[l].iter().flatten());
+            pairs.map(|(f, u)| f * u).sum::<f64>() / norm
+        };
+        let share = along(number, length).q_cos;
+        let in_plane = |k: usize, point: usize| {
+            let (node, direction) = points[point];
+            let [x, y, _] = fields[k][node as usize];
+            let moved = share * shapes[k].in_plane(node) - Vec2::new(x, y);
+            moved.dot(&direction) / norm
+        };
+        let axial = |k: usize, point: usize| -fields[k][points[point].0 as usize][2] / norm;
+        Self {
+            work: DMatrix::from_fn(shapes.len(), shapes.len(), work),
+            in_plane: DMatrix::from_fn(shapes.len(), points.len(), in_plane),
+            axial: DMatrix::from_fn(shapes.len(), points.len(), axial),
+        }
+    }
+}
+
 /// Nodal forces of a shape, without the integrals over the length that they go with.
 struct EndForces {
     /// With ∫ q cos: of the stresses in the plane; along the axis σ_zz, times the wave number.
@@ -131,7 +236,7 @@ fn along(wave: usize, length: f64) -> Along {
 
 impl Prism<'_> {
     /// Shapes for the ends under some `loads` (nodes, and directions in the plane): what the prism does along its axis, in waves of the wave numbers `answering` (1/mm), if
-    /// σ_zz of the mirrors under these loads is taken off, for the even load and the longest wave of `waves`.
+    /// σ_zz of the mirrors under these loads is taken off, for the even load and the longest wave of `waves`; and in waves of `pushed` under loads along the axis there.
     ///
     /// # Errors
     /// [`FemError`] if a stiffness cannot be factored.
@@ -140,6 +245,7 @@ impl Prism<'_> {
         waves: &[Wave<'_>],
         loads: &[(u32, Vec2)],
         answering: &[f64],
+        pushed: &[f64],
     ) -> Result<Vec<EndShape>, FemError> {
         let mut forces = Vec::new();
         for wave in &waves[..waves.len().min(2)] {
@@ -154,6 +260,14 @@ impl Prism<'_> {
             let wave = self.wave(number)?;
             let own = forces.par_iter().map(|f| self.end_shape(&wave.field(f)));
             shapes.extend(own.collect::<Vec<_>>());
+        }
+        for &number in pushed {
+            let wave = self.wave(number)?;
+            for &(node, _) in loads {
+                let mut nodal = vec![[0.0; 3]; self.nodes()];
+                nodal[node as usize][2] = 1.0;
+                shapes.push(self.end_shape(&wave.field(&nodal)));
+            }
         }
         Ok(shapes)
     }
@@ -210,9 +324,7 @@ impl Prism<'_> {
         EndShape(shape.collect())
     }
 
-    /// How far points follow the modes of free ends, by wave (0 the even load): S^(−1/2) t_n/h_n, by mode (row) and point (column). A line load f = Σ_n F_n cos κ_n z
-    /// at a point moves the modes by the sum of h_n F_n times that, and each of these moves wave n of a point by it again.
-    /// `waves`: from the even load on; `points`: nodes with the direction that is loaded and observed.
+    /// The modes of free ends made of `shapes`. `waves`: from the even load on; `points`: nodes with the direction in the plane that is loaded and observed.
     ///
     /// # Errors
     /// [`FemError::Inverted`].
@@ -222,40 +334,44 @@ impl Prism<'_> {
         shapes: &[EndShape],
         points: &[(u32, Vec2)],
         length: f64,
-    ) -> Result<Vec<DMatrix<f64>>, FemError> {
-        let mut by_wave = Vec::with_capacity(waves.len());
+    ) -> Result<EndModes, FemError> {
         let forces: Vec<EndForces> = (shapes.par_iter())
             .map(|shape| self.end_forces(shape))
             .collect::<Result<_, _>>()?;
-        let of_wave = waves.par_iter().enumerate().map(|(n, wave)| {
-            let own: Vec<_> = forces.iter().map(|f| f.on_wave(n, length)).collect();
-            let (work, followed) = end_answer(wave, n, &own, shapes, points, length);
-            (EndMotion::of_wave(n), work, followed)
+        let answers: Vec<EndAnswer> = (waves.par_iter().enumerate())
+            .map(|(n, wave)| EndAnswer::new(wave, n, &forces, shapes, points, length))
+            .collect();
+        let axial = DMatrix::from_fn(shapes.len(), points.len(), |k, point| {
+            shapes[k].0[points[point].0 as usize][2]
         });
-        let answers: Vec<_> = of_wave.collect();
-        let softening = |motion| {
+        let of_motion = |motion| {
+            let own = || {
+                answers
+                    .iter()
+                    .enumerate()
+                    .filter(move |(n, _)| EndMotion::of_wave(*n) == motion)
+            };
             let mut stiffness = self.end_energy(shapes, motion, length)?;
-            for (_, work, _) in answers.iter().filter(|(own, ..)| *own == motion) {
-                stiffness -= work;
+            for (_, answer) in own() {
+                stiffness -= &answer.work;
             }
-            Ok(inverse_root(&stiffness))
+            let softening = inverse_root(&stiffness);
+            let wave = |(n, answer): (usize, &EndAnswer)| WaveMotion {
+                wave: n,
+                in_plane: &softening * &answer.in_plane,
+                axial: &softening * &answer.axial,
+            };
+            Ok(MotionModes {
+                motion,
+                waves: own().map(wave).collect(),
+                axial: &softening * &axial,
+            })
         };
-        let [apart, along] = [softening(EndMotion::Apart)?, softening(EndMotion::Along)?];
-        for (motion, _, followed) in &answers {
-            // modes of the other motion do not move this wave
-            let mut modes = DMatrix::zeros(apart.nrows() + along.nrows(), points.len());
-            match motion {
-                EndMotion::Apart => modes
-                    .rows_mut(0, apart.nrows())
-                    .copy_from(&(&apart * followed)),
-                EndMotion::Along => {
-                    let own = modes.rows_mut(apart.nrows(), along.nrows());
-                    { own }.copy_from(&(&along * followed));
-                }
-            }
-            by_wave.push(modes);
-        }
-        Ok(by_wave)
+        Ok(EndModes {
+            length,
+            points: points.len(),
+            motions: [of_motion(EndMotion::Apart)?, of_motion(EndMotion::Along)?],
+        })
     }
 
     /// S_0 of shapes that move both ends so.
@@ -349,31 +465,6 @@ fn inverse_root(stiffness: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(kept.len(), values.len(), |row, shape| {
         vectors[(shape, kept[row])] / values[kept[row]].sqrt()
     })
-}
-
-/// L_nᵀ K_n⁻¹ L_n/h_n of one wave, and t_n/h_n by shape (row) and point (column), of the shapes' forces on it.
-fn end_answer(
-    wave: &Wave<'_>,
-    number: usize,
-    forces: &[Vec<[f64; 3]>],
-    shapes: &[EndShape],
-    points: &[(u32, Vec2)],
-    length: f64,
-) -> (DMatrix<f64>, DMatrix<f64>) {
-    let norm = if number == 0 { length } else { 0.5 * length };
-    let fields: Vec<Vec<[f64; 3]>> = forces.iter().map(|f| wave.field(f)).collect();
-    let work = DMatrix::from_fn(shapes.len(), shapes.len(), |k, l| {
-        let pairs = forces[k].iter().flatten().zip(fields[l].iter().flatten());
-        pairs.map(|(f, u)| f * u).sum::<f64>() / norm
-    });
-    let share = along(number, length).q_cos;
-    let followed = DMatrix::from_fn(shapes.len(), points.len(), |k, point| {
-        let (node, direction) = points[point];
-        let [x, y, _] = fields[k][node as usize];
-        let moved = share * shapes[k].in_plane(node) - Vec2::new(x, y);
-        moved.dot(&direction) / norm
-    });
-    (work, followed)
 }
 
 fn strains(shape: &EndShape, element: &Element, at: &ShapeAt) -> Strains {

@@ -44,6 +44,7 @@ use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::explanation::findings::Findings;
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
+use crate::learn::model_search::beside_unknown::WithDiscrepancy;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
 use crate::learn::model_search::stages::Stages;
@@ -179,15 +180,18 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     };
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     // by the analytic model what remains would be its own error
-    let beside = if smooth.is_real() && !context.approximate {
+    let discrepancy = if smooth.is_real() && !context.approximate {
         let doing = "effects beside something unknown".to_owned();
         let foreseen = PER_SCREENED * singles.len() + COARSE_FITS;
         stages.begin([BESIDE, EXPERIMENT], doing, foreseen);
-        context.beside_unknown(base, &singles, &fitted)
+        context.beside_unknown(base, unknown, &singles, &fitted)
     } else {
-        Vec::new()
+        WithDiscrepancy {
+            alone: unknown,
+            effects: Vec::new(),
+        }
     };
-    let posterior = JudgedCandidates::new(likelihood, base, fitted, beside, &smooth, unknown, rule);
+    let posterior = JudgedCandidates::new(likelihood, base, fitted, discrepancy, &smooth, rule);
     let doing = "held-out tests and the next experiment".to_owned();
     stages.begin([EXPERIMENT, LAWS], doing, 1);
     let diagnosis = Diagnosis::new(Findings {

@@ -206,12 +206,11 @@ fn beam() -> Result<Vec<Measured>, FemError> {
     let loads: Vec<(u32, Vec2)> = (1..=16)
         .map(|place| (along(&patch, reach * f64::from(place) / 16.0), down))
         .collect();
-    let shapes = prism.end_shapes(&waves, &loads, &[0.3 / reach, 0.5 / height])?;
+    let shapes = prism.end_shapes(&waves, &loads, &[0.3 / reach, 0.5 / height], &[])?;
     let modes = prism.end_modes(&waves, &shapes, &[(edge, down)], width)?;
     let deflection = |wave: usize| {
         let mirrored = waves[wave].solve(&[(edge, down)], &[edge])[0].y;
-        let norm = if wave == 0 { width } else { 0.5 * width };
-        mirrored + norm * modes[wave].norm_squared()
+        mirrored + modes.of_wave(wave, 0)
     };
     let bent = 4.0 * (reach / height).powi(3) / steel.youngs_modulus;
     let sheared = reach / (5.0 / 6.0 * shear * height);

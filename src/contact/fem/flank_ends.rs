@@ -13,6 +13,8 @@ use crate::numeric::Vec2;
 
 /// Wave numbers that teeth answer in along the axis, 1/module: an end is felt over about the thickness of a tooth.
 const SHAPE_WAVES: [f64; 3] = [0.3, 1.0, 3.0];
+/// Those that wheels answer axial forces in, 1/module.
+const PUSHED_WAVES: [f64; 3] = [0.02, 0.1, 0.5];
 /// Loads from root to tip that they answer.
 const SHAPE_LOADS: usize = 3;
 /// Waves that the ends' own energy is found with, if there are not as many slices.
@@ -58,7 +60,7 @@ impl FlankEnds {
         sum
     }
 
-    /// Of a prism in so many `slices` of a face `width` (mm), with its waves from the even load on.
+    /// Of a prism in so many `slices` of a face `width` (mm), with its waves from the even load on. Loads push along the axis too, `inclined` times what they are.
     pub(super) fn new(
         prism: &Prism<'_>,
         waves: &[Wave<'_>],
@@ -66,6 +68,7 @@ impl FlankEnds {
         module: f64,
         width: f64,
         slices: usize,
+        inclined: f64,
     ) -> Result<Self, FemError> {
         let loaded = &flanks[NEIGHBOURS as usize];
         let last = loaded.nodes.len() - 1;
@@ -74,7 +77,13 @@ impl FlankEnds {
             (loaded.nodes[index], loaded.normals[index])
         };
         let loads: Vec<(u32, Vec2)> = (0..SHAPE_LOADS).map(load).collect();
-        let shapes = prism.end_shapes(waves, &loads, &SHAPE_WAVES.map(|n| n / module))?;
+        let answering = SHAPE_WAVES.map(|n| n / module);
+        let pushed = if inclined == 0.0 {
+            Vec::new()
+        } else {
+            PUSHED_WAVES.map(|n| n / module).to_vec()
+        };
+        let shapes = prism.end_shapes(waves, &loads, &answering, &pushed)?;
         let points: Vec<(u32, Vec2)> = (flanks.iter())
             .flat_map(|flank| {
                 flank
@@ -84,16 +93,11 @@ impl FlankEnds {
                     .zip(flank.normals.iter().copied())
             })
             .collect();
-        let by_wave = prism.end_modes(waves, &shapes, &points, width)?;
-        let root = (width / slices as f64).sqrt();
+        let modes = prism.end_modes(waves, &shapes, &points, width)?;
+        let thickness = width / slices as f64;
+        // loads of slices hold no shorter waves than they are
         let of_slice = |slice: usize| {
-            let mut sum = DMatrix::zeros(by_wave[0].nrows(), points.len());
-            // loads of slices hold no shorter waves than they are
-            for (n, followed) in by_wave[..slices].iter().enumerate() {
-                let phase = n as f64 * (slice as f64 + 0.5) / slices as f64;
-                sum += followed * (root * (std::f64::consts::PI * phase).cos());
-            }
-            sum
+            modes.at((slice as f64 + 0.5) * thickness, inclined, slices) * thickness.sqrt()
         };
         let by_slice: Vec<DMatrix<f64>> = (0..slices).map(of_slice).collect();
         let mut first = 0;

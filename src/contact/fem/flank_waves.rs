@@ -77,13 +77,14 @@ impl FlankChange {
     }
 }
 
-/// Changes from the even load to each of the waves across a face `width` (mm) in so many `slices`, and what free ends let the flanks give way by.
+/// Changes from the even load to each of the waves across a face `width` (mm) in so many `slices`, and what free ends let the flanks give way by
+/// if loads push along the axis too, so many times what they are.
 pub(super) fn changes(
     gear: &Gear,
     material: Elastic,
     width: f64,
     slices: usize,
-    free_ends: bool,
+    free_ends: Option<f64>,
 ) -> Result<(Vec<FlankChange>, Option<FlankEnds>), WaveError> {
     let Compliances { rho, by_wave, ends } = compliances(gear, material, width, slices, free_ends)?;
     let (even, waves) = by_wave.split_first().expect("the even load is one");
@@ -110,7 +111,7 @@ pub(super) fn compliances(
     material: Elastic,
     width: f64,
     slices: usize,
-    free_ends: bool,
+    free_ends: Option<f64>,
 ) -> Result<Compliances, WaveError> {
     let module = gear.rack.module;
     // a gear of few teeth has each of them once
@@ -132,7 +133,7 @@ pub(super) fn compliances(
     let mut flanks: Vec<Flank> = (-NEIGHBOURS..=NEIGHBOURS)
         .map(|tooth| Flank::new(&mesh, gear, tooth))
         .collect();
-    let count = if free_ends {
+    let count = if free_ends.is_some() {
         slices.max(LEAST_WAVES)
     } else {
         slices
@@ -145,7 +146,7 @@ pub(super) fn compliances(
         .map(|wave| compliance(wave, &flanks))
         .collect();
     let ends = free_ends
-        .then(|| FlankEnds::new(&prism, &waves, &flanks, module, width, slices))
+        .map(|inclined| FlankEnds::new(&prism, &waves, &flanks, module, width, slices, inclined))
         .transpose()?;
     let loaded = flanks.swap_remove(NEIGHBOURS as usize);
     Ok(Compliances {

@@ -55,8 +55,13 @@ impl ToothWaves {
         slices: usize,
         free_ends: bool,
     ) -> Result<Self, WaveError> {
-        let of_member =
-            |side: usize| changes(gears[side], materials[side], width, slices, free_ends);
+        // the pinion of a right-handed pair is pushed towards the end that comes into mesh first
+        let pitch = gears[0].rack.base_pitch();
+        let inclined = (gears[0].turned_per_mm() * pitch).atan().sin();
+        let of_member = |side: usize| {
+            let ends = free_ends.then_some([inclined, -inclined][side]);
+            changes(gears[side], materials[side], width, slices, ends)
+        };
         let (pinion, gear) = rayon::join(|| of_member(0), || of_member(1));
         let ((pinion, pinion_ends), (gear, gear_ends)) = (pinion?, gear?);
         let waves = pinion.into_iter().zip(gear).map(|(p, g)| [p, g]).collect();
@@ -403,7 +408,7 @@ mod tests {
         };
         let width = 20.0;
         let gears = [&pair.pinion, &pair.gear];
-        let all = gears.map(|gear| compliances(gear, steel, width, N, false).unwrap());
+        let all = gears.map(|gear| compliances(gear, steel, width, N, None).unwrap());
         let of = |side: usize, wave: usize| FlankChange {
             rho: all[side].rho.clone(),
             change: all[side].by_wave[wave].clone(),

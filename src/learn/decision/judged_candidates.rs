@@ -8,7 +8,7 @@ use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::identifiability::unidentified;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
-use crate::learn::model_search::beside_unknown::BesideUnknown;
+use crate::learn::model_search::beside_unknown::{BesideUnknown, WithDiscrepancy};
 
 /// Everything fitted, and the decision on it.
 pub(in crate::learn) struct JudgedCandidates {
@@ -24,14 +24,13 @@ pub(in crate::learn) struct JudgedCandidates {
 }
 
 impl JudgedCandidates {
-    /// `candidates` by falling evidence; `log_evidence_of_unknown`: that of a Gaussian-process discrepancy beside the base model.
+    /// `candidates` by falling evidence; `discrepancy`: one alone, and effects beside it.
     pub(in crate::learn) fn new(
         likelihood: &Likelihood<'_>,
         base: &BaseFit,
         candidates: Vec<FittedCandidate>,
-        beside_unknown: Vec<BesideUnknown>,
+        discrepancy: WithDiscrepancy,
         smooth: &SmoothDiscrepancy,
-        log_evidence_of_unknown: f64,
         rule: DecisionRule,
     ) -> Self {
         let base = &base.fitted;
@@ -46,15 +45,15 @@ impl JudgedCandidates {
             candidates: candidates.iter().map(figures).collect(),
             attainable_drop: smooth.drop,
             attainable_spread: smooth.spread(),
-            unknown_evidence_gain: log_evidence_of_unknown - base.log_evidence,
-            beside_unknown: (beside_unknown.iter())
+            unknown_evidence_gain: discrepancy.alone - base.log_evidence,
+            beside_unknown: (discrepancy.effects.iter())
                 .map(|beside| remainder(likelihood, beside))
                 .collect(),
         };
         Self {
             decision: decide(&evidence, &rule),
             candidates,
-            beside_unknown,
+            beside_unknown: discrepancy.effects,
             evidence,
             rule,
         }

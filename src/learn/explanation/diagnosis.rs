@@ -175,7 +175,7 @@ impl Diagnosis {
         };
         Self {
             verdict: decision.verdict,
-            undecided: undecided(context, posterior),
+            undecided: undecided(context, base, posterior),
             effect: named(&findings),
             sentence: explanation.sentence,
             goodness_of_fit,

@@ -50,6 +50,14 @@ pub(in crate::learn) struct BesideUnknown {
     pub(in crate::learn) remaining: SmoothDiscrepancy,
 }
 
+/// A discrepancy alone, and effects beside one.
+pub(in crate::learn) struct WithDiscrepancy {
+    /// Log evidence of the base model with a discrepancy of any kind.
+    pub(in crate::learn) alone: f64,
+    /// The effects beside one, the leader first.
+    pub(in crate::learn) effects: Vec<BesideUnknown>,
+}
+
 impl BesideUnknown {
     /// ln Z(effect and discrepancy) − ln Z(discrepancy alone): what both figures grant.
     pub(in crate::learn) fn gain_over_unknown(&self) -> f64 {
@@ -59,15 +67,16 @@ impl BesideUnknown {
 
 impl Context<'_> {
     /// Fits the effects beside the most probable discrepancy, by the stages of the search without one, and compares those that lead with a
-    /// discrepancy alone; the leader first. `alone`: the effects fitted without it, by falling evidence.
+    /// discrepancy alone. `unknown`: log evidence of the base model with a discrepancy at the k that it has without one; `alone`: the effects fitted
+    /// without a discrepancy, by falling evidence.
     pub(in crate::learn) fn beside_unknown(
         &self,
         base: &BaseFit,
+        unknown: f64,
         singles: &[Candidate],
         alone: &[FittedCandidate],
-    ) -> Vec<BesideUnknown> {
+    ) -> WithDiscrepancy {
         let plain = &self.likelihood;
-        let unknown = with_discrepancy(plain, &base.fitted);
         let few = decided_without(plain, unknown, alone);
         let singles = worth_fitting(plain, singles, alone);
         let discrepancy = gaussian_process::most_probable(
@@ -81,7 +90,10 @@ impl Context<'_> {
         };
         let before = base.fitted.square;
         let Some(base) = context.base_beside(base) else {
-            return Vec::new();
+            return WithDiscrepancy {
+                alone: unknown,
+                effects: Vec::new(),
+            };
         };
         // alone it has the k that suits it, as beside effects
         let unknown = unknown.max(with_discrepancy(plain, &base.fitted));
@@ -106,8 +118,16 @@ impl Context<'_> {
             let effects = &candidate.candidate.effects;
             let known = |c: &FittedCandidate| c.candidate.effects == *effects;
             let of_pair = |pair: &FittedCandidate| pair.candidate.effects.contains(effects);
-            if (chosen.len() < JUDGED || pairs.iter().any(of_pair)) && !chosen.iter().any(known) {
+            let of_pair = pairs.iter().any(of_pair);
+            if (chosen.len() >= JUDGED && !of_pair) || chosen.iter().any(known) {
+                continue;
+            }
+            // what the analytic model gains cannot be held against what elements do; it did not promise enough to be fitted by these
+            let like_base = candidate.fidelity >= self.fidelity.min(Fidelity::Middle);
+            if like_base {
                 chosen.push(candidate);
+            } else if of_pair {
+                chosen.extend(context.fitted_from(&base, &candidate));
             }
         }
         chosen.extend(pairs);
@@ -117,12 +137,19 @@ impl Context<'_> {
                 let without = alone
                     .iter()
                     .find(|c| c.candidate.effects == fitted.candidate.effects)?;
-                let remainder_gain = remainder_gain(plain, without);
+                let there = with_discrepancy(plain, &fitted);
+                let at_own = remainder_gain(plain, without);
+                let own = with_discrepancy(plain, without) - at_own;
+                let remainder_gain = if there - own > at_own + OTHER_VALLEY {
+                    there - own
+                } else {
+                    at_own
+                };
                 let remaining =
                     SmoothDiscrepancy::of(plain, &without.found.model).gaining(remainder_gain);
                 Some(BesideUnknown {
                     gain_with_one: fitted.log_evidence - base.fitted.log_evidence,
-                    gain_with_any: with_discrepancy(plain, &fitted) - unknown,
+                    gain_with_any: there - unknown,
                     remainder_gain,
                     chi2_drop: before - without.square,
                     remaining,
@@ -131,7 +158,10 @@ impl Context<'_> {
             })
             .collect();
         found.sort_by(|a, b| b.gain_over_unknown().total_cmp(&a.gain_over_unknown()));
-        found
+        WithDiscrepancy {
+            alone: unknown,
+            effects: found,
+        }
     }
 
     /// Effects fitted beside the discrepancy from where their fits without one ended, of those that come first without one: where a discrepancy, added to
