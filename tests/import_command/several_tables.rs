@@ -104,7 +104,10 @@ fn files_of_one_curve_each_are_read_together() {
          A,pinion,250000,wear_depth,27.5,1.25,0.1,A-pinion-250000\n"
     );
     // the same curve twice is no second measurement
-    let (code, _, message) = line(&home, "import a.txt a.txt --study study.toml --turn-sign --sigma 0.1");
+    let (code, _, message) = line(
+        &home,
+        "import a.txt a.txt --study study.toml --turn-sign --sigma 0.1",
+    );
     assert_eq!(code, Some(2));
     assert!(message.contains("the reading A,pinion,100000"), "{message}");
     // a curve that says nothing of itself
