@@ -103,6 +103,8 @@ refusals! {
         => UnknownKey "sd" at 2:44, "`sd`", "value, sigma", "the nearest column is `sigma`";
     misspelt_column: with("quantity", "quantitiy")
         => UnknownKey "quantitiy" at 2:20, "`quantitiy`", "quantity, position", "the nearest column is `quantity`";
+    abbreviated_column: with("quantity", "qty")
+        => UnknownKey "qty" at 2:20, "`qty`", "quantity, position", "the nearest column is `quantity`";
     nameless_column: with("sigma,trace", "sigma,,trace")
         => UnknownKey "" at 2:50, "nothing", "optional trace, face, tooth", "a comma too many";
     something_below_no_name: with("sigma,trace", "sigma,trace,,").replace("A-p-1", "A-p-1,,7")

@@ -573,6 +573,25 @@ fn a_mesh_file_must_be_there() {
 }
 
 #[test]
+fn a_measurement_file_that_is_missing_is_named_where_the_study_names_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.toml");
+    let named = "[measurements]\nfile = \"m.csv\"\n[[test]]\nid = \"A\"\n";
+    std::fs::write(&path, format!("{SHORT}{named}")).unwrap();
+    let error = Study::load(&path).unwrap().dataset().unwrap_err();
+    let diagnostic = error.diagnostic();
+    assert_eq!(
+        (diagnostic.fault, diagnostic.key.as_str()),
+        (Fault::Unreadable, "measurements.file")
+    );
+    assert_eq!(error.file(), path.display().to_string());
+    assert_eq!(error.position(), Some((22, 8)), "{error}");
+    for part in ["m.csv", "no such file", "measurement files here"] {
+        assert!(error.to_string().contains(part), "{error}");
+    }
+}
+
+#[test]
 fn later_faults_find_the_place_of_their_key() {
     let study = Study::parse(SHORT, "study.toml").unwrap();
     let stated = study.refuse("wear.coefficient", "is too small", "1 to 2", "try 1");

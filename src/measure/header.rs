@@ -153,8 +153,10 @@ fn columns() -> String {
 
 fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
     let (plain, _) = name_and_unit(name);
+    let known = || COLUMNS.iter().map(|c| c.0);
     let near = names::near_column(&plain)
-        .unwrap_or_else(|| nearest(name, COLUMNS.iter().map(|c| c.0)).unwrap_or_default());
+        .or_else(|| known().find(|column| abbreviates(&plain, column)))
+        .unwrap_or_else(|| nearest(name, known()).unwrap_or_default());
     let hint = if row.len() == 1 && name.contains([';', '\t', '|']) {
         "columns are separated by commas, semicolons or tabs".to_owned()
     } else if name.parse::<f64>().is_ok() || row.record.iter().all(|f| !is_column(f)) {
@@ -178,6 +180,15 @@ fn unknown(row: &Row<'_>, column: usize, name: &str) -> Box<Diagnostic> {
         .with_hint(hint)
         .with_span(row.span_of(column)),
     )
+}
+
+/// Whether a name has some of a word's letters in their order, its first one first: `qty`.
+fn abbreviates(name: &str, word: &str) -> bool {
+    let name = name.to_lowercase();
+    let mut letters = word.chars();
+    name.chars().count() > 1
+        && name.chars().next() == word.chars().next()
+        && name.chars().all(|c| letters.any(|letter| letter == c))
 }
 
 fn is_column(name: &str) -> bool {

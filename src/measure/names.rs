@@ -105,8 +105,8 @@ pub(super) fn one_member(text: &str) -> Option<Subject> {
 
 /// Whose revolutions a name counts, `None` inside if it does not say; none if it counts no revolutions.
 pub(super) fn revolutions(name: &str) -> Option<Option<Subject>> {
-    let (of, counts): (Vec<String>, Vec<String>) = telling(name)
-        .into_iter()
+    let (of, counts): (Vec<String>, Vec<String>) = (telling(name).into_iter())
+        .flat_map(member_apart)
         .partition(|word| member(word).is_some());
     let count = counts.concat();
     (count == "cycles" || CYCLES.contains(&count.as_str())).then(|| one_member(&of.join(" ")))
@@ -126,7 +126,18 @@ pub(super) fn is_one_letter_count(name: &str) -> bool {
 /// Whether a text speaks of revolutions of the gear.
 pub(super) fn counts_gear_revolutions(text: &str) -> bool {
     let counts = |word: &String| word == "cycles" || CYCLES.contains(&word.as_str());
-    words(text).iter().any(counts) && one_member(text) == Some(Subject::Gear)
+    let words: Vec<String> = words(text).into_iter().flat_map(member_apart).collect();
+    words.iter().any(counts) && one_member(&words.join(" ")) == Some(Subject::Gear)
+}
+
+/// A word, or the member and the count that it is made of: `radumdrehungen`.
+fn member_apart(word: String) -> Vec<String> {
+    let of = |count: &&str| word.strip_suffix(*count).filter(|of| member(of).is_some());
+    let found = CYCLES.iter().find_map(|count| Some((of(count)?, *count)));
+    match found {
+        Some((of, count)) => vec![of.to_owned(), count.to_owned()],
+        None => vec![word],
+    }
 }
 
 /// Hours of a unit of the running time that a name and its unit mean; none if they mean no time.
@@ -135,7 +146,8 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
     let of = |unit: &str| HOURS.iter().find(|(known, _)| *known == unit);
     let found = match unit {
         Some(unit) if TIMES.contains(&name.as_str()) => of(&folded(unit)),
-        None => of(&name).filter(|_| name.len() > 3),
+        // shorter ones have other meanings too, but for the Italian word
+        None => of(&name).filter(|_| name.len() > 3 || name == "ore"),
         Some(_) => None,
     };
     found.map(|(_, hours)| *hours)
@@ -425,6 +437,8 @@ mod tests {
             ("revolutions of the pinion", Some(Some(Subject::Pinion))),
             ("gear revs", Some(Some(Subject::Gear))),
             ("Umdrehungen Rad", Some(Some(Subject::Gear))),
+            ("Radumdrehungen", Some(Some(Subject::Gear))),
+            ("Ritzelumdrehungen", Some(Some(Subject::Pinion))),
             ("load cycles", Some(None)),
             ("wear of the gear", None),
             ("Rad", None),
@@ -432,6 +446,7 @@ mod tests {
             assert_eq!(revolutions(name), whose, "{name}");
         }
         assert!(counts_gear_revolutions("111000 gear rev"));
+        assert!(counts_gear_revolutions("23415 Radumdrehungen"));
         assert!(!counts_gear_revolutions("111000 rev"));
     }
 }

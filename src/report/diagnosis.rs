@@ -55,7 +55,7 @@ fn ranking(diagnosis: &Diagnosis) -> String {
         .map(name)
         .chain([unknown_name(diagnosis).to_owned()]);
     let width = names.map(|n| n.chars().count()).max().unwrap_or(0).max(32) + 2;
-    let decisive = diagnosis.ranking.first().map(|entry| entry.decided_by);
+    let common = common_means(&shown().collect::<Vec<_>>());
     let _ = writeln!(
         text,
         "\n  {:<width$}{:>12}{:>12}{:>10}{}",
@@ -63,7 +63,7 @@ fn ranking(diagnosis: &Diagnosis) -> String {
         "probability",
         "χ²/point",
         "held out",
-        if decisive == Some(Fidelity::Screening) {
+        if common == Some(Fidelity::Screening) {
             "   all by analytic contact, whose own error is in both columns"
         } else {
             ""
@@ -78,7 +78,7 @@ fn ranking(diagnosis: &Diagnosis) -> String {
             probability(entry.probability),
             fit,
             held,
-            if Some(entry.decided_by) == decisive {
+            if common.is_some() {
                 String::new()
             } else {
                 format!("   by {}", means(entry.decided_by))
@@ -149,6 +149,15 @@ fn figures(entry: &Ranked, digits: usize) -> [String; 2] {
         let chi2 = chi2.filter(|_| has_figures(entry));
         chi2.map_or("–".to_owned(), |chi2| format!("{chi2:.digits$}"))
     })
+}
+
+/// By what all lines were fitted; none where they were by different means, and each has to tell.
+fn common_means(lines: &[&Ranked]) -> Option<Fidelity> {
+    let first = lines.first()?.decided_by;
+    lines
+        .iter()
+        .all(|entry| entry.decided_by == first)
+        .then_some(first)
 }
 
 /// What a line was fitted by. Lines by different means have errors of their own: their χ² do not compare to the last digit.
@@ -228,6 +237,20 @@ mod tests {
             decided_by: Fidelity::Full,
             converged: true,
         }
+    }
+
+    #[test]
+    fn a_header_speaks_for_lines_that_are_all_alike() {
+        let by = |decided_by| Ranked {
+            decided_by,
+            ..entry(Hypothesis::Effects(EffectSet::new([
+                find("coating").unwrap()
+            ])))
+        };
+        let [cheap, fine] = [Fidelity::Screening, Fidelity::Full].map(by);
+        assert_eq!(common_means(&[&cheap, &cheap]), Some(Fidelity::Screening));
+        assert_eq!(common_means(&[&cheap, &fine]), None);
+        assert_eq!(common_means(&[]), None);
     }
 
     #[test]

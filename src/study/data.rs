@@ -54,11 +54,26 @@ impl Study {
                 "each test states under which conditions its measurements were made",
             );
         }
-        let mut data = Dataset::load(path, &self.known())?;
+        let mut data =
+            Dataset::load(path, &self.known()).map_err(|error| self.named_here(error))?;
         data.find_outliers(self.noise.outliers == Outliers::Robust);
         self.check_places_across_the_face(&data, self.effect_model())?;
         self.check_teeth_of_rows(&data)?;
         Ok(data)
+    }
+
+    /// A measurement file that cannot be read, with the place of the key that names it; other faults have places in the file itself.
+    fn named_here(&self, error: TextError) -> TextError {
+        const KEY: &str = "measurements.file";
+        let span = self.spans.get(KEY);
+        match span.filter(|_| error.diagnostic().fault == Fault::Unreadable) {
+            Some(span) => {
+                let mut diagnostic = error.diagnostic().clone();
+                KEY.clone_into(&mut diagnostic.key);
+                self.error_at(diagnostic, span.clone())
+            }
+            None => error,
+        }
     }
 
     /// Whether there is any wear to measure or to fit.

@@ -27,6 +27,7 @@ fn running_times_are_turned_into_revolutions() {
     );
     for header in [
         "Ore [h]",
+        "Ore",
         "Stunden [h]",
         "Heures de marche (h)",
         "Horas de funcionamiento [h]",
@@ -40,6 +41,14 @@ fn running_times_are_turned_into_revolutions() {
             "{header}"
         );
     }
+    // both of a compound's words
+    let of_gear =
+        "Versuch;Rad;Radumdrehungen;Radius [mm];Verschlei\u{df} [\u{b5}m]\nA;Ritzel;27000;26,5;1\n";
+    let plain = of_gear.replace("Radumdrehungen", "Umdrehungen Rad");
+    assert_eq!(
+        rows(&home, of_gear, "--sigma 0.1").1,
+        rows(&home, &plain, "--sigma 0.1").1
+    );
     // decimal commas; a time of whole hours is no rounded end of the test
     let commas =
         "Run;Part;Time (h);Radius (mm);Wear (um)\nA;pinion;8,000;26,5;1\nA;pinion;8,333;26,5;2\n";

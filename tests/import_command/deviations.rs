@@ -69,6 +69,49 @@ fn deviations_without_the_new_profile_need_a_sign() {
     assert!(written.contains(",26.5,-1.8,"), "{written}");
 }
 
+/// A row for each value is asked as a column for each checkpoint is.
+#[test]
+fn deviations_of_long_tables_need_a_sign_or_the_new_profile() {
+    let home = home();
+    let header = "Rad;Umdrehungen;Radius [mm];Profilabweichung [\u{b5}m]\n";
+    let worn = "Ritzel;250000;26,5;-0,7\nRitzel;500000;26,5;-1,8\n";
+    let options = "--test A --sigma 0.1";
+    let last = |value: &str| format!("A,pinion,500000,wear_depth,26.5,{value},0.1,");
+    for values in [worn.to_owned(), worn.replace(";-", ";")] {
+        let message = refused(&home, &format!("{header}{values}"), options);
+        assert!(
+            message.contains("D1: `Profilabweichung [\u{b5}m]` names deviations, of which")
+                && message.contains("and none is of the new profile: write"),
+            "{message}"
+        );
+    }
+    let (_, written) = rows(
+        &home,
+        &format!("{header}{worn}"),
+        &format!("{options} --turn-sign"),
+    );
+    assert!(written.contains(&last("1.8")), "{written}");
+    let (_, written) = rows(
+        &home,
+        &format!("{header}{worn}"),
+        &format!("{options} --quantity wear_depth"),
+    );
+    assert!(written.contains(&last("-1.8")), "{written}");
+    // what was worn is the change since the new profile
+    let new = format!("{header}Ritzel;0;26,5;0,3\n{worn}");
+    let (shown, written) = rows(&home, &new, options);
+    assert!(
+        written.contains(&last("2.1")) && !written.contains("A,pinion,0,"),
+        "{written}"
+    );
+    assert!(
+        shown.contains(
+            "layout   D1, `Profilabweichung [\u{b5}m]`: wear depth, the change of the deviation since 0"
+        ),
+        "{shown}"
+    );
+}
+
 #[test]
 fn a_mass_above_a_table_of_members_is_its_quantity() {
     let home = home();

@@ -177,6 +177,14 @@ fn a_title_with_another_unit_is_named() {
         "{message}"
     );
     assert!(!message.contains("looks like nm"), "{message}");
+    // a header of a table with a row for each value says it alike
+    let table = "cycles;radius [mm];wear depth [mm]\n250000;26,5;2,345\n250000;27;2,1\n";
+    let message = refused(&home, table, "--test A --member pinion --sigma 0.1");
+    assert!(
+        message.contains("the header says mm; the numbers look like \u{b5}m"),
+        "{message}"
+    );
+    assert!(!message.contains("looks like nm"), "{message}");
 }
 
 #[test]

@@ -207,3 +207,23 @@ fn counts_with_several_marks_are_read() {
         "{message}"
     );
 }
+
+/// What decides in measurement files decides here: beside decimal commas a point in a count stands between its thousands.
+#[test]
+fn points_between_thousands_of_counts_beside_decimal_commas() {
+    let home = home();
+    let table = |cycles: &str, value: &str| {
+        format!(
+            "Versuch;Teil;Umdrehungen;Radius [mm];Verschlei\u{df} [\u{b5}m]\nA;Ritzel;{cycles};26,5;{value}\n"
+        )
+    };
+    let (_, written) = rows(&home, &table("40.000", "0,278"), "--sigma 0.1");
+    assert!(
+        written.starts_with("A,pinion,40000,wear_depth,26.5,0.278,"),
+        "{written}"
+    );
+    // `1000.000` in the same column has decimals
+    let both = table("40.000", "0,278") + "A;Ritzel;1000.000;26,5;1,278\n";
+    let message = refused(&home, &both, "--sigma 0.1");
+    assert!(message.contains("C2"), "{message}");
+}

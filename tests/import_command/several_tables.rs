@@ -104,12 +104,15 @@ fn files_of_one_curve_each_are_read_together() {
          A,pinion,250000,wear_depth,27.5,1.25,0.1,A-pinion-250000\n"
     );
     // the same curve twice is no second measurement
-    let (code, _, message) = line(&home, "import a.txt a.txt --study study.toml --sigma 0.1");
+    let (code, _, message) = line(
+        &home,
+        "import a.txt a.txt --study study.toml --turn-sign --sigma 0.1",
+    );
     assert_eq!(code, Some(2));
     assert!(message.contains("the reading A,pinion,100000"), "{message}");
     // a curve that says nothing of itself
     let bare = "Radius [mm];Deviation [um]\n26.5;2.5\n27.5;1.5\n";
-    let options = "--test B --member pinion --cycles 5000 --sigma 0.1";
+    let options = "--test B --member pinion --cycles 5000 --sigma 0.1 --quantity wear_depth";
     assert_eq!(
         rows(&home, bare, options).1,
         "B,pinion,5000,wear_depth,26.5,2.5,0.1,B-pinion-5000\nB,pinion,5000,wear_depth,27.5,1.5,0.1,B-pinion-5000\n"

@@ -95,10 +95,10 @@ impl Understood {
     /// What is said of values that are too large for the unit that a title or a header states; none where it is another one's matter.
     pub(super) fn unit_otherwise(&self) -> Option<String> {
         const SMALLER: [(&str, &str); 3] = [("mm", "um"), ("g", "mg"), ("kg", "g")];
-        let Understood::Wide(wide) = self else {
-            return None;
+        let (unit, from) = match self {
+            Understood::Wide(wide) => &wide.unit,
+            Understood::Long(long) => long.unit.as_ref()?,
         };
-        let (unit, from) = &wide.unit;
         let what = match from {
             UnitFrom::Header => "header",
             UnitFrom::Title => "title",

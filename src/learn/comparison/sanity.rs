@@ -71,6 +71,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         return vec![nothing];
     }
     let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
+    let mut values_asked = false;
     if said.is_empty() {
         let k = fit.coefficient;
         // exchanged masses are at odds with the depths of both members
@@ -79,6 +80,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             let of_tests = single_tests::depths_and_masses(study, &rows, k);
             let of_all = || depths_and_masses(study, &rows, k).into_iter().collect();
             said.extend(of_tests.unwrap_or_else(of_all));
+            values_asked = !said.is_empty();
         }
         if said.is_empty() {
             said.extend(mass_balance::masses_and_depths(study, data));
@@ -104,7 +106,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         said.extend(falling::falling(study, &rows));
         said.extend(reversed::reversed(study, &rows));
     }
-    said.extend(sigmas::of_another_unit(data));
+    said.extend(sigmas::of_another_unit(data, values_asked));
     said.extend(gear_revolutions(study, data));
     said.extend(single_tests::short_of_their_cycles(study, data));
     said

@@ -31,7 +31,8 @@ pub(in crate::learn) fn warnings(
     let mut warnings = Vec::new();
     if context.approximate {
         warnings.push(
-            "decided by the analytic contact model, whose curves differ by 1 to 2 % from finite elements and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
+            "decided by the analytic contact model, whose curves differ from finite elements (by 1 to 2 % for the reference pair, by more for others and at deep wear; `gearwear models STUDY` \
+             tells it for this one) and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
         );
     }
     warnings.extend(of_sigma(likelihood, base, spoken_of(base, posterior)));

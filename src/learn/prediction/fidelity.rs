@@ -20,7 +20,7 @@ pub enum Fidelity {
     Full,
 }
 
-/// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 %.
+/// Relative error of the analytic model where it decides: its curves differ from finite elements by 1 to 2 % for the reference pair.
 const HERTZ_ERROR: f64 = 0.02;
 
 /// Resolution of the coarse finite elements: flank edges per half width, positions, error of a wear step.

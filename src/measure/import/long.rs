@@ -12,10 +12,12 @@ mod weights;
 use super::arrange::{Arranged, arranged};
 use super::columns::{Column, What, columns, known_by_content, with_sides};
 use super::entry::{Entry, state_face, state_sigma};
-use super::numbers::with_points;
+use super::numbers::{counts_without_thousands, with_points};
 use super::titles::Titles;
-use super::wanted::Wanted;
-use super::{ImportError, Sheet, cell_name, counts, decimal_commas, nameless};
+use super::wanted::{UnitFrom, Wanted};
+use super::{
+    ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
+};
 use crate::measure::{Quantity, names};
 use line::Line;
 use read_columns::{Read, single_quantity};
@@ -38,6 +40,8 @@ pub struct Long {
     pub passed_over: Vec<(String, &'static str)>,
     /// The rows that are left out because the flank does not reach there, in words.
     pub left_out: Vec<String>,
+    /// Unit of the values in the table, and what states it; none where a column says what each value is.
+    pub unit: Option<(String, UnitFrom)>,
     /// What the rows above the header say.
     pub titles: Titles,
     /// Whether the signs of losses are turned.
@@ -107,7 +111,13 @@ fn of_columns(
     let columns = columns;
     let read = Read::of(&columns, head, wanted)?;
     let numbers = [read.position, Some(read.value), read.sigma, read.face];
-    let sheet = &with_points(sheet, wanted.decimal, |row, column| {
+    let mut sheet = sheet.clone();
+    let is_count = read.cycles.hours.is_none() && multiples::factor(&read.cycles.written).is_none();
+    if is_count && wanted.decimal.is_none() {
+        let others: Vec<usize> = numbers.iter().flatten().map(|read| read.at).collect();
+        counts_without_thousands(&mut sheet, head, read.cycles.at, &others);
+    }
+    let sheet = &with_points(&sheet, wanted.decimal, |row, column| {
         row > head && numbers.iter().flatten().any(|read| read.at == column)
     })?;
     let single = match (read.quantity, read.value.what) {
@@ -167,6 +177,13 @@ fn of_columns(
     let left_out = off_flank::leave_out(&mut entries, line)?;
     let joined = wanted.there.join(&mut entries, false);
     arranged.extend(checkpoints::join(&mut entries));
+    // of two deviations one has been taken from the other
+    let is_depth = single == Some(Quantity::WearDepth) && !differences;
+    let deviation = is_depth.then(|| deviations::of_column(read.value, head, wanted));
+    if let Some(named) = deviation.flatten() {
+        let states_sign = turned || titles.lost_is_negative.is_some();
+        arranged.push(named.as_depths(&mut entries, (states_sign, turned), wanted)?);
+    }
     let flank = flanks::only(sheet, head, &columns, &entries)?;
     let traces = traces::name(&mut entries, &read, wanted)?;
     if let (Some(column), Some(_)) = (read.face, wanted.face) {
@@ -180,11 +197,15 @@ fn of_columns(
         state_sigma(&mut entries, wanted)?;
     }
     arranged.extend(wanted.per_interval.add_up(&mut entries, false)?);
+    let unit = single.map(|quantity| {
+        wanted.unit_of_values(quantity, read.value.unit.as_deref(), titles.unit.as_deref())
+    });
     Ok(Long {
         row: head + 1,
         arranged,
         joined,
         left_out,
+        unit: unit.transpose()?,
         columns: read.in_words(&columns, single, &titles, wanted)?,
         passed_over: passed_over(
             sheet,

@@ -13,6 +13,7 @@ mod columns;
 mod counts;
 mod coverage;
 mod decimal_commas;
+mod deviations;
 mod entry;
 mod exchanged;
 mod flank;

@@ -97,6 +97,38 @@ fn leave_out_certain_thousands(sheet: &mut Sheet) {
     }
 }
 
+/// Leaves the marks between thousands out of a column of counts of a text below row `head`, where its own numbers or the decimals of the `others`
+/// tell what they are, as in measurement files.
+pub(super) fn counts_without_thousands(
+    sheet: &mut Sheet,
+    head: usize,
+    counts: usize,
+    others: &[usize],
+) {
+    let is_text = sheet.name.is_empty();
+    if !is_text {
+        return;
+    }
+    let mut marks = CountMarks::default();
+    let below = sheet.rows.iter_mut().skip(head + 1);
+    let mut below: Vec<&mut Vec<String>> = below.collect();
+    for row in &below {
+        let number = |at: usize| {
+            let text = row.get(at)?.as_str();
+            (number_words(text) == [text]).then_some(text)
+        };
+        number(counts).into_iter().for_each(|text| marks.see(text));
+        let elsewhere = others.iter().filter_map(|&at| number(at));
+        elsewhere.for_each(|text| marks.see_elsewhere(text));
+    }
+    for text in below.iter_mut().filter_map(|row| row.get_mut(counts)) {
+        let is_number = number_words(text) == [text.as_str()];
+        if let Some(plain) = marks.plain(text).filter(|_| is_number) {
+            *text = plain;
+        }
+    }
+}
+
 /// Whether a number below row `head` is written with a comma and nothing else.
 pub(super) fn has_decimal_commas(sheet: &Sheet, head: usize) -> bool {
     let mut cells = sheet.rows.iter().skip(head + 1).flatten();

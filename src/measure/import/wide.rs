@@ -1,6 +1,5 @@
 //! Which cell of a wide table is what, and the rows of a measurement file that they give.
 
-mod deviations;
 mod grid;
 mod reading;
 
@@ -16,7 +15,9 @@ use super::numbers::{
 use super::place::{PositionKind, on_flank};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
-use super::{ImportError, Sheet, cell_name, columns, counts, decimal_commas, nameless, units};
+use super::{
+    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, nameless, units,
+};
 use crate::measure::{Place, Quantity, Subject, names};
 
 /// What the columns of a wide table are.

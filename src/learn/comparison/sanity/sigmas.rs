@@ -43,12 +43,13 @@ impl Stated {
     }
 }
 
-/// A line for each quantity whose sigmas ask for it.
-pub(super) fn of_another_unit(data: &Dataset) -> Vec<String> {
+/// A line for each quantity whose sigmas ask for it; not for those of all tests where `values_asked`: a line asks about the values' unit already.
+pub(super) fn of_another_unit(data: &Dataset, values_asked: bool) -> Vec<String> {
     let all = [Quantity::WearDepth, Quantity::MassLoss].into_iter();
     all.filter_map(|quantity| {
         let stated = stated(data, quantity);
-        too_sure(quantity, &stated).or_else(|| unlike_the_others(data, quantity, &stated))
+        let of_all = too_sure(quantity, &stated);
+        (of_all.filter(|_| !values_asked)).or_else(|| unlike_the_others(data, quantity, &stated))
     })
     .collect()
 }
@@ -156,7 +157,7 @@ mod tests {
     }
 
     fn lines(sigmas: [f64; 3]) -> Vec<String> {
-        of_another_unit(&data(sigmas, 1.0))
+        of_another_unit(&data(sigmas, 1.0), false)
     }
 
     fn values(of_second: f64) -> Option<String> {
@@ -185,5 +186,8 @@ mod tests {
             all[0].starts_with("sigma of wear_depth is about 0.00020"),
             "{all:?}"
         );
+        // values in another unit are enough
+        assert!(of_another_unit(&data([0.0002; 3], 1.0), true).is_empty());
+        assert!(!of_another_unit(&data([0.2, 200.0, 0.2], 1.0), true).is_empty());
     }
 }

@@ -1,16 +1,18 @@
-//! Wide tables of deviations from the profile: what was worn is what a place has less than when it was new.
+//! Tables of deviations from the profile: what was worn is what a place has less than when it was new.
 //!
 //! ```text
 //! depth(place, cycles) = deviation(place, 0) − deviation(place, cycles)      a deviation is positive where there is more material
 //! ```
 //! Where the table says that lost material is positive it is the other way round.
 
-use super::Result;
-use crate::measure::import::entry::Entry;
-use crate::measure::import::numbers::rounded;
-use crate::measure::import::wanted::Wanted;
-use crate::measure::import::{ImportError, Sheet, cell_name};
+use super::columns::Column;
+use super::entry::Entry;
+use super::numbers::rounded;
+use super::wanted::Wanted;
+use super::{ImportError, Sheet, cell_name};
 use crate::measure::{Quantity, names};
+
+type Result<T> = std::result::Result<T, ImportError>;
 
 /// How the sign is stated, or that there is none to state.
 const SAY_SIGN: &str = "write `negative = material missing` (or positive) into the title, say --turn-sign where it is negative, or --quantity wear_depth if the values are \
@@ -18,11 +20,12 @@ const SAY_SIGN: &str = "write `negative = material missing` (or positive) into t
 
 /// Where a table names its values deviations.
 pub(super) struct Deviations {
-    row: usize,
+    /// Row or cell of the words.
+    place: String,
     words: String,
 }
 
-/// The first row down to the header that names deviations and says nothing of wear; none where the user says what the values are.
+/// The first row of a wide table down to the header that names deviations and says nothing of wear; none where the user says what the values are.
 pub(super) fn named(
     sheet: &Sheet,
     head: usize,
@@ -39,7 +42,20 @@ pub(super) fn named(
             .filter(|cell| !cell.is_empty())
             .collect();
         let words = filled.join(" ");
-        names::speaks_of_deviation(&words).then_some(Deviations { row, words })
+        names::speaks_of_deviation(&words).then(|| Deviations {
+            place: format!("row {}", row + 1),
+            words,
+        })
+    })
+}
+
+/// The column of values of a long table whose header is in row `head`, if it names deviations; none where the user says what the values are.
+pub(super) fn of_column(column: &Column, head: usize, wanted: &Wanted<'_>) -> Option<Deviations> {
+    let names_them =
+        names::is_deviation(&column.name()) || names::speaks_of_deviation(&column.written);
+    (wanted.quantity.is_none() && names_them).then(|| Deviations {
+        place: cell_name(head, column.at),
+        words: column.written.clone(),
     })
 }
 
@@ -74,16 +90,15 @@ impl Deviations {
             return Err(self.refused("and has them at 0 alone, of the new profile: what was worn is the change since then, so add those after running"));
         }
         for entry in entries.iter_mut() {
-            let of_place = |n: &&Entry| (n.member, n.position) == (entry.member, entry.position);
-            let Some(before) = new.iter().find(of_place) else {
+            let Some(before) = mean_of_place(&new, entry) else {
                 return Err(ImportError(format!(
-                    "{}: row {} names deviations (`{}`), and this place has none at 0 to take from: add it, or take the place out",
+                    "{}: {} names deviations (`{}`), and this place has none at 0 to take from: add it, or take the place out",
                     cell_name(entry.cell.0, entry.cell.1),
-                    self.row + 1,
+                    self.place,
                     self.words
                 )));
             };
-            let lost = before.value - entry.value;
+            let lost = before - entry.value;
             entry.value = rounded(if states_sign { -lost } else { lost });
         }
         let negative = entries.iter().filter(|entry| entry.value < 0.0).count();
@@ -95,8 +110,8 @@ impl Deviations {
             )));
         }
         Ok(format!(
-            "row {}, `{}`: wear depth, the change of the deviation since 0, {}; those at 0 are not written themselves",
-            self.row + 1,
+            "{}, `{}`: wear depth, the change of the deviation since 0, {}; those at 0 are not written themselves",
+            self.place,
             self.words,
             match (states_sign, turned) {
                 (false, _) | (true, true) => "for it is positive where there is more material",
@@ -106,10 +121,9 @@ impl Deviations {
     }
 
     fn refused(&self, why: &str) -> ImportError {
-        let row = self.row + 1;
         ImportError(format!(
-            "row {row}: `{}` names deviations, {why}",
-            self.words
+            "{}: `{}` names deviations, {why}",
+            self.place, self.words
         ))
     }
 
@@ -128,8 +142,8 @@ impl Deviations {
             )));
         }
         Ok(format!(
-            "row {}, `{}`: deviations without the new profile's (at 0) are taken for depths, {} where material is missing",
-            self.row + 1,
+            "{}, `{}`: deviations without the new profile's (at 0) are taken for depths, {} where material is missing",
+            self.place,
             self.words,
             if turned {
                 "negative in the table"
@@ -138,4 +152,18 @@ impl Deviations {
             }
         ))
     }
+}
+
+/// What was measured of the new profile where a later value stands, the mean of repeats; none if nothing was.
+fn mean_of_place(new: &[Entry], later: &Entry) -> Option<f64> {
+    let place = |entry: &Entry| {
+        let label = [&entry.test, &entry.face, &entry.tooth].map(String::clone);
+        (label, entry.member, entry.position)
+    };
+    let there = place(later);
+    let own = new.iter().filter(|entry| place(entry) == there);
+    let (count, sum) = own.fold((0_u32, 0.0), |(count, sum), entry| {
+        (count + 1, sum + entry.value)
+    });
+    (count > 0).then(|| sum / f64::from(count))
 }
