@@ -36,7 +36,7 @@ const TOLD: usize = 3;
 /// Relative error that the analytic model may have against finite elements: `gearwear models` finds 1 to 2 % on the reference pair and 3 to 5 % by zone on
 /// another one with shifted profiles.
 const ANALYTIC_ERROR: f64 = 0.05;
-/// χ² per point with that error allowed for, below which nothing more than it is missed.
+/// χ² per point of wear with that error allowed for, below which nothing more than it is missed.
 const WITHIN_ERROR: f64 = 1.5;
 /// Ratio of probabilities below which they are about the same.
 const CLEARLY: f64 = 1.5;
@@ -145,12 +145,15 @@ pub(super) fn undecided(
     let likelihood = &context.likelihood;
     let within_error = || {
         let model = &base.fitted.found.model;
-        let off = likelihood.standardised(model).into_iter().zip(model);
-        let off = off.enumerate().map(|(row, (z, value))| {
-            let own = ANALYTIC_ERROR * value / likelihood.observation(row).sigma;
-            z * z / (1.0 + own * own)
-        });
-        off.sum::<f64>() < WITHIN_ERROR * likelihood.len() as f64
+        // of the stiffness of teeth, and so of their transmission error, it knows less than of wear
+        let off: Vec<f64> = (likelihood.standardised(model).iter().zip(model).enumerate())
+            .filter(|(row, _)| likelihood.observation(*row).quantity.is_wear())
+            .map(|(row, (z, value))| {
+                let own = ANALYTIC_ERROR * value / likelihood.observation(row).sigma;
+                z * z / (1.0 + own * own)
+            })
+            .collect();
+        off.iter().sum::<f64>() < WITHIN_ERROR * off.len() as f64
     };
     context.approximate
         && match posterior.decision.verdict {
