@@ -6,6 +6,7 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod cycle_units;
 mod exchanged_masses;
 mod falling;
 mod mass_balance;
@@ -17,7 +18,7 @@ mod unworn_members;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use self::single_tests::cycles_in_another_unit;
+pub use self::cycle_units::cycles_in_another_unit;
 use super::residual_statistics::{FittedRow, fitted};
 use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
@@ -52,7 +53,7 @@ const BETTER_THAN_FACTORS: f64 = 0.5;
 /// All that there is to say, the worst first.
 pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     // all else would follow from it
-    if let Some(other) = single_tests::cycles_in_another_unit(study, data) {
+    if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];
     }
     if let Some(unit) = sigmas::values_of_another_unit(data) {
