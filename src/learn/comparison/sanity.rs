@@ -10,6 +10,9 @@ mod cycle_units;
 mod exchanged_masses;
 mod falling;
 mod mass_balance;
+mod mass_over_depth;
+mod moved_places;
+mod negated;
 mod no_wear;
 mod reversed;
 mod sigmas;
@@ -82,6 +85,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             said.extend(of_tests.unwrap_or_else(of_all));
         }
         if said.is_empty() {
+            said.extend(mass_over_depth::mass_over_depth(study, &rows));
+        }
+        if said.is_empty() {
             said.extend(mass_balance::masses_and_depths(study, data));
         }
         said.extend(other_units(study, &rows));
@@ -102,8 +108,15 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         ));
     }
     if said.is_empty() {
-        said.extend(falling::falling(study, &rows));
-        said.extend(reversed::reversed(study, &rows));
+        // a negative curve falls too
+        said.extend(negated::negated(study, &rows));
+        if said.is_empty() {
+            said.extend(falling::falling(study, &rows));
+            said.extend(reversed::reversed(study, &rows));
+        }
+        if said.is_empty() {
+            said.extend(moved_places::moved_places(&rows));
+        }
     }
     said.extend(sigmas::of_another_unit(data));
     said.extend(gear_revolutions(study, data));
