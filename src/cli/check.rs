@@ -68,8 +68,12 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     if !data.estimates_sigmas() {
         warnings.extend(stated_sigma(&study, &data, &compared.fit));
     }
-    let carried = misfit_of_one_quantity(&study, &data, &compared.fit);
     let sanity = &compared.comparison.sanity;
+    // what is wrong as a whole shows most somewhere
+    let carried = match sanity.is_empty() {
+        true => misfit_of_one_quantity(&study, &data, &compared.fit),
+        false => None,
+    };
     // nothing looks right where one quantity carries the misfit, whatever the reason
     let looks_right = sanity.is_empty() && carried.is_none();
     warnings.extend(carried);

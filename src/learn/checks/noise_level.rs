@@ -58,7 +58,9 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
     let rows: Vec<&Observation> = data.observations.iter().collect();
     let residual = (rows.iter().zip(&fit.rows)).map(|(o, row)| row.standardised * o.sigma);
     let residual: Vec<f64> = residual.collect();
-    let fitted = |row: &usize| study.tests[rows[*row].test].role == Role::Fit;
+    // rows that stand apart are told by themselves, and say nothing of the sigma of the others
+    let apart = |row: usize| data.outliers.iter().any(|outlier| outlier.row == row);
+    let fitted = |row: &usize| study.tests[rows[*row].test].role == Role::Fit && !apart(*row);
     let fitted: Vec<usize> = (0..rows.len()).filter(fitted).collect();
     let own: Vec<&Observation> = fitted.iter().map(|&row| rows[row]).collect();
     let of_own: Vec<f64> = fitted.iter().map(|&row| residual[row]).collect();

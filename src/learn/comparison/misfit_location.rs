@@ -201,8 +201,13 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     if either_sign(&cells[key]) || !(clear(first) || clear(last)) {
         return String::new();
     }
-    let word = if clear(first) && clear(last) && first.bias * last.bias < 0.0 {
-        "changes its sign"
+    // of an end within its noise nobody knows the sign
+    let word = if first.bias * last.bias < 0.0 {
+        match (clear(first), clear(last)) {
+            (true, true) => "changes its sign",
+            (false, _) => "grows out of its noise",
+            (_, false) => "falls into its noise",
+        }
     } else if last.bias.abs() > 1.5 * first.bias.abs() {
         "grows"
     } else if last.bias.abs() < first.bias.abs() / 1.5 {
@@ -407,6 +412,34 @@ mod tests {
         let told = sentence(&cells, &BTreeMap::new(), &map, &BTreeMap::new(), None);
         let begins = "The computed transmission error (of the gear) is 1.0 µrad too low in test A (χ² per point 9.0";
         assert!(told.starts_with(begins), "{told}");
+    }
+
+    /// −0.13 µm at first and +0.15 µm at last, where the worst cell lies at an end.
+    #[test]
+    fn an_error_that_changes_its_sign_does_not_stay_alike() {
+        let key = |interval| {
+            let place = Some(Region::LowerDouble);
+            (0, Subject::Pinion, Quantity::WearDepth, place, interval)
+        };
+        let told = |ends: [f64; 2], sigmas: [f64; 2]| {
+            let of = |i: usize| Cell {
+                bias: ends[i],
+                bias_sigma: sigmas[i],
+                rms: ends[i].abs(),
+                ..cell(Quantity::WearDepth, 12, 20.0)
+            };
+            let cells = BTreeMap::from([(key(0), of(0)), (key(1), of(1))]);
+            trend(&key(1), &cells)
+        };
+        let changes = told([-0.13, 0.15], [0.01; 2]);
+        assert!(
+            changes.contains("changes its sign over the test, from −0.13 µm to +0.15 µm"),
+            "{changes}"
+        );
+        assert!(told([0.13, 0.15], [0.01; 2]).contains("stays alike"));
+        // one end within its noise
+        assert!(told([-0.13, 0.15], [0.06, 0.01]).contains("grows out of its noise"));
+        assert!(told([-0.15, 0.13], [0.01, 0.06]).contains("falls into its noise"));
     }
 
     /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.

@@ -176,6 +176,12 @@ impl Comparison {
             let share = o.cycles / study.tests[o.test].conditions.cycles;
             Some(((4.0 * share).ceil() as usize).clamp(1, 4))
         };
+        let sanity = sanity(study, data, fit);
+        // what is wrong as a whole shows most somewhere
+        let carried = match sanity.is_empty() {
+            true => misfit_of_one_quantity(study, data, fit),
+            false => None,
+        };
         Self {
             points: all.points,
             chi2_per_point: all.chi2_per_point.unwrap_or_default(),
@@ -189,8 +195,8 @@ impl Comparison {
             places,
             worst,
             correlation: correlation(fit),
-            sanity: sanity(study, data, fit),
-            warnings: (misfit_of_one_quantity(study, data, fit).into_iter())
+            sanity,
+            warnings: (carried.into_iter())
                 .chain(unlike_tests(study, data, fit))
                 .chain(trend_of_coefficients(study, data, fit))
                 .chain(far_datums(study, data, fit))

@@ -6,9 +6,13 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod cycle_units;
 mod exchanged_masses;
 mod falling;
 mod mass_balance;
+mod mass_over_depth;
+mod moved_places;
+mod negated;
 mod no_wear;
 mod reversed;
 mod sigmas;
@@ -17,7 +21,7 @@ mod unworn_members;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-pub use self::single_tests::cycles_in_another_unit;
+pub use self::cycle_units::cycles_in_another_unit;
 use super::residual_statistics::{FittedRow, fitted};
 use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
@@ -52,7 +56,7 @@ const BETTER_THAN_FACTORS: f64 = 0.5;
 /// All that there is to say, the worst first.
 pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     // all else would follow from it
-    if let Some(other) = single_tests::cycles_in_another_unit(study, data) {
+    if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];
     }
     if let Some(unit) = sigmas::values_of_another_unit(data) {
@@ -83,6 +87,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             values_asked = !said.is_empty();
         }
         if said.is_empty() {
+            said.extend(mass_over_depth::mass_over_depth(study, &rows));
+        }
+        if said.is_empty() {
             said.extend(mass_balance::masses_and_depths(study, data));
         }
         said.extend(other_units(study, &rows));
@@ -103,8 +110,15 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         ));
     }
     if said.is_empty() {
-        said.extend(falling::falling(study, &rows));
-        said.extend(reversed::reversed(study, &rows));
+        // a negative curve falls too
+        said.extend(negated::negated(study, &rows));
+        if said.is_empty() {
+            said.extend(falling::falling(study, &rows));
+            said.extend(reversed::reversed(study, &rows));
+        }
+        if said.is_empty() {
+            said.extend(moved_places::moved_places(&rows));
+        }
     }
     said.extend(sigmas::of_another_unit(data, values_asked));
     said.extend(gear_revolutions(study, data));

@@ -14,6 +14,8 @@ const OVER_OTHERS: f64 = 5.0;
 const SHARE: f64 = 0.3;
 /// Share of it that the scatter of neighbours must make up, where there are curves, for their sigma to be asked about.
 const OF_SCATTER: f64 = 0.25;
+/// Share of its χ² that one row may make: of one that is far off by itself the sigma of all others knows nothing.
+const OF_ONE_ROW: f64 = 0.5;
 
 /// The quantity that carries the misfit of a fit to its tests, in words; None if none does.
 pub fn misfit_of_one_quantity(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
@@ -41,6 +43,10 @@ pub(in crate::learn) fn carried_by<'d>(
         let (count, square) = sum(&|q| q == quantity);
         let (others, rest) = sum(&|q| q != quantity);
         if count < LEAST || others < LEAST {
+            return None;
+        }
+        let largest = rows.iter().filter(|(q, _)| *q == quantity).map(|row| row.1);
+        if largest.fold(0.0, f64::max) > OF_ONE_ROW * square {
             return None;
         }
         let (own, other) = (square / count as f64, rest / others as f64);
@@ -123,6 +129,10 @@ mod tests {
         // both are off alike, or hardly
         assert_eq!(said(9.0, 5.0), None);
         assert_eq!(said(2.5, 1.0), None);
+        // one row makes it all
+        let typo = (0..8).map(|i| (&mass, if i == 3 { 60.0 } else { 1.0 }));
+        let depths = (0..400).map(|_| (&depth, 1.2));
+        assert_eq!(carried_by(typo.chain(depths), ""), None);
         // transmission errors see what wears whole flanks more sharply than depths: that says nothing of their sigma
         let errors: Vec<Observation> = (0..72)
             .map(|i| Observation {

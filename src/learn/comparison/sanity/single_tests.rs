@@ -24,8 +24,6 @@ const SAME_TORQUE: f64 = 0.002;
 const HALF: f64 = 0.5;
 /// How far outside the other tests' torques or cycles a corrected one may lie.
 const AMONG: f64 = 2.0;
-/// Part of the cycles that a study states before which no test is measured for the last time.
-const EARLY: f64 = 0.005;
 /// Into how many parts a test is usually divided.
 const USUAL_PARTS: [u32; 6] = [2, 3, 4, 5, 8, 10];
 
@@ -247,51 +245,6 @@ pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[FittedRow<'_>])
         })
     };
     by_test(study, &before).filter_map(worn).collect()
-}
-
-/// Tests of which all rows stand so early in what the study states that their cycles are no revolutions but what they look like.
-pub fn cycles_in_another_unit(study: &Study, data: &Dataset) -> Option<String> {
-    let last = |test: usize| {
-        let own = data.observations.iter().filter(|o| o.test == test);
-        own.map(|o| o.cycles).fold(0.0, f64::max)
-    };
-    let early = (0..study.tests.len()).filter_map(|test| {
-        let (last, conditions) = (last(test), &study.tests[test].conditions);
-        let is_early = last > 0.0 && last < EARLY * conditions.cycles;
-        is_early.then(|| (&study.tests[test], last, conditions.cycles / last))
-    });
-    let early: Vec<_> = early.collect();
-    let (test, last, times) = early.first()?;
-    let all = |per_unit: &dyn Fn(f64) -> f64| {
-        early.iter().all(|(test, _, times)| {
-            let off = times / per_unit(test.conditions.speed_rpm);
-            (1.0 / AMONG..=AMONG).contains(&off)
-        })
-    };
-    let looks = if all(&|rpm| 60.0 * rpm) {
-        "they look like hours of running: multiply them by 60 times the speed in rpm, or read the table by gearwear import, which takes hours"
-    } else if all(&|rpm| rpm) {
-        "they look like minutes of running: multiply them by the speed in rpm"
-    } else if all(&|_| 1e6) {
-        "they look like millions: multiply them by 1e6"
-    } else if all(&|_| 1e3) {
-        "they look like thousands: multiply them by 1000"
-    } else {
-        return None;
-    };
-    let tests: Vec<&str> = early.iter().map(|(test, ..)| test.id.as_str()).collect();
-    Some(format!(
-        "the rows of test{} {} end at {} cycles{} where the study states {}, {times:.0} times as many: cycles are revolutions of the pinion; {looks}",
-        if tests.len() > 1 { "s" } else { "" },
-        tests.join(", "),
-        rounded(*last),
-        if tests.len() > 1 {
-            format!(" (test {})", test.id)
-        } else {
-            String::new()
-        },
-        test.conditions.cycles
-    ))
 }
 
 /// Tests whose last rows stand at the pinion's teeth over the gear's of the cycles that the study states: those are the gear's revolutions. A

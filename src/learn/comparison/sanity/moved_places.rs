@@ -1,0 +1,200 @@
+//! Curves that fit far better with their places counted from the other end, or all moved by the same distance.
+//!
+//! ```text
+//! X(p') = Σ over curves of min over c, s ≥ 0 of Σ ((y(p) − c − s f(p'))/σ)²      f the fitted model along the curve, between its points
+//! p' = low + high − p: upside down;  p' = p − δ: moved by δ      asked where X(p) is large and X(p') below a third of it
+//! ```
+//! Of the shape alone: neither k nor zeros hide it. One curve upside down among others is told by these (`reversed`).
+
+use std::collections::BTreeMap;
+
+use super::super::residual_statistics::FittedRow;
+use crate::measure::{FacePlace, Quantity, Subject};
+
+/// Fewest points of a curve, and fewest curves.
+const FEWEST: usize = 6;
+const CURVES: usize = 3;
+/// χ² per point of the shape from which it is looked at, and the part that must be left.
+const LARGE: f64 = 4.0;
+const LEFT: f64 = 1.0 / 3.0;
+/// Distances that are tried, in mm: so many steps to either side.
+const STEP: f64 = 0.05;
+const STEPS: i32 = 10;
+
+/// Place, measured depth, the model's and σ; by rising place.
+type Point = [f64; 4];
+
+/// A question for each member of which the places fit far better otherwise, or one for both.
+pub(super) fn moved_places(rows: &[FittedRow<'_>]) -> Vec<String> {
+    let [pinion, gear] = [Subject::Pinion, Subject::Gear].map(|member| of(rows, member));
+    let both = pinion.is_some() && pinion == gear;
+    let said = [("the pinion's", pinion), ("the gear's", gear)];
+    let said = said
+        .into_iter()
+        .filter_map(|(whose, found)| Some((whose, found?)));
+    let said = said.map(|(whose, found)| match both {
+        true => ("all", found),
+        false => (whose, found),
+    });
+    let lines = said.map(|(whose, found)| match found {
+        Better::UpsideDown => format!(
+            "{whose} depth curves fit far better upside down: do their places run from tip to root where root to tip is stated?"
+        ),
+        Better::Moved(steps) => format!(
+            "{whose} depth curves fit far better at radii that are about {:.2} mm {}: look at the zero of the radii, or at tip diameter and profile shift",
+            STEP * f64::from(steps.abs()),
+            if steps > 0 { "smaller" } else { "larger" }
+        ),
+    });
+    lines.take(if both { 1 } else { 2 }).collect()
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Better {
+    UpsideDown,
+    Moved(i32),
+}
+
+fn of(rows: &[FittedRow<'_>], member: Subject) -> Option<Better> {
+    let mut curves: BTreeMap<_, Vec<Point>> = BTreeMap::new();
+    let own = rows
+        .iter()
+        .filter(|(o, _)| (o.quantity, o.member) == (Quantity::WearDepth, member));
+    for (o, row) in own {
+        let Some(place) = o.position else { continue };
+        let face = o.face.map(FacePlace::key);
+        let key = (
+            o.test,
+            o.cycles.to_bits(),
+            o.trace,
+            face,
+            o.tooth.as_deref(),
+        );
+        curves
+            .entry(key)
+            .or_default()
+            .push([place, o.value, row.model, o.sigma]);
+    }
+    let mut curves: Vec<Vec<Point>> = curves.into_values().filter(|c| c.len() >= FEWEST).collect();
+    for curve in &mut curves {
+        curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    }
+    if curves.len() < CURVES {
+        return None;
+    }
+    // on the same points as they stand, for those that move beyond the curve's ends drop out
+    let left = |to: &dyn Fn(&[Point], f64) -> f64| {
+        let mut sums = [0.0; 3];
+        for curve in &curves {
+            for (sum, x) in sums.iter_mut().zip(misfit(curve, to)) {
+                *sum += x;
+            }
+        }
+        let [stands, moved, points] = sums;
+        (stands > LARGE * points).then_some(moved / stands)
+    };
+    let mirrored = left(&|curve, place| curve[0][0] + curve[curve.len() - 1][0] - place);
+    let mirrored = mirrored.map(|left| (Better::UpsideDown, left));
+    let moved = (-STEPS..=STEPS)
+        .filter(|steps| steps.abs() > 1)
+        .filter_map(|steps| {
+            let by = STEP * f64::from(steps);
+            Some((Better::Moved(steps), left(&|_, place| place - by)?))
+        });
+    let best = mirrored
+        .into_iter()
+        .chain(moved)
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    best.filter(|(_, left)| *left < LEFT)
+        .map(|(better, _)| better)
+}
+
+/// χ² of a curve's shape as it stands and with its places moved, and the number of points.
+fn misfit(curve: &[Point], to: &dyn Fn(&[Point], f64) -> f64) -> [f64; 3] {
+    let kept: Vec<(Point, f64)> = (curve.iter())
+        .filter_map(|point| Some((*point, between(curve, to(curve, point[0]))?)))
+        .collect();
+    if kept.len() < FEWEST {
+        return [0.0; 3];
+    }
+    let chi2 = |f: &dyn Fn(&(Point, f64)) -> f64| {
+        let mean = |of: &dyn Fn(&(Point, f64)) -> f64| {
+            let weight = |point: &(Point, f64)| point.0[3].powi(-2);
+            let sum: f64 = kept.iter().map(|p| weight(p) * of(p)).sum();
+            sum / kept.iter().map(weight).sum::<f64>()
+        };
+        let (of_f, of_y) = (mean(f), mean(&|p| p.0[1]));
+        let [mut ff, mut fy, mut yy] = [0.0; 3];
+        for point in &kept {
+            let (f, y) = (
+                (f(point) - of_f) / point.0[3],
+                (point.0[1] - of_y) / point.0[3],
+            );
+            (ff, fy, yy) = (ff + f * f, fy + f * y, yy + y * y);
+        }
+        yy - fy.max(0.0).powi(2) / ff.max(f64::MIN_POSITIVE)
+    };
+    [chi2(&|p| p.0[2]), chi2(&|p| p.1), kept.len() as f64]
+}
+
+/// The model between two points of a curve; None beyond its ends.
+fn between(curve: &[Point], place: f64) -> Option<f64> {
+    let pair = curve.windows(2).find(|pair| {
+        let slack = 1e-9 * place;
+        pair[0][0] - slack <= place && place <= pair[1][0] + slack
+    })?;
+    let share = (place - pair[0][0]) / (pair[1][0] - pair[0][0]).max(f64::MIN_POSITIVE);
+    Some(pair[0][2] + share * (pair[1][2] - pair[0][2]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::learn::fitting::fitted::RowFit;
+    use crate::measure::Dataset;
+    use crate::study::Study;
+
+    fn wear(place: f64) -> f64 {
+        let x = place - 27.0;
+        6.0 * (1.0 - 0.5 * x).abs() + 2.0 * (-x * x).exp()
+    }
+
+    /// What is said of three curves of the pinion that wore as the model has it at other places.
+    fn said(true_place: &dyn Fn(f64) -> f64) -> Vec<String> {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        let mut fits = Vec::new();
+        for cycles in [1e5, 2e5, 3e5] {
+            for at in 0..20 {
+                let place = 26.0 + 0.15 * f64::from(at);
+                let value = 1e-5 * cycles * wear(true_place(place)) + 0.4;
+                text += &format!("A,pinion,{cycles},wear_depth,{place},{value},0.1\n");
+                fits.push(RowFit {
+                    model: 0.5e-5 * cycles * wear(place),
+                    datum: 0.0,
+                    residual: 0.0,
+                    standardised: 0.0,
+                });
+            }
+        }
+        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+        moved_places(&rows)
+    }
+
+    #[test]
+    fn places_upside_down_or_moved_are_asked_about() {
+        let turned = said(&|place| 26.0 + 28.85 - place);
+        assert!(
+            turned[0].starts_with("the pinion's depth curves fit far better upside down"),
+            "{turned:?}"
+        );
+        let moved = said(&|place| place - 0.3);
+        assert!(
+            moved[0].contains("at radii that are about 0.30 mm smaller"),
+            "{moved:?}"
+        );
+        assert!(said(&|place| place).is_empty());
+    }
+}
