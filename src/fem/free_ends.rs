@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! u_x, u_y = P(x, y) q(z), Q(x, y) q(z),   u_z = ψ(x, y) g(z),   q' = g          at amplitudes a_k, k by shape
-//! both ends outwards  g = 1 − 2z/b,  q = z − z²/b          both ends the same way  g = 1,  q = z − b/2         b the length
+//! both ends apart      g = 1 − 2z/b,  q = z − z²/b          both ends the same way  g = 1,  q = z − b/2         b the length
 //! ```
 //! of which the waves and g are complete for w. q follows the slope that u_x, u_y have at a free end, where σ_zx = 0, if P, Q = −∂ψ/∂x, −∂ψ/∂y; cosines alone
 //! would find it slowly. Work and energy (h_0 = b, h_n = b/2; x_n, F_n amplitudes of wave n; L_n from the strains' products):
@@ -32,7 +32,7 @@ const SAME: f64 = 1e-9;
 /// How the two ends of a prism move along its axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum EndMotion {
-    /// Both outwards: what even waves come with.
+    /// From each other or together: what even waves come with.
     Apart,
     /// Both the same way: odd waves.
     Along,
@@ -131,8 +131,82 @@ impl EndModes {
     }
 }
 
+/// The free ends of a prism, moved by some shapes.
+pub struct FreeEnds<'p> {
+    prism: &'p Prism<'p>,
+    shapes: Vec<EndShape>,
+    forces: Vec<EndForces>,
+    points: Vec<(u32, Vec2)>,
+    length: f64,
+}
+
+impl<'p> FreeEnds<'p> {
+    /// `points`: nodes with the direction in the plane that is loaded and observed.
+    ///
+    /// # Errors
+    /// [`FemError::Inverted`].
+    pub fn new(
+        prism: &'p Prism<'p>,
+        shapes: Vec<EndShape>,
+        points: Vec<(u32, Vec2)>,
+        length: f64,
+    ) -> Result<Self, FemError> {
+        let forces = (shapes.par_iter())
+            .map(|shape| prism.end_forces(shape))
+            .collect::<Result<_, _>>()?;
+        Ok(Self {
+            prism,
+            shapes,
+            forces,
+            points,
+            length,
+        })
+    }
+
+    /// What a wave of the prism (its number in the length, 0 the even load) does under the shapes.
+    pub fn answer(&self, wave: &Wave<'_>, number: usize) -> EndAnswer {
+        EndAnswer::new(wave, number, self)
+    }
+
+    /// The modes, from the answers of all waves, the even load first.
+    ///
+    /// # Errors
+    /// [`FemError::Inverted`].
+    pub fn modes(&self, answers: &[EndAnswer]) -> Result<EndModes, FemError> {
+        let (shapes, points) = (&self.shapes, &self.points);
+        let axial = DMatrix::from_fn(shapes.len(), points.len(), |k, point| {
+            shapes[k].0[points[point].0 as usize][2]
+        });
+        let of_motion = |motion| {
+            let waves = answers.iter().enumerate();
+            let own = || (waves.clone()).filter(move |(n, _)| EndMotion::of_wave(*n) == motion);
+            let mut stiffness = self.prism.end_energy(shapes, motion, self.length)?;
+            for (_, answer) in own() {
+                stiffness -= &answer.work;
+            }
+            let softening = inverse_root(&stiffness);
+            let wave = |(n, answer): (usize, &EndAnswer)| WaveMotion {
+                wave: n,
+                in_plane: &softening * &answer.in_plane,
+                axial: &softening * &answer.axial,
+            };
+            Ok(MotionModes {
+                motion,
+                waves: own().map(wave).collect(),
+                axial: &softening * &axial,
+            })
+        };
+        Ok(EndModes {
+            length: self.length,
+            points: points.len(),
+            motions: [of_motion(EndMotion::Apart)?, of_motion(EndMotion::Along)?],
+        })
+    }
+}
+
 /// What a wave does under the shapes.
-struct EndAnswer {
+#[derive(Debug)]
+pub struct EndAnswer {
     /// L_nᵀ K_n⁻¹ L_n/h_n.
     work: DMatrix<f64>,
     /// As in [`WaveMotion`], by shape (row) and point (column).
@@ -141,14 +215,14 @@ struct EndAnswer {
 }
 
 impl EndAnswer {
-    fn new(
-        wave: &Wave<'_>,
-        number: usize,
-        forces: &[EndForces],
-        shapes: &[EndShape],
-        points: &[(u32, Vec2)],
-        length: f64,
-    ) -> Self {
+    fn new(wave: &Wave<'_>, number: usize, ends: &FreeEnds<'_>) -> Self {
+        let FreeEnds {
+            shapes,
+            forces,
+            points,
+            ..
+        } = ends;
+        let length = ends.length;
         let norm = if number == 0 { length } else { 0.5 * length };
         let forces: Vec<Vec<[f64; 3]>> =
             (forces.iter()).map(|f| f.on_wave(number, length)).collect();
@@ -236,23 +310,24 @@ fn along(wave: usize, length: f64) -> Along {
 
 impl Prism<'_> {
     /// Shapes for the ends under some `loads` (nodes, and directions in the plane): what the prism does along its axis, in waves of the wave numbers `answering` (1/mm), if
-    /// σ_zz of the mirrors under these loads is taken off, for the even load and the longest wave of `waves`; and in waves of `pushed` under loads along the axis there.
+    /// σ_zz of the mirrors under these loads is taken off, for the even load and the longest wave along the `length`; and in waves of `pushed` under loads along the axis there.
     ///
     /// # Errors
     /// [`FemError`] if a stiffness cannot be factored.
     pub fn end_shapes(
         &self,
-        waves: &[Wave<'_>],
+        length: f64,
         loads: &[(u32, Vec2)],
         answering: &[f64],
         pushed: &[f64],
     ) -> Result<Vec<EndShape>, FemError> {
         let mut forces = Vec::new();
-        for wave in &waves[..waves.len().min(2)] {
+        for number in [0.0, std::f64::consts::PI / length] {
+            let wave = self.wave(number)?;
             for &(node, load) in loads {
                 let mut nodal = vec![[0.0; 3]; self.nodes()];
                 nodal[node as usize] = [load.x, load.y, 0.0];
-                forces.push(self.axial_forces(&wave.field(&nodal), wave.number)?);
+                forces.push(self.axial_forces(&wave.field(&nodal), number)?);
             }
         }
         let mut shapes = Vec::new();
@@ -322,56 +397,6 @@ impl Prism<'_> {
             }
         });
         EndShape(shape.collect())
-    }
-
-    /// The modes of free ends made of `shapes`. `waves`: from the even load on; `points`: nodes with the direction in the plane that is loaded and observed.
-    ///
-    /// # Errors
-    /// [`FemError::Inverted`].
-    pub fn end_modes(
-        &self,
-        waves: &[Wave<'_>],
-        shapes: &[EndShape],
-        points: &[(u32, Vec2)],
-        length: f64,
-    ) -> Result<EndModes, FemError> {
-        let forces: Vec<EndForces> = (shapes.par_iter())
-            .map(|shape| self.end_forces(shape))
-            .collect::<Result<_, _>>()?;
-        let answers: Vec<EndAnswer> = (waves.par_iter().enumerate())
-            .map(|(n, wave)| EndAnswer::new(wave, n, &forces, shapes, points, length))
-            .collect();
-        let axial = DMatrix::from_fn(shapes.len(), points.len(), |k, point| {
-            shapes[k].0[points[point].0 as usize][2]
-        });
-        let of_motion = |motion| {
-            let own = || {
-                answers
-                    .iter()
-                    .enumerate()
-                    .filter(move |(n, _)| EndMotion::of_wave(*n) == motion)
-            };
-            let mut stiffness = self.end_energy(shapes, motion, length)?;
-            for (_, answer) in own() {
-                stiffness -= &answer.work;
-            }
-            let softening = inverse_root(&stiffness);
-            let wave = |(n, answer): (usize, &EndAnswer)| WaveMotion {
-                wave: n,
-                in_plane: &softening * &answer.in_plane,
-                axial: &softening * &answer.axial,
-            };
-            Ok(MotionModes {
-                motion,
-                waves: own().map(wave).collect(),
-                axial: &softening * &axial,
-            })
-        };
-        Ok(EndModes {
-            length,
-            points: points.len(),
-            motions: [of_motion(EndMotion::Apart)?, of_motion(EndMotion::Along)?],
-        })
     }
 
     /// S_0 of shapes that move both ends so.

@@ -31,7 +31,7 @@ pub use body::{Body, Solution};
 pub use compliance::Compliance;
 pub use dirichlet::Axis;
 pub use error::FemError;
-pub use free_ends::{EndModes, EndShape};
+pub use free_ends::{EndAnswer, EndModes, EndShape, FreeEnds};
 pub use loads::{body_force, edge_traction};
 pub use stress::{Stress, element_stress, largest_principal, nodal_stress, stress_at};
 pub use triangle::{Element, ShapeAt, element_count, elements, shape};

@@ -33,8 +33,6 @@ pub struct Prism<'m> {
 
 /// A [`Prism`] factored for one wave number.
 pub struct Wave<'p> {
-    /// Wave number, 1/mm.
-    pub(super) number: f64,
     prism: &'p Prism<'p>,
     factor: Factor,
 }
@@ -91,7 +89,6 @@ impl<'m> Prism<'m> {
                 FemError::NotPositiveDefinite { node, ratio }
             })?;
         Ok(Wave {
-            number: wave_number,
             prism: self,
             factor,
         })

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 
 use crate::contact::unilateral::{Drive, JointProblem, Problem, Section, solve, solve_joint};
 use crate::fem::structured::{Order, Patch};
-use crate::fem::{FemError, Prism};
+use crate::fem::{FemError, FreeEnds, Prism};
 use crate::material::Elastic;
 use crate::numeric::Vec2;
 use crate::verify::contact_and_wear::Effort;
@@ -206,8 +206,12 @@ fn beam() -> Result<Vec<Measured>, FemError> {
     let loads: Vec<(u32, Vec2)> = (1..=16)
         .map(|place| (along(&patch, reach * f64::from(place) / 16.0), down))
         .collect();
-    let shapes = prism.end_shapes(&waves, &loads, &[0.3 / reach, 0.5 / height], &[])?;
-    let modes = prism.end_modes(&waves, &shapes, &[(edge, down)], width)?;
+    let shapes = prism.end_shapes(width, &loads, &[0.3 / reach, 0.5 / height], &[])?;
+    let ends = FreeEnds::new(&prism, shapes, vec![(edge, down)], width)?;
+    let answers: Vec<_> = (waves.iter().enumerate())
+        .map(|(n, wave)| ends.answer(wave, n))
+        .collect();
+    let modes = ends.modes(&answers)?;
     let deflection = |wave: usize| {
         let mirrored = waves[wave].solve(&[(edge, down)], &[edge])[0].y;
         mirrored + modes.of_wave(wave, 0)

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::flank_ends::{FlankEnds, LEAST_WAVES};
-use crate::fem::{FemError, Prism, Wave};
+use crate::fem::{EndAnswer, FemError, Prism, Wave};
 use crate::gear::Gear;
 use crate::material::Elastic;
 use crate::mesh::{Mesh, MeshError, MeshSpec, mesh_gear};
@@ -138,16 +138,25 @@ pub(super) fn compliances(
     } else {
         slices
     };
-    let waves = (0..count)
-        .into_par_iter()
-        .map(|n| prism.wave(n as f64 * std::f64::consts::PI / width))
-        .collect::<Result<Vec<Wave<'_>>, FemError>>()?;
-    let by_wave = (waves[..slices].par_iter())
-        .map(|wave| compliance(wave, &flanks))
-        .collect();
     let ends = free_ends
-        .map(|inclined| FlankEnds::new(&prism, &waves, &flanks, module, width, slices, inclined))
+        .map(|s| FlankEnds::of_prism(&prism, &flanks, module, width, s != 0.0))
         .transpose()?;
+    // factors of all waves at once would fill the memory
+    let of_wave = |n: usize| {
+        let wave = prism.wave(n as f64 * std::f64::consts::PI / width)?;
+        let own = (n < slices).then(|| compliance(&wave, &flanks));
+        Ok((own, ends.as_ref().map(|ends| ends.answer(&wave, n))))
+    };
+    let of_waves = (0..count).into_par_iter().map(of_wave);
+    let of_waves: Vec<_> = of_waves.collect::<Result<_, FemError>>()?;
+    let (by_wave, answers): (Vec<_>, Vec<_>) = of_waves.into_iter().unzip();
+    let by_wave = by_wave.into_iter().flatten().collect();
+    let answers: Vec<EndAnswer> = answers.into_iter().flatten().collect();
+    let ends = ends.zip(free_ends).map(|(ends, inclined)| {
+        let modes = ends.modes(&answers)?;
+        Ok::<_, FemError>(FlankEnds::new(&modes, &flanks, width, slices, inclined))
+    });
+    let ends = ends.transpose()?;
     let loaded = flanks.swap_remove(NEIGHBOURS as usize);
     Ok(Compliances {
         rho: loaded.rho,

@@ -88,6 +88,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
         if said.is_empty() {
             said.extend(mass_over_depth::mass_over_depth(study, &rows));
+            values_asked = !said.is_empty();
         }
         if said.is_empty() {
             said.extend(mass_balance::masses_and_depths(study, data));

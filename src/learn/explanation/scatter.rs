@@ -42,13 +42,17 @@ pub(super) fn of_scatter(
         None if other_question => "a test made twice tells them apart, which is another question than the one that the next experiment answers".to_owned(),
         None => "a test made twice tells them apart".to_owned(),
         Some(MadeTwice { ids: [a, b], difference }) => format!(
-            "{a} and {b}, made under the same conditions, differ in k by {:.0} %: {}",
+            "{a} and {b}, made under the same conditions, differ in k by {:.0} %: {}{}",
             100.0 * difference.exp_m1(),
             if *difference < AGREE * scatter {
                 "less than the others, so the conditions may be at work in these, and more repetitions would not show how"
             } else {
-                "so much comes from no difference of conditions, and how much of it is chance more repetitions would show; the next experiment, if any, \
-                 answers another question"
+                "so much comes from no difference of conditions, and how much of it is chance more repetitions would show"
+            },
+            if *difference >= AGREE * scatter && other_question {
+                "; the next experiment answers another question"
+            } else {
+                ""
             }
         ),
     };

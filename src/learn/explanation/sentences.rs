@@ -185,7 +185,7 @@ fn not_decided(findings: &Findings<'_>) -> Explanation {
             }
         ),
         reasons: best_of_catalogue(findings).into_iter().collect(),
-        next_step: "repeat without --fast (or with --fidelity middle): finite elements decide between the leaders and a cause outside the catalogue".to_owned(),
+        next_step: "repeat without --fast (or with --fidelity middle): finite elements decide between the leaders, a cause outside the catalogue and nothing at all".to_owned(),
     }
 }
 

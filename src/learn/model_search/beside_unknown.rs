@@ -42,7 +42,7 @@ pub(in crate::learn) struct BesideUnknown {
     pub(in crate::learn) gain_with_one: f64,
     /// The same with every kind and size of discrepancy.
     pub(in crate::learn) gain_with_any: f64,
-    /// ln Z(effect and discrepancy) − ln Z(effect), the effect fitted without.
+    /// ln Z(effect and discrepancy) − ln Z(effect), both at the fit without the discrepancy; the first at the fit beside it where that is clearly ahead.
     pub(in crate::learn) remainder_gain: f64,
     /// Fall of χ² by the effect without the discrepancy.
     pub(in crate::learn) chi2_drop: f64,

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! y = ln m_p/m_g of what was lost after the same cycles, f the same by the model, d of the depths (s_p/s_g, where both were measured)
-//! |y − d − f| > ln 1.5 and |y − d + f| < ln 1.2: exchanged, they fit
+//! |y − d − f| > ln 1.5 and |y + d + f| < ln 1.2: exchanged, they fit
 //! ```
 //! A member that wears by a k of its own does so in its depths too; where none were measured it is asked rather than said.
 
@@ -29,8 +29,8 @@ struct Weighed {
 impl Weighed {
     fn is_exchanged(&self, depths: f64) -> bool {
         let [measured, model] = [self.measured, self.model].map(|[p, g]| (p / g).ln());
-        let measured = measured - depths;
-        (measured - model).abs() > OFF.ln() && (measured + model).abs() < FITS.ln()
+        let expected = model + depths;
+        (measured - expected).abs() > OFF.ln() && (measured + expected).abs() < FITS.ln()
     }
 }
 
@@ -167,6 +167,9 @@ mod tests {
         );
         // the depths of both are those of the model
         assert!(said([[2.1, 5.9], [4.0, 12.1]], Some([1.0, 1.0])).is_some());
+        // by its depths the pinion wears twice as fast as by the model
+        assert!(said([[2.0, 12.0], [4.0, 24.0]], Some([2.0, 1.0])).is_some());
+        assert_eq!(said([[12.0, 2.0], [24.0, 4.0]], Some([2.0, 1.0])), None);
     }
 
     #[test]

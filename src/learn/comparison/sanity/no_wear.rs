@@ -27,7 +27,7 @@ pub(super) fn no_wear(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
         let (o, _) = most;
         format!(
             "no wear comes of this study at any measured row, whatever k is, though {} of test {} goes up to {} {}: does an effect or its formula make \
-             the wear 0?",
+             the wear 0, or do all these places lie outside the contact?",
             o.quantity.name(),
             study.tests[o.test].id,
             rounded(o.value),
