@@ -15,7 +15,7 @@ const SHARE: f64 = 0.3;
 /// Share of it that the scatter of neighbours must make up, where there are curves, for their sigma to be asked about.
 const OF_SCATTER: f64 = 0.25;
 /// Share of its χ² that one row may make: of one that is far off by itself the sigma of all others knows nothing.
-const OF_ONE_ROW: f64 = 0.5;
+const OF_ONE_ROW: f64 = 0.8;
 
 /// The quantity that carries the misfit of a fit to its tests, in words; None if none does.
 pub fn misfit_of_one_quantity(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
