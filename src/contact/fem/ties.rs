@@ -186,7 +186,7 @@ impl ToothWaves {
             }
         }
         if let Some(ends) = &self.ends {
-            for side in 0..2 {
+            for (side, ends) in ends.iter().enumerate() {
                 let weights: Vec<_> = (position.pairs.iter())
                     .map(|pair| self.waves[0][side].weights(pair.frame.rho[side]))
                     .collect();
@@ -199,7 +199,7 @@ impl ToothWaves {
                 };
                 ties += DMatrix::from_fn(n * pairs, n * pairs, |a, b| {
                     let tooth = teeth[a % pairs] - teeth[b % pairs];
-                    ends[side].between(tooth, place(a), place(b))
+                    ends.between(tooth, place(a), place(b))
                 });
             }
         }

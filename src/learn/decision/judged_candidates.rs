@@ -108,7 +108,7 @@ impl JudgedCandidates {
         let leader = self.decision.leading_effects()?;
         let mut all = self.evidence.candidates.iter();
         let best = all.find(|c| c.effects == *leader)?;
-        (self.evidence.is_discrepant()).then(|| [best.chi2_drop, self.evidence.attainable_drop])
+        (self.evidence.is_discrepant()).then_some([best.chi2_drop, self.evidence.attainable_drop])
     }
 }
 

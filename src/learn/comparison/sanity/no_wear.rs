@@ -23,7 +23,7 @@ pub(super) fn no_wear(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
         .iter()
         .max_by(|a, b| above(a).total_cmp(&above(b)))
         .filter(|row| above(row) > SHOWN)?;
-    own.iter().all(|row| is_nothing(row)).then(|| {
+    own.iter().all(is_nothing).then(|| {
         let (o, _) = most;
         format!(
             "no wear comes of this study at any measured row, whatever k is, though {} of test {} goes up to {} {}: does an effect or its formula make \
