@@ -6,9 +6,12 @@
 //! ```
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
+mod coefficient;
+mod constants;
 mod cycle_units;
 mod exchanged_masses;
 mod falling;
+mod gear_revolutions;
 mod mass_balance;
 mod mass_over_depth;
 mod moved_places;
@@ -19,7 +22,7 @@ mod sigmas;
 mod single_tests;
 mod unworn_members;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 pub use self::cycle_units::cycles_in_another_unit;
 use super::residual_statistics::{FittedRow, fitted};
@@ -40,18 +43,8 @@ const FACTOR: f64 = 2.5;
 const NEAR: f64 = 0.25;
 /// How far from its number of teeth the factor of either member may be.
 const NEAR_TEETH: f64 = 1.7;
-/// Specific wear coefficients that a gear may have, mm²/N (a thousandth of the figure in mm³/(N m)): steel under a full film lies at the
-/// lower end, unlubricated adhesive wear of metals at 1e-7 to 1e-6.
-const COEFFICIENTS: [f64; 2] = [1e-13, 1e-5];
-/// Factor between the fitted k and the stated one from which a unit is likelier than a poor guess.
-const FAR_FROM_STATED: f64 = 300.0;
-/// Misfit beyond the noise, in its standard deviations, and share of it that constants must explain to be told.
-const REAL: f64 = 10.0;
-const CONSTANTS: f64 = 0.85;
 /// Deviation up to which two counts of cycles are the same.
 const SAME_CYCLES: f64 = 0.005;
-/// How much of what constants leave a factor on each curve may leave at least: a law of wear changes a curve in proportion.
-const BETTER_THAN_FACTORS: f64 = 0.5;
 
 /// All that there is to say, the worst first.
 pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
@@ -94,9 +87,12 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             said.extend(mass_balance::masses_and_depths(study, data));
         }
         said.extend(other_units(study, &rows));
-        said.extend(coefficient(fit.coefficient));
+        said.extend(coefficient::coefficient(fit.coefficient));
         if said.is_empty() {
-            said.extend(far_from_stated(fit.coefficient, study.wear.coefficient));
+            said.extend(coefficient::far_from_stated(
+                fit.coefficient,
+                study.wear.coefficient,
+            ));
         }
         if said.is_empty() {
             said.extend(single_tests::coefficients(study, data, fit));
@@ -104,7 +100,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         if said.is_empty() {
             said.extend(single_tests::of_the_other_member(study, data, fit));
         }
-        said.extend(constants(&fitted(data, fit)));
+        said.extend(constants::constants(&fitted(data, fit)));
         said.extend(single_tests::worn_before_the_first_cycle(
             study,
             &fitted(data, fit),
@@ -122,39 +118,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
     }
     said.extend(sigmas::of_another_unit(data, values_asked));
-    said.extend(gear_revolutions(study, data));
+    said.extend(gear_revolutions::gear_revolutions(study, data));
     said.extend(single_tests::short_of_their_cycles(study, data));
     said
-}
-
-/// Tests of which the gear's rows stand at the pinion's cycles over the gear ratio.
-fn gear_revolutions(study: &Study, data: &Dataset) -> Option<String> {
-    let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
-    let ratio = f64::from(pinion) / f64::from(gear);
-    let cycles = |test: usize, member: Subject| {
-        let own = data.observations.iter();
-        let own = own.filter(|o| o.test == test && o.member == member && o.cycles > 0.0);
-        let bits: BTreeSet<u64> = own.map(|o| o.cycles.to_bits()).collect();
-        bits.into_iter().map(f64::from_bits).collect::<Vec<f64>>()
-    };
-    let turned = |test: &usize| {
-        let (of_pinion, of_gear) = (cycles(*test, Subject::Pinion), cycles(*test, Subject::Gear));
-        let pairs = || of_pinion.iter().zip(&of_gear);
-        !of_pinion.is_empty()
-            && of_pinion.len() == of_gear.len()
-            && pairs().all(|(p, g)| (g / (ratio * p) - 1.0).abs() < SAME_CYCLES)
-    };
-    let tests: Vec<&str> = (0..data.tests.len())
-        .filter(|test| (ratio - 1.0).abs() > 2.0 * SAME_CYCLES && turned(test))
-        .map(|test| data.tests[test].as_str())
-        .collect();
-    (!tests.is_empty()).then(|| {
-        format!(
-            "in {} the gear's rows stand at {pinion}/{gear} of the pinion's cycles: cycles are revolutions of the pinion for both members; if these \
-             are the gear's own, multiply them by {gear}/{pinion}",
-            tests.join(", ")
-        )
-    })
 }
 
 /// The fitted rows as if all tests had worn by the common k: where the data make no sense, tests' own lie orders of magnitude apart.
@@ -405,83 +371,6 @@ fn other_units(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     said
 }
 
-/// A wear coefficient that nothing has.
-fn coefficient(k: f64) -> Option<String> {
-    let [low, high] = COEFFICIENTS;
-    let (word, hint) = if k <= 0.0 || (low..=high).contains(&k) {
-        return None;
-    } else if k < low {
-        (
-            "below",
-            "values too small by their unit (mm for µm, g for mg), or cycles too many (contacts, or revolutions of the gear, times a thousand)",
-        )
-    } else {
-        (
-            "above",
-            "values too large by their unit (nm for µm), cycles too few (thousands of revolutions), or a torque in N mm or kN m",
-        )
-    };
-    Some(format!(
-        "k = {k:.1e} mm²/N is {word} what gears are known to have ({low:.0e} to {high:.0e}): look for {hint}"
-    ))
-}
-
-/// A wear coefficient that gears may have, but hundreds of times from what the study states: between g and mg lies a thousand.
-fn far_from_stated(k: f64, stated: f64) -> Option<String> {
-    if k <= 0.0 || stated <= 0.0 || (k / stated).ln().abs() < FAR_FROM_STATED.ln() {
-        return None;
-    }
-    let (word, by, hint) = match k / stated {
-        ratio if ratio > 1.0 => ("above", ratio, "nm for µm"),
-        ratio => ("below", ratio.recip(), "mm for µm, g for mg"),
-    };
-    Some(format!(
-        "k = {k:.1e} mm²/N comes out {by:.0} times {word} the wear.coefficient that the study states, {stated:.1e}: unless that is a mere guess, look \
-         at the units of the measured values ({hint}), of cycles (pinion revolutions) and of the torque"
-    ))
-}
-
-/// Curves without a named trace that a constant each would bring to the model.
-fn constants(rows: &[FittedRow<'_>]) -> Option<String> {
-    let mut curves: BTreeMap<_, Vec<(f64, f64, f64)>> = BTreeMap::new();
-    for (o, row) in rows {
-        if o.trace.is_none() && o.quantity == Quantity::WearDepth {
-            let key = (o.test, o.member, o.cycles.to_bits());
-            let entry = (row.model / o.sigma, row.standardised, o.sigma);
-            curves.entry(key).or_default().push(entry);
-        }
-    }
-    let curves: Vec<_> = curves
-        .into_values()
-        .filter(|curve| curve.len() > 3)
-        .collect();
-    let count: usize = curves.iter().map(Vec::len).sum();
-    let (mut all, mut by_constants, mut by_factors) = (0.0, 0.0, 0.0);
-    let mut largest = 0.0f64;
-    for curve in &curves {
-        let sum = |f: &dyn Fn(&(f64, f64, f64)) -> f64| curve.iter().map(f).sum::<f64>();
-        let (ones, of_model) = (sum(&|r| r.2.powi(-2)), sum(&|r| r.0 * r.0));
-        let shift = sum(&|r| r.1 / r.2);
-        all += sum(&|r| r.1 * r.1);
-        by_constants += shift * shift / ones;
-        by_factors += sum(&|r| r.1 * r.0).powi(2) / of_model.max(f64::MIN_POSITIVE);
-        largest = largest.max((shift / ones).abs());
-    }
-    let excess = all - count as f64;
-    let left = |explained: f64| (excess - explained).max(0.0);
-    (curves.len() > 2
-        && excess > REAL * (2.0 * count as f64).sqrt()
-        && by_constants > CONSTANTS * excess
-        && left(by_constants) < BETTER_THAN_FACTORS * left(by_factors))
-    .then(|| {
-        format!(
-            "a constant of its own brings each depth curve to the model (up to {} µm): if the instrument's zero changes between traces, name each \
-             curve in the column trace, and a datum is fitted to each",
-            rounded(largest)
-        )
-    })
-}
-
 /// Two digits, whole from 10 on.
 fn rounded(value: f64) -> String {
     if value >= 10.0 {
@@ -491,32 +380,14 @@ fn rounded(value: f64) -> String {
     }
 }
 
+/// Fits with these model values, for the tests of single questions.
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_coefficient_is_held_against_the_stated_one() {
-        assert_eq!(far_from_stated(1.6e-8, 1.6e-10), None);
-        let masses_in_grams = far_from_stated(3.2e-13, 1.6e-10).unwrap();
-        assert!(
-            masses_in_grams.contains("500 times below"),
-            "{masses_in_grams}"
-        );
-        assert!(
-            far_from_stated(1.6e-7, 1.6e-10)
-                .unwrap()
-                .contains("1000 times above")
-        );
-    }
-
-    #[test]
-    fn a_coefficient_is_doubted_outside_what_is_known() {
-        for k in [2e-13, 6e-10, 9e-6] {
-            assert_eq!(coefficient(k), None, "{k}");
-        }
-        let said = |k| coefficient(k).unwrap_or_default();
-        assert!(said(4e-15).starts_with("k = 4.0e-15 mm²/N is below"));
-        assert!(said(2e-5).starts_with("k = 2.0e-5 mm²/N is above"));
-    }
+fn fits_of(models: &[f64]) -> Vec<RowFit> {
+    let of = |&model: &f64| RowFit {
+        model,
+        datum: 0.0,
+        residual: 0.0,
+        standardised: 0.0,
+    };
+    models.iter().map(of).collect()
 }

@@ -108,7 +108,6 @@ fn digits(factor: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::fitting::fitted::RowFit;
     use crate::measure::Dataset;
 
     /// What is said of masses of pinion and gear at two checkpoints, where the model has 6 and 2 mg, then 12 and 4; `depths` of both over
@@ -142,14 +141,7 @@ mod tests {
             }
         }
         let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
-        let fits: Vec<RowFit> = (models.iter())
-            .map(|&model| RowFit {
-                model,
-                datum: 0.0,
-                residual: 0.0,
-                standardised: 0.0,
-            })
-            .collect();
+        let fits = super::super::fits_of(&models);
         let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
         exchanged_masses(&study, &rows)
     }

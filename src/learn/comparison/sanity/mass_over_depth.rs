@@ -286,7 +286,6 @@ fn times(logs: impl Iterator<Item = f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::fitting::fitted::RowFit;
     use crate::measure::Dataset;
 
     const LOSS: [f64; 3] = [20.0, 30.0, 40.0];
@@ -321,14 +320,7 @@ mod tests {
             }
         }
         let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
-        let fits: Vec<RowFit> = (models.iter())
-            .map(|&model| RowFit {
-                model,
-                datum: 0.0,
-                residual: 0.0,
-                standardised: 0.0,
-            })
-            .collect();
+        let fits = super::super::fits_of(&models);
         let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
         mass_over_depth(&study, &rows)
     }

@@ -68,7 +68,6 @@ fn is_turned(curve: &[FittedRow<'_>]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::fitting::fitted::RowFit;
     use crate::measure::Dataset;
 
     /// What is said of three curves of a flank, each a factor times the model's and a zero of its own, the last one upside down if asked for.
@@ -95,14 +94,7 @@ mod tests {
             }
         }
         let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
-        let fits: Vec<RowFit> = (models.iter())
-            .map(|&model| RowFit {
-                model,
-                datum: 0.0,
-                residual: 0.0,
-                standardised: 0.0,
-            })
-            .collect();
+        let fits = super::super::fits_of(&models);
         let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
         negated(&study, &rows)
     }

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::super::residual_statistics::FittedRow;
-use super::{EXPLAINS, FAR_FROM_STATED, SAME_CYCLES, rounded, scale};
+use super::coefficient::FAR_FROM_STATED;
+use super::{EXPLAINS, SAME_CYCLES, rounded, scale};
 use crate::learn::comparison::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::{Dataset, Quantity, Subject};
