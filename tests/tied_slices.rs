@@ -9,7 +9,7 @@ use gearwear::contact::unilateral::{
     Drive, JointLinearised, JointProblem, Problem, Section, TiedSection, Ties, solve, solve_tied,
 };
 use gearwear::fem::structured::{Order, Patch};
-use gearwear::fem::{Body, Prism};
+use gearwear::fem::{Body, FreeEnds, Prism};
 use gearwear::material::Elastic;
 use gearwear::numeric::Vec2;
 use gearwear::verify::contact_and_wear::Effort;
@@ -227,6 +227,46 @@ fn without_a_wave_a_prism_is_in_plane_strain() {
     for (a, b) in moved.iter().zip(&waved) {
         assert!((a - b).norm() < 1e-9 * scale);
     }
+}
+
+/// A beam between free ends that bends by an even load bends the other way across its width, ν times as much: wave 2 of (z − b/2)²/2 is b²/(2π²) (Timoshenko & Goodier
+/// 1970, section 102).
+#[test]
+fn a_bent_beam_has_anticlastic_curvature() {
+    let steel = Elastic {
+        youngs_modulus: 2.1e5,
+        poisson_ratio: 0.3,
+    };
+    let (reach, width, height) = (20.0, 2.0, 0.5);
+    let map = |s, t| Vec2::new(reach * s, height * (t - 0.5));
+    let patch = Patch::new(40, 2, Order::Quadratic, map).unwrap();
+    let prism = Prism::new(&patch.mesh, steel, &patch.left).unwrap();
+    let up = Vec2::new(0.0, 1.0);
+    let node = |x: f64| {
+        let apart = |node: &usize| (patch.mesh.points[*node] - Vec2::new(x, 0.0)).norm();
+        let all = 0..patch.mesh.points.len();
+        all.min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap() as u32
+    };
+    let loads: Vec<(u32, Vec2)> = (1..=10).map(|i| (node(2.0 * f64::from(i)), up)).collect();
+    let answering = [0.3 / reach, 0.5 / height];
+    let shapes = prism.end_shapes(width, &loads, &answering, &[]).unwrap();
+    let points = vec![(node(reach), up), (node(0.5 * reach), up)];
+    let ends = FreeEnds::new(&prism, shapes, points, width).unwrap();
+    let answers: Vec<_> = (0..12)
+        .map(|n| {
+            let number = n as f64 * std::f64::consts::PI / width;
+            ends.answer(&prism.wave(number).unwrap(), n)
+        })
+        .collect();
+    let modes = ends.modes(&answers).unwrap();
+    let found = modes.between([2, 1], [0, 0]);
+    let bent = 0.5 * reach / (steel.youngs_modulus * f64::powi(height, 3) / 12.0);
+    let expected = -steel.poisson_ratio * bent * width * width
+        / (2.0 * std::f64::consts::PI * std::f64::consts::PI);
+    assert!(
+        (found / expected - 1.0).abs() < 0.02,
+        "{found} for {expected}"
+    );
 }
 
 /// The stiffness that ties slices against Kirchhoff's plate, and slices on springs against their closed forms.

@@ -79,14 +79,23 @@ struct WaveMotion {
 impl EndModes {
     /// Amplitude of a wave (0 the even load), mm, that a point moves by more between free ends, per N/mm of that of the load on it.
     pub fn of_wave(&self, wave: usize, point: usize) -> f64 {
-        let norm = if wave == 0 {
-            self.length
-        } else {
-            0.5 * self.length
+        self.between([wave, point], [wave, point])
+    }
+
+    /// Amplitude, mm, that the wave and point `moved` get per N/mm of that of the wave and point `loaded`.
+    pub fn between(&self, moved: [usize; 2], loaded: [usize; 2]) -> f64 {
+        let norm = match loaded[0] {
+            0 => self.length,
+            _ => 0.5 * self.length,
         };
-        let mut waves = self.motions.iter().flat_map(|modes| &modes.waves);
-        let own = waves.find(|own| own.wave == wave);
-        own.map_or(0.0, |own| norm * own.in_plane.column(point).norm_squared())
+        let of_motion = |modes: &MotionModes| {
+            let own = |[wave, point]: [usize; 2]| {
+                let wave = modes.waves.iter().find(|own| own.wave == wave)?;
+                Some(wave.in_plane.column(point))
+            };
+            Some(own(moved)?.dot(&own(loaded)?))
+        };
+        norm * self.motions.iter().filter_map(of_motion).sum::<f64>()
     }
 
     /// What a load, N per mm, on a length dz at `z` (mm from one end) does to the modes (rows) at the points (columns), over dz; the modes move the points by the
