@@ -90,7 +90,11 @@ fn synthetic(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Dataset {
 }
 
 fn synthetic_of(truth: &Study, scatter: f64, relative: f64, seed: u64) -> Dataset {
-    let layout = layout(truth);
+    noisy(truth, layout(truth), scatter, relative, seed)
+}
+
+/// The values of `truth` at the places of a layout, with that noise.
+fn noisy(truth: &Study, layout: Dataset, scatter: f64, relative: f64, seed: u64) -> Dataset {
     let mut random = Random(seed);
     let datums: Vec<f64> = (layout.traces.iter())
         .map(|_| 0.3 * random.normal())

@@ -9,9 +9,10 @@ use std::path::Path;
 
 use gearwear::learn::Measured;
 use gearwear::learn::diagnose::{Fidelity, Verdict, diagnose};
+use gearwear::measure::{FacePlace, Quantity};
 use gearwear::study::Study;
 
-use crate::{names, says};
+use crate::{diagnosed_of, layout, names, noisy, says, study};
 
 const SLOPE_UM: f64 = 3.0;
 
@@ -31,4 +32,23 @@ fn a_wedge_measured_at_three_places_is_named() {
         (slope.value.abs() - SLOPE_UM).abs() < 2.0 * slope.sigma,
         "{slope:?}"
     );
+}
+
+/// A wedge far below the prior's standard deviation (8 µm) does little off mid-face, and still in proportion. What it is mistaken for, a shaft that
+/// bends, has starts near it; the wedge must be fitted from as near, or the look-alike takes the name.
+#[test]
+fn a_small_wedge_is_not_left_to_its_look_alikes() {
+    let truth = study("[[effect]]\nkind = \"lead_misalignment\"\nslope = 0.4");
+    let mut layout = layout(&truth);
+    let half = 0.45 * truth.gears.face_width;
+    let depths = (layout.observations.iter_mut()).filter(|o| o.quantity == Quantity::WearDepth);
+    for (i, o) in depths.enumerate() {
+        o.face = Some(FacePlace::At([-half, 0.0, half][i % 3]));
+    }
+    let found = diagnosed_of(noisy(&truth, layout, 0.0, 0.02, 5));
+    assert!(names(&found, "lead_misalignment"), "{}", says(&found));
+    let own = (found.screened.iter())
+        .find(|s| s.effects == ["lead_misalignment"] && s.form.is_empty())
+        .unwrap();
+    assert!(own.evidence_gain > 5.0, "{own:?}");
 }

@@ -13,7 +13,7 @@ use crate::learn::inference::search::{Effort, Search, SearchEnd};
 use crate::learn::inference::selection::Selection;
 use crate::learn::noise::{Covariance, Discrepancy, ModelError, NoiseModel};
 use crate::learn::prediction::predictor::{PredictError, Predictor};
-use crate::measure::{Observation, Quantity};
+use crate::measure::{FacePlace, Observation, Quantity};
 use crate::study::{Role, Scatter, WEAR_COEFFICIENT};
 
 /// How far an effect's own contribution may differ from its formula, relative: nature does not use our formulas.
@@ -180,6 +180,12 @@ impl<'a> Likelihood<'a> {
         };
         let mut of_flanks = all.iter().filter(across);
         of_flanks.all(|o| o.face.is_some())
+    }
+
+    /// Whether anything is measured at a stated place of the face off its middle: a small lead is felt there in its first order.
+    pub(in crate::learn) fn states_places_off_mid_face(&self) -> bool {
+        let mut faces = (self.measured.data.observations.iter()).filter_map(|o| o.face);
+        faces.any(|face| matches!(face, FacePlace::At(place) if place != 0.0))
     }
 
     /// Whether what is measured besides wear is missed by more than its noise.

@@ -97,7 +97,8 @@ pub(in crate::learn) fn fit(
                 let change = predicted.iter().zip(&analytic).map(|(f, a)| f - a);
                 Some(base.visible(&context.likelihood, &change.collect::<Vec<f64>>()))
             };
-            let starts = scaled_starts(&s.candidate, seen, &left).into_iter();
+            let amplitudes = context.amplitudes(&s.candidate);
+            let starts = scaled_starts(&s.candidate, amplitudes, seen, &left).into_iter();
             let starts = starts.filter(|(gain, _)| *gain > PROMISE);
             let starts = starts.map(|(gain, values)| (gain, both.clone(), with(&values)));
             starts.collect::<Vec<_>>()

@@ -36,7 +36,9 @@ const FAR_BEHIND: f64 = 20.0;
 const FAR_BEHIND_SHARE: f64 = 0.8;
 /// Second starts are followed if their linear gain is this share of the best one's.
 const SECOND_START: f64 = 0.6;
-/// Amplitudes of starts across the face: a lead does little until it lifts an end of the face off, and much from there on.
+/// Amplitudes of starts; across the face, where a lead does little at mid-face until it lifts an end of the face off, and much from there on, near
+/// ones only. Off mid-face small leads act in proportion.
+const AMPLITUDES: [f64; 2] = [0.0, 4.0];
 const NEAR_AMPLITUDES: [f64; 2] = [2.0 / 3.0, 1.5];
 /// Difference of two gains, relative, below which the starts are mirror images.
 const MIRRORED: f64 = 1e-6;
@@ -108,12 +110,27 @@ impl Context<'_> {
         predictor: &Anchored<'_>,
     ) -> Vec<(f64, State)> {
         let seen = |values: &[f64]| self.seen(base, candidate, predictor, values);
-        let mut starts: Vec<(f64, State)> = scaled_starts(candidate, seen, &base.residual)
-            .into_iter()
-            .map(|(gain, values)| (gain, base.added(candidate, &values)))
-            .collect();
+        let amplitudes = self.amplitudes(candidate);
+        let mut starts: Vec<(f64, State)> =
+            scaled_starts(candidate, amplitudes, seen, &base.residual)
+                .into_iter()
+                .map(|(gain, values)| (gain, base.added(candidate, &values)))
+                .collect();
         starts.sort_by(|a, b| b.0.total_cmp(&a.0));
         starts
+    }
+
+    /// Amplitudes of a start's change between which the linearised model is trusted.
+    pub(super) fn amplitudes(&self, candidate: &Candidate) -> [f64; 2] {
+        if !candidate.acts_across_the_face() {
+            return AMPLITUDES;
+        }
+        let [least, most] = NEAR_AMPLITUDES;
+        if candidate.is_own_form() && self.likelihood.states_places_off_mid_face() {
+            [0.0, most]
+        } else {
+            [least, most]
+        }
     }
 
     /// The visible change of the fitted base model by a candidate with these values of the added parameters; None if it has no answer there.
@@ -196,9 +213,10 @@ impl Context<'_> {
 }
 
 /// A candidate's starts, brought to the amplitude and waves to the phase too that gain most on what is left in the linearised model, with
-/// that gain. `seen` is the visible change by values of the added parameters.
+/// that gain. `amplitudes`: least and largest one; `seen`: the visible change by values of the added parameters.
 pub(in crate::learn) fn scaled_starts(
     candidate: &Candidate,
+    amplitudes: [f64; 2],
     seen: impl Fn(&[f64]) -> Option<DVector<f64>>,
     left: &DVector<f64>,
 ) -> Vec<(f64, Vec<f64>)> {
@@ -219,7 +237,7 @@ pub(in crate::learn) fn scaled_starts(
     let all = alone.chain(waves).filter_map(|(first, second)| {
         let along = of_others(seen(first)?);
         let Some(second) = second else {
-            let (gain, amplitude) = linear_gain(&along, &left, amplitudes(candidate));
+            let (gain, amplitude) = linear_gain(&along, &left, amplitudes);
             let amplitude = amplitude.max(LEAST_AMPLITUDE);
             return Some((gain, candidate.scaled(first, amplitude)));
         };
@@ -227,15 +245,6 @@ pub(in crate::learn) fn scaled_starts(
         Some((gain_of_others + gain, candidate.turned(first, shares)))
     });
     all.collect()
-}
-
-/// Amplitudes of a start's change between which the linearised model is trusted.
-pub(super) fn amplitudes(candidate: &Candidate) -> [f64; 2] {
-    if candidate.acts_across_the_face() {
-        NEAR_AMPLITUDES
-    } else {
-        [0.0, 4.0]
-    }
 }
 
 /// Largest fall of χ²/2 by one of the `amplitudes` of a change, and that amplitude.

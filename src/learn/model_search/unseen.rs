@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use super::context::Context;
-use super::screening::{SCREEN, amplitudes, linear_gain, plane_gain};
+use super::screening::{SCREEN, linear_gain, plane_gain};
 use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
@@ -138,7 +138,7 @@ impl Context<'_> {
         }
         let gain = |values: &Vec<f64>| {
             let along = seen(values)?;
-            let amplitudes = amplitudes(candidate);
+            let amplitudes = self.amplitudes(candidate);
             let (gain, _) = linear_gain(&along, &base.residual, amplitudes);
             let (other, _) = linear_gain(&-along, &base.residual, amplitudes);
             Some(gain.max(other))
