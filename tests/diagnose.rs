@@ -90,11 +90,17 @@ fn synthetic(hidden: &str, scatter: f64, relative: f64, seed: u64) -> Dataset {
 }
 
 fn synthetic_of(truth: &Study, scatter: f64, relative: f64, seed: u64) -> Dataset {
-    noisy(truth, layout(truth), scatter, relative, seed)
+    noisy(truth, layout(truth), scatter, [relative, 0.05], seed)
 }
 
-/// The values of `truth` at the places of a layout, with that noise.
-fn noisy(truth: &Study, layout: Dataset, scatter: f64, relative: f64, seed: u64) -> Dataset {
+/// The values of `truth` at the places of a layout, with noise of a share of each curve's largest value and of so many µm besides.
+fn noisy(
+    truth: &Study,
+    layout: Dataset,
+    scatter: f64,
+    [relative, floor]: [f64; 2],
+    seed: u64,
+) -> Dataset {
     let mut random = Random(seed);
     let datums: Vec<f64> = (layout.traces.iter())
         .map(|_| 0.3 * random.normal())
@@ -109,7 +115,7 @@ fn noisy(truth: &Study, layout: Dataset, scatter: f64, relative: f64, seed: u64)
     for o in &mut data.observations {
         let own = exact.iter().filter(|e| curve(e) == curve(o));
         let largest = own.map(|e| e.value.abs()).fold(0.0, f64::max);
-        o.sigma = relative * largest + 0.05;
+        o.sigma = relative * largest + floor;
         o.value += o.sigma * random.normal() + o.trace.map_or(0.0, |t| datums[t]);
     }
     data
@@ -118,7 +124,11 @@ fn noisy(truth: &Study, layout: Dataset, scatter: f64, relative: f64, seed: u64)
 /// The values of `truth` with the wear coefficient of each test, without noise.
 fn exact(truth: &Study, mut data: Dataset, coefficients: &[f64]) -> Dataset {
     let measured = Measured::new(truth, data.clone());
-    let workshop = measured.workshop(ContactKind::Hertz).unwrap();
+    let kind = match truth.contact {
+        gearwear::study::ContactKind::Fem => ContactKind::Fem,
+        _ => ContactKind::Hertz,
+    };
+    let workshop = measured.workshop(kind).unwrap();
     let bench = measured.bench(&workshop).unwrap();
     let effects = truth.effect_model();
     let model = GearModel::new(&bench, Box::new(move |_| effects.stated()));

@@ -10,6 +10,7 @@ mod coefficient;
 mod constants;
 mod cycle_units;
 mod exchanged_masses;
+mod exchanged_tests;
 mod falling;
 mod gear_revolutions;
 mod mass_balance;
@@ -96,6 +97,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
         if said.is_empty() {
             said.extend(single_tests::coefficients(study, data, fit));
+        }
+        if said.is_empty() {
+            said.extend(exchanged_tests::exchanged_tests(study, data, fit));
         }
         if said.is_empty() {
             said.extend(single_tests::of_the_other_member(study, data, fit));

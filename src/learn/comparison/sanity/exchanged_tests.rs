@@ -1,0 +1,104 @@
+//! Two tests whose rows stand under each other's names.
+//!
+//! ```text
+//! depth ∝ k T at the same cycles:    the rows of test i under the name of test j call for k_i T_i/T_j
+//! R = range of ln k of all tests as they stand, R' once i and j are exchanged
+//! R > ln 1.5 and R' < R/5, for one pair only: asked
+//! ```
+//! A law of the load, k ∝ T^p, does so for p = −2 alone. Tests of one torque show nothing.
+
+use super::super::coefficient_trend::own_coefficients;
+use crate::learn::fitting::fitted::Fit;
+use crate::measure::Dataset;
+use crate::numeric::written::significant;
+use crate::study::Study;
+
+/// Factor between the tests' k from which they are far apart.
+const FAR_APART: f64 = 1.5;
+/// Part of their range, of ln k, that may be left once two tests are exchanged.
+const LEFT: f64 = 0.2;
+/// Fewest tests: of two nobody knows which k is right.
+const FEWEST: usize = 3;
+
+/// A question about the two tests that share the others' k once exchanged.
+pub(super) fn exchanged_tests(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
+    let tests: Vec<(f64, f64)> = (own_coefficients(data, fit).iter())
+        .map(|&(test, k)| (study.tests[test].conditions.torque_nmm.ln(), k))
+        .collect();
+    let ids: Vec<&str> = (own_coefficients(data, fit).iter())
+        .map(|&(test, _)| study.tests[test].id.as_str())
+        .collect();
+    let (i, j, before, after) = exchanged(&tests)?;
+    Some(format!(
+        "are tests {} and {} exchanged? As they stand the tests' k differ by a factor of {}; with the rows of these two under each other's names \
+         by one of {}: look at their labels, and at the torques that the study states for them",
+        ids[i],
+        ids[j],
+        significant(before.exp(), 2),
+        significant(after.exp(), 3),
+    ))
+}
+
+/// Of tests with ln T and ln k the only two that, exchanged, bring all together, with the range of ln k before and after.
+fn exchanged(tests: &[(f64, f64)]) -> Option<(usize, usize, f64, f64)> {
+    if tests.len() < FEWEST {
+        return None;
+    }
+    let before = range(tests.iter().map(|&(_, k)| k));
+    if before < FAR_APART.ln() {
+        return None;
+    }
+    let pairs = (0..tests.len()).flat_map(|i| (i + 1..tests.len()).map(move |j| (i, j)));
+    let mut fits = pairs.filter_map(|(i, j)| {
+        let of = |(test, &(torque, k)): (usize, &(f64, f64))| match test {
+            test if test == i => k + torque - tests[j].0,
+            test if test == j => k + torque - tests[i].0,
+            _ => k,
+        };
+        let after = range(tests.iter().enumerate().map(of));
+        (after < LEFT * before).then_some((i, j, before, after))
+    });
+    let found = fits.next()?;
+    fits.next().is_none().then_some(found)
+}
+
+fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is found of tests with these torques and k.
+    fn found(tests: &[(f64, f64)]) -> Option<(usize, usize)> {
+        let tests: Vec<(f64, f64)> = tests.iter().map(|(t, k)| (t.ln(), k.ln())).collect();
+        exchanged(&tests).map(|(i, j, _, _)| (i, j))
+    }
+
+    #[test]
+    fn two_tests_that_fit_once_exchanged_are_found() {
+        // rows of 10 N m under 25 N m: k 10/25 of what it is, and the other way round
+        assert_eq!(
+            found(&[(10.0, 2.6), (15.0, 1.03), (25.0, 0.4)]),
+            Some((0, 2))
+        );
+        assert_eq!(
+            found(&[(10.0, 1.52), (15.0, 0.66), (25.0, 1.02), (40.0, 0.97)]),
+            Some((0, 1))
+        );
+    }
+
+    #[test]
+    fn tests_that_scatter_or_follow_a_law_are_not() {
+        assert_eq!(found(&[(10.0, 1.3), (15.0, 1.0), (25.0, 0.9)]), None);
+        for power in [-1.0, -0.5, 0.5, 1.0, 2.0_f64] {
+            let law = [10.0_f64, 15.0, 25.0, 40.0].map(|t| (t, t.powf(power)));
+            assert_eq!(found(&law), None, "{power}");
+        }
+        // one test apart from the others; two tests only; one torque
+        assert_eq!(found(&[(10.0, 2.5), (15.0, 1.0), (25.0, 1.0)]), None);
+        assert_eq!(found(&[(10.0, 2.5), (25.0, 0.4)]), None);
+        assert_eq!(found(&[(10.0, 2.5), (10.0, 0.4), (10.0, 1.0)]), None);
+    }
+}
