@@ -1,12 +1,15 @@
 //! Rows that stand apart from their neighbours along a curve: dust, burrs, slipped decimal points.
 //!
-//! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). A place
+//! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). Two rows side by
+//! side hide each other, and make a right one beside them stand apart: where rows nearby still do once that one is passed over, and none does without
+//! two neighbours, it is these. A place
 //! where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value between those beside it: the edge of
 //! what is worn.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use super::neighbours::{around, curves, points};
+use super::neighbours::{SIDE, around, curves, points};
 use super::quantity::Quantity;
 use super::{Dataset, Observation};
 use crate::numeric::median;
@@ -36,6 +39,14 @@ pub struct Outlier {
     pub stated_sigma: f64,
 }
 
+/// A point of a curve with the standard deviations that it stands apart, with their sign, the value expected, and whether the curve bends there.
+struct Standing {
+    at: usize,
+    apart: f64,
+    expected: f64,
+    is_a_corner: bool,
+}
+
 /// What is known of one curve.
 struct Curve {
     rows: Vec<usize>,
@@ -53,10 +64,65 @@ impl Curve {
         Some((apart, found.expected))
     }
 
+    fn standing(&self, at: usize) -> Option<Standing> {
+        let (apart, expected) = self.apart(at)?;
+        Some(Standing {
+            at,
+            apart,
+            expected,
+            is_a_corner: self.is_a_corner(at),
+        })
+    }
+
     /// How far all points stand apart, without sign.
     fn all_apart(&self) -> Vec<f64> {
         let each = (0..self.points.len()).filter_map(|at| self.apart(at));
         each.map(|(apart, _)| apart.abs()).collect()
+    }
+
+    /// The two points side by side, near the one that stands farthest apart, without which nothing nearby stands apart, both of them far from what the
+    /// others lead one to expect; None where that point alone is enough, or no two are.
+    fn pair_instead_of(&mut self, at: usize, kept: &[bool]) -> Option<Vec<Standing>> {
+        let near = at.saturating_sub(SIDE)..(at + SIDE + 1).min(self.points.len());
+        if self.most_apart_without(&[at], &near, kept) <= APART {
+            return None;
+        }
+        let asked: Vec<usize> = near.clone().filter(|&i| !self.passed_over[i]).collect();
+        let mut pairs: Vec<(f64, [usize; 2])> = Vec::new();
+        for pair in asked
+            .windows(2)
+            .filter_map(|two| <[usize; 2]>::try_from(two).ok())
+        {
+            let left = self.most_apart_without(&pair, &near, kept);
+            let both = self.without(&pair, |curve| {
+                let far = |i: &usize| curve.apart(*i).is_some_and(|(z, _)| z.abs() > APART);
+                pair.iter().all(far)
+            });
+            if both && left <= APART {
+                pairs.push((left, pair));
+            }
+        }
+        let (_, pair) = pairs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+        self.without(&pair, |curve| {
+            pair.iter().map(|&at| curve.standing(at)).collect()
+        })
+    }
+
+    /// The farthest that a point of a range stands apart once some are passed over, without sign.
+    fn most_apart_without(&mut self, some: &[usize], near: &Range<usize>, kept: &[bool]) -> f64 {
+        self.without(some, |curve| {
+            let asked = near.clone().filter(|&i| !curve.passed_over[i] && !kept[i]);
+            let apart = asked.filter_map(|i| curve.apart(i));
+            apart.map(|(z, _)| z.abs()).fold(0.0, f64::max)
+        })
+    }
+
+    /// What something is while some points are passed over.
+    fn without<T>(&mut self, some: &[usize], what: impl FnOnce(&Self) -> T) -> T {
+        some.iter().for_each(|&i| self.passed_over[i] = true);
+        let found = what(self);
+        some.iter().for_each(|&i| self.passed_over[i] = false);
+        found
     }
 
     /// Whether a point's value lies between those of its neighbours, one on each side or two at an end, or outside by no more than noise: then the
@@ -132,45 +198,50 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
             let curve = &all[number];
             let worst = (0..curve.points.len())
                 .filter(|&at| !curve.passed_over[at] && !kept[at])
-                .filter_map(|at| {
-                    curve
-                        .apart(at)
-                        .map(|(apart, expected)| (at, apart, expected))
-                })
-                .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some((at, apart, expected)) = worst.filter(|worst| worst.1.abs() > APART) else {
+                .filter_map(|at| curve.standing(at))
+                .max_by(|a, b| a.apart.abs().total_cmp(&b.apart.abs()));
+            let Some(worst) = worst.filter(|worst| worst.apart.abs() > APART) else {
                 break;
             };
-            let o = rows[curve.rows[at]];
-            let alike = |other: &Curve| {
-                let like = rows[other.rows[0]];
-                ((like.member, like.quantity) == (o.member, o.quantity))
-                    .then(|| other.near(curve.points[at][0]))?
-            };
-            let others: Vec<f64> = (all.iter().enumerate())
-                .filter(|(i, _)| *i != number)
-                .filter_map(|(_, other)| alike(other))
-                .collect();
-            let same = others
-                .iter()
-                .filter(|z| **z * apart.signum() > ALIKE)
-                .count();
-            let is_shared = same > 0 && same as f64 >= FEATURE * others.len() as f64;
-            if is_shared || curve.is_a_corner(at) {
+            let at = worst.at;
+            let pair = all[number].pair_instead_of(at, &kept);
+            let standing = pair.unwrap_or_else(|| vec![worst]);
+            let is_feature =
+                |one: &Standing| one.is_a_corner || is_shared(&all, &rows, number, one);
+            if standing.iter().any(is_feature) {
                 kept[at] = true;
                 continue;
             }
-            found.push(Outlier {
-                row: curve.rows[at],
-                expected,
-                apart: apart.abs(),
-                stated_sigma: o.sigma,
-            });
-            all[number].passed_over[at] = true;
+            for one in standing {
+                let row = all[number].rows[one.at];
+                found.push(Outlier {
+                    row,
+                    expected: one.expected,
+                    apart: one.apart.abs(),
+                    stated_sigma: rows[row].sigma,
+                });
+                all[number].passed_over[one.at] = true;
+            }
         }
     }
     found.sort_by_key(|outlier| outlier.row);
     found
+}
+
+/// Whether a share of the other curves of the member does alike at the place of a point.
+fn is_shared(all: &[Curve], rows: &[&Observation], number: usize, one: &Standing) -> bool {
+    let curve = &all[number];
+    let of = |curve: &Curve| {
+        let o = rows[curve.rows[0]];
+        (o.member, o.quantity)
+    };
+    let others: Vec<f64> = (all.iter().enumerate())
+        .filter(|(i, other)| *i != number && of(other) == of(curve))
+        .filter_map(|(_, other)| other.near(curve.points[one.at][0]))
+        .collect();
+    let alike = others.iter().filter(|z| **z * one.apart.signum() > ALIKE);
+    let same = alike.count();
+    same > 0 && same as f64 >= FEATURE * others.len() as f64
 }
 
 impl Dataset {
@@ -223,5 +294,49 @@ impl Dataset {
                 o.sigma = o.sigma.hypot(o.value - outlier.expected);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Subject;
+
+    /// Places of the rows found on a curve of 41 points, a bump of 10 µm with a little noise, of which some have other values.
+    fn found(other: &[(usize, f64)]) -> Vec<usize> {
+        let rows = (0..41).map(|i| {
+            let x = (f64::from(i) - 20.0) / 20.0;
+            // no two neighbours alike, and the same at every run
+            let noise = 0.1 * (f64::from(i) * 2.4).sin();
+            let at = usize::try_from(i).unwrap();
+            let bad = other.iter().find(|(place, _)| *place == at);
+            Observation {
+                test: 0,
+                member: Subject::Pinion,
+                cycles: 1e5,
+                quantity: Quantity::WearDepth,
+                position: Some(22.0 + 0.1 * f64::from(i)),
+                value: bad.map_or(10.0 * (1.0 - x * x) + noise, |(_, value)| *value),
+                sigma: 0.1,
+                trace: None,
+                face: None,
+                tooth: None,
+                line: 2 + at,
+            }
+        });
+        let rows: Vec<Observation> = rows.collect();
+        outliers(&rows).iter().map(|outlier| outlier.row).collect()
+    }
+
+    #[test]
+    fn two_bad_rows_side_by_side_are_found_and_not_the_right_one_beside_them() {
+        assert_eq!(found(&[]), [0; 0]);
+        assert_eq!(found(&[(17, -999.0)]), [17]);
+        assert_eq!(found(&[(17, -999.0), (18, -999.0)]), [17, 18]);
+        assert_eq!(found(&[(17, 0.0), (18, 0.0)]), [17, 18]);
+        assert_eq!(found(&[(17, 99.0), (18, 99.0)]), [17, 18]);
+        assert_eq!(found(&[(17, 99.0), (18, -99.0)]), [17, 18]);
+        // apart from one another each is found by itself
+        assert_eq!(found(&[(10, 99.0), (30, -99.0)]), [10, 30]);
     }
 }

@@ -13,8 +13,10 @@ mod exchanged_masses;
 mod exchanged_tests;
 mod falling;
 mod gear_revolutions;
+mod increments;
 mod mass_balance;
 mod mass_over_depth;
+mod materials;
 mod moved_places;
 mod negated;
 mod no_wear;
@@ -52,6 +54,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     // all else would follow from it
     if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];
+    }
+    if let Some(increments) = increments::increments(study, data) {
+        return vec![increments];
     }
     if let Some(unit) = sigmas::values_of_another_unit(data) {
         return vec![unit];
@@ -124,6 +129,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     said.extend(sigmas::of_another_unit(data, values_asked));
     said.extend(gear_revolutions::gear_revolutions(study, data));
     said.extend(single_tests::short_of_their_cycles(study, data));
+    said.extend(materials::materials(study));
     said
 }
 

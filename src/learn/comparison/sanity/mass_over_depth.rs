@@ -96,6 +96,7 @@ pub(super) fn mass_over_depth(study: &Study, rows: &[FittedRow<'_>]) -> Option<S
     exchanged(study, &parts, &off)
         .or_else(|| of_some(study, &parts, &off))
         .or_else(|| of_all(&parts))
+        .or_else(|| of_one_member(&parts))
 }
 
 /// Each test and member where both were measured beyond doubt.
@@ -264,6 +265,34 @@ fn of_all(parts: &[Part]) -> Option<String> {
     })
 }
 
+/// One member's depths of every test twice, or half, what its masses make up, where the other member's are right.
+fn of_one_member(parts: &[Part]) -> Option<String> {
+    let of = |member: Subject| -> Vec<f64> {
+        let own = parts.iter().filter(|p| p.member == member);
+        own.map(|p| -p.ratio()).collect()
+    };
+    let near = |all: &[f64], log: f64| {
+        all.len() > 1 && all.iter().all(|depths| (depths - log).abs() < NEAR)
+    };
+    let [pinion, gear] = [Subject::Pinion, Subject::Gear].map(of);
+    let members = [("pinion", &pinion, &gear), ("gear", &gear, &pinion)];
+    let twice = 2f64.ln();
+    let found = members.into_iter().find_map(|(name, own, other)| {
+        let log = [twice, -twice].into_iter().find(|log| near(own, *log))?;
+        near(other, 0.0).then_some((name, own, log))
+    });
+    let (name, own, log) = found?;
+    let hint = if log > 0.0 {
+        "those of both flanks together, as a change of thickness or of diameter is"
+    } else {
+        "halved"
+    };
+    Some(format!(
+        "the {name}'s depths are {} times what its masses make up, and the other member's agree with theirs: are they {hint}?",
+        times(own.iter().copied())
+    ))
+}
+
 /// Whether the masses of some tests stand out against the others' rather than the depths; and whether the other quantity does not.
 fn to_blame(parts: &[Part], far: &[usize]) -> (bool, bool) {
     let stands_out = |of: &dyn Fn(&Part) -> f64| {
@@ -364,6 +393,14 @@ mod tests {
             ],
         );
         told(
+            [[1.0, 0.5], [1.0, 0.52], [1.05, 0.5]],
+            [1.0; 3],
+            &[
+                "the gear's depths are 2.0 times what its masses make up",
+                "both flanks together",
+            ],
+        );
+        told(
             [[2.0, 2.0]; 3],
             [1.0; 3],
             &["all masses are 2.0 times", "both flanks"],
@@ -391,5 +428,6 @@ mod tests {
         assert_eq!(said([[1.4, 1.3]; 3], [1.0; 3]), None);
         assert_eq!(said([RIGHT, [1.3, 1.3], RIGHT], [1.0; 3]), None);
         assert_eq!(said([RIGHT, [2.0, 1.0], RIGHT], [1.0; 3]), None);
+        assert_eq!(said([[1.0, 0.7], [1.0, 0.6], [1.0, 0.65]], [1.0; 3]), None);
     }
 }

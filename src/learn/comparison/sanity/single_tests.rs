@@ -8,6 +8,7 @@ use super::{EXPLAINS, SAME_CYCLES, rounded, scale};
 use crate::learn::comparison::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::{Dataset, Quantity, Subject};
+use crate::numeric::written::significant;
 use crate::study::Study;
 
 /// Standard deviations of s below 0 from which a single test's sign is doubted.
@@ -16,6 +17,9 @@ const SURE: f64 = 6.0;
 const WORN: f64 = 4.0;
 /// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
 const DATUMS: f64 = 3.0;
+/// Factor between a test's k and the nearest of the others from which it lies apart, and the part of that, in ln, within which those must agree.
+const APART: f64 = 3.0;
+const AGREE: f64 = 0.5;
 /// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
 const CLEAR_RATIO: f64 = 1.5;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
@@ -111,15 +115,51 @@ pub(super) fn depths_and_masses(
     (!said.is_empty() && said.len() < tests.len()).then_some(said)
 }
 
-/// A test whose own k lies hundreds of times from those of the others.
+/// A test whose own k lies hundreds of times from those of the others, or several times, where these agree.
 pub(super) fn coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let own = own_coefficients(data, fit);
-    let off = |&(test, k): &(usize, f64)| {
-        let mut others: Vec<f64> = own.iter().filter(|o| o.0 != test).map(|o| o.1).collect();
-        others.sort_by(f64::total_cmp);
-        let middle = *others.get(others.len() / 2)?;
-        // of two tests nobody knows which is off
-        (others.len() > 1 && (k - middle).abs() > FAR_FROM_STATED.ln()).then(|| {
+    let off = |one: &(usize, f64)| far_off(study, &own, *one).or_else(|| apart(study, &own, *one));
+    own.iter().filter_map(off).collect()
+}
+
+/// A test whose ln k lies apart from those of the others, which agree. A law of the load or of the speed hardly does that, a slip does.
+fn apart(study: &Study, own: &[(usize, f64)], (test, k): (usize, f64)) -> Option<String> {
+    let others = || own.iter().filter(|o| o.0 != test).map(|o| o.1);
+    let (low, high) = (
+        others().fold(f64::INFINITY, f64::min),
+        others().fold(f64::NEG_INFINITY, f64::max),
+    );
+    let by = (k - high).max(low - k);
+    if others().count() < 2 || by < APART.ln() || high - low > AGREE * by {
+        return None;
+    }
+    let mean = others().sum::<f64>() / others().count() as f64;
+    let (word, off) = if k > mean {
+        ("above", k - mean)
+    } else {
+        ("below", mean - k)
+    };
+    let ten = if (off - 10f64.ln()).abs() < ALIKE {
+        ", near 10: is its torque, or are its cycles or values, off by a decimal place?"
+    } else {
+        ": look at its torque, its cycles and the units of its values first."
+    };
+    Some(format!(
+        "test {} wears with a k {} times {word} that of the others, which agree within a factor of {}{ten} If all are right, something acts in this test \
+         that the model lacks",
+        study.tests[test].id,
+        rounded(off.exp()),
+        significant((high - low).exp(), 2),
+    ))
+}
+
+/// A test whose ln k lies hundreds of times from those of the others.
+fn far_off(study: &Study, own: &[(usize, f64)], (test, k): (usize, f64)) -> Option<String> {
+    let mut others: Vec<f64> = own.iter().filter(|o| o.0 != test).map(|o| o.1).collect();
+    others.sort_by(f64::total_cmp);
+    let middle = *others.get(others.len() / 2)?;
+    // of two tests nobody knows which is off
+    (others.len() > 1 && (k - middle).abs() > FAR_FROM_STATED.ln()).then(|| {
             let (word, by) = if k > middle { ("above", k - middle) } else { ("below", middle - k) };
             format!(
                 "test {} wears with a k {} times {word} that of the others: look at the units of its values (mm for µm, g for mg), of its cycles \
@@ -128,8 +168,6 @@ pub(super) fn coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Vec<Stri
                 rounded(by.exp())
             )
         })
-    };
-    own.iter().filter_map(off).collect()
 }
 
 /// A test whose own k lies off those of the others, which agree, by the ratio of the numbers of teeth: its torque may be the gear's (too
@@ -249,14 +287,10 @@ pub(super) fn worn_before_the_first_cycle(study: &Study, rows: &[FittedRow<'_>])
 }
 
 /// Tests whose last rows stand at the pinion's teeth over the gear's of the cycles that the study states: those are the gear's revolutions. A
-/// usual part of a test, half or a third, tells only where all other tests were measured to their end.
+/// usual part of a test, half or a third, tells only where all other tests were measured to their end. A tenth is asked about as a slip.
 pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<String> {
     let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
     let ratio = f64::from(pinion) / f64::from(gear);
-    // both members turn alike
-    if (ratio - 1.0).abs() < 2.0 * SAME_CYCLES {
-        return None;
-    }
     let is_usual = |parts: &u32| {
         let part = ratio * f64::from(*parts);
         (part - part.round()).abs() < 2.0 * SAME_CYCLES * part
@@ -270,21 +304,69 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
             (last / (part * stated) - 1.0).abs() < SAME_CYCLES
         }
     };
-    let short: Vec<&usize> = tests.iter().filter(ends_at(ratio)).collect();
+    let named = |tests: &[&usize]| {
+        let ids = tests.iter().map(|test| study.tests[**test].id.as_str());
+        let s = if tests.len() > 1 { "s" } else { "" };
+        format!("test{s} {}", ids.collect::<Vec<_>>().join(", "))
+    };
     let whole = tests.iter().filter(ends_at(1.0)).count();
-    if USUAL_PARTS.iter().any(is_usual) && (whole == 0 || short.len() + whole < tests.len()) {
+    for (places, word) in [(1, "tenth"), (2, "hundredth"), (3, "thousandth")] {
+        let off: Vec<&usize> = tests.iter().filter(ends_at(0.1_f64.powi(places))).collect();
+        if !off.is_empty() && whole > 0 && whole + off.len() == tests.len() {
+            return Some(format!(
+                "the last rows of {} stand at a {word} of the cycles that the study states, those of the other tests at all of them: is the one or the \
+                 other off by a decimal place?",
+                named(&off)
+            ));
+        }
+    }
+    let short: Vec<&usize> = tests.iter().filter(ends_at(ratio)).collect();
+    // both members turn alike
+    let alike = (ratio - 1.0).abs() < 2.0 * SAME_CYCLES;
+    let usual = USUAL_PARTS.iter().any(is_usual);
+    if alike || usual && (whole == 0 || short.len() + whole < tests.len()) {
         return None;
     }
-    let tests: Vec<&str> = short
-        .into_iter()
-        .map(|test| study.tests[*test].id.as_str())
-        .collect();
-    (!tests.is_empty()).then(|| {
+    (!short.is_empty()).then(|| {
         format!(
-            "the last rows of test{} {} stand at {pinion}/{gear} of the cycles that the study states: cycles are revolutions of the pinion for both members; if \
+            "the last rows of {} stand at {pinion}/{gear} of the cycles that the study states: cycles are revolutions of the pinion for both members; if \
              these are the gear's own, multiply them by {gear}/{pinion}",
-            if tests.len() > 1 { "s" } else { "" },
-            tests.join(", ")
+            named(&short)
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of the last of three tests with these k.
+    fn told(k: [f64; 3]) -> Option<String> {
+        let text = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let mut study = Study::parse(text, "study.toml").unwrap();
+        let first = study.tests[0].clone();
+        study.tests = ["A", "B", "C"]
+            .map(|id| crate::study::Test {
+                id: id.to_owned(),
+                ..first.clone()
+            })
+            .into();
+        let own: Vec<(usize, f64)> = k.iter().map(|k| k.ln()).enumerate().collect();
+        apart(&study, &own, own[2])
+    }
+
+    #[test]
+    fn a_test_apart_from_others_that_agree_is_asked_about() {
+        let ten = told([1.0, 1.1, 9.5]).unwrap();
+        assert!(ten.starts_with("test C wears with a k 9.1 times above that of the others, which agree within a factor of 1.1, near 10: is its torque"), "{ten}");
+        let five = told([1.0, 1.1, 0.2]).unwrap();
+        assert!(
+            five.contains("5.2 times below") && five.contains(": look at its torque, its cycles"),
+            "{five}"
+        );
+        // as scatter has it; others that do not agree; one of those
+        assert_eq!(told([1.0, 1.1, 2.0]), None);
+        assert_eq!(told([1.0, 2.5, 9.0]), None);
+        assert_eq!(told([1.0, 9.0, 1.1]), None);
+    }
 }
