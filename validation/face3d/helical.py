@@ -38,6 +38,8 @@ CASES = {
     "even, at the pitch point, finer face, rims held": ("even", 0.0, FINER_FACE, "rim"),
     "even, at the pitch point, finer face, mirrors": ("even", 0.0, FINER_FACE, "mirror"),
     "crown, finer face, rims held": ("crown", 0.5, FINER_FACE, "rim"),
+    "even, fine middle": ("even", 0.5, FINE_MIDDLE, "free"),
+    "crown, fine middle": ("crown", 0.5, FINE_MIDDLE, "free"),
     "even, fine middle, rims held": ("even", 0.5, FINE_MIDDLE, "rim"),
     "crown, fine middle, rims held": ("crown", 0.5, FINE_MIDDLE, "rim"),
 }

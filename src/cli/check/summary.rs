@@ -156,7 +156,7 @@ fn operation(test: &Test, with_temperature: bool, is_bare: bool) -> String {
 
 /// What looks right or wrong, and what the measurements can show.
 fn findings(data: &Dataset, found: &Found<'_>) -> Vec<String> {
-    let right = found.looks_right.then(|| right(data).to_owned());
+    let right = found.looks_right.then(|| right(data));
     let prospects = found.prospects;
     let named = |name: &'static str, all: &[String]| -> Vec<String> {
         all.iter().map(|words| format!("{name}{words}")).collect()
@@ -171,11 +171,18 @@ fn findings(data: &Dataset, found: &Found<'_>) -> Vec<String> {
 }
 
 /// What is said of data in which nothing looks wrong.
-fn right(data: &Dataset) -> &'static str {
+fn right(data: &Dataset) -> String {
+    let but = match data.outliers.len() {
+        0 => "",
+        1 => ", but for the row that stands apart",
+        _ => ", but for the rows that stand apart",
+    };
     let depths = || (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
     if depths().next().is_some() && depths().all(|o| o.trace.is_none()) {
-        "signs and units look right; the zeros of profiles are taken as measured: name each profile in a column trace if its zero is not known"
+        format!(
+            "signs and units look right{but}; the zeros of profiles are taken as measured: name each profile in a column trace if its zero is not known"
+        )
     } else {
-        "signs, units and zeros look right"
+        format!("signs, units and zeros look right{but}")
     }
 }

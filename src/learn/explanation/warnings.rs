@@ -10,6 +10,7 @@ use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{Decision, Verdict};
 use crate::learn::fitting::collinear::act_together;
 use crate::learn::fitting::quantity_misfit::carried_by;
+use crate::learn::fitting::test_apart::test_apart;
 use crate::learn::hypothesis::Hypothesis;
 use crate::learn::hypothesis::parameters::{Estimate, short};
 use crate::learn::model_search::context::Context;
@@ -35,6 +36,7 @@ pub(in crate::learn) fn warnings(
              tells it for this one) and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
         );
     }
+    warnings.extend(of_one_test(likelihood, base));
     warnings.extend(of_sigma(likelihood, base, spoken_of(base, posterior)));
     warnings.extend(likelihood.measured.data.places_not_used());
     warnings.extend(of_scarcity(likelihood, base));
@@ -64,6 +66,13 @@ fn leads_alone(decision: &Decision) -> Option<Hypothesis> {
         Verdict::NothingMissing | Verdict::Unknown => None,
         _ => Some(Hypothesis::Effects(decision.leading_effects()?.clone())),
     }
+}
+
+/// A test whose k, by the study's own model, lies apart from those of the others.
+fn of_one_test(likelihood: &Likelihood<'_>, base: &BaseFit) -> Option<String> {
+    let apart = test_apart(&base.fitted.found.state.epsilon)?;
+    let test = likelihood.tests[apart.test];
+    Some(apart.in_words(&likelihood.measured.study().tests[test].id))
 }
 
 /// Where the scatter is not as stated, or a few rows carry the misfit.
@@ -222,7 +231,10 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
 fn form_in_words(fitted: &FittedCandidate) -> String {
     let forms = fitted.candidate.forms.iter();
     let names = forms.map(|form| form.as_ref().map_or("own", |form| form.name));
-    names.collect::<Vec<_>>().join(" and ")
+    names
+        .map(|name| format!("\"{name}\""))
+        .collect::<Vec<_>>()
+        .join(" and ")
 }
 
 /// `others`: the forms that are as good; `one_alone`: no other one was fitted.
@@ -230,6 +242,7 @@ fn form_warning(effects: &str, form: &str, others: &[String], one_alone: bool) -
     let why = match others {
         [] if !one_alone => return None,
         [] => "no other was fitted, and one may explain the data as well".to_owned(),
+        [one] => format!("{one} explains the data as well"),
         others => format!("{} explain the data as well", others.join("; ")),
     };
     Some(format!(
@@ -322,14 +335,16 @@ mod tests {
 
     #[test]
     fn values_of_one_form_among_several_are_told_as_such() {
-        let two = ["own".to_owned(), "hyperbolic".to_owned()];
-        let said = form_warning("running_in", "steep hyperbolic", &two, false).unwrap();
+        let two = ["\"own\"".to_owned(), "\"hyperbolic\"".to_owned()];
+        let said = form_warning("running_in", "\"steep hyperbolic\"", &two, false).unwrap();
         assert!(
             said.contains(
-                "one form of the law (steep hyperbolic): own; hyperbolic explain the data as well"
+                "one form of the law (\"steep hyperbolic\"): \"own\"; \"hyperbolic\" explain the data as well"
             ),
             "{said}"
         );
+        let one = form_warning("running_in", "\"own\"", &two[1..], false).unwrap();
+        assert!(one.contains("\"hyperbolic\" explains the data"), "{one}");
         assert!(form_warning("running_in", "own", &[], false).is_none());
         let pair = form_warning("running_in and tip_relief", "own and own", &[], true).unwrap();
         assert!(pair.contains("no other was fitted"), "{pair}");

@@ -8,3 +8,4 @@ pub(super) mod measured;
 pub(super) mod quantity_misfit;
 pub(super) mod region;
 pub(super) mod starts;
+pub(super) mod test_apart;

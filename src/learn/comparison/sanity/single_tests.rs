@@ -7,8 +7,8 @@ use super::coefficient::FAR_FROM_STATED;
 use super::{EXPLAINS, SAME_CYCLES, rounded, scale};
 use crate::learn::comparison::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
+use crate::learn::fitting::test_apart::test_apart;
 use crate::measure::{Dataset, Quantity, Subject};
-use crate::numeric::written::significant;
 use crate::study::Study;
 
 /// Standard deviations of s below 0 from which a single test's sign is doubted.
@@ -17,9 +17,6 @@ const SURE: f64 = 6.0;
 const WORN: f64 = 4.0;
 /// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
 const DATUMS: f64 = 3.0;
-/// Factor between a test's k and the nearest of the others from which it lies apart, and the part of that, in ln, within which those must agree.
-const APART: f64 = 3.0;
-const AGREE: f64 = 0.5;
 /// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
 const CLEAR_RATIO: f64 = 1.5;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
@@ -118,39 +115,14 @@ pub(super) fn depths_and_masses(
 /// A test whose own k lies hundreds of times from those of the others, or several times, where these agree.
 pub(super) fn coefficients(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let own = own_coefficients(data, fit);
-    let off = |one: &(usize, f64)| far_off(study, &own, *one).or_else(|| apart(study, &own, *one));
-    own.iter().filter_map(off).collect()
-}
-
-/// A test whose ln k lies apart from those of the others, which agree. A law of the load or of the speed hardly does that, a slip does.
-fn apart(study: &Study, own: &[(usize, f64)], (test, k): (usize, f64)) -> Option<String> {
-    let others = || own.iter().filter(|o| o.0 != test).map(|o| o.1);
-    let (low, high) = (
-        others().fold(f64::INFINITY, f64::min),
-        others().fold(f64::NEG_INFINITY, f64::max),
-    );
-    let by = (k - high).max(low - k);
-    if others().count() < 2 || by < APART.ln() || high - low > AGREE * by {
-        return None;
+    let far = own.iter().filter_map(|one| far_off(study, &own, *one));
+    let far: Vec<String> = far.collect();
+    if !far.is_empty() {
+        return far;
     }
-    let mean = others().sum::<f64>() / others().count() as f64;
-    let (word, off) = if k > mean {
-        ("above", k - mean)
-    } else {
-        ("below", mean - k)
-    };
-    let ten = if (off - 10f64.ln()).abs() < ALIKE {
-        ", near 10: is its torque, or are its cycles or values, off by a decimal place?"
-    } else {
-        ": look at its torque, its cycles and the units of its values first."
-    };
-    Some(format!(
-        "test {} wears with a k {} times {word} that of the others, which agree within a factor of {}{ten} If all are right, something acts in this test \
-         that the model lacks",
-        study.tests[test].id,
-        rounded(off.exp()),
-        significant((high - low).exp(), 2),
-    ))
+    let logs: Vec<f64> = own.iter().map(|one| one.1).collect();
+    let apart = test_apart(&logs).map(|apart| apart.in_words(&study.tests[own[apart.test].0].id));
+    apart.into_iter().collect()
 }
 
 /// A test whose ln k lies hundreds of times from those of the others.
@@ -334,39 +306,4 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
             named(&short)
         )
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// What is said of the last of three tests with these k.
-    fn told(k: [f64; 3]) -> Option<String> {
-        let text = include_str!("../../../../validation/challenges/none_L2/study.toml");
-        let mut study = Study::parse(text, "study.toml").unwrap();
-        let first = study.tests[0].clone();
-        study.tests = ["A", "B", "C"]
-            .map(|id| crate::study::Test {
-                id: id.to_owned(),
-                ..first.clone()
-            })
-            .into();
-        let own: Vec<(usize, f64)> = k.iter().map(|k| k.ln()).enumerate().collect();
-        apart(&study, &own, own[2])
-    }
-
-    #[test]
-    fn a_test_apart_from_others_that_agree_is_asked_about() {
-        let ten = told([1.0, 1.1, 9.5]).unwrap();
-        assert!(ten.starts_with("test C wears with a k 9.1 times above that of the others, which agree within a factor of 1.1, near 10: is its torque"), "{ten}");
-        let five = told([1.0, 1.1, 0.2]).unwrap();
-        assert!(
-            five.contains("5.2 times below") && five.contains(": look at its torque, its cycles"),
-            "{five}"
-        );
-        // as scatter has it; others that do not agree; one of those
-        assert_eq!(told([1.0, 1.1, 2.0]), None);
-        assert_eq!(told([1.0, 2.5, 9.0]), None);
-        assert_eq!(told([1.0, 9.0, 1.1]), None);
-    }
 }
