@@ -13,6 +13,7 @@ mod exchanged_masses;
 mod exchanged_tests;
 mod falling;
 mod gear_revolutions;
+mod gross_errors;
 mod increments;
 mod mass_balance;
 mod mass_over_depth;
@@ -54,6 +55,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     // all else would follow from it
     if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];
+    }
+    if let Some(gross) = gross_errors::gross_errors(data) {
+        return vec![gross];
     }
     if let Some(increments) = increments::increments(study, data) {
         return vec![increments];

@@ -20,6 +20,7 @@ const DATUMS: f64 = 3.0;
 /// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
 const CLEAR_RATIO: f64 = 1.5;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
+const NEAR_RATIO: f64 = 0.25;
 const ALIKE: f64 = 0.3;
 /// Deviation up to which a torque is another one times the ratio, and the part of ln of the ratio by which k must then be lower.
 const SAME_TORQUE: f64 = 0.002;
@@ -169,7 +170,7 @@ pub(super) fn of_the_other_member(study: &Study, data: &Dataset, fit: &Fit) -> V
             let high = of_others.fold(0.0, f64::max);
             corrected > low / AMONG && corrected < high * AMONG
         };
-        let off_by_ratio = agree && (by.abs() - 1.0).abs() < ALIKE;
+        let off_by_ratio = agree && (by.abs() - 1.0).abs() < NEAR_RATIO;
         // a test of that torque shows it even where the others scatter
         let twin = others.iter().find(|o| {
             (torque(test) / (ratio * torque(o.0)) - 1.0).abs() < SAME_TORQUE && !is_simple(ratio)

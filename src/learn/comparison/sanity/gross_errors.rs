@@ -1,0 +1,92 @@
+//! Single rows so far from all others that nothing can be said of the rest before they are gone: what a machine writes for "no value", slipped points.
+
+use crate::measure::{Dataset, Observation};
+use crate::numeric::written::significant;
+
+/// How many times the largest of the other values of its quantity and member such a row is.
+const TIMES: f64 = 10.0;
+/// How many places are named.
+const NAMED: usize = 5;
+
+/// A question about the rows that stand apart and are many times all others.
+pub(super) fn gross_errors(data: &Dataset) -> Option<String> {
+    let apart = |row: usize| data.outliers.iter().any(|outlier| outlier.row == row);
+    let rows = || data.observations.iter().enumerate();
+    let is_gross = |o: &Observation| {
+        let alike = |other: &Observation| (other.member, other.quantity) == (o.member, o.quantity);
+        let others = rows().filter(|(i, other)| alike(other) && !apart(*i));
+        let largest = others
+            .map(|(_, other)| other.value.abs())
+            .fold(0.0, f64::max);
+        largest > 0.0 && o.value.abs() > TIMES * largest
+    };
+    let gross: Vec<&Observation> = (data.outliers.iter())
+        .map(|outlier| &data.observations[outlier.row])
+        .filter(|o| is_gross(o))
+        .collect();
+    if gross.is_empty() {
+        return None;
+    }
+    let places: Vec<String> = (gross.iter().take(NAMED))
+        .map(|o| {
+            format!(
+                "{} ({} {})",
+                data.place(o),
+                significant(o.value, 4),
+                o.quantity.shown_unit()
+            )
+        })
+        .collect();
+    let more = match gross.len() {
+        n if n > NAMED => format!(" and {} more", n - NAMED),
+        _ => String::new(),
+    };
+    Some(format!(
+        "more than {TIMES} times all other values of {}: {}{more}. If that is what the machine writes for no value, leave these rows out; nothing can be \
+         said of the others before",
+        gross[0].quantity.name(),
+        places.join(", ")
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::Study;
+
+    /// What is said of a curve of 21 depths up to 8 µm of which one has another value.
+    fn told(value: f64) -> Option<String> {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        for i in 0..21 {
+            let x = f64::from(i - 10) / 10.0;
+            let noise = 0.1 * (2.4 * f64::from(i)).sin();
+            let depth = if i == 8 {
+                value
+            } else {
+                8.0 * (1.0 - x * x) + noise
+            };
+            text += &format!(
+                "A,pinion,200000,wear_depth,{},{depth},0.1\n",
+                26.5 + 0.1 * f64::from(i)
+            );
+        }
+        let mut data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        data.find_outliers(false);
+        gross_errors(&data)
+    }
+
+    #[test]
+    fn what_a_machine_writes_for_no_value_is_asked_about_first() {
+        let asked = told(-999.0).unwrap();
+        assert!(
+            asked.contains("of wear_depth: m.csv:10 (−999.0 µm)"),
+            "{asked}"
+        );
+        assert!(told(99.0).is_some());
+        assert_eq!(told(20.0), None);
+        assert_eq!(told(0.0), None);
+        assert_eq!(told(8.0), None);
+    }
+}
