@@ -48,7 +48,7 @@ fn a_long_table_is_read_by_the_names_of_its_columns() {
         "",
     );
     assert!(
-        written.contains(",A-pinion-1\n") && written.contains(",A-gear-1\n"),
+        written.contains(",A-pinion-100000-1\n") && written.contains(",A-gear-100000-1\n"),
         "{written}"
     );
     assert!(shown.contains("it numbers them within these"), "{shown}");
@@ -141,6 +141,55 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
         let message = refused(&home, &text, options);
         assert!(message.contains(says), "no `{says}` in: {message}");
     }
+}
+
+/// All checkpoints had one zero where a column numbers the profiles of each.
+#[test]
+fn a_name_at_several_checkpoints_is_a_trace_at_each() {
+    let home = home();
+    let table = |name: &str| {
+        format!(
+            "Versuch;Rad;Lastspiele;Kurve;Radius [mm];Verschlei\u{df} [\u{b5}m];sigma\n\
+             A;Ritzel;40000;{name};26,512;1,75;0,1\nA;Ritzel;40000;{name};27,5;1,55;0,1\n\
+             A;Ritzel;100000;{name};26,512;2,75;0,1\nA;Ritzel;100000;{name};27,5;2,55;0,1\n"
+        )
+    };
+    for (name, why) in [
+        ("1", "before the name: it numbers them within these"),
+        (
+            "links",
+            "before the name: the same name stands at several checkpoints",
+        ),
+    ] {
+        let (shown, written) = rows(&home, &table(name), "");
+        for cycles in ["40000", "100000"] {
+            let trace = format!(",A-pinion-{cycles}-{name}\n");
+            assert_eq!(written.matches(&trace).count(), 2, "{written}");
+        }
+        let said = format!("traces   as the column says, with test, member and checkpoint {why}");
+        assert!(shown.contains(&said), "{shown}");
+    }
+    // a number says nothing in one test either: the next table has it too
+    let one = |test: &str| {
+        format!(
+            "test,member,cycles,profile,radius,depth,sigma\n{test},gear,40000,1,52.5,1.75,0.1\n{test},gear,40000,1,53.5,1.5,0.1\n"
+        )
+    };
+    assert!(rows(&home, &one("A"), "").1.contains(",A-gear-40000-1\n"));
+    let (code, _, error) = import(&home, &one("B"), "-o out.csv --append");
+    assert_eq!(code, Some(0), "{error}");
+    assert!(read(&home, "out.csv").contains(",B-gear-40000-1\n"));
+    // names of one checkpoint each stay, and teeth have traces of their own
+    let named = one("A").replace("0,1,5", "0,p1,5");
+    assert!(rows(&home, &named, "").1.contains(",p1\n"));
+    let teeth = "test,member,cycles,profile,tooth,radius,depth,sigma\nA,gear,40000,1,3,52.5,1.75,0.1\nA,gear,40000,1,8,52.5,1.5,0.1\n";
+    let (_, written) = rows(&home, teeth, "");
+    assert!(written.contains(",A-gear-40000-tooth8-1,8\n"), "{written}");
+    // a record of one mass over its test is one series
+    let masses =
+        "test,member,cycles,trace,mass loss [mg]\nA,gear,40000,1,1.75\nA,gear,90000,1,3.5\n";
+    let (_, written) = rows(&home, masses, "--sigma 0.4");
+    assert_eq!(written.matches(",A-gear-1\n").count(), 2, "{written}");
 }
 
 /// What was passed over silently before: the masses of both members went to one, the columns of all tests to one.
