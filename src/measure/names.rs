@@ -7,7 +7,10 @@ mod vocabulary;
 
 use super::quantity::{Quantity, Subject};
 
-use counting::{AROUND_POWER, CYCLES, HOURS, MULTIPLES, PER_MINUTE, POWERS, SPEEDS, TIMES};
+use counting::{
+    AROUND_POWER, CYCLES, HOURS, MULTIPLES, NEWTON_METRES, PER_MINUTE, POWERS, SPEEDS, TIMES,
+    TORQUES,
+};
 use vocabulary::{
     AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, EXPANDED, FILLERS, FLANKS, FOR_PEOPLE, HINTS,
     LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, SPANS, STOPS,
@@ -195,6 +198,22 @@ pub(super) fn speed(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
 pub(super) fn is_per_minute(unit: &str) -> bool {
     let unit: String = unit.to_lowercase().split_whitespace().collect();
     PER_MINUTE.contains(&unit.as_str())
+}
+
+/// On which member the torque acts that a name and its unit mean, `None` inside if they do not say; none if they mean none.
+pub(super) fn torque(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
+    newton_metres(unit?)?;
+    let is_one = |word: &String| member(word).is_some_and(|of| of != Subject::Pair);
+    let (of, rest): (Vec<String>, Vec<String>) = telling(name).into_iter().partition(is_one);
+    let is_named = TORQUES.contains(&rest.concat().as_str());
+    is_named.then(|| one_member(&of.join(" ")))
+}
+
+/// N m of a unit of torque.
+pub(super) fn newton_metres(unit: &str) -> Option<f64> {
+    let unit = folded(unit);
+    let found = NEWTON_METRES.iter().find(|(known, _)| *known == unit);
+    found.map(|(_, factor)| *factor)
 }
 
 /// Whether a name means the flank of a tooth.
@@ -428,6 +447,25 @@ mod tests {
             ("corona", Subject::Gear),
         ] {
             assert_eq!(member(word), Some(means), "{word}");
+        }
+    }
+
+    #[test]
+    fn torques_say_on_whom_they_act() {
+        for (name, unit, on) in [
+            ("Drehmoment", Some("Nm"), Some(None)),
+            ("torque", Some("N m"), Some(None)),
+            ("Moment", Some("N\u{b7}mm"), Some(None)),
+            ("coppia", Some("Nm"), Some(None)),
+            ("gear torque", Some("Nm"), Some(Some(Subject::Gear))),
+            ("Drehmoment am Ritzel", Some("Nm"), None),
+            ("Drehmoment Ritzel", Some("Nm"), Some(Some(Subject::Pinion))),
+            ("torque", None, None),
+            ("Reibmoment", Some("Nm"), None),
+            ("coppia", None, None),
+            ("depth", Some("nm"), None),
+        ] {
+            assert_eq!(torque(name, unit), on, "{name}");
         }
     }
 

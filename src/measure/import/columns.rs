@@ -30,6 +30,11 @@ pub(super) enum What {
         /// Whether it is the gear's.
         of_gear: bool,
     },
+    /// A torque, of the member that the name says.
+    Torque {
+        /// Of which it is; none if the name does not say.
+        of: Option<Subject>,
+    },
     /// The flank of the tooth.
     Flank,
     /// An expanded uncertainty of which nothing says how many standard deviations it is.
@@ -113,6 +118,8 @@ impl Column {
             What::Speed {
                 of_gear: whose == Some(Subject::Gear),
             }
+        } else if let Some(of) = names::torque(&name, unit.as_deref()) {
+            What::Torque { of }
         } else if names::is_flank(&name) {
             What::Flank
         } else if at_a_level || names::is_expanded_uncertainty(&name) {
@@ -147,6 +154,12 @@ impl Column {
     /// Its name without its unit.
     pub(super) fn name(&self) -> String {
         units::name_and_unit(&self.written).0
+    }
+
+    /// N m of a unit of it, if it is a torque.
+    pub(super) fn newton_metres(&self) -> f64 {
+        let unit = self.unit.as_deref();
+        unit.and_then(names::newton_metres).unwrap_or(1.0)
     }
 
     fn is(&self, name: &str) -> bool {

@@ -277,6 +277,7 @@ fn passed_over(
                 What::Span(_) | What::Chord(_) => "a measurement of the tooth thickness",
                 What::Flank => "one flank of each member stands in it, taken for the loaded one",
                 What::Speed { .. } if !uses_speeds => "a speed, which is the study's",
+                What::Torque { .. } => "a torque, which is the study's",
                 What::Expanded => {
                     "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
                 }

@@ -107,6 +107,7 @@ fn in_words(column: &Column) -> Option<String> {
         What::Span(when) => format!("the span {}", time(when)),
         What::Chord(when) => format!("the chord {}", time(when)),
         What::Speed { .. } => "a speed".to_owned(),
+        What::Torque { .. } => "a torque".to_owned(),
         What::Flank => "the flank".to_owned(),
         What::Own("cycles") if column.hours.is_some() => "cycles (a running time)".to_owned(),
         What::Own(own) => own.to_owned(),
