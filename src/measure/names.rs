@@ -13,7 +13,7 @@ use counting::{
 };
 use vocabulary::{
     AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, EXPANDED, FILLERS, FLANKS, FOR_PEOPLE, HINTS,
-    LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, SPANS, STOPS,
+    LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS,
 };
 
 /// Which of two measurements of a part.
@@ -313,6 +313,11 @@ pub(super) fn chord(name: &str) -> Option<When> {
 /// Which of two measurements a name means that says nothing else: `before`.
 pub(super) fn time_alone(name: &str) -> Option<When> {
     named_when(name, &[""])
+}
+
+/// Whether a name may mean the number of a repeated measurement; other numbers stand under such names too.
+pub(super) fn may_number_repeats(name: &str) -> bool {
+    REPEATS.contains(&telling(name).concat().as_str())
 }
 
 /// Whether a name means the stops of a test.

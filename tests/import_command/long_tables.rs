@@ -192,6 +192,74 @@ fn a_name_at_several_checkpoints_is_a_trace_at_each() {
     assert_eq!(written.matches(",A-gear-1\n").count(), 2, "{written}");
 }
 
+/// Two repeats shared one zero where their column was passed over.
+#[test]
+fn a_column_that_numbers_repeats_tells_them_apart() {
+    let home = home();
+    let table = |header: &str, [one, two]: [&str; 2]| {
+        format!(
+            "Versuch;Rad;Lastspiele;{header};Radius [mm];Verschlei\u{df} [\u{b5}m];sigma\n\
+             A;Ritzel;40000;{one};26,512;1,75;0,1\nA;Ritzel;40000;{one};27,5;1,55;0,1\n\
+             A;Ritzel;40000;{two};26,512;1,75;0,1\nA;Ritzel;40000;{two};27,5;1,65;0,1\n"
+        )
+    };
+    for header in [
+        "Messung",
+        "Repeat",
+        "Wdh.",
+        "Messung Nr.",
+        "replicate",
+        "Run",
+    ] {
+        let (shown, written) = rows(&home, &table(header, ["1", "2"]), "");
+        for repeat in ["r1", "r2"] {
+            let trace = format!(",A-pinion-40000-{repeat}\n");
+            assert_eq!(written.matches(&trace).count(), 2, "{header}: {written}");
+        }
+        let said = format!("column   `{header}`: the number of a repeat, as by --repeat");
+        assert!(shown.contains(&said), "{shown}");
+    }
+    // beside a column of traces, and as the one number of a table
+    let curves = table("Messung;Kurve", ["1;1", "2;1"]);
+    let (_, written) = rows(&home, &curves, "");
+    assert!(written.contains(",A-pinion-40000-1-r2\n"), "{written}");
+    let third = table("Messung", ["3", "3"]).replace(
+        "1,75;0,1\nA;Ritzel;40000;3;27,5;1,65",
+        "1,76;0,1\nA;Ritzel;40000;3;27,5;1,65",
+    );
+    assert!(rows(&home, &third, "").1.contains(",A-pinion-40000-r3\n"));
+    assert!(
+        refused(&home, &table("Messung", ["1", "2"]), "--repeat 2")
+            .contains("the table has a column of repeats, D1: `Messung`")
+    );
+    // numbers of points, orders, and anything else
+    let counts = "test;member;cycles;Messung;radius;depth;sigma\nA;pinion;40000;1;26,512;1,75;0,1\nA;pinion;40000;2;27,5;1,55;0,1\n";
+    for other in [
+        counts.to_owned(),
+        counts
+            .replace("40000;1;", "40000;4711;")
+            .replace("40000;2;", "40000;4711;"),
+        counts
+            .replace("40000;1;", "40000;0,5;")
+            .replace("40000;2;", "40000;0,5;"),
+        counts
+            .replace("40000;1;", "40000;alt;")
+            .replace("40000;2;", "40000;alt;"),
+        // checkpoints
+        format!(
+            "{counts}{}",
+            "A;pinion;90000;3;26,512;2,75;0,1\nA;pinion;90000;4;27,5;2,55;0,1\n"
+        ),
+    ] {
+        let (shown, written) = rows(&home, &other, "");
+        assert!(written.contains(",A-pinion-40000\n"), "{written}");
+        assert!(
+            shown.contains("passed over the column `Messung`: not known"),
+            "{shown}"
+        );
+    }
+}
+
 /// What was passed over silently before: the masses of both members went to one, the columns of all tests to one.
 #[test]
 fn columns_tell_tests_and_members_by_what_stands_in_them() {

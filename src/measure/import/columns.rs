@@ -37,6 +37,8 @@ pub(super) enum What {
     },
     /// The flank of the tooth.
     Flank,
+    /// The number of a repeated measurement, by what stands in it.
+    Repeat,
     /// An expanded uncertainty of which nothing says how many standard deviations it is.
     Expanded,
     /// For people.

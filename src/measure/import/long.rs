@@ -5,6 +5,7 @@ mod flanks;
 mod line;
 mod off_flank;
 mod read_columns;
+mod repeats;
 mod stops;
 mod traces;
 mod weights;
@@ -108,6 +109,7 @@ fn of_columns(
     nameless::refuse_numbers(sheet, head, 0)?;
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
+    repeats::by_content(&mut columns, sheet, head, wanted);
     let columns = columns;
     let read = Read::of(&columns, head, wanted)?;
     let numbers = [read.position, Some(read.value), read.sigma, read.face];

@@ -215,6 +215,7 @@ impl Reading<'_> {
                     trace: String::new(),
                     face: String::new(),
                     tooth: String::new(),
+                    repeat: self.wanted.repeat,
                     cell: (row, column),
                 });
             }

@@ -6,7 +6,7 @@ mod reading;
 use self::grid::{Grid, Places};
 use self::reading::Reading;
 use super::arrange::{self, flank_above};
-use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
+use super::entry::{Entry, name_repeats, refuse_twice, state_face, state_sigma};
 use super::multiples::{self, Multiple};
 use super::numbers::{
     header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
@@ -232,7 +232,7 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec
         entry.trace = entry.own_trace(wanted);
     }
     state_face(entries, wanted)?;
-    name_repeat(entries, wanted);
+    name_repeats(entries);
     state_sigma(entries, wanted)?;
     wanted.per_interval.add_up(entries, true)
 }

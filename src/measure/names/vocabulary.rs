@@ -405,6 +405,33 @@ pub(super) const STOPS: [&str; 14] = [
     "etapa",
 ];
 
+/// Names of columns that may number repeated measurements.
+pub(super) const REPEATS: [&str; 23] = [
+    "repeat",
+    "repetition",
+    "rep",
+    "replicate",
+    "replication",
+    "measurement",
+    "run",
+    "messung",
+    "wiederholung",
+    "wiederholmessung",
+    "wdh",
+    "durchgang",
+    "lauf",
+    "messreihe",
+    "ripetizione",
+    "misura",
+    "misurazione",
+    "replica",
+    "mesure",
+    "repeticion",
+    "medicion",
+    "medida",
+    "replicado",
+];
+
 /// Words for the time before a test.
 pub(super) const BEFORE: [&str; 15] = [
     "before", "initial", "start", "new", "vorher", "vor", "anfang", "neu", "prima", "iniziale",

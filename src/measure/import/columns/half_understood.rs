@@ -109,6 +109,7 @@ fn in_words(column: &Column) -> Option<String> {
         What::Speed { .. } => "a speed".to_owned(),
         What::Torque { .. } => "a torque".to_owned(),
         What::Flank => "the flank".to_owned(),
+        What::Repeat => "the number of a repeat".to_owned(),
         What::Own("cycles") if column.hours.is_some() => "cycles (a running time)".to_owned(),
         What::Own(own) => own.to_owned(),
         What::Expanded | What::ForPeople | What::Unknown | What::Nameless => return None,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Read;
 use crate::measure::Subject;
 use crate::measure::import::ImportError;
-use crate::measure::import::entry::{Entry, name_repeat, refuse_twice};
+use crate::measure::import::entry::{Entry, name_repeats, refuse_twice};
 use crate::measure::import::wanted::Wanted;
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -48,7 +48,7 @@ pub(super) fn name(
             "--repeat names traces, and these rows have none: leave it out".to_owned(),
         ));
     }
-    name_repeat(entries, wanted);
+    name_repeats(entries);
     Ok(said)
 }
 
