@@ -128,7 +128,12 @@ pub(super) fn is_one_letter_count(name: &str) -> bool {
 
 /// Whether a text speaks of revolutions of the gear.
 pub(super) fn counts_gear_revolutions(text: &str) -> bool {
-    let counts = |word: &String| word == "cycles" || CYCLES.contains(&word.as_str());
+    // `U` are revolutions behind a number alone
+    let has_number = text.contains(|c: char| c.is_ascii_digit());
+    let counts = |word: &String| {
+        let is_short = word == "u" && has_number;
+        is_short || word == "cycles" || CYCLES.contains(&word.as_str())
+    };
     let words: Vec<String> = words(text).into_iter().flat_map(member_apart).collect();
     words.iter().any(counts) && one_member(&words.join(" ")) == Some(Subject::Gear)
 }
@@ -490,6 +495,9 @@ mod tests {
         }
         assert!(counts_gear_revolutions("111000 gear rev"));
         assert!(counts_gear_revolutions("23415 Radumdrehungen"));
+        assert!(counts_gear_revolutions("111000 Umdr. Rad"));
+        assert!(counts_gear_revolutions("111000 U Rad"));
         assert!(!counts_gear_revolutions("111000 rev"));
+        assert!(!counts_gear_revolutions("U Rad"));
     }
 }

@@ -9,7 +9,9 @@ use super::wide::{
     Across, Wide, across_numbers, checkpoint, counts_gear_revolutions, down_numbers, header,
     in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
-use super::{ImportError, Sheet, cell_name, counts, decimal_commas, long, nameless, units};
+use super::{
+    ImportError, Sheet, cell_name, counts, decimal_commas, header_points, long, nameless, units,
+};
 use crate::measure::{Place, Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -58,6 +60,10 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         sheet = without;
         multiple
     });
+    let without_points = header_points::left_out(&sheet, wanted.decimal, head);
+    if let Some(plain) = without_points.filter(|_| multiple.is_none()) {
+        sheet = plain;
+    }
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     let sheet = &sheet;

@@ -16,7 +16,8 @@ use super::place::{PositionKind, on_flank};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
-    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, nameless, units,
+    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, header_points,
+    nameless, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -101,6 +102,11 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let corner = grid.corner();
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
+    let are_counts = across == Across::Checkpoints && multiple.is_none();
+    let without_points = header_points::left_out(sheet, wanted.decimal, head);
+    if let Some(sheet) = without_points.as_ref().filter(|_| are_counts) {
+        grid = Grid::of(sheet, head)?;
+    }
     let left_out = grid.leave_out(across, &places)?;
     grid.refuse_unclear(across, quantity, multiple.is_some())?;
     counts::refuse_others_above(sheet, head)?;

@@ -21,6 +21,7 @@ pub(super) const CYCLES: &[&str] = &[
     "lw",
     "uberrollungen",
     "umdrehung",
+    "umdr",
     "umdrehungen",
     "zyklen",
     "cicli",
