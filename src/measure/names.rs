@@ -12,8 +12,9 @@ use counting::{
     TORQUES,
 };
 use vocabulary::{
-    AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, EXPANDED, FILLERS, FLANKS, FOR_PEOPLE, HINTS,
-    LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS,
+    AFTER, BEFORE, CHORDS, COLUMNS, CONFIDENCE_INTERVALS, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
+    FOR_PEOPLE, HINTS, LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS,
+    SIGMAS, SPANS, STOPS,
 };
 
 /// Which of two measurements of a part.
@@ -165,6 +166,22 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
 /// standard deviation.
 pub(super) fn is_expanded_uncertainty(name: &str) -> bool {
     name.trim() == "U" || EXPANDED.contains(&telling(name).concat().as_str())
+}
+
+/// How many standard deviations a name means that says so in front: `2 sigma`, `3s`.
+pub(super) fn sigmas(name: &str) -> Option<u32> {
+    let name = folded(name);
+    let digits = name.trim_start_matches(|c: char| c.is_ascii_digit());
+    let is_sigma = SIGMAS.contains(&digits);
+    is_sigma.then(|| name[..name.len() - digits.len()].parse().ok())?
+}
+
+/// Whether a header means a confidence interval, with or without its level.
+pub(super) fn is_confidence_interval(header: &str) -> bool {
+    let (name, _) = header.split_once('[').unwrap_or((header, ""));
+    let name = telling(name).concat();
+    let level = |c: char| c.is_ascii_digit();
+    CONFIDENCE_INTERVALS.contains(&name.trim_matches(level))
 }
 
 /// Whether a name means a running time: its unit stands elsewhere.

@@ -283,6 +283,7 @@ fn passed_over(
                 What::Expanded => {
                     "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
                 }
+                What::NotOneSigma(says) => says,
                 What::Values(_) if column.at != value.at => "another quantity",
                 _ => return None,
             };
