@@ -18,6 +18,7 @@ use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
+    no_values,
 };
 use crate::measure::{Quantity, names};
 use line::Line;
@@ -162,6 +163,8 @@ fn of_columns(
             head + 1
         )));
     }
+    let (mut left_out, rows) = no_values::leave_out(&mut entries, sheet);
+    without_value.extend(rows);
     if !wanted.per_interval.losses.is_empty() {
         read.no_interval_missing(sheet, &without_value, &entries)?;
     }
@@ -176,7 +179,7 @@ fn of_columns(
         (wanted.per_interval).refuse_differences(&[Quantity::MassLoss])?;
         arranged.push(of_masses);
     }
-    let left_out = off_flank::leave_out(&mut entries, line)?;
+    left_out.extend(off_flank::leave_out(&mut entries, line)?);
     let joined = wanted.there.join(&mut entries, false);
     arranged.extend(checkpoints::join(&mut entries));
     // of two deviations one has been taken from the other

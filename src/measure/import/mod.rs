@@ -21,6 +21,7 @@ mod header_points;
 mod long;
 mod multiples;
 mod nameless;
+mod no_values;
 mod numbers;
 mod per_interval;
 mod place;

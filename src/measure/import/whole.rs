@@ -10,7 +10,8 @@ use super::wide::{
     in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
 use super::{
-    ImportError, Sheet, cell_name, counts, decimal_commas, header_points, long, nameless, units,
+    ImportError, Sheet, cell_name, counts, decimal_commas, header_points, long, nameless,
+    no_values, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -102,6 +103,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         of_gear,
     };
     let (mut entries, empty) = reading.entries(sheet, &lines)?;
+    let (left_out, _) = no_values::leave_out(&mut entries, sheet);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
     let mut differences = false;
     if quantity == Quantity::MassLoss && !speaks_of_loss(sheet, head) {
@@ -137,7 +139,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         arranged,
         joined: Vec::new(),
         passed_over,
-        left_out: Vec::new(),
+        left_out,
         empty,
         entries,
     })

@@ -17,7 +17,7 @@ use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, header_points,
-    nameless, units,
+    nameless, no_values, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -107,7 +107,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     if let Some(sheet) = without_points.as_ref().filter(|_| are_counts) {
         grid = Grid::of(sheet, head)?;
     }
-    let left_out = grid.leave_out(across, &places)?;
+    let mut left_out = grid.leave_out(across, &places)?;
     grid.refuse_unclear(across, quantity, multiple.is_some())?;
     counts::refuse_others_above(sheet, head)?;
     // beside positions the headers' unit is that of the positions
@@ -138,6 +138,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         multiple: multiple.as_ref(),
     };
     let (mut entries, empty) = reading.entries(&grid)?;
+    left_out.extend(no_values::leave_out(&mut entries, sheet).0);
     if stated_member.is_none() {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
     }
