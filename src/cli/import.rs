@@ -116,6 +116,9 @@ fn wanted<'a>(args: &'a ImportArgs, study: &'a Study) -> Result<Wanted<'a>, CliE
         runs: (study.tests.iter())
             .map(|test| [test.conditions.speed_rpm, test.conditions.cycles])
             .collect(),
+        torques: (study.tests.iter())
+            .map(|test| 1e-3 * test.conditions.torque_nmm)
+            .collect(),
         gears: [&study.gears.pinion, &study.gears.gear],
         test: args.test.as_deref(),
         member: args.member.map(|member| match member {

@@ -7,10 +7,14 @@ mod vocabulary;
 
 use super::quantity::{Quantity, Subject};
 
-use counting::{AROUND_POWER, CYCLES, HOURS, MULTIPLES, PER_MINUTE, POWERS, SPEEDS, TIMES};
+use counting::{
+    AROUND_POWER, CYCLES, HOURS, MULTIPLES, NEWTON_METRES, PER_MINUTE, POWERS, SPEEDS, TIMES,
+    TORQUES,
+};
 use vocabulary::{
-    AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, EXPANDED, FILLERS, FLANKS, FOR_PEOPLE, HINTS,
-    LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, SPANS, STOPS,
+    AFTER, BEFORE, CHORDS, COLUMNS, CONFIDENCE_INTERVALS, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
+    FOR_PEOPLE, HINTS, LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS,
+    SIGMAS, SPANS, STOPS,
 };
 
 /// Which of two measurements of a part.
@@ -125,7 +129,12 @@ pub(super) fn is_one_letter_count(name: &str) -> bool {
 
 /// Whether a text speaks of revolutions of the gear.
 pub(super) fn counts_gear_revolutions(text: &str) -> bool {
-    let counts = |word: &String| word == "cycles" || CYCLES.contains(&word.as_str());
+    // `U` are revolutions behind a number alone
+    let has_number = text.contains(|c: char| c.is_ascii_digit());
+    let counts = |word: &String| {
+        let is_short = word == "u" && has_number;
+        is_short || word == "cycles" || CYCLES.contains(&word.as_str())
+    };
     let words: Vec<String> = words(text).into_iter().flat_map(member_apart).collect();
     words.iter().any(counts) && one_member(&words.join(" ")) == Some(Subject::Gear)
 }
@@ -157,6 +166,22 @@ pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
 /// standard deviation.
 pub(super) fn is_expanded_uncertainty(name: &str) -> bool {
     name.trim() == "U" || EXPANDED.contains(&telling(name).concat().as_str())
+}
+
+/// How many standard deviations a name means that says so in front: `2 sigma`, `3s`.
+pub(super) fn sigmas(name: &str) -> Option<u32> {
+    let name = folded(name);
+    let digits = name.trim_start_matches(|c: char| c.is_ascii_digit());
+    let is_sigma = SIGMAS.contains(&digits);
+    is_sigma.then(|| name[..name.len() - digits.len()].parse().ok())?
+}
+
+/// Whether a header means a confidence interval, with or without its level.
+pub(super) fn is_confidence_interval(header: &str) -> bool {
+    let (name, _) = header.split_once('[').unwrap_or((header, ""));
+    let name = telling(name).concat();
+    let level = |c: char| c.is_ascii_digit();
+    CONFIDENCE_INTERVALS.contains(&name.trim_matches(level))
 }
 
 /// Whether a name means a running time: its unit stands elsewhere.
@@ -195,6 +220,22 @@ pub(super) fn speed(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
 pub(super) fn is_per_minute(unit: &str) -> bool {
     let unit: String = unit.to_lowercase().split_whitespace().collect();
     PER_MINUTE.contains(&unit.as_str())
+}
+
+/// On which member the torque acts that a name and its unit mean, `None` inside if they do not say; none if they mean none.
+pub(super) fn torque(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
+    newton_metres(unit?)?;
+    let is_one = |word: &String| member(word).is_some_and(|of| of != Subject::Pair);
+    let (of, rest): (Vec<String>, Vec<String>) = telling(name).into_iter().partition(is_one);
+    let is_named = TORQUES.contains(&rest.concat().as_str());
+    is_named.then(|| one_member(&of.join(" ")))
+}
+
+/// N m of a unit of torque.
+pub(super) fn newton_metres(unit: &str) -> Option<f64> {
+    let unit = folded(unit);
+    let found = NEWTON_METRES.iter().find(|(known, _)| *known == unit);
+    found.map(|(_, factor)| *factor)
 }
 
 /// Whether a name means the flank of a tooth.
@@ -294,6 +335,11 @@ pub(super) fn chord(name: &str) -> Option<When> {
 /// Which of two measurements a name means that says nothing else: `before`.
 pub(super) fn time_alone(name: &str) -> Option<When> {
     named_when(name, &[""])
+}
+
+/// Whether a name may mean the number of a repeated measurement; other numbers stand under such names too.
+pub(super) fn may_number_repeats(name: &str) -> bool {
+    REPEATS.contains(&telling(name).concat().as_str())
 }
 
 /// Whether a name means the stops of a test.
@@ -432,6 +478,25 @@ mod tests {
     }
 
     #[test]
+    fn torques_say_on_whom_they_act() {
+        for (name, unit, on) in [
+            ("Drehmoment", Some("Nm"), Some(None)),
+            ("torque", Some("N m"), Some(None)),
+            ("Moment", Some("N\u{b7}mm"), Some(None)),
+            ("coppia", Some("Nm"), Some(None)),
+            ("gear torque", Some("Nm"), Some(Some(Subject::Gear))),
+            ("Drehmoment am Ritzel", Some("Nm"), None),
+            ("Drehmoment Ritzel", Some("Nm"), Some(Some(Subject::Pinion))),
+            ("torque", None, None),
+            ("Reibmoment", Some("Nm"), None),
+            ("coppia", None, None),
+            ("depth", Some("nm"), None),
+        ] {
+            assert_eq!(torque(name, unit), on, "{name}");
+        }
+    }
+
+    #[test]
     fn revolutions_say_whose_they_are() {
         for (name, whose) in [
             ("revolutions of the pinion", Some(Some(Subject::Pinion))),
@@ -447,6 +512,9 @@ mod tests {
         }
         assert!(counts_gear_revolutions("111000 gear rev"));
         assert!(counts_gear_revolutions("23415 Radumdrehungen"));
+        assert!(counts_gear_revolutions("111000 Umdr. Rad"));
+        assert!(counts_gear_revolutions("111000 U Rad"));
         assert!(!counts_gear_revolutions("111000 rev"));
+        assert!(!counts_gear_revolutions("U Rad"));
     }
 }

@@ -130,6 +130,63 @@ fn a_speed_beside_running_times_is_that_of_the_test() {
     );
 }
 
+/// Test A runs with 100 N m on the pinion of 27 teeth, B with 170: a table with another torque is of another test, or the study is wrong.
+#[test]
+fn a_torque_of_a_table_is_that_of_the_test() {
+    let home = home();
+    let table = |header: &str, torque: &str| {
+        format!(
+            "test;member;cycles;{header};radius;depth\nA;pinion;40000;{torque};26;1\nA;pinion;40000;{torque};27;2\n"
+        )
+    };
+    for (header, torque, says) in [
+        (
+            "Drehmoment [Nm]",
+            "600",
+            "D2: `600` below `Drehmoment [Nm]` is another torque than that of test A in the study, 100 N m: correct",
+        ),
+        ("torque [N m]", "102", "100 N m"),
+        ("Moment [Nm]", "100000", "100 N m"),
+        // 100 N m of 27 teeth are 196.3 of 53, and 50.94 are those of 100 on the gear
+        ("Drehmoment Rad [Nm]", "100", "N m on the gear"),
+        ("torque pinion [Nm]", "196,3", "is it the other member's?"),
+        (
+            "torque [Nm]",
+            "50,94",
+            "does the study state the gear's torque?",
+        ),
+    ] {
+        let message = refused(&home, &table(header, torque), "--sigma 0.1");
+        assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+    for (header, torque) in [
+        ("Drehmoment [Nm]", "100"),
+        ("torque [N m]", "99,2"),
+        ("torque [Nmm]", "100000"),
+        ("torque [Nm]", "100 Nm"),
+        ("torque [Nm]", ""),
+        ("gear torque [Nm]", "196"),
+    ] {
+        let (shown, written) = rows(&home, &table(header, torque), "--sigma 0.1");
+        assert!(written.starts_with("A,pinion,40000,"), "{written}");
+        let said = format!("passed over the column `{header}`: a torque, which is the study's\n");
+        assert!(shown.contains(&said), "{shown}");
+    }
+    let (shown, _) = rows(&home, &table("Drehmoment [Nm]", "196,3"), "--sigma 0.1");
+    assert!(
+        shown.contains("`Drehmoment [Nm]`: the gear's torque, which is that of the test times"),
+        "{shown}"
+    );
+    // each row is held against its own test
+    let both =
+        table("torque [Nm]", "100").replacen("A;pinion;40000;100;27", "B;pinion;40000;170;27", 1);
+    assert!(
+        rows(&home, &both, "--sigma 0.1")
+            .1
+            .contains("B,pinion,40000,")
+    );
+}
+
 #[test]
 fn what_counts_no_revolutions_is_no_checkpoint() {
     let home = home();

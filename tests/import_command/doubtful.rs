@@ -126,6 +126,67 @@ fn dates_are_no_numbers() {
     );
 }
 
+/// A machine writes a number of nines where it has no value: far from all others it is none.
+#[test]
+fn numbers_that_stand_for_no_value_are_left_out_and_told() {
+    let home = home();
+    let wide = |none: &str| {
+        format!(
+            "Radius [mm];40000;100000\n26,512;0,885;1,027\n26,711;{none};0,99\n27,133;0,810;{none}\n"
+        )
+    };
+    let options = "--test A --member pinion --sigma 0.1";
+    for none in ["-999", "9999", "-99,99"] {
+        let (shown, written) = rows(&home, &wide(none), options);
+        let says = format!(
+            "left out B3: `{none}`, C4: `{none}`: these look like a machine's `no value`, for no other wear_depth is above 1.027 µm"
+        );
+        assert!(shown.contains(&says), "no `{says}` in:\n{shown}");
+        assert_eq!(written.lines().count(), 4, "{written}");
+    }
+    let long = "test,member,cycles,radius,depth [mm],sigma [um]\n\
+                A,pinion,40000,26.5,0.0015,0.1\nA,pinion,40000,27,-9999,0.1\nA,pinion,40000,27.5,0.0012,0.1\n";
+    let (shown, written) = rows(&home, long, "");
+    assert!(
+        shown.contains("left out E3: `-9999`: this looks like"),
+        "{shown}"
+    );
+    assert_eq!(written.lines().count(), 2, "{written}");
+    // the total after an interval that nobody measured is not known
+    let losses = "test,member,cycles,mass loss [mg]\nA,gear,40000,1.5\nA,gear,60000,-999\nA,gear,90000,1.2\n";
+    let message = refused(&home, losses, "--per-interval mass_loss --sigma 0.1");
+    assert!(
+        message.contains("without the loss of this interval"),
+        "{message}"
+    );
+    // others may be as large, and no other number stands for nothing
+    let near = wide("99,9").replace("1,027", "9,027");
+    assert_eq!(rows(&home, &near, options).1.lines().count(), 6);
+    let other = wide("-998");
+    assert_eq!(rows(&home, &other, options).1.lines().count(), 6);
+}
+
+/// What is left out of a table that is read like the one before it is told too.
+#[test]
+fn cells_left_out_of_the_next_table_are_told() {
+    let home = home();
+    let table = |test: &str, none: &str| {
+        let row = |radius: &str, depth: &str| format!("{test},gear,40000,{radius},{depth},0.1\n");
+        let all = [row("52.5", "1.5"), row("53", none), row("53.5", "1.2")].concat();
+        std::fs::write(
+            home.path().join(format!("{test}.csv")),
+            format!("test,member,cycles,radius,depth,sigma\n{all}"),
+        )
+        .unwrap();
+    };
+    table("A", "1.4");
+    table("B", "-999");
+    let (code, shown, error) = line(&home, "import A.csv B.csv --study study.toml");
+    assert_eq!(code, Some(0), "{error}");
+    assert!(shown.contains("B.csv, read alike: 2 rows"), "{shown}");
+    assert!(shown.contains("left out E3: `-999`"), "{shown}");
+}
+
 #[test]
 fn repeats_that_lie_far_apart_are_told() {
     let home = home();

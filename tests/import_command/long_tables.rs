@@ -48,7 +48,7 @@ fn a_long_table_is_read_by_the_names_of_its_columns() {
         "",
     );
     assert!(
-        written.contains(",A-pinion-1\n") && written.contains(",A-gear-1\n"),
+        written.contains(",A-pinion-100000-1\n") && written.contains(",A-gear-100000-1\n"),
         "{written}"
     );
     assert!(shown.contains("it numbers them within these"), "{shown}");
@@ -140,6 +140,123 @@ fn a_long_table_that_is_not_understood_is_refused_with_what_was() {
     ] {
         let message = refused(&home, &text, options);
         assert!(message.contains(says), "no `{says}` in: {message}");
+    }
+}
+
+/// All checkpoints had one zero where a column numbers the profiles of each.
+#[test]
+fn a_name_at_several_checkpoints_is_a_trace_at_each() {
+    let home = home();
+    let table = |name: &str| {
+        format!(
+            "Versuch;Rad;Lastspiele;Kurve;Radius [mm];Verschlei\u{df} [\u{b5}m];sigma\n\
+             A;Ritzel;40000;{name};26,512;1,75;0,1\nA;Ritzel;40000;{name};27,5;1,55;0,1\n\
+             A;Ritzel;100000;{name};26,512;2,75;0,1\nA;Ritzel;100000;{name};27,5;2,55;0,1\n"
+        )
+    };
+    for (name, why) in [
+        ("1", "before the name: it numbers them within these"),
+        (
+            "links",
+            "before the name: the same name stands at several checkpoints",
+        ),
+    ] {
+        let (shown, written) = rows(&home, &table(name), "");
+        for cycles in ["40000", "100000"] {
+            let trace = format!(",A-pinion-{cycles}-{name}\n");
+            assert_eq!(written.matches(&trace).count(), 2, "{written}");
+        }
+        let said = format!("traces   as the column says, with test, member and checkpoint {why}");
+        assert!(shown.contains(&said), "{shown}");
+    }
+    // a number says nothing in one test either: the next table has it too
+    let one = |test: &str| {
+        format!(
+            "test,member,cycles,profile,radius,depth,sigma\n{test},gear,40000,1,52.5,1.75,0.1\n{test},gear,40000,1,53.5,1.5,0.1\n"
+        )
+    };
+    assert!(rows(&home, &one("A"), "").1.contains(",A-gear-40000-1\n"));
+    let (code, _, error) = import(&home, &one("B"), "-o out.csv --append");
+    assert_eq!(code, Some(0), "{error}");
+    assert!(read(&home, "out.csv").contains(",B-gear-40000-1\n"));
+    // names of one checkpoint each stay, and teeth have traces of their own
+    let named = one("A").replace("0,1,5", "0,p1,5");
+    assert!(rows(&home, &named, "").1.contains(",p1\n"));
+    let teeth = "test,member,cycles,profile,tooth,radius,depth,sigma\nA,gear,40000,1,3,52.5,1.75,0.1\nA,gear,40000,1,8,52.5,1.5,0.1\n";
+    let (_, written) = rows(&home, teeth, "");
+    assert!(written.contains(",A-gear-40000-tooth8-1,8\n"), "{written}");
+    // a record of one mass over its test is one series
+    let masses =
+        "test,member,cycles,trace,mass loss [mg]\nA,gear,40000,1,1.75\nA,gear,90000,1,3.5\n";
+    let (_, written) = rows(&home, masses, "--sigma 0.4");
+    assert_eq!(written.matches(",A-gear-1\n").count(), 2, "{written}");
+}
+
+/// Two repeats shared one zero where their column was passed over.
+#[test]
+fn a_column_that_numbers_repeats_tells_them_apart() {
+    let home = home();
+    let table = |header: &str, [one, two]: [&str; 2]| {
+        format!(
+            "Versuch;Rad;Lastspiele;{header};Radius [mm];Verschlei\u{df} [\u{b5}m];sigma\n\
+             A;Ritzel;40000;{one};26,512;1,75;0,1\nA;Ritzel;40000;{one};27,5;1,55;0,1\n\
+             A;Ritzel;40000;{two};26,512;1,75;0,1\nA;Ritzel;40000;{two};27,5;1,65;0,1\n"
+        )
+    };
+    for header in [
+        "Messung",
+        "Repeat",
+        "Wdh.",
+        "Messung Nr.",
+        "replicate",
+        "Run",
+    ] {
+        let (shown, written) = rows(&home, &table(header, ["1", "2"]), "");
+        for repeat in ["r1", "r2"] {
+            let trace = format!(",A-pinion-40000-{repeat}\n");
+            assert_eq!(written.matches(&trace).count(), 2, "{header}: {written}");
+        }
+        let said = format!("column   `{header}`: the number of a repeat, as by --repeat");
+        assert!(shown.contains(&said), "{shown}");
+    }
+    // beside a column of traces, and as the one number of a table
+    let curves = table("Messung;Kurve", ["1;1", "2;1"]);
+    let (_, written) = rows(&home, &curves, "");
+    assert!(written.contains(",A-pinion-40000-1-r2\n"), "{written}");
+    let third = table("Messung", ["3", "3"]).replace(
+        "1,75;0,1\nA;Ritzel;40000;3;27,5;1,65",
+        "1,76;0,1\nA;Ritzel;40000;3;27,5;1,65",
+    );
+    assert!(rows(&home, &third, "").1.contains(",A-pinion-40000-r3\n"));
+    assert!(
+        refused(&home, &table("Messung", ["1", "2"]), "--repeat 2")
+            .contains("the table has a column of repeats, D1: `Messung`")
+    );
+    // numbers of points, orders, and anything else
+    let counts = "test;member;cycles;Messung;radius;depth;sigma\nA;pinion;40000;1;26,512;1,75;0,1\nA;pinion;40000;2;27,5;1,55;0,1\n";
+    for other in [
+        counts.to_owned(),
+        counts
+            .replace("40000;1;", "40000;4711;")
+            .replace("40000;2;", "40000;4711;"),
+        counts
+            .replace("40000;1;", "40000;0,5;")
+            .replace("40000;2;", "40000;0,5;"),
+        counts
+            .replace("40000;1;", "40000;alt;")
+            .replace("40000;2;", "40000;alt;"),
+        // checkpoints
+        format!(
+            "{counts}{}",
+            "A;pinion;90000;3;26,512;2,75;0,1\nA;pinion;90000;4;27,5;2,55;0,1\n"
+        ),
+    ] {
+        let (shown, written) = rows(&home, &other, "");
+        assert!(written.contains(",A-pinion-40000\n"), "{written}");
+        assert!(
+            shown.contains("passed over the column `Messung`: not known"),
+            "{shown}"
+        );
     }
 }
 

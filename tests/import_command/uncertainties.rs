@@ -196,6 +196,24 @@ fn a_capital_u_without_a_k_is_no_sigma() {
     assert!(rows(&home, both, "").1.contains(",1.5,0.15,"));
 }
 
+/// Neither is read as it stands, and what they are is said.
+#[test]
+fn several_sigmas_and_intervals_are_told() {
+    let home = home();
+    for (header, says) in [
+        ("2 sigma [um]", "two standard deviations: call it `U (k=2)`"),
+        ("2s", "two standard deviations: call it `U (k=2)`"),
+        ("95% CI", "a confidence interval: if it is the half width"),
+    ] {
+        let table =
+            format!("test,member,cycles,radius,depth [um],{header}\nA,pinion,1e5,26,1.5,0.3\n");
+        let (shown, written) = rows(&home, &table, "--sigma 0.2");
+        assert_eq!(written, "A,pinion,100000,wear_depth,26,1.5,0.2,\n");
+        let says = format!("passed over the column `{header}`: {says}");
+        assert!(shown.contains(&says), "no `{says}` in:\n{shown}");
+    }
+}
+
 /// The rows that are made of a table stand in no file that the user has.
 #[test]
 fn a_table_without_uncertainties_is_shown_before_it_is_refused() {

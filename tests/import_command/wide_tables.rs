@@ -164,6 +164,61 @@ fn headers_with_units_other_marks_and_repeated_measurements_are_read() {
     assert_eq!(written.lines().count(), 5, "{written}");
 }
 
+/// Revolutions by their short names, points between thousands above decimal commas, and thousands behind each number.
+#[test]
+fn counts_in_headers_are_read_as_people_write_them() {
+    let home = home();
+    let wide = |one: &str, two: &str| {
+        format!("Radius [mm];{one};{two}\n26,512;0,885;1,027\n27,133;0,810;0,940\n")
+    };
+    let options = "--test A --member pinion --sigma 0.1";
+    for (one, two) in [
+        ("40000 Umdr. Ritzel", "100000 Umdr. Ritzel"),
+        ("40000 U", "100000 U"),
+        ("40000 rev pinion", "100000 rev pinion"),
+        ("40.000", "100.000"),
+        ("40.000 Umdr.", "100.000 Umdr."),
+        ("40 Tsd.", "100 Tsd."),
+        ("40 k", "100 k"),
+        ("40k", "0,1 Mio."),
+    ] {
+        let (_, written) = rows(&home, &wide(one, two), options);
+        let first = "A,pinion,40000,wear_depth,26.512,0.885,";
+        assert!(written.starts_with(first), "{one}: {written}");
+        assert!(
+            written.contains("A,pinion,100000,wear_depth,27.133,0.94,"),
+            "{two}: {written}"
+        );
+    }
+    // 27000 revolutions of the gear are 53000 of the pinion
+    for of_gear in ["Umdr. Rad", "rev gear", "U Rad"] {
+        let (_, written) = rows(
+            &home,
+            &wide(&format!("27000 {of_gear}"), &format!("54000 {of_gear}")),
+            options,
+        );
+        assert!(
+            written.starts_with("A,pinion,53000,"),
+            "{of_gear}: {written}"
+        );
+    }
+    // points may be decimal ones, and radii are no counts
+    let points = "Radius [mm];40.000;100.000\n26.512;0.885;1.027\n27.133;0.810;0.940\n";
+    assert!(refused(&home, points, options).contains("is that 40000, or 40.000 with decimals?"));
+    let radii = "Lastwechsel;26.512;27.133\n40000;0,885;0,810\n100000;1,027;0,940\n";
+    assert!(
+        rows(&home, radii, options)
+            .1
+            .starts_with("A,pinion,40000,wear_depth,26.512,0.885,")
+    );
+    let masses = "Massenverlust [mg];40.000;100.000\nRitzel;0,885;1,027\nRad;0,810;0,940\n";
+    let (_, written) = rows(&home, masses, "--test A --quantity mass_loss --sigma 0.1");
+    assert!(
+        written.starts_with("A,pinion,40000,mass_loss,,0.885,"),
+        "{written}"
+    );
+}
+
 #[test]
 fn what_cannot_be_told_is_refused_with_its_cell() {
     let home = home();
@@ -199,7 +254,7 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         ),
         // counts that may be marked between thousands, multiples, labels, times
         (
-            "radius;250.000;500.000\n26,5;1,2;2,3\n27,5;1,1;2,2\n",
+            "radius;250.000;500.000\n26.5;1.2;2.3\n27.5;1.1;2.2\n",
             table,
             "are the cycles `250.000` marked between thousands?",
         ),
@@ -210,12 +265,12 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             "are the cycles `18.000` marked between thousands?",
         ),
         (
-            "radius;250k\n26;1\n",
+            "radius;250M\n26;1\n",
             table,
             "a number with a letter, a multiple or a time",
         ),
         (
-            "radius;0,25 Mio\n26;1\n",
+            "radius;70 min\n26;1\n",
             table,
             "a number with a letter, a multiple or a time",
         ),

@@ -98,9 +98,7 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         );
         line(&mut text, "passed over", &columns);
     }
-    for words in &wide.left_out {
-        line(&mut text, "left out", words);
-    }
+    text += &left_out(&wide.left_out);
     match wide.empty {
         0 => {}
         1 => line(&mut text, "empty", "1 cell without a value passed over"),
@@ -180,9 +178,7 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
     line(&mut text, "sigma", &sigma);
     face(&mut text, args);
     line(&mut text, "traces", long.traces);
-    for words in &long.left_out {
-        line(&mut text, "left out", words);
-    }
+    text += &left_out(&long.left_out);
     match long.empty {
         0 => {}
         1 => line(&mut text, "empty", "1 row without a value passed over"),
@@ -241,6 +237,15 @@ pub(super) fn like_the_first(
             ..Titles::default()
         },
     );
+    text
+}
+
+/// What is left out of a table.
+pub(super) fn left_out(words: &[String]) -> String {
+    let mut text = String::new();
+    for words in words {
+        line(&mut text, "left out", words);
+    }
     text
 }
 

@@ -106,6 +106,7 @@ impl Taken {
         if let Some(first) = alike {
             self.text +=
                 &summary::like_the_first(name, understood.entries(), titles, &first.titles);
+            self.text += &summary::left_out(understood.left_out());
             return;
         }
         self.text += &match understood {

@@ -35,6 +35,14 @@ impl Understood {
         }
     }
 
+    /// The cells, rows or columns that are left out, in words.
+    pub(super) fn left_out(&self) -> &[String] {
+        match self {
+            Understood::Long(long) => &long.left_out,
+            Understood::Wide(wide) => &wide.left_out,
+        }
+    }
+
     pub(super) fn titles(&self) -> &Titles {
         match self {
             Understood::Long(long) => &long.titles,

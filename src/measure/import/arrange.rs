@@ -11,6 +11,7 @@ mod pairs;
 mod profiles;
 mod sides;
 mod speeds;
+mod torques;
 mod weighings;
 
 use std::collections::BTreeSet;

@@ -30,10 +30,19 @@ pub(super) enum What {
         /// Whether it is the gear's.
         of_gear: bool,
     },
+    /// A torque, of the member that the name says.
+    Torque {
+        /// Of which it is; none if the name does not say.
+        of: Option<Subject>,
+    },
     /// The flank of the tooth.
     Flank,
+    /// The number of a repeated measurement, by what stands in it.
+    Repeat,
     /// An expanded uncertainty of which nothing says how many standard deviations it is.
     Expanded,
+    /// Several standard deviations or an interval, which are not read as they stand: what they are and how they would be.
+    NotOneSigma(&'static str),
     /// For people.
     ForPeople,
     /// Not known.
@@ -113,10 +122,14 @@ impl Column {
             What::Speed {
                 of_gear: whose == Some(Subject::Gear),
             }
+        } else if let Some(of) = names::torque(&name, unit.as_deref()) {
+            What::Torque { of }
         } else if names::is_flank(&name) {
             What::Flank
         } else if at_a_level || names::is_expanded_uncertainty(&name) {
             coverage.map_or(What::Expanded, |_| What::Own("sigma"))
+        } else if let Some(what) = several_sigmas(&name, written) {
+            what
         } else {
             match (names::column(&name), names::quantity(&name)) {
                 // `gear [mg]` is no column of members
@@ -149,6 +162,12 @@ impl Column {
         units::name_and_unit(&self.written).0
     }
 
+    /// N m of a unit of it, if it is a torque.
+    pub(super) fn newton_metres(&self) -> f64 {
+        let unit = self.unit.as_deref();
+        unit.and_then(names::newton_metres).unwrap_or(1.0)
+    }
+
     fn is(&self, name: &str) -> bool {
         self.what.own() == Some(name)
     }
@@ -163,6 +182,22 @@ impl Column {
 fn weighed(name: &str, unit: Option<&str>) -> Option<When> {
     let is_mass = unit.is_some_and(|unit| units::factor(unit, Quantity::MassLoss).is_ok());
     names::weighed(name).or_else(|| names::time_alone(name).filter(|_| is_mass))
+}
+
+/// What a name means that says how many standard deviations it is (`2 sigma`), or that it is a confidence interval (`95% CI`); none for others.
+fn several_sigmas(name: &str, written: &str) -> Option<What> {
+    Some(match names::sigmas(name) {
+        Some(1) => What::Own("sigma"),
+        Some(2) => What::NotOneSigma("two standard deviations: call it `U (k=2)` and it is read"),
+        Some(3) => What::NotOneSigma("three standard deviations: call it `U (k=3)` and it is read"),
+        Some(_) => What::NotOneSigma(
+            "several standard deviations: call it `U (k=2)`, with their number in place of the 2, and it is read",
+        ),
+        None if names::is_confidence_interval(written) => What::NotOneSigma(
+            "a confidence interval: if it is the half width for 95 %, call it `U (k=2)` and it is read; halve a whole one before",
+        ),
+        None => return None,
+    })
 }
 
 /// Whether a name means one standard deviation or several.
@@ -303,6 +338,36 @@ pub(super) fn with_sides(cells: &[String]) -> Vec<Column> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn several_standard_deviations_are_told_from_one() {
+        let says = |written: &str| match Column::of(0, written).what {
+            What::NotOneSigma(says) => says,
+            What::Own(own) => own,
+            _ => "",
+        };
+        for (written, begins) in [
+            ("2 sigma [um]", "two"),
+            ("2s", "two"),
+            ("2\u{3c3} [\u{b5}m]", "two"),
+            ("\u{b1}3 sigma", "three"),
+            ("4 SD", "several"),
+            ("1 sigma [um]", "sigma"),
+            ("95% CI", "a confidence interval"),
+            ("CI95 [um]", "a confidence interval"),
+            ("95 % Vertrauensbereich", "a confidence interval"),
+            ("confidence interval (95 %)", "a confidence interval"),
+            ("95% CI lower", ""),
+            ("2 mm", ""),
+            ("12", ""),
+        ] {
+            let says = says(written);
+            assert!(
+                says.starts_with(begins) && says.is_empty() == begins.is_empty(),
+                "{written}: {says}"
+            );
+        }
+    }
 
     #[test]
     fn headers_are_understood() {

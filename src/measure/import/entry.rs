@@ -30,6 +30,8 @@ pub struct Entry {
     pub face: String,
     /// Label of the tooth; empty for none.
     pub tooth: String,
+    /// Number of the repeated measurement that it is of.
+    pub repeat: Option<u32>,
     /// Row and column of the value in the table, counted from 0.
     pub cell: (usize, usize),
 }
@@ -131,6 +133,7 @@ pub(super) fn refuse_twice(entries: &[Entry]) -> Result<(), ImportError> {
                 &entry.trace,
                 &entry.face,
                 &entry.tooth,
+                entry.repeat,
             ),
         );
         if let Some((row, column)) = first.insert(key, entry.cell) {
@@ -240,11 +243,12 @@ pub(super) fn four_digits(sigma: f64) -> f64 {
     format!("{sigma:.3e}").parse().unwrap_or(sigma)
 }
 
-/// The names of the traces of a repeated measurement.
-pub(super) fn name_repeat(entries: &mut [Entry], wanted: &Wanted<'_>) {
-    let Some(repeat) = wanted.repeat else { return };
+/// The names of the traces of repeated measurements.
+pub(super) fn name_repeats(entries: &mut [Entry]) {
     for entry in entries.iter_mut().filter(|entry| !entry.trace.is_empty()) {
-        entry.trace += &format!("-r{repeat}");
+        if let Some(repeat) = entry.repeat {
+            entry.trace += &format!("-r{repeat}");
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod flanks;
 mod line;
 mod off_flank;
 mod read_columns;
+mod repeats;
 mod stops;
 mod traces;
 mod weights;
@@ -17,6 +18,7 @@ use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
+    no_values,
 };
 use crate::measure::{Quantity, names};
 use line::Line;
@@ -108,6 +110,7 @@ fn of_columns(
     nameless::refuse_numbers(sheet, head, 0)?;
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
+    repeats::by_content(&mut columns, sheet, head, wanted);
     let columns = columns;
     let read = Read::of(&columns, head, wanted)?;
     let numbers = [read.position, Some(read.value), read.sigma, read.face];
@@ -160,6 +163,8 @@ fn of_columns(
             head + 1
         )));
     }
+    let (mut left_out, rows) = no_values::leave_out(&mut entries, sheet);
+    without_value.extend(rows);
     if !wanted.per_interval.losses.is_empty() {
         read.no_interval_missing(sheet, &without_value, &entries)?;
     }
@@ -174,7 +179,7 @@ fn of_columns(
         (wanted.per_interval).refuse_differences(&[Quantity::MassLoss])?;
         arranged.push(of_masses);
     }
-    let left_out = off_flank::leave_out(&mut entries, line)?;
+    left_out.extend(off_flank::leave_out(&mut entries, line)?);
     let joined = wanted.there.join(&mut entries, false);
     arranged.extend(checkpoints::join(&mut entries));
     // of two deviations one has been taken from the other
@@ -277,9 +282,11 @@ fn passed_over(
                 What::Span(_) | What::Chord(_) => "a measurement of the tooth thickness",
                 What::Flank => "one flank of each member stands in it, taken for the loaded one",
                 What::Speed { .. } if !uses_speeds => "a speed, which is the study's",
+                What::Torque { .. } => "a torque, which is the study's",
                 What::Expanded => {
                     "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
                 }
+                What::NotOneSigma(says) => says,
                 What::Values(_) if column.at != value.at => "another quantity",
                 _ => return None,
             };

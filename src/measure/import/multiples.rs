@@ -102,15 +102,11 @@ pub(super) fn in_each_header(sheet: &Sheet) -> Result<(Sheet, Vec<String>), Impo
     for row in 0..sheet.rows.len() {
         for column in places_of_counts(&sheet.rows[row]) {
             let written = sheet.rows[row][column].clone();
-            let Some((before, number, behind)) = counted(&written) else {
+            let Some((factor, [before, number, behind])) = counted(&written) else {
                 continue;
             };
-            let unit: String = units::bracketed(&written)
-                .unwrap_or_default()
-                .split_whitespace()
-                .collect();
             let multiple = Multiple {
-                factor: of_unit(&unit).unwrap_or(1.0),
+                factor,
                 cell: cell_name(row, column),
                 written: written.clone(),
             };
@@ -142,17 +138,14 @@ fn places_of_counts(row: &[String]) -> Vec<usize> {
     }
 }
 
-/// What stands before the number of a header with a power of ten in its last brackets right behind it, the number, and what stands behind the brackets; none
-/// where it has words for other things than cycles.
-fn counted(header: &str) -> Option<(&str, &str, &str)> {
-    let unit: String = units::bracketed(header)?.split_whitespace().collect();
-    of_unit(&unit)?;
-    let (front, rest) = header.split_at(header.rfind(['[', '('])?);
+/// The factor of a header with a multiple right behind its number, what stands before the number, the number, and what stands behind the multiple; none where
+/// it has words for other things than cycles.
+fn counted(header: &str) -> Option<(f64, [&str; 3])> {
+    let (factor, front, behind) = multiple_in_brackets(header).or_else(|| multiple_word(header))?;
     let [number] = number_words(front)[..] else {
         return None;
     };
     let at = front.find(number)?;
-    let behind = &rest[rest.find([']', ')'])? + 1..];
     let before = &front[..at];
     let says_cycles = |word: &String| {
         names::revolutions(word).is_some()
@@ -163,7 +156,30 @@ fn counted(header: &str) -> Option<(&str, &str, &str)> {
         .iter()
         .all(|text| names::words(text).iter().all(says_cycles));
     let follows = front[at + number.len()..].trim().is_empty();
-    (of_cycles && follows).then_some((before, number, behind))
+    (of_cycles && follows).then_some((factor, [before, number, behind]))
+}
+
+/// The multiple in the last brackets of a header, and what stands before and behind it: `0,25 [1E6]`.
+fn multiple_in_brackets(header: &str) -> Option<(f64, &str, &str)> {
+    let unit: String = units::bracketed(header)?.split_whitespace().collect();
+    let (front, rest) = header.split_at(header.rfind(['[', '('])?);
+    Some((of_unit(&unit)?, front, &rest[rest.find([']', ')'])? + 1..]))
+}
+
+/// The same of a word behind the first number: `40 Tsd.`, `40k`.
+fn multiple_word(header: &str) -> Option<(f64, &str, &str)> {
+    let number = number_words(header).into_iter().next()?;
+    let (front, rest) = header.split_at(header.find(number)? + number.len());
+    let rest = rest.trim_start();
+    let end = rest
+        .find(|c: char| !c.is_alphabetic())
+        .unwrap_or(rest.len());
+    let (word, behind) = rest.split_at(end);
+    let factor = match word {
+        "k" => 1e3,
+        _ => of_unit(word)?,
+    };
+    Some((factor, front, behind.trim_start_matches('.')))
 }
 
 /// The factor of a header that names cycles with a power of ten, or a word for one, in its last brackets or behind `in`.
@@ -242,12 +258,27 @@ mod tests {
     fn a_multiple_beside_each_number_is_multiplied_in() {
         assert_eq!(
             counted("Lastwechsel 0,25 [1E6]"),
-            Some(("Lastwechsel ", "0,25", ""))
+            Some((1e6, ["Lastwechsel ", "0,25", ""]))
         );
         assert_eq!(
             counted("0.5 (10^6) gear rev"),
-            Some(("", "0.5", " gear rev"))
+            Some((1e6, ["", "0.5", " gear rev"]))
         );
+        assert_eq!(counted("40 Tsd."), Some((1e3, ["", "40", ""])));
+        assert_eq!(counted("40k"), Some((1e3, ["", "40", ""])));
+        assert_eq!(
+            counted("0,25 Mio. Umdr. Rad"),
+            Some((1e6, ["", "0,25", " Umdr. Rad"]))
+        );
+        for header in [
+            "40 km",
+            "40 k\u{3a9}",
+            "k 40",
+            "40 thousandths",
+            "40 Tsd. h",
+        ] {
+            assert_eq!(counted(header), None, "{header}");
+        }
         assert_eq!(counted("0,25 [mm]"), None);
         assert_eq!(counted("Lastwechsel [1E6]"), None);
         for title in [

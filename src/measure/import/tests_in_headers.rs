@@ -152,6 +152,7 @@ fn joined(mut all: Wide, next: Wide) -> Result<Wide> {
     all.checkpoints.sort_by(f64::total_cmp);
     all.checkpoints.dedup();
     all.joined.extend(next.joined);
+    all.left_out.extend(next.left_out);
     all.empty += next.empty;
     all.entries.extend(next.entries);
     Ok(all)

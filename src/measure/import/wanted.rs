@@ -14,6 +14,8 @@ pub struct Wanted<'a> {
     pub tests: Vec<&'a str>,
     /// Speed of the pinion, rpm, and cycles of each test.
     pub runs: Vec<[f64; 2]>,
+    /// Torque on the pinion of each test, N m.
+    pub torques: Vec<f64>,
     /// The gears, pinion first.
     pub gears: [&'a Gear; 2],
     /// Id of the test; the table or the sheet's name says it otherwise.
@@ -111,6 +113,12 @@ impl Wanted<'_> {
     pub(super) fn run(&self, test: &str) -> Option<[f64; 2]> {
         let n = self.tests.iter().position(|id| *id == test)?;
         Some(self.runs[n])
+    }
+
+    /// Torque on the pinion of a test, N m.
+    pub(super) fn torque(&self, test: &str) -> Option<f64> {
+        let n = self.tests.iter().position(|id| *id == test)?;
+        self.torques.get(n).copied()
     }
 
     /// Revolutions of the pinion in so many hours of a test, known to within `rounding` hours: the end of the test if that is within.

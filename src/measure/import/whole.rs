@@ -9,7 +9,10 @@ use super::wide::{
     Across, Wide, across_numbers, checkpoint, counts_gear_revolutions, down_numbers, header,
     in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
-use super::{ImportError, Sheet, cell_name, counts, decimal_commas, long, nameless, units};
+use super::{
+    ImportError, Sheet, cell_name, counts, decimal_commas, header_points, long, nameless,
+    no_values, units,
+};
 use crate::measure::{Place, Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -58,6 +61,10 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         sheet = without;
         multiple
     });
+    let without_points = header_points::left_out(&sheet, wanted.decimal, head);
+    if let Some(plain) = without_points.filter(|_| multiple.is_none()) {
+        sheet = plain;
+    }
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     let sheet = &sheet;
@@ -96,6 +103,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         of_gear,
     };
     let (mut entries, empty) = reading.entries(sheet, &lines)?;
+    let (left_out, _) = no_values::leave_out(&mut entries, sheet);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
     let mut differences = false;
     if quantity == Quantity::MassLoss && !speaks_of_loss(sheet, head) {
@@ -131,7 +139,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         arranged,
         joined: Vec::new(),
         passed_over,
-        left_out: Vec::new(),
+        left_out,
         empty,
         entries,
     })
@@ -215,6 +223,7 @@ impl Reading<'_> {
                     trace: String::new(),
                     face: String::new(),
                     tooth: String::new(),
+                    repeat: self.wanted.repeat,
                     cell: (row, column),
                 });
             }

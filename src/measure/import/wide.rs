@@ -6,7 +6,7 @@ mod reading;
 use self::grid::{Grid, Places};
 use self::reading::Reading;
 use super::arrange::{self, flank_above};
-use super::entry::{Entry, name_repeat, refuse_twice, state_face, state_sigma};
+use super::entry::{Entry, name_repeats, refuse_twice, state_face, state_sigma};
 use super::multiples::{self, Multiple};
 use super::numbers::{
     header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
@@ -16,7 +16,8 @@ use super::place::{PositionKind, on_flank};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
-    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, nameless, units,
+    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, header_points,
+    nameless, no_values, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -101,7 +102,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let corner = grid.corner();
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
-    let left_out = grid.leave_out(across, &places)?;
+    let are_counts = across == Across::Checkpoints && multiple.is_none();
+    let without_points = header_points::left_out(sheet, wanted.decimal, head);
+    if let Some(sheet) = without_points.as_ref().filter(|_| are_counts) {
+        grid = Grid::of(sheet, head)?;
+    }
+    let mut left_out = grid.leave_out(across, &places)?;
     grid.refuse_unclear(across, quantity, multiple.is_some())?;
     counts::refuse_others_above(sheet, head)?;
     // beside positions the headers' unit is that of the positions
@@ -132,6 +138,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         multiple: multiple.as_ref(),
     };
     let (mut entries, empty) = reading.entries(&grid)?;
+    left_out.extend(no_values::leave_out(&mut entries, sheet).0);
     if stated_member.is_none() {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
     }
@@ -232,7 +239,7 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec
         entry.trace = entry.own_trace(wanted);
     }
     state_face(entries, wanted)?;
-    name_repeat(entries, wanted);
+    name_repeats(entries);
     state_sigma(entries, wanted)?;
     wanted.per_interval.add_up(entries, true)
 }

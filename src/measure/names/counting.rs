@@ -1,4 +1,4 @@
-//! The words of five languages for counts of revolutions, running times and speeds, with their units and multiples, each as
+//! The words of five languages for counts of revolutions, running times, speeds and torques, with their units and multiples, each as
 //! [`super::folded`] leaves it.
 
 /// Names of counts of revolutions.
@@ -21,6 +21,7 @@ pub(super) const CYCLES: &[&str] = &[
     "lw",
     "uberrollungen",
     "umdrehung",
+    "umdr",
     "umdrehungen",
     "zyklen",
     "cicli",
@@ -93,6 +94,40 @@ pub(super) const SPEEDS: [&str; 11] = [
 /// Units of speeds of rotation: revolutions per minute.
 pub(super) const PER_MINUTE: [&str; 9] = [
     "rpm", "1/min", "/min", "min-1", "min^-1", "u/min", "r/min", "tr/min", "giri/min",
+];
+
+/// Names of torques. Some of them mean other things without a unit of torque.
+pub(super) const TORQUES: [&str; 21] = [
+    "torque",
+    "inputtorque",
+    "testtorque",
+    "loadtorque",
+    "t",
+    "t1",
+    "drehmoment",
+    "moment",
+    "antriebsmoment",
+    "antriebsdrehmoment",
+    "eingangsdrehmoment",
+    "prufmoment",
+    "lastmoment",
+    "m",
+    "m1",
+    "coppia",
+    "momento",
+    "momentotorcente",
+    "couple",
+    "par",
+    "partorsion",
+];
+
+/// N m of each unit of torque.
+pub(super) const NEWTON_METRES: [(&str, f64); 5] = [
+    ("nm", 1.0),
+    ("nmm", 1e-3),
+    ("ncm", 1e-2),
+    ("mnm", 1e-3),
+    ("knm", 1e3),
 ];
 
 /// Multiples of counts.

@@ -151,6 +151,33 @@ pub(super) const EXPANDED: [&str; 7] = [
     "incertidumbreexpandida",
 ];
 
+/// What stands behind the number of several standard deviations.
+pub(super) const SIGMAS: [&str; 9] = [
+    "sigma",
+    "sigmas",
+    "\u{3c3}",
+    "s",
+    "sd",
+    "std",
+    "stdev",
+    "standarddeviations",
+    "standardabweichungen",
+];
+
+/// Names of confidence intervals.
+pub(super) const CONFIDENCE_INTERVALS: [&str; 10] = [
+    "ci",
+    "confidenceinterval",
+    "confidence",
+    "konfidenzintervall",
+    "konfidenzbereich",
+    "vertrauensbereich",
+    "vertrauensintervall",
+    "intervalloconfidenza",
+    "intervalleconfiance",
+    "intervaloconfianza",
+];
+
 /// Names of one of the two flanks of a tooth, or of what it looks to.
 pub(super) const FLANKS: [&str; 9] = [
     "flank",
@@ -403,6 +430,33 @@ pub(super) const STOPS: [&str; 14] = [
     "etape",
     "intervalle",
     "etapa",
+];
+
+/// Names of columns that may number repeated measurements.
+pub(super) const REPEATS: [&str; 23] = [
+    "repeat",
+    "repetition",
+    "rep",
+    "replicate",
+    "replication",
+    "measurement",
+    "run",
+    "messung",
+    "wiederholung",
+    "wiederholmessung",
+    "wdh",
+    "durchgang",
+    "lauf",
+    "messreihe",
+    "ripetizione",
+    "misura",
+    "misurazione",
+    "replica",
+    "mesure",
+    "repeticion",
+    "medicion",
+    "medida",
+    "replicado",
 ];
 
 /// Words for the time before a test.

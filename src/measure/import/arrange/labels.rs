@@ -1,6 +1,6 @@
 //! What the rows above a header say of the whole table: `Run: A`, `Part | pinion`, `Revolutions of the pinion: 140000`.
 
-use super::{has, is_curve, put_column, speeds};
+use super::{has, is_curve, put_column, speeds, torques};
 use crate::measure::import::columns::{Column, columns};
 use crate::measure::import::numbers::{header_number, number_words, plain_count};
 use crate::measure::import::{ImportError, Sheet, Wanted, cell_name, counts, units};
@@ -84,6 +84,7 @@ pub(super) fn as_columns(
         }
     }
     speeds::agree(sheet, head, &speeds, wanted)?;
+    torques::agree(sheet, head, wanted, said)?;
     if speeds::are_needed(&columns(&sheet.rows[head])) {
         for speed in speeds {
             sheet.rows[speed.row].clear();

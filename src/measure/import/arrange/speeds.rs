@@ -103,13 +103,13 @@ pub(super) fn agree(
 }
 
 /// A text's number and what stands behind it.
-fn leading_number(text: &str) -> (&str, &str) {
+pub(super) fn leading_number(text: &str) -> (&str, &str) {
     let is_digit = |c: char| c.is_ascii_digit() || ['.', ','].contains(&c);
     text.split_at(text.find(|c| !is_digit(c)).unwrap_or(text.len()))
 }
 
 /// What a number may be: `2.000` is two or two thousand.
-fn readings(number: &str) -> impl Iterator<Item = f64> {
+pub(super) fn readings(number: &str) -> impl Iterator<Item = f64> {
     let plain = pointed(number).parse::<f64>().ok();
     let thousands = in_thousands(number).then(|| number.replace(['.', ','], ""));
     let thousands = thousands.and_then(|number| number.parse::<f64>().ok());

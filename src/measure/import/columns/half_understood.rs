@@ -107,10 +107,16 @@ fn in_words(column: &Column) -> Option<String> {
         What::Span(when) => format!("the span {}", time(when)),
         What::Chord(when) => format!("the chord {}", time(when)),
         What::Speed { .. } => "a speed".to_owned(),
+        What::Torque { .. } => "a torque".to_owned(),
         What::Flank => "the flank".to_owned(),
+        What::Repeat => "the number of a repeat".to_owned(),
         What::Own("cycles") if column.hours.is_some() => "cycles (a running time)".to_owned(),
         What::Own(own) => own.to_owned(),
-        What::Expanded | What::ForPeople | What::Unknown | What::Nameless => return None,
+        What::Expanded
+        | What::NotOneSigma(_)
+        | What::ForPeople
+        | What::Unknown
+        | What::Nameless => return None,
     })
 }
 
@@ -135,8 +141,11 @@ pub(in crate::measure::import) fn said(
     let understood =
         parts(&|column| Some(format!("`{}` as {}", column.written, in_words(column)?)));
     let not = parts(&|column| {
-        let is_known = ![What::Unknown, What::Expanded].contains(&column.what);
-        (!is_known).then(|| format!("`{}`", column.written))
+        let is_unread = matches!(
+            column.what,
+            What::Unknown | What::Expanded | What::NotOneSigma(_)
+        );
+        is_unread.then(|| format!("`{}`", column.written))
     });
     format!(
         "the header in row {} is `{}`; understood: {understood}; not understood: {not}; missing: {}. A long table needs columns `test`, \

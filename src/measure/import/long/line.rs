@@ -1,6 +1,6 @@
 //! One row of a long table as an entry.
 
-use super::Read;
+use super::{Read, repeats};
 use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
 use crate::measure::import::flank::Flank;
@@ -115,8 +115,22 @@ impl Line<'_> {
             trace: self.text(self.read.trace).to_owned(),
             face: self.text(self.read.face).replace(',', "."),
             tooth: self.text(self.read.tooth).to_owned(),
+            repeat: self.repeat()?,
             cell: (self.row, value.at),
         })
+    }
+
+    fn repeat(&self) -> Result<Option<u32>> {
+        let Some(column) = self.read.repeat else {
+            return Ok(self.wanted.repeat);
+        };
+        match self.wanted.repeat {
+            Some(stated) => Err(ImportError(format!(
+                "--repeat {stated}: the table has a column of repeats, {}; leave the option out",
+                column.cell(self.read.head)
+            ))),
+            None => Ok(repeats::number(self.text(Some(column)))),
+        }
     }
 
     fn test(&self) -> Result<String> {

@@ -24,6 +24,7 @@ pub(super) struct Read<'t> {
     pub(super) trace: Option<&'t Column>,
     pub(super) face: Option<&'t Column>,
     pub(super) tooth: Option<&'t Column>,
+    pub(super) repeat: Option<&'t Column>,
 }
 
 impl<'t> Read<'t> {
@@ -69,6 +70,7 @@ impl<'t> Read<'t> {
             trace: one("trace")?,
             face: one("face")?,
             tooth: one("tooth")?,
+            repeat: columns.iter().find(|column| column.what == What::Repeat),
         })
     }
 
@@ -182,6 +184,9 @@ impl<'t> Read<'t> {
                 }
                 Some(own) if column.by_content => format!("{own}, by what stands in it"),
                 Some(own) => own.to_owned(),
+                None if column.what == What::Repeat => {
+                    "the number of a repeat, as by --repeat: each has traces of its own".to_owned()
+                }
                 None => continue,
             };
             words.push((column.written.clone(), what));

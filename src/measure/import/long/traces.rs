@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Read;
 use crate::measure::Subject;
 use crate::measure::import::ImportError;
-use crate::measure::import::entry::{Entry, name_repeat, refuse_twice};
+use crate::measure::import::entry::{Entry, name_repeats, refuse_twice};
 use crate::measure::import::wanted::Wanted;
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -21,20 +21,7 @@ pub(super) fn name(
         entries.iter_mut().for_each(|entry| entry.trace.clear());
         "none: the instrument's zero is the same for all (--no-traces)"
     } else if read.trace.is_some() {
-        let mut of: BTreeMap<&str, BTreeSet<(&str, Subject)>> = BTreeMap::new();
-        for entry in entries.iter().filter(|entry| !entry.trace.is_empty()) {
-            of.entry(&entry.trace)
-                .or_default()
-                .insert((&entry.test, entry.member));
-        }
-        if of.values().any(|of| of.len() > 1) {
-            for entry in entries.iter_mut().filter(|entry| !entry.trace.is_empty()) {
-                entry.trace = format!("{}-{}-{}", entry.test, entry.member.name(), entry.trace);
-            }
-            "as the column says, with test and member before the name: it numbers them within these"
-        } else {
-            "as the column says"
-        }
+        as_the_column_says(entries, wanted)
     } else if read.quantity.is_some() {
         "none: there is no column of traces beside the quantities"
     } else {
@@ -61,6 +48,49 @@ pub(super) fn name(
             "--repeat names traces, and these rows have none: leave it out".to_owned(),
         ));
     }
-    name_repeat(entries, wanted);
+    name_repeats(entries);
     Ok(said)
+}
+
+/// Gives the names of a column what they lack to be of one zero each: a new test, member or checkpoint has another one, whatever a column numbers.
+fn as_the_column_says(entries: &mut [Entry], wanted: &Wanted<'_>) -> &'static str {
+    let named = || entries.iter().filter(|entry| !entry.trace.is_empty());
+    let mut curves: BTreeMap<&str, BTreeMap<(&str, Subject), BTreeSet<u64>>> = BTreeMap::new();
+    for entry in named() {
+        let of = curves.entry(&entry.trace).or_default();
+        let checkpoints = of.entry((&entry.test, entry.member)).or_default();
+        // what has no place is a record of many times
+        checkpoints.extend(entry.position.map(|_| entry.cycles.to_bits()));
+    }
+    // another table that comes behind this one may have the same number
+    let are_numbers = curves.keys().any(|name| name.parse::<f64>().is_ok());
+    let mut checkpoints = curves.values().flat_map(BTreeMap::values);
+    let several = checkpoints.any(|of_curve| of_curve.len() > 1);
+    let (said, with_checkpoint) = if are_numbers {
+        (
+            "as the column says, with test, member and checkpoint before the name: it numbers them within these",
+            true,
+        )
+    } else if several {
+        (
+            "as the column says, with test, member and checkpoint before the name: the same name stands at several checkpoints, and each has a zero of \
+             its own",
+            true,
+        )
+    } else if curves.values().any(|of| of.len() > 1) {
+        (
+            "as the column says, with test and member before the name: it numbers them within these",
+            false,
+        )
+    } else {
+        return "as the column says";
+    };
+    for entry in entries.iter_mut().filter(|entry| !entry.trace.is_empty()) {
+        let before = match entry.position {
+            Some(_) if with_checkpoint => entry.own_trace(wanted),
+            _ => format!("{}-{}", entry.test, entry.member.name()),
+        };
+        entry.trace = format!("{before}-{}", entry.trace);
+    }
+    said
 }

@@ -61,6 +61,7 @@ impl Reading<'_> {
             trace: String::new(),
             face: String::new(),
             tooth: self.wanted.tooth.clone().unwrap_or_default(),
+            repeat: self.wanted.repeat,
             cell,
         })
     }
