@@ -71,7 +71,7 @@ mod tests {
     fn told(k: &[f64]) -> Option<String> {
         let own: Vec<f64> = k.iter().map(|k| k.ln()).collect();
         let found = test_apart(&own)?;
-        Some(found.in_words(&["A", "B", "C"][found.test]))
+        Some(found.in_words(["A", "B", "C"][found.test]))
     }
 
     #[test]
