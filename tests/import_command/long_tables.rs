@@ -179,6 +179,15 @@ fn a_name_at_several_checkpoints_is_a_trace_at_each() {
     let (code, _, error) = import(&home, &one("B"), "-o out.csv --append");
     assert_eq!(code, Some(0), "{error}");
     assert!(read(&home, "out.csv").contains(",B-gear-40000-1\n"));
+    // so has one with the same name, but the rest of the same curve goes on with it
+    let named = |test: &str| one(test).replace("0,1,5", "0,left,5");
+    assert!(rows(&home, &named("A"), "").1.contains(",left\n"));
+    let rest = named("A").replace("52.5", "54.5").replace("53.5", "55");
+    for (table, trace) in [(rest, ",left\n"), (named("B"), ",B-gear-40000-left\n")] {
+        let (code, _, error) = import(&home, &table, "-o out.csv --append");
+        assert_eq!(code, Some(0), "{error}");
+        assert!(read(&home, "out.csv").ends_with(trace), "{trace}");
+    }
     // names of one checkpoint each stay, and teeth have traces of their own
     let named = one("A").replace("0,1,5", "0,p1,5");
     assert!(rows(&home, &named, "").1.contains(",p1\n"));

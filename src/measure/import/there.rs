@@ -14,6 +14,8 @@ pub struct There {
     checkpoints: BTreeMap<String, Vec<f64>>,
     /// Radii on the flank of each member, the least and the largest.
     flanks: BTreeMap<Subject, [f64; 2]>,
+    /// Of each trace the tests, members and cycles at which it stands.
+    traces: BTreeMap<String, BTreeSet<(String, String, u64)>>,
 }
 
 impl There {
@@ -29,6 +31,9 @@ impl There {
             else {
                 continue;
             };
+            let cycles: f64 = cycles;
+            let of = (field("test"), field("member"), cycles.to_bits());
+            there.traces.entry(field("trace")).or_default().insert(of);
             there
                 .checkpoints
                 .entry(field("test"))
@@ -94,6 +99,14 @@ impl There {
             ));
         }
         said
+    }
+
+    /// Whether the trace of an entry stands there at another test, member or checkpoint.
+    pub(super) fn has_trace_elsewhere(&self, entry: &Entry) -> bool {
+        let (test, member) = (entry.test.clone(), entry.member.name().to_owned());
+        let own = (test, member, entry.cycles.to_bits());
+        let known = self.traces.get(&entry.trace);
+        known.is_some_and(|known| known.iter().any(|of| *of != own))
     }
 
     /// What is said of members whose rows lie apart from those that are there, and among those of the other member.

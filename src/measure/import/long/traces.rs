@@ -66,6 +66,9 @@ fn as_the_column_says(entries: &mut [Entry], wanted: &Wanted<'_>) -> &'static st
     let are_numbers = curves.keys().any(|name| name.parse::<f64>().is_ok());
     let mut checkpoints = curves.values().flat_map(BTreeMap::values);
     let several = checkpoints.any(|of_curve| of_curve.len() > 1);
+    let is_there =
+        |entry: &Entry| entry.position.is_some() && wanted.there.has_trace_elsewhere(entry);
+    let elsewhere = named().any(is_there);
     let (said, with_checkpoint) = if are_numbers {
         (
             "as the column says, with test, member and checkpoint before the name: it numbers them within these",
@@ -75,6 +78,11 @@ fn as_the_column_says(entries: &mut [Entry], wanted: &Wanted<'_>) -> &'static st
         (
             "as the column says, with test, member and checkpoint before the name: the same name stands at several checkpoints, and each has a zero of \
              its own",
+            true,
+        )
+    } else if elsewhere {
+        (
+            "as the column says, with test, member and checkpoint before the name: the same name stands elsewhere in the rows that are there",
             true,
         )
     } else if curves.values().any(|of| of.len() > 1) {
