@@ -14,8 +14,9 @@ const OVER_OTHERS: f64 = 5.0;
 const SHARE: f64 = 0.3;
 /// Share of it that the scatter of neighbours must make up, where there are curves, for their sigma to be asked about.
 const OF_SCATTER: f64 = 0.25;
-/// Share of its χ² that one row may make: of one that is far off by itself the sigma of all others knows nothing.
-const OF_ONE_ROW: f64 = 0.8;
+/// Share of its χ² that one row, or two of many, may make: of one that is far off by itself the sigma of all others knows nothing.
+const OF_SINGLE_ROWS: f64 = 0.8;
+const MANY: usize = 50;
 
 /// The quantity that carries the misfit of a fit to its tests, in words; None if none does.
 pub fn misfit_of_one_quantity(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
@@ -45,8 +46,11 @@ pub(in crate::learn) fn carried_by<'d>(
         if count < LEAST || others < LEAST {
             return None;
         }
-        let largest = rows.iter().filter(|(q, _)| *q == quantity).map(|row| row.1);
-        if largest.fold(0.0, f64::max) > OF_ONE_ROW * square {
+        let own = rows.iter().filter(|(q, _)| *q == quantity);
+        let mut squares: Vec<f64> = own.map(|row| row.1).collect();
+        squares.sort_by(|a, b| b.total_cmp(a));
+        let single = if count < MANY { 1 } else { 2 };
+        if squares[..single].iter().sum::<f64>() > OF_SINGLE_ROWS * square {
             return None;
         }
         let (own, other) = (square / count as f64, rest / others as f64);
@@ -133,6 +137,12 @@ mod tests {
         let typo = (0..8).map(|i| (&mass, if i == 3 { 60.0 } else { 1.0 }));
         let depths = (0..400).map(|_| (&depth, 1.2));
         assert_eq!(carried_by(typo.chain(depths), ""), None);
+        // or two of many
+        let masses = || (0..8).map(|_| (&mass, 1.2));
+        let off = |typos: usize| (0..400).map(move |i| if i < typos { 300.0 } else { 1.0 });
+        let depths = |typos| off(typos).map(|z| (&depth, z));
+        assert_eq!(carried_by(masses().chain(depths(2)), ""), None);
+        assert!(carried_by(masses().chain(depths(20)), "").is_some());
         // transmission errors see what wears whole flanks more sharply than depths: that says nothing of their sigma
         let errors: Vec<Observation> = (0..72)
             .map(|i| Observation {
