@@ -142,7 +142,23 @@ impl Curve {
         );
         let [_, value, sigma] = self.points[at];
         let outside = (low - value).max(value - high).max(0.0);
-        outside < ALIKE * sigma * self.scale
+        outside < ALIKE * sigma * self.scale || self.is_led_up_to(at, (&before, &after))
+    }
+
+    /// Whether the points on either side lead up to a point's value, half of the way or more from what a smooth curve has there: the dip of the wear at
+    /// the pitch point, where flanks roll and do not slide.
+    fn is_led_up_to(&self, at: usize, (before, after): (&[usize], &[usize])) -> bool {
+        let Some((apart, expected)) = self.apart(at) else {
+            return false;
+        };
+        let [place, value, _] = self.points[at];
+        let leads = |side: &[usize]| {
+            let &[near, far] = side else { return false };
+            let ([x, y, _], [x_far, y_far, _]) = (self.points[near], self.points[far]);
+            let led = y + (y - y_far) / (x - x_far) * (place - x);
+            (led - expected) * apart.signum() > 0.5 * (value - expected).abs()
+        };
+        leads(before) && leads(after)
     }
 
     /// Standard deviations at the point nearest to a place, if the curve has one within half the distance of its points.
@@ -336,6 +352,9 @@ mod tests {
         assert_eq!(found(&[(17, 0.0), (18, 0.0)]), [17, 18]);
         assert_eq!(found(&[(17, 99.0), (18, 99.0)]), [17, 18]);
         assert_eq!(found(&[(17, 99.0), (18, -99.0)]), [17, 18]);
+        // the dip at the pitch point is led up to from either side
+        let dip = [(15, 6.5), (16, 4.0), (17, 1.2), (18, 4.1), (19, 6.6)];
+        assert_eq!(found(&dip), [0; 0]);
         // apart from one another each is found by itself
         assert_eq!(found(&[(10, 99.0), (30, -99.0)]), [10, 30]);
     }

@@ -50,7 +50,7 @@ fn a_small_wedge_is_not_left_to_its_look_alikes() {
     let mut data = Study::load(&path).unwrap().dataset().unwrap();
     data.tests.truncate(1);
     data.observations.retain(|o| o.test == 0);
-    let data = noisy(&truth, data, 0.0, [0.02, 0.0], 5);
+    let data = noisy(&truth, data, 0.0, [0.004, 0.0], 5);
     let found = diagnose(&Measured::new(&base, data), Fidelity::Middle, &|_, _| {}).unwrap();
     assert!(names(&found, "lead_misalignment"), "{}", says(&found));
 }

@@ -70,13 +70,15 @@ pub(in crate::learn) fn sentence(
         let total: f64 = cells.values().map(|cell| excess(cell).max(0.0)).sum();
         100.0 * excess(cell) / total
     };
+    let others = others(key, cell, cells, map);
     let parts = [
         format!(
             "{}{}{} is {}{} in {}test {}",
             subject(key.2),
             whose(key),
             when(key, cell, map),
-            size(cell, lone.get(key)),
+            // what other tests show too is no row's own
+            size(cell, lone.get(key).filter(|_| others.is_empty())),
             place(key),
             if held_out { "held-out " } else { "" },
             cell.test
@@ -87,7 +89,7 @@ pub(in crate::learn) fn sentence(
         ),
         trend(key, cells),
         mate(key, cell, cells, lone),
-        others(key, cell, cells, map),
+        others,
     ];
     let factor = if key.2 == Quantity::WearDepth {
         ratios

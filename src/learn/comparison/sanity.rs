@@ -8,6 +8,7 @@
 
 mod coefficient;
 mod constants;
+mod copied_curves;
 mod cycle_units;
 mod exchanged_masses;
 mod exchanged_tests;
@@ -21,6 +22,7 @@ mod materials;
 mod moved_places;
 mod negated;
 mod no_wear;
+mod per_interval;
 mod reversed;
 mod sigmas;
 mod single_tests;
@@ -59,6 +61,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     if let Some(gross) = gross_errors::gross_errors(data) {
         return vec![gross];
     }
+    if let Some(copied) = copied_curves::copied_curves(data) {
+        return vec![copied];
+    }
     if let Some(increments) = increments::increments(study, data) {
         return vec![increments];
     }
@@ -81,8 +86,11 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     let mut values_asked = false;
     if said.is_empty() {
         let k = fit.coefficient;
+        said.extend(per_interval::per_interval(study, &rows));
         // exchanged masses are at odds with the depths of both members
-        said.extend(exchanged_masses::exchanged_masses(study, &rows));
+        if said.is_empty() {
+            said.extend(exchanged_masses::exchanged_masses(study, &rows));
+        }
         if said.is_empty() {
             let of_tests = single_tests::depths_and_masses(study, &rows, k);
             let of_all = || depths_and_masses(study, &rows, k).into_iter().collect();

@@ -110,7 +110,8 @@ impl Deviations {
             )));
         }
         Ok(format!(
-            "{}, `{}`: wear depth, the change of the deviation since 0, {}; those at 0 are not written themselves",
+            "{}, `{}`: wear depth, the change of the deviation since 0, {}; those at 0 are not written themselves, and their scatter is in all depths of \
+             a flank alike, which no sigma tells",
             self.place,
             self.words,
             match (states_sign, turned) {

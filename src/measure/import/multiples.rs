@@ -105,6 +105,12 @@ pub(super) fn in_each_header(sheet: &Sheet) -> Result<(Sheet, Vec<String>), Impo
             let Some((factor, [before, number, behind])) = counted(&written) else {
                 continue;
             };
+            if factor == 1e3 && may_have_thousands(number) {
+                return Err(ImportError(format!(
+                    "{}: `{written}`: are these thousands of thousands, or decimals? Write the revolutions in full",
+                    cell_name(row, column)
+                )));
+            }
             let multiple = Multiple {
                 factor,
                 cell: cell_name(row, column),
@@ -119,6 +125,12 @@ pub(super) fn in_each_header(sheet: &Sheet) -> Result<(Sheet, Vec<String>), Impo
         said = vec![format!("{} and the like in each header", said[0])];
     }
     Ok((sheet, said))
+}
+
+/// Whether a mark in a number may stand between its thousands: `40.000`, and not `0.250`.
+fn may_have_thousands(number: &str) -> bool {
+    let parts = number.split_once(['.', ',']);
+    parts.is_some_and(|(whole, rest)| rest.len() == 3 && !whole.starts_with('0'))
 }
 
 /// The columns of a row that may hold a count with its multiple: all but the first of a header, where each has a number, or the first one beside
@@ -229,6 +241,28 @@ fn of_unit(unit: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn thousands_of_what_may_have_thousands_are_refused() {
+        for number in ["40.000", "1,250", "400.000"] {
+            assert!(may_have_thousands(number), "{number}");
+        }
+        for number in ["40", "0.250", "12,5", "40.0"] {
+            assert!(!may_have_thousands(number), "{number}");
+        }
+        let of = |header: &str| Sheet {
+            name: String::new(),
+            rows: vec![
+                ["Radius [mm]", header, "80 Tsd."]
+                    .map(str::to_owned)
+                    .to_vec(),
+            ],
+            without_result: None,
+            plain_decimals: false,
+        };
+        assert!(in_each_header(&of("40.000 Tsd.")).is_err());
+        assert!(in_each_header(&of("40 Tsd.")).is_ok());
+    }
 
     #[test]
     fn powers_of_ten_in_brackets_are_factors_of_cycles() {
