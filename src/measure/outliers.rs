@@ -2,9 +2,8 @@
 //!
 //! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). Two rows side by
 //! side hide each other, and make a right one beside them stand apart: where rows nearby still do once that one is passed over, and none does without
-//! two neighbours, it is these. A place
-//! where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value between those beside it: the edge of
-//! what is worn.
+//! two neighbours, it is these. A place where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value
+//! between those beside it, the edge of what is worn, or one that both sides lead up to.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -214,9 +213,10 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
             let curve = &all[number];
             let worst = (0..curve.points.len())
                 .filter(|&at| !curve.passed_over[at] && !kept[at])
-                .filter_map(|at| curve.standing(at))
-                .max_by(|a, b| a.apart.abs().total_cmp(&b.apart.abs()));
-            let Some(worst) = worst.filter(|worst| worst.apart.abs() > APART) else {
+                .filter_map(|at| Some((at, curve.apart(at)?.0.abs())))
+                .max_by(|a, b| a.1.total_cmp(&b.1));
+            let worst = worst.filter(|worst| worst.1 > APART);
+            let Some(worst) = worst.and_then(|worst| curve.standing(worst.0)) else {
                 break;
             };
             let at = worst.at;

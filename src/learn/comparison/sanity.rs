@@ -61,7 +61,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     if let Some(gross) = gross_errors::gross_errors(data) {
         return vec![gross];
     }
-    if let Some(copied) = copied_curves::copied_curves(data) {
+    if let Some(copied) = copied_curves::copied_curves(study, data) {
         return vec![copied];
     }
     if let Some(increments) = increments::increments(study, data) {
@@ -112,14 +112,15 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
                 study.wear.coefficient,
             ));
         }
-        if said.is_empty() {
-            said.extend(single_tests::coefficients(study, data, fit));
-        }
+        // the surer a question, the earlier
         if said.is_empty() {
             said.extend(exchanged_tests::exchanged_tests(study, data, fit));
         }
         if said.is_empty() {
             said.extend(single_tests::of_the_other_member(study, data, fit));
+        }
+        if said.is_empty() {
+            said.extend(single_tests::coefficients(study, data, fit));
         }
         said.extend(constants::constants(&fitted(data, fit)));
         said.extend(single_tests::worn_before_the_first_cycle(
@@ -323,7 +324,8 @@ fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -> Option<St
             (ratio / factor - 1.0).abs() < NEAR || *factor == teeth && of_one_tooth
         })
         .map_or(
-            "look at their units (µm and mg), at density and face_width, and whether the mass is the whole member's",
+            "look at their units (µm and mg), at density and face_width, whether the mass is the whole member's and of no other, and whether all values \
+             count from the start (gearwear import --per-interval)",
             |(_, hint)| hint,
         );
     let (more, by) = if ratio > 1.0 {

@@ -48,13 +48,19 @@ impl TestApart {
     /// What to look at; `id`: the test's.
     pub(in crate::learn) fn in_words(&self, id: &str) -> String {
         let by = self.off.abs();
-        let look = if (by - 10f64.ln()).abs() < NEAR_TEN {
-            ", near 10: is its torque, or are its cycles or values, off by a decimal place?"
+        let (near, look) = if (by - 10f64.ln()).abs() < NEAR_TEN {
+            (
+                " (near 10)",
+                "is its torque, or are its cycles or values, off by a decimal place?",
+            )
         } else {
-            ": look at its torque, its cycles and the units of its values first."
+            (
+                "",
+                "look at its torque, its cycles and the units of its values first.",
+            )
         };
         format!(
-            "test {id} wears with a k {} times {} that of the others, which agree within a factor of {}{look} If all are right, something acts in this \
+            "test {id} wears with a k {} times{near} {} that of the others, which agree within a factor of {}: {look} If all are right, something acts in this \
              test that the model lacks",
             significant(by.exp(), 2),
             if self.off > 0.0 { "above" } else { "below" },
@@ -77,7 +83,7 @@ mod tests {
     #[test]
     fn a_test_apart_from_others_that_agree_is_asked_about() {
         let ten = told(&[1.0, 1.1, 9.5]).unwrap();
-        let start = "test C wears with a k 9.1 times above that of the others, which agree within a factor of 1.1, near 10: is its torque";
+        let start = "test C wears with a k 9.1 times (near 10) above that of the others, which agree within a factor of 1.1: is its torque";
         assert!(ten.starts_with(start), "{ten}");
         let seven = told(&[1.0, 0.15, 1.1]).unwrap();
         assert!(

@@ -28,7 +28,7 @@ pub(super) fn leave_out(entries: &mut Vec<Entry>, sheet: &Sheet) -> (Vec<String>
         let Some(largest) = others.map(|entry| size(&entry)).max_by(f64::total_cmp) else {
             continue;
         };
-        let is_far = |entry: &Entry| entry.value.abs() >= FAR * largest;
+        let is_far = |entry: &Entry| largest > 0.0 && entry.value.abs() >= FAR * largest;
         let is_none = |entry: &Entry| has_nines(entry) && is_far(entry);
         let found: Vec<&Entry> = entries.iter().filter(|entry| is_none(entry)).collect();
         if found.is_empty() {

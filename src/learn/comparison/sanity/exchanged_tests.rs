@@ -5,7 +5,8 @@
 //! R = range of ln k of all tests as they stand, R' once i and j are exchanged
 //! R > ln 1.5 and R' < 0.35 R, for one pair only: asked
 //! ```
-//! A law of the load, k ∝ T^p, does so for p = −2 alone. Tests of one torque show nothing.
+//! Tests of one torque show nothing. A law of the load, k ∝ T^p, does the same for p about −2 (−3.1 to −1.5 where the middle of three torques is the
+//! geometric mean): no known one falls so steeply.
 
 use super::super::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
@@ -31,7 +32,8 @@ pub(super) fn exchanged_tests(study: &Study, data: &Dataset, fit: &Fit) -> Optio
     let (i, j, before, after) = exchanged(&tests)?;
     Some(format!(
         "are tests {} and {} exchanged? As they stand the tests' k differ by a factor of {}; with the rows of these two under each other's names \
-         by one of {}: look at their labels, and at the torques that the study states for them",
+         by one of {}: look at their labels, and at the torques that the study states for them; a k that falls with the torque to the power of \
+         2 would look the same",
         ids[i],
         ids[j],
         significant(before.exp(), 2),

@@ -1,6 +1,8 @@
 //! Single rows so far from all others that nothing can be said of the rest before they are gone: what a machine writes for "no value", slipped points.
 
-use crate::measure::{Dataset, Observation};
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::measure::{Dataset, Observation, Outlier};
 use crate::numeric::written::significant;
 
 /// How many times the largest of the other values of its quantity and member such a row is.
@@ -10,23 +12,26 @@ const NAMED: usize = 5;
 
 /// A question about the rows that stand apart and are many times all others.
 pub(super) fn gross_errors(data: &Dataset) -> Option<String> {
-    let apart = |row: usize| data.outliers.iter().any(|outlier| outlier.row == row);
-    let rows = || data.observations.iter().enumerate();
-    let is_gross = |o: &Observation| {
-        let alike = |other: &Observation| (other.member, other.quantity) == (o.member, o.quantity);
-        let others = rows().filter(|(i, other)| alike(other) && !apart(*i));
-        let largest = others
-            .map(|(_, other)| other.value.abs())
-            .fold(0.0, f64::max);
-        largest > 0.0 && o.value.abs() > TIMES * largest
-    };
-    let gross: Vec<&Observation> = (data.outliers.iter())
-        .map(|outlier| &data.observations[outlier.row])
-        .filter(|o| is_gross(o))
-        .collect();
-    if gross.is_empty() {
-        return None;
+    let of = |o: &Observation| (o.member, o.quantity);
+    let apart: BTreeSet<usize> = data.outliers.iter().map(|outlier| outlier.row).collect();
+    let mut largest: BTreeMap<_, f64> = BTreeMap::new();
+    for (row, o) in data.observations.iter().enumerate() {
+        if !apart.contains(&row) {
+            let most = largest.entry(of(o)).or_default();
+            *most = most.max(o.value.abs());
+        }
     }
+    // those that a robust likelihood takes the weight from do no harm
+    let counts = |outlier: &&Outlier| data.observations[outlier.row].sigma <= outlier.stated_sigma;
+    let is_gross = |o: &&Observation| {
+        let most = largest.get(&of(o)).copied().unwrap_or(0.0);
+        most > 0.0 && o.value.abs() > TIMES * most
+    };
+    let all = data.outliers.iter().filter(counts);
+    let all = all.map(|outlier| &data.observations[outlier.row]);
+    let all: Vec<&Observation> = all.filter(is_gross).collect();
+    let first = of(all.first()?);
+    let gross: Vec<&Observation> = all.into_iter().filter(|o| of(o) == first).collect();
     let places: Vec<String> = (gross.iter().take(NAMED))
         .map(|o| {
             format!(
@@ -42,9 +47,10 @@ pub(super) fn gross_errors(data: &Dataset) -> Option<String> {
         _ => String::new(),
     };
     Some(format!(
-        "more than {TIMES} times all other values of {}: {}{more}. If that is what the machine writes for no value, leave these rows out; nothing can be \
+        "more than {TIMES} times all other values of {} of the {}: {}{more}. If that is what the machine writes for no value, leave these rows out; nothing can be \
          said of the others before",
-        gross[0].quantity.name(),
+        first.1.name(),
+        first.0.name(),
         places.join(", ")
     ))
 }
@@ -81,7 +87,7 @@ mod tests {
     fn what_a_machine_writes_for_no_value_is_asked_about_first() {
         let asked = told(-999.0).unwrap();
         assert!(
-            asked.contains("of wear_depth: m.csv:10 (−999.0 µm)"),
+            asked.contains("of wear_depth of the pinion: m.csv:10 (−999.0 µm)"),
             "{asked}"
         );
         assert!(told(99.0).is_some());

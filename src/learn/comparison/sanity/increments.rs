@@ -3,19 +3,21 @@
 //! ```text
 //! c_1, c_2, … of a member's traces, or masses, in the order of the file
 //! Σ c_i = the cycles that the study states, no c_i beyond three quarters of them
-//! where c_i ≤ c_(i−1): the wear grew all the same;  if that is nowhere so: four measurements or more
+//! where c_i ≤ c_(i−1): the wear grew all the same
+//! if that is nowhere so: four measurements or more, and wear over c_1 + … + c_i ranges less than half as far, in ln, as wear over c_i
 //! ```
 
 use super::SAME_CYCLES;
-use crate::measure::{Dataset, Quantity, Subject};
+use crate::measure::{Dataset, FacePlace, Observation, Quantity, Subject};
 use crate::study::Study;
 
 /// Part of the stated cycles that none of the increments reaches.
 const LARGEST: f64 = 0.75;
 /// Factor by which wear must grow between rows of the same cycles to be no repetition.
 const GROWS: f64 = 1.1;
-/// Fewest increments that tell where each is larger than the one before.
+/// Fewest increments that tell where each is larger than the one before, and part of the range of wear per cycle that may be left.
 const SEVERAL: usize = 4;
+const LEFT: f64 = 0.5;
 
 /// Traces, or a mass, at one moment: its cycles and the mean of what was lost.
 struct Measurement {
@@ -56,8 +58,14 @@ fn adds_up(data: &Dataset, test: usize, stated: f64) -> bool {
 /// What was measured after the first cycle, in the order of the file.
 fn measurements(data: &Dataset, of: (usize, Subject, Quantity)) -> Vec<Measurement> {
     let mut all: Vec<Measurement> = Vec::new();
-    let own = data.observations.iter();
-    for o in own.filter(|o| (o.test, o.member, o.quantity) == of && o.cycles > 0.0) {
+    let own = || {
+        let all = data.observations.iter();
+        all.filter(|o| (o.test, o.member, o.quantity) == of && o.cycles > 0.0)
+    };
+    // of one place across the face and one tooth: others may stand at the same cycles
+    let place = |o: &Observation| (o.face.map(FacePlace::key), o.tooth.clone());
+    let first = own().next().map(place);
+    for o in own().filter(|o| Some(place(o)) == first) {
         let same = |m: &&mut Measurement| {
             o.quantity == Quantity::WearDepth && (m.cycles, m.trace) == (o.cycles, o.trace)
         };
@@ -89,9 +97,28 @@ fn are_increments(all: &[Measurement], stated: f64) -> bool {
         before > 0.0 && after > GROWS * before
     };
     match not_later().count() {
-        0 => all.len() >= SEVERAL,
+        0 => all.len() >= SEVERAL && grows_with_the_sum(all),
         _ => not_later().all(grows),
     }
+}
+
+/// Whether wear is nearer to being in proportion to the sum of the cycles than to the cycles themselves.
+fn grows_with_the_sum(all: &[Measurement]) -> bool {
+    let worn = |m: &Measurement| m.sum / m.count;
+    if all.iter().any(|m| worn(m) <= 0.0) {
+        return false;
+    }
+    let mut sum = 0.0;
+    let rates = all.iter().map(|m| {
+        sum += m.cycles;
+        [worn(m) / m.cycles, worn(m) / sum].map(f64::ln)
+    });
+    let rates: Vec<[f64; 2]> = rates.collect();
+    let [plain, added] = [0, 1].map(|i| {
+        let of = || rates.iter().map(|rate| rate[i]);
+        of().fold(f64::NEG_INFINITY, f64::max) - of().fold(f64::INFINITY, f64::min)
+    });
+    added < LEFT * plain
 }
 
 #[cfg(test)]
@@ -132,5 +159,7 @@ mod tests {
         assert!(!told(&[(100, 13.0), (300, 40.0)]));
         assert!(!told(&[(67, 9.0), (133, 18.0), (200, 26.0)]));
         assert!(!told(&[(400, 53.0)]));
+        // a test that was stopped at 40 %, measured at every tenth
+        assert!(!told(&[(40, 5.0), (80, 10.0), (120, 15.0), (160, 20.0)]));
     }
 }

@@ -4,7 +4,8 @@
 //! w_i of a member's checkpoints (masses, or s N of its depth curves) over N_i: r_i;  of w_1 + … + w_i: R_i
 //! r falls by more than 2.5 times, R stays within 15 %:  the w_i are increments
 //! ```
-//! Wear by a constant k has R so. A law of time that makes r fall makes R rise.
+//! Wear by a constant k has R so. Wear by the root of the cycles makes R rise; wear that all but stopped before the first checkpoint looks the same,
+//! and is left to whoever is asked.
 
 use super::super::residual_statistics::FittedRow;
 use super::falling::{Worn, series};
@@ -27,7 +28,8 @@ pub(super) fn per_interval(study: &Study, rows: &[FittedRow<'_>]) -> Option<Stri
         (!of_intervals.is_empty()).then(|| {
             format!(
                 "{} of the {} hardly grows from checkpoint to checkpoint, and added up it grows with the cycles: is each value the loss since the one \
-                 before? Wanted is the loss since the start; gearwear import --per-interval {} adds them up",
+                 before? Wanted is the loss since the start; gearwear import --per-interval {} adds them up. If each is, wear all but stopped before the first \
+                 checkpoint",
                 quantity.name(),
                 of_intervals.join(", of the "),
                 quantity.name()

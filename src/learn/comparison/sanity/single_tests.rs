@@ -285,7 +285,8 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
     let whole = tests.iter().filter(ends_at(1.0)).count();
     for (places, word) in [(1, "tenth"), (2, "hundredth"), (3, "thousandth")] {
         let off: Vec<&usize> = tests.iter().filter(ends_at(0.1_f64.powi(places))).collect();
-        if !off.is_empty() && whole > 0 && whole + off.len() == tests.len() {
+        let of_gear = (ratio * 10f64.powi(places) - 1.0).abs() < 2.0 * SAME_CYCLES;
+        if !of_gear && !off.is_empty() && whole > 0 && whole + off.len() == tests.len() {
             return Some(format!(
                 "the last rows of {} stand at a {word} of the cycles that the study states, those of the other tests at all of them: is the one or the \
                  other off by a decimal place?",

@@ -56,7 +56,12 @@ fn is_of_gear(
     (test, place): (&str, &str),
     ratio: f64,
 ) -> Result<bool, ImportError> {
-    let stated: Vec<f64> = readings(leading_number(number).0).collect();
+    let stated: Vec<f64> = match number.trim().parse() {
+        // a rig that stands still
+        Ok(0.0) => return Ok(false),
+        Ok(plain) if number.contains(['e', 'E']) => vec![plain],
+        _ => readings(leading_number(number).0).collect(),
+    };
     let is = |torque: f64| {
         let is_same =
             |stated: &f64| (newton_metres * stated - torque).abs() <= SAME_TORQUE * torque;
