@@ -2,15 +2,14 @@
 //! they are in a measurement file. [`folded`] says what does not count in a name; the words themselves stand in `vocabulary`, those for counts,
 //! times and speeds in `counting`.
 
+mod conditions;
 mod counting;
 mod vocabulary;
 
 use super::quantity::{Quantity, Subject};
 
-use counting::{
-    AROUND_POWER, CYCLES, HOURS, MULTIPLES, NEWTON_METRES, PER_MINUTE, POWERS, SPEEDS, TIMES,
-    TORQUES,
-};
+pub(super) use conditions::{hours, hours_of_unit, is_time, newton_metres, speed, torque};
+use counting::{AROUND_POWER, CYCLES, MULTIPLES, POWERS};
 use vocabulary::{
     AFTER, BEFORE, CHORDS, COLUMNS, CONFIDENCE_INTERVALS, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
     FOR_PEOPLE, HINTS, LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS,
@@ -149,19 +148,6 @@ fn member_apart(word: String) -> Vec<String> {
     }
 }
 
-/// Hours of a unit of the running time that a name and its unit mean; none if they mean no time.
-pub(super) fn hours(name: &str, unit: Option<&str>) -> Option<f64> {
-    let name = telling(name).concat();
-    let of = |unit: &str| HOURS.iter().find(|(known, _)| *known == unit);
-    let found = match unit {
-        Some(unit) if TIMES.contains(&name.as_str()) => of(&folded(unit)),
-        // shorter ones have other meanings too, but for the Italian word
-        None => of(&name).filter(|_| name.len() > 3 || name == "ore"),
-        Some(_) => None,
-    };
-    found.map(|(_, hours)| *hours)
-}
-
 /// Whether a name means several standard deviations, without saying how many. By the GUM a capital `U` alone does, a small one is one
 /// standard deviation.
 pub(super) fn is_expanded_uncertainty(name: &str) -> bool {
@@ -182,60 +168,6 @@ pub(super) fn is_confidence_interval(header: &str) -> bool {
     let name = telling(name).concat();
     let level = |c: char| c.is_ascii_digit();
     CONFIDENCE_INTERVALS.contains(&name.trim_matches(level))
-}
-
-/// Whether a name means a running time: its unit stands elsewhere.
-pub(super) fn is_time(name: &str) -> bool {
-    TIMES.contains(&telling(name).concat().as_str())
-}
-
-/// Hours of a unit of time.
-pub(super) fn hours_of_unit(unit: &str) -> Option<f64> {
-    let unit = folded(unit);
-    let found = HOURS.iter().find(|(known, _)| *known == unit);
-    found.map(|(_, hours)| *hours)
-}
-
-/// Whose speed of rotation in revolutions per minute a name and its unit mean, `None` inside if they do not say; none if they mean none.
-pub(super) fn speed(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
-    let (of, mut rest): (Vec<String>, Vec<String>) = words(name)
-        .into_iter()
-        .partition(|word| member(word).is_some());
-    let count = rest.len();
-    rest.retain(|word| !is_per_minute(word) && (word == "n" || !is_filler(word)));
-    let has_unit = match unit {
-        Some(unit) => is_per_minute(unit),
-        None => count > rest.len() && rest.len() < 2,
-    };
-    let rest = rest.concat();
-    let is_named = SPEEDS.contains(&rest.as_str());
-    let is_it = match unit {
-        Some(_) => has_unit && (is_named || rest == "n" || rest.is_empty()),
-        None => is_named || has_unit && (rest == "n" || rest.is_empty()),
-    };
-    is_it.then(|| one_member(&of.join(" ")))
-}
-
-/// Whether a unit is that of revolutions per minute.
-pub(super) fn is_per_minute(unit: &str) -> bool {
-    let unit: String = unit.to_lowercase().split_whitespace().collect();
-    PER_MINUTE.contains(&unit.as_str())
-}
-
-/// On which member the torque acts that a name and its unit mean, `None` inside if they do not say; none if they mean none.
-pub(super) fn torque(name: &str, unit: Option<&str>) -> Option<Option<Subject>> {
-    newton_metres(unit?)?;
-    let is_one = |word: &String| member(word).is_some_and(|of| of != Subject::Pair);
-    let (of, rest): (Vec<String>, Vec<String>) = telling(name).into_iter().partition(is_one);
-    let is_named = TORQUES.contains(&rest.concat().as_str());
-    is_named.then(|| one_member(&of.join(" ")))
-}
-
-/// N m of a unit of torque.
-pub(super) fn newton_metres(unit: &str) -> Option<f64> {
-    let unit = folded(unit);
-    let found = NEWTON_METRES.iter().find(|(known, _)| *known == unit);
-    found.map(|(_, factor)| *factor)
 }
 
 /// Whether a name means the flank of a tooth.
