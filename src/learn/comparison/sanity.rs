@@ -22,7 +22,6 @@ mod materials;
 mod moved_places;
 mod negated;
 mod no_wear;
-mod per_interval;
 mod reversed;
 mod sigmas;
 mod single_tests;
@@ -86,11 +85,8 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     let mut values_asked = false;
     if said.is_empty() {
         let k = fit.coefficient;
-        said.extend(per_interval::per_interval(study, &rows));
         // exchanged masses are at odds with the depths of both members
-        if said.is_empty() {
-            said.extend(exchanged_masses::exchanged_masses(study, &rows));
-        }
+        said.extend(exchanged_masses::exchanged_masses(study, &rows));
         if said.is_empty() {
             let of_tests = single_tests::depths_and_masses(study, &rows, k);
             let of_all = || depths_and_masses(study, &rows, k).into_iter().collect();

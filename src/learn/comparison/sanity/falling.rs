@@ -21,10 +21,10 @@ const FEWEST: usize = 4;
 const OF_ITS_SHAPE: f64 = 0.8;
 
 /// How much was worn at a checkpoint, in any unit, and its standard deviation.
-pub(super) struct Worn {
-    pub(super) cycles: f64,
-    pub(super) amount: f64,
-    pub(super) sigma: f64,
+struct Worn {
+    cycles: f64,
+    amount: f64,
+    sigma: f64,
 }
 
 /// Tests whose wear falls from one checkpoint to the next.
@@ -58,10 +58,10 @@ fn fall(worn: &[Worn]) -> Option<(f64, f64)> {
     })
 }
 
-pub(super) type Series = BTreeMap<(usize, Subject), Vec<Vec<Worn>>>;
+type Series = BTreeMap<(usize, Subject), Vec<Vec<Worn>>>;
 
 /// What was worn at the checkpoints of each test and member, by rising cycles; a series for each place across the face and tooth.
-pub(super) fn series(rows: &[FittedRow<'_>], quantity: Quantity) -> Series {
+fn series(rows: &[FittedRow<'_>], quantity: Quantity) -> Series {
     let mut curves: BTreeMap<_, Vec<&FittedRow<'_>>> = BTreeMap::new();
     for row in rows
         .iter()
