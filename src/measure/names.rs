@@ -4,16 +4,17 @@
 
 mod conditions;
 mod counting;
+mod uncertainties;
 mod vocabulary;
 
 use super::quantity::{Quantity, Subject};
 
 pub(super) use conditions::{hours, hours_of_unit, is_time, newton_metres, speed, torque};
 use counting::{AROUND_POWER, CYCLES, MULTIPLES, POWERS};
+pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
-    AFTER, BEFORE, CHORDS, COLUMNS, CONFIDENCE_INTERVALS, DEVIATIONS, EXPANDED, FILLERS, FLANKS,
-    FOR_PEOPLE, HINTS, LOSSES, MASSES, MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS,
-    SIGMAS, SPANS, STOPS,
+    AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, LOSSES, MASSES,
+    MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS,
 };
 
 /// Which of two measurements of a part.
@@ -146,28 +147,6 @@ fn member_apart(word: String) -> Vec<String> {
         Some((of, count)) => vec![of.to_owned(), count.to_owned()],
         None => vec![word],
     }
-}
-
-/// Whether a name means several standard deviations, without saying how many. By the GUM a capital `U` alone does, a small one is one
-/// standard deviation.
-pub(super) fn is_expanded_uncertainty(name: &str) -> bool {
-    name.trim() == "U" || EXPANDED.contains(&telling(name).concat().as_str())
-}
-
-/// How many standard deviations a name means that says so in front: `2 sigma`, `3s`.
-pub(super) fn sigmas(name: &str) -> Option<u32> {
-    let name = folded(name);
-    let digits = name.trim_start_matches(|c: char| c.is_ascii_digit());
-    let is_sigma = SIGMAS.contains(&digits);
-    is_sigma.then(|| name[..name.len() - digits.len()].parse().ok())?
-}
-
-/// Whether a header means a confidence interval, with or without its level.
-pub(super) fn is_confidence_interval(header: &str) -> bool {
-    let (name, _) = header.split_once('[').unwrap_or((header, ""));
-    let name = telling(name).concat();
-    let level = |c: char| c.is_ascii_digit();
-    CONFIDENCE_INTERVALS.contains(&name.trim_matches(level))
 }
 
 /// Whether a name means the flank of a tooth.

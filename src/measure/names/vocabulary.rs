@@ -140,44 +140,6 @@ pub(super) const COLUMNS: [(&str, &[&str]); 10] = [
     ("tooth", &["zahn", "dente", "dent", "diente"]),
 ];
 
-/// Names of several standard deviations.
-pub(super) const EXPANDED: [&str; 7] = [
-    "u95",
-    "expandeduncertainty",
-    "erweiterteunsicherheit",
-    "erweitertemessunsicherheit",
-    "incertezzaestesa",
-    "incertitudeelargie",
-    "incertidumbreexpandida",
-];
-
-/// What stands behind the number of several standard deviations.
-pub(super) const SIGMAS: [&str; 9] = [
-    "sigma",
-    "sigmas",
-    "\u{3c3}",
-    "s",
-    "sd",
-    "std",
-    "stdev",
-    "standarddeviations",
-    "standardabweichungen",
-];
-
-/// Names of confidence intervals.
-pub(super) const CONFIDENCE_INTERVALS: [&str; 10] = [
-    "ci",
-    "confidenceinterval",
-    "confidence",
-    "konfidenzintervall",
-    "konfidenzbereich",
-    "vertrauensbereich",
-    "vertrauensintervall",
-    "intervalloconfidenza",
-    "intervalleconfiance",
-    "intervaloconfianza",
-];
-
 /// Names of one of the two flanks of a tooth, or of what it looks to.
 pub(super) const FLANKS: [&str; 9] = [
     "flank",

@@ -23,19 +23,16 @@ const FEWEST: usize = 3;
 
 /// A question about the two tests that share the others' k once exchanged.
 pub(super) fn exchanged_tests(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
-    let tests: Vec<(f64, f64)> = (own_coefficients(data, fit).iter())
+    let own = own_coefficients(data, fit);
+    let tests: Vec<(f64, f64)> = (own.iter())
         .map(|&(test, k)| (study.tests[test].conditions.torque_nmm.ln(), k))
         .collect();
-    let ids: Vec<&str> = (own_coefficients(data, fit).iter())
-        .map(|&(test, _)| study.tests[test].id.as_str())
-        .collect();
     let (i, j, before, after) = exchanged(&tests)?;
+    let [one, other] = [i, j].map(|at| &study.tests[own[at].0].id);
     Some(format!(
-        "are tests {} and {} exchanged? As they stand the tests' k differ by a factor of {}; with the rows of these two under each other's names \
+        "are tests {one} and {other} exchanged? As they stand the tests' k differ by a factor of {}; with the rows of these two under each other's names \
          by one of {}: look at their labels, and at the torques that the study states for them; a k that falls with the torque to the power of \
          2 would look the same",
-        ids[i],
-        ids[j],
         significant(before.exp(), 2),
         significant(after.exp(), 3),
     ))
