@@ -101,8 +101,22 @@ fn rows_that_stand_apart_are_found_and_count_little_if_wanted() {
 /// without them far above.
 #[test]
 fn tilts_and_shifts_that_are_allowed_for_are_no_discrepancy() {
+    let [with, without] = chi2_with_and_without("trace_tilt = 1.0\ntrace_shift = 0.02");
+    assert!((0.85..1.1).contains(&with), "{with}");
+    assert!(without > 1.5 * with, "{without} {with}");
+}
+
+/// The same of the scatter of a new profile that all checkpoints were taken from.
+#[test]
+fn the_scatter_of_a_new_profile_that_is_allowed_for_is_no_discrepancy() {
+    let [with, without] = chi2_with_and_without("new_profile = 0.3");
+    assert!((0.85..1.1).contains(&with), "{with}");
+    assert!(without > 1.5 * with, "{without} {with}");
+}
+
+/// χ² per point of the exact base model against measurements made with what `stated` says of the noise, and without it in the study.
+fn chi2_with_and_without(stated: &str) -> [f64; 2] {
     let folder = tempfile::tempdir().unwrap();
-    let stated = "trace_tilt = 1.0\ntrace_shift = 0.02";
     let text = study_text(stated).replace("contact = \"fem\"", "contact = \"hertz\"");
     let lines = text.lines().filter(|line| !line.contains("file = "));
     let text = lines.collect::<Vec<_>>().join("\n");
@@ -130,9 +144,7 @@ fn tilts_and_shifts_that_are_allowed_for_are_no_discrepancy() {
     let text = std::fs::read_to_string(made.join("study.toml")).unwrap();
     assert!(text.contains(stated), "{text}");
     std::fs::write(made.join("without.toml"), text.replace(stated, "")).unwrap();
-    let without = chi2("without");
-    assert!((0.85..1.1).contains(&with), "{with}");
-    assert!(without > 1.5 * with, "{without} {with}");
+    [with, chi2("without")]
 }
 
 /// Values without noise whose curves have corners, each elsewhere, far below the stated σ: nothing stands apart.

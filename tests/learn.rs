@@ -197,6 +197,7 @@ fn noise(scatter: Scatter) -> NoiseModel {
         datum_um: 0.5,
         tilt_um: 0.0,
         shift_mm: 0.0,
+        new_profile_um: 0.0,
         sigma: SigmaModel::AS_STATED,
         scatter,
         model_error: None,

@@ -11,7 +11,8 @@ use self::summary::{Found, summary};
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, fitting, folder};
 use crate::learn::{
-    ModelVersion, contact_of, data_warnings, misfit_of_one_quantity, prospects, stated_sigma,
+    ModelVersion, contact_of, data_warnings, misfit_of_one_quantity, prospects,
+    scatter_of_new_profile, stated_sigma,
 };
 use crate::measure::{Dataset, Observation, Place, Quantity};
 use crate::report::{self, comparison};
@@ -69,11 +70,13 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
         warnings.extend(stated_sigma(&study, &data, &compared.fit));
     }
     let sanity = &compared.comparison.sanity;
-    // what is wrong as a whole shows most somewhere
-    let carried = match sanity.is_empty() {
+    let shared = scatter_of_new_profile(&study, &data, &compared.fit);
+    // what is wrong as a whole shows most somewhere, and a scatter that no sigma tells in the depths
+    let carried = match sanity.is_empty() && shared.is_none() {
         true => misfit_of_one_quantity(&study, &data, &compared.fit),
         false => None,
     };
+    warnings.extend(shared);
     // nothing looks right where one quantity carries the misfit, whatever the reason
     let looks_right = sanity.is_empty() && carried.is_none();
     warnings.extend(carried);

@@ -31,6 +31,7 @@ mod noise;
 mod prediction;
 mod sampling;
 
+pub use checks::common_scatter::scatter_of_new_profile;
 pub use checks::noise_level::stated_sigma;
 pub use comparison::synthesize::{Synthetic, synthesize};
 pub use comparison::{

@@ -4,7 +4,10 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::prelude::ReborrowMut;
 use faer::{Mat, MatMut, Par};
 
 /// L of A = L Lᵀ.
@@ -32,6 +35,12 @@ impl Factor {
     /// L⁻¹ of every column, in place.
     pub fn solve_lower(&self, columns: MatMut<'_, f64>) {
         solve_lower_triangular_in_place(self.0.as_ref(), columns, Par::Seq);
+    }
+
+    /// A⁻¹ of every column, in place.
+    pub fn solve(&self, mut columns: MatMut<'_, f64>) {
+        self.solve_lower(columns.rb_mut());
+        solve_upper_triangular_in_place(self.0.as_ref().transpose(), columns, Par::Seq);
     }
 
     /// ln det A.
@@ -64,6 +73,12 @@ mod tests {
             let exact = (n * (n + 1) * (n + 2)) as f64 / 12.0;
             assert!((square(0) / exact - 1.0).abs() < 1e-11);
             assert!((square(1) / exact - 4.0).abs() < 1e-11);
+            let mut solution = Mat::from_fn(n, 1, |_, _| 1.0);
+            factor.solve(solution.as_mut());
+            for i in 0..n {
+                let exact = ((i + 1) * (n - i)) as f64 / 2.0;
+                assert!((solution[(i, 0)] / exact - 1.0).abs() < 1e-11);
+            }
         }
     }
 

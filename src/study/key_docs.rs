@@ -199,6 +199,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("noise", "datum", &q::DATUM, Default("0.5"), "prior standard deviation of a trace's unknown constant datum"),
     number("noise", "trace_tilt", &q::TILT, Default("0.0"), "prior standard deviation of a wear trace's unknown tilt, from end to end"),
     number("noise", "trace_shift", &q::SHIFT, Default("0.0"), "prior standard deviation of the unknown shift of a wear trace's radii on the measuring machine"),
+    number("noise", "new_profile", &q::NEW_PROFILE, Default("0.0"), "standard deviation of the scatter of the new profile from which all worn ones of a flank were taken off: every checkpoint shares it"),
     doc("noise", "outliers", Value::Word(OUTLIERS), Default("\"report\""), "rows far from their neighbours: `report` names them and counts them as they are, `robust` counts them with sigma enlarged by their deviation (root of the sum of squares)"),
 
     doc("effect", "kind", Value::Text, Refused, "an effect of the catalogue, whose parameters are then keys of this table, `\"formula\"` or `\"learned\"`"),

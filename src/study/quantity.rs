@@ -387,6 +387,12 @@ pub(super) const SHIFT: Quantity = quantity(
     1.0,
     "prior standard deviation of the unknown shift of a trace's radii",
 );
+pub(super) const NEW_PROFILE: Quantity = quantity(
+    "um",
+    From(0.0),
+    1000.0,
+    "standard deviation of the scatter of the new profile that all depths of a flank were taken from",
+);
 pub(super) const STEP_TOLERANCE: Quantity =
     quantity("-", From(1e-7), 0.1, "relative error of one wear step");
 /// A parameter of an effect, before the catalogue is asked: any finite number.

@@ -39,6 +39,7 @@ pub(super) const NOISE_KEYS: &[&str] = &[
     "datum",
     "trace_tilt",
     "trace_shift",
+    "new_profile",
     "outliers",
 ];
 pub(super) const MEASUREMENTS_KEYS: &[&str] = &["file", "tests"];
@@ -101,6 +102,8 @@ pub struct Noise {
     pub tilt_um: f64,
     /// Prior standard deviation of the unknown shift of a trace's radii, mm.
     pub shift_mm: f64,
+    /// Standard deviation of the scatter of the new profile that all depths of a flank were taken from, µm.
+    pub new_profile_um: f64,
     /// What becomes of rows that stand apart from their neighbours.
     pub outliers: Outliers,
 }
@@ -262,6 +265,7 @@ pub(super) fn read_noise(root: &Table<'_>) -> Result<Noise> {
         datum_um: 0.5,
         tilt_um: 0.0,
         shift_mm: 0.0,
+        new_profile_um: 0.0,
         outliers: Outliers::Report,
     };
     let Some(table) = root.table("noise", NOISE_KEYS)? else {
@@ -296,6 +300,8 @@ pub(super) fn read_noise(root: &Table<'_>) -> Result<Noise> {
         .number("trace_tilt", &q::TILT)?
         .unwrap_or(noise.tilt_um);
     noise.shift_mm = (table.number("trace_shift", &q::SHIFT)?).unwrap_or(noise.shift_mm);
+    noise.new_profile_um =
+        (table.number("new_profile", &q::NEW_PROFILE)?).unwrap_or(noise.new_profile_um);
     let outliers = [("report", Outliers::Report), ("robust", Outliers::Robust)];
     noise.outliers = (table.choice("outliers", &outliers)?).unwrap_or(noise.outliers);
     Ok(noise)

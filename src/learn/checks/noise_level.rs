@@ -1,17 +1,18 @@
 //! Whether measurements scatter as their stated σ say: more, much less, or elsewhere.
 //!
 //! ```text
-//! d_i = (x_i − x_{i−1})/(s_i − s_{i−1}) − (x_{i+1} − x_i)/(s_{i+1} − s_i)      x: measured minus model, s: position
+//! d_i: second differences of measured minus model along a trace ([`second_differences`](super::second_differences))
 //! σ/stated = √(median(d²/var d)/0.4549)
 //! L = −N ln(mean |d|/√var d) − Σ ln √var d                                   ln likelihood of N differences as Laplace's law has it
 //! ```
-//! Whatever is smooth along a trace drops out of such differences (Rice, Ann. Statist. 12, 1984; with positions as Gasser, Sroka &
-//! Jennen-Steinmetz, Biometrika 73, 1986); 0.4549 is the median of χ² with one degree of freedom. Evidence knows only the stated σ: if that
+//! 0.4549 is the median of χ² with one degree of freedom. Evidence knows only the stated σ: if that
 //! is too small by two, noise counts four times in χ², and something seems to be missing. If it is too small at some points and too
 //! large at others, no factor mends that: then a σ of another shape, a constant and a share of each curve's largest depth, is
 //! taken where the differences speak for it by L. Laplace's law, since outliers shall not decide; neighbouring differences share two points
 //! of three, and the sizes of normal ones are correlated by 4/9, so that L/2 is what independent ones would have.
 
+use super::common_scatter::{shared, without_shared};
+use super::second_differences::{Difference, differences};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::noise::SigmaModel;
@@ -36,9 +37,14 @@ const ANOTHER_SHAPE: f64 = 10.0;
 /// Steps in which the floor's part of a middle curve's σ is tried.
 const PARTS: u8 = 10;
 
-/// The σ that the scatter along traces calls for: as stated, unless that is clearly too small or of the wrong shape.
+/// The σ that the scatter along traces calls for: as stated, unless that is clearly too small or of the wrong shape. Where a new profile is counted
+/// to scatter, of what is each profile's own.
 pub(in crate::learn) fn sigma_model(likelihood: &Likelihood<'_>, model: &[f64]) -> SigmaModel {
-    of_residual(&rows(likelihood), &likelihood.residual(model))
+    let (rows, mut residual) = (rows(likelihood), likelihood.residual(model));
+    if likelihood.noise.new_profile_um > 0.0 {
+        residual = without_shared(&rows, &residual);
+    }
+    of_residual(&rows, &residual)
 }
 
 fn of_residual(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
@@ -64,6 +70,11 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
     let fitted: Vec<usize> = (0..rows.len()).filter(fitted).collect();
     let own: Vec<&Observation> = fitted.iter().map(|&row| rows[row]).collect();
     let of_own: Vec<f64> = fitted.iter().map(|&row| residual[row]).collect();
+    // what checkpoints share is told by itself too
+    let of_own = match shared(&own, &of_own) {
+        Some(_) => without_shared(&own, &of_own),
+        None => of_own,
+    };
     let scatter = scale(&differences(&own, &of_own), &SigmaModel::AS_STATED.of(&own));
     match scatter.filter(|found| *found < SMOOTH) {
         Some(smooth) => Some(smooth_in_words(smooth)),
@@ -131,53 +142,6 @@ fn rows<'a>(likelihood: &'a Likelihood<'_>) -> Vec<&'a Observation> {
     (0..likelihood.len())
         .map(|i| likelihood.observation(i))
         .collect()
-}
-
-/// A difference of three neighbours' residuals from which whatever is straight drops out.
-#[derive(Debug, Clone, Copy)]
-struct Difference {
-    rows: [usize; 3],
-    weights: [f64; 3],
-    value: f64,
-}
-
-impl Difference {
-    /// Its standard deviation where the rows have these.
-    fn sigma(&self, sigma: &[f64]) -> f64 {
-        let terms = self.rows.iter().zip(self.weights);
-        terms
-            .map(|(&row, weight)| (weight * sigma[row]).powi(2))
-            .sum::<f64>()
-            .sqrt()
-    }
-}
-
-/// All along the curves of some rows.
-fn differences(rows: &[&Observation], residual: &[f64]) -> Vec<Difference> {
-    let place = |row: usize| rows[row].position.unwrap_or(0.0);
-    let mut found = Vec::new();
-    for curve in curves(rows) {
-        for three in curve.windows(3) {
-            let three = [three[0], three[1], three[2]];
-            let [a, b, c] = three.map(place);
-            let (before, after) = (b - a, c - b);
-            if before <= 0.0 || after <= 0.0 {
-                continue;
-            }
-            let weights = [
-                -before.recip(),
-                before.recip() + after.recip(),
-                -after.recip(),
-            ];
-            let terms = three.iter().zip(weights);
-            found.push(Difference {
-                rows: three,
-                weights,
-                value: terms.map(|(&row, weight)| weight * residual[row]).sum(),
-            });
-        }
-    }
-    found
 }
 
 /// Scatter over these σ; None of too few differences.

@@ -1,10 +1,12 @@
 //! Measurements of a study's own model: what instruments would read if the model were the truth, with stated noise.
 //!
 //! ```text
-//! value = model(k_t, effects) + datum of the trace + sigma · N(0, 1)
+//! value = model(k_t, effects) + datum of the trace + scatter of the new profile + sigma · N(0, 1)
 //! sigma = noise · largest magnitude of the trace + 0.02 µm          k_t = k exp(scatter · N(0, 1))
 //! ```
 //! The 0.02 µm become a mass by the worn flanks' area and an angle by the gear's base radius.
+
+use std::collections::BTreeMap;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -87,6 +89,7 @@ impl Synthetic {
         let rows: Vec<usize> = (0..self.data.observations.len())
             .filter(|&row| self.data.observations[row].test == test)
             .collect();
+        let new_profile = self.new_profiles(&rows, study.noise.new_profile_um, draw);
         let curve = |o: &Observation| (o.member, o.quantity, o.cycles.to_bits());
         let mut start = 0;
         while start < rows.len() {
@@ -124,10 +127,24 @@ impl Synthetic {
             for (i, value) in (start..end).zip(of_machine) {
                 let o = &mut self.data.observations[rows[i]];
                 o.sigma = sigma;
-                o.value = value + datum + sigma * draw.normal();
+                o.value = value + datum + new_profile[i] + sigma * draw.normal();
             }
             start = end;
         }
+    }
+
+    /// What the scatter of the new profiles makes at each of some rows: the same at every checkpoint. Nothing is drawn for what is not there.
+    fn new_profiles(&self, rows: &[usize], um: f64, draw: &mut Draw) -> Vec<f64> {
+        let mut drawn: BTreeMap<_, f64> = BTreeMap::new();
+        let mut at = |&row: &usize| {
+            let o = &self.data.observations[row];
+            if um == 0.0 || o.quantity != Quantity::WearDepth {
+                return 0.0;
+            }
+            let place = (o.member, o.position.map(f64::to_bits));
+            *drawn.entry(place).or_insert_with(|| um * draw.normal())
+        };
+        rows.iter().map(&mut at).collect()
     }
 }
 

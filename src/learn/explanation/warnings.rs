@@ -3,6 +3,7 @@
 use super::ranked::{form, parameters};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::common_scatter;
 use crate::learn::checks::noise_level;
 use crate::learn::checks::outlying_curves;
 use crate::learn::checks::sufficiency::{few, measured_once, unknowns};
@@ -81,6 +82,13 @@ fn of_sigma(likelihood: &Likelihood<'_>, base: &BaseFit, leading: &FittedCandida
     let sigma = likelihood.noise.sigma;
     let estimated = likelihood.measured.data.estimates_sigmas();
     warnings.extend(noise_level::replaced_in_words(sigma, estimated));
+    let new_profile_um = likelihood.noise.new_profile_um;
+    if new_profile_um > likelihood.measured.study().noise.new_profile_um {
+        warnings.push(format!(
+            "{}. It was counted so here; `[noise] new_profile` makes every command do so",
+            common_scatter::in_words(new_profile_um)
+        ));
+    }
     if sigma == SigmaModel::AS_STATED
         && let Some(smooth) = noise_level::too_smooth(likelihood, &base.fitted.found.model)
     {

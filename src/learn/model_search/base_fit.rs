@@ -5,25 +5,34 @@ use super::high_fidelity::DECIDE;
 use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::common_scatter::shared_scatter;
 use crate::learn::checks::noise_level;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::inference::search::Effort;
-use crate::learn::noise::NoiseModel;
 use crate::learn::prediction::predictor::{PredictError, Predictor};
 use crate::study::Role;
 
 impl Context<'_> {
-    /// Fits the base model, once more where the scatter about it calls for another σ than the stated one; the likelihood then has that.
+    /// Fits the base model, once more where the scatter about it calls for another σ than the stated one or for that of a new profile; the
+    /// likelihood then has them.
     pub(in crate::learn) fn base_by_scatter(&mut self) -> Result<BaseFit, PredictError> {
         let measured = self.likelihood.measured;
         let candidate = || Candidate::base(measured.study());
         let base = self.base(candidate())?;
-        let sigma = noise_level::sigma_model(&self.likelihood, &base.fitted.found.model);
-        let noise = self.likelihood.noise;
-        if sigma == noise.sigma {
+        let model = &base.fitted.found.model;
+        let stated = self.likelihood.noise;
+        let mut noise = stated;
+        if noise.new_profile_um == 0.0
+            && let Some(new_profile_um) = shared_scatter(&self.likelihood, model)
+        {
+            noise.new_profile_um = new_profile_um;
+            self.likelihood = Likelihood::new(measured, noise, Role::Fit);
+        }
+        noise.sigma = noise_level::sigma_model(&self.likelihood, model);
+        if noise == stated {
             return Ok(base);
         }
-        self.likelihood = Likelihood::new(measured, NoiseModel { sigma, ..noise }, Role::Fit);
+        self.likelihood = Likelihood::new(measured, noise, Role::Fit);
         self.base(candidate())
     }
 

@@ -86,9 +86,14 @@ impl Context<'_> {
                 .filter(|other| other.candidate.effects == candidate.effects)
                 .map(|other| other.log_evidence)
                 .fold(f64::NEG_INFINITY, f64::max);
-            // forms of one effect stand or fall by the best of them
+            // forms of one effect stand or fall by the best of them, and of sharp ones the analytic model may know no more than that
             let behind = !candidate.sharp() && best_form - judged.log_evidence > BEHIND_FORM * best;
-            judged.log_evidence - before >= bar && !behind
+            let evidence = if real && candidate.sharp() {
+                best_form
+            } else {
+                judged.log_evidence
+            };
+            evidence - before >= bar && !behind
                 || contact_missed
                     && candidate.changes_contact()
                     && worth_its_teeth(judged, before, *best)

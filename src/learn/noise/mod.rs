@@ -2,12 +2,14 @@
 //!
 //! ```text
 //! y = f + M a + m + e      e ~ N(0, diag σ²),  a ~ N(0, 1) some per trace,  m ~ N(0, K) only if switched on
-//! S = diag σ² + Σ_traces M Mᵀ + K
+//! S = diag σ² + Σ_traces M Mᵀ + N + K
 //! ```
-//! M: a constant (datum), a tilt and a shift of the radii, each in its prior standard deviation ([`trace`]). All are marginalised.
+//! M: a constant (datum), a tilt and a shift of the radii, each in its prior standard deviation ([`trace`]); N: the scatter of the new profile,
+//! which all checkpoints of a flank share ([`new_profile`]). All are marginalised.
 
 mod covariance;
 mod model_error;
+mod new_profile;
 mod sigma_model;
 mod trace;
 
@@ -31,6 +33,8 @@ pub struct NoiseModel {
     pub tilt_um: f64,
     /// Prior standard deviation of the shift of a wear trace's radii, mm.
     pub shift_mm: f64,
+    /// Standard deviation of the scatter of the new profile that all depths of a flank were taken from, µm.
+    pub new_profile_um: f64,
     /// Which σ the rows get.
     pub sigma: SigmaModel,
     /// Scatter of the wear coefficient between tests.
@@ -46,6 +50,7 @@ impl NoiseModel {
             datum_um: noise.datum_um,
             tilt_um: noise.tilt_um,
             shift_mm: noise.shift_mm,
+            new_profile_um: noise.new_profile_um,
             sigma: SigmaModel::AS_STATED,
             scatter: noise.coefficient_scatter,
             model_error: None,

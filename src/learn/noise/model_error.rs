@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use faer::Mat;
 
+use super::new_profile::NewProfile;
 use super::trace::TraceErrors;
 use crate::measure::{Observation, Surface, surfaces};
 use crate::numeric::positive_definite::Factor;
@@ -44,6 +45,7 @@ pub(super) fn dense_blocks(
     sigma: &[f64],
     traces: &[TraceErrors],
     errors: &[(Vec<f64>, ModelError)],
+    new_profile: Option<&NewProfile>,
 ) -> Vec<Dense> {
     let mut groups = BTreeMap::new();
     for (i, surface) in surfaces(picked).into_iter().enumerate() {
@@ -87,6 +89,14 @@ pub(super) fn dense_blocks(
                     if group[i] == group[j] {
                         *entry += size * amplitude[i] * along.at(a, b) * over.at(a, b);
                     }
+                }
+            }
+        }
+        if let Some(new_profile) = new_profile {
+            for (b, &j) in rows.iter().enumerate() {
+                let below = rows.iter().enumerate().skip(b);
+                for (a, &i) in below.filter(|(_, i)| group[**i] == group[j]) {
+                    matrix[(a, b)] += new_profile.between(picked, i, j);
                 }
             }
         }

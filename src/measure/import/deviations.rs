@@ -111,7 +111,7 @@ impl Deviations {
         }
         Ok(format!(
             "{}, `{}`: wear depth, the change of the deviation since 0, {}; those at 0 are not written themselves, and their scatter is in all depths of \
-             a flank alike, which no sigma tells",
+             a flank alike: no sigma tells it, `[noise] new_profile` of the study does",
             self.place,
             self.words,
             match (states_sign, turned) {

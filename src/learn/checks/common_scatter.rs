@@ -1,0 +1,225 @@
+//! Whether the scatter along a flank is the same at all checkpoints, as that of one new profile is from which all worn ones were taken off.
+//!
+//! ```text
+//! d: second differences of measured minus model, each over the length of its weights ([`second_differences`](super::second_differences))
+//! T = median(d²)/0.4549 = σ² + τ²      W = median((d − d')²/2)/0.4549 = σ²      d': the same three places at the next checkpoint
+//! τ² = T − W
+//! ```
+//! σ: scatter of each profile; τ: of what they share. A misfit is shared too, but it is smooth along the flank, and neighbouring d have one sign
+//! then: those of scatter are correlated by −2/3, and 73 % of neighbours differ in sign.
+
+use std::collections::BTreeMap;
+
+use super::second_differences::differences as second_differences;
+use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::fitting::fitted::Fit;
+use crate::measure::{Dataset, Observation, Quantity, Surface, surfaces};
+use crate::numeric::median;
+use crate::study::{Role, Study};
+
+/// Places with two checkpoints and more that are needed for an estimate.
+const LEAST: usize = 100;
+/// Median of χ² with one degree of freedom.
+const MEDIAN: f64 = 0.454_936;
+/// Share of τ² in σ² + τ² from which the scatter is called shared: three standard errors of a hundred places.
+const SHARED: f64 = 0.35;
+/// Share of neighbouring differences of opposite sign from which they are scatter, not something smooth.
+const ROUGH: f64 = 0.62;
+
+/// Standard deviation of the scatter that all checkpoints share, µm; None where too little was measured to tell, or there is none.
+pub(in crate::learn) fn shared_scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
+    let rows: Vec<&Observation> = (0..likelihood.len())
+        .map(|i| likelihood.observation(i))
+        .collect();
+    shared(&rows, &likelihood.residual(model))
+}
+
+/// The same about a fit, in words, where the study expects less.
+pub fn scatter_of_new_profile(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
+    let fitted = |row: &usize| study.tests[data.observations[*row].test].role == Role::Fit;
+    let of_fit: Vec<usize> = (0..data.observations.len()).filter(fitted).collect();
+    let rows: Vec<&Observation> = of_fit.iter().map(|&row| &data.observations[row]).collect();
+    let residual = (of_fit.iter().zip(&rows)).map(|(&row, o)| fit.rows[row].standardised * o.sigma);
+    let found = shared(&rows, &residual.collect::<Vec<f64>>())?;
+    (study.noise.new_profile_um == 0.0).then(|| {
+        format!(
+            "{}; `[noise] new_profile = {}` counts it so for every command",
+            in_words(found),
+            digits(found)
+        )
+    })
+}
+
+/// A shared scatter in words.
+pub(in crate::learn) fn in_words(um: f64) -> String {
+    format!(
+        "neighbouring points scatter by {} µm in the same way at all checkpoints of a flank, as they do where one new profile was taken off all worn \
+         ones: that is no wear, and no column sigma tells it",
+        digits(um)
+    )
+}
+
+/// With two digits.
+fn digits(um: f64) -> String {
+    let decimals = (1.0 - um.log10().floor()).max(0.0) as usize;
+    format!("{um:.decimals$}")
+}
+
+/// Differences of one flank's three places at all checkpoints.
+type AtThree = BTreeMap<u64, f64>;
+/// Those of every flank (surface and tooth) by the places, nm.
+type Flanks = BTreeMap<(Surface, Option<String>), BTreeMap<[i64; 3], AtThree>>;
+
+/// The same of a residual.
+pub(super) fn shared(rows: &[&Observation], residual: &[f64]) -> Option<f64> {
+    let flanks = differences(rows, residual);
+    let (mut single, mut between) = (Vec::new(), Vec::new());
+    let (mut opposite, mut neighbours, mut places) = (0usize, 0usize, 0usize);
+    for flank in flanks.values() {
+        let mut before: Option<f64> = None;
+        for at_three in flank.values() {
+            let values: Vec<f64> = at_three.values().copied().collect();
+            if values.len() < 2 {
+                before = None;
+                continue;
+            }
+            places += 1;
+            single.extend(values.iter().map(|d| d * d));
+            between.extend(values.windows(2).map(|two| 0.5 * (two[0] - two[1]).powi(2)));
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            if let Some(before) = before {
+                neighbours += 1;
+                opposite += usize::from(before * mean < 0.0);
+            }
+            before = Some(mean);
+        }
+    }
+    if places < LEAST || (opposite as f64) < ROUGH * (neighbours as f64) {
+        return None;
+    }
+    let (total, own) = (median(single)? / MEDIAN, median(between)? / MEDIAN);
+    (total - own > SHARED * total).then(|| (total - own).sqrt())
+}
+
+/// Of all flanks; where a checkpoint has several curves at the same places, the last.
+fn differences(rows: &[&Observation], residual: &[f64]) -> Flanks {
+    let surfaces = surfaces(rows);
+    let mut flanks = Flanks::new();
+    for difference in second_differences(rows, residual) {
+        let first = rows[difference.rows[0]];
+        if first.quantity != Quantity::WearDepth {
+            continue;
+        }
+        let flank = (surfaces[difference.rows[0]], first.tooth.clone());
+        // the same places to a nanometre
+        let places = difference.rows.map(|row| nanometres(rows[row]));
+        let at_three = flanks.entry(flank).or_default().entry(places).or_default();
+        let length = difference.weights.iter().map(|w| w * w).sum::<f64>().sqrt();
+        at_three.insert(first.cycles.to_bits(), difference.value / length);
+    }
+    flanks
+}
+
+fn nanometres(o: &Observation) -> i64 {
+    (o.position.unwrap_or(0.0) * 1e6).round() as i64
+}
+
+/// A residual without what all checkpoints of a place share, scaled so that independent scatter keeps its size.
+pub(in crate::learn) fn without_shared(rows: &[&Observation], residual: &[f64]) -> Vec<f64> {
+    let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    for (i, (surface, o)) in surfaces(rows).into_iter().zip(rows).enumerate() {
+        if o.quantity == Quantity::WearDepth && o.position.is_some() {
+            let place = (surface, o.tooth.as_deref(), nanometres(o));
+            places.entry(place).or_default().push(i);
+        }
+    }
+    let mut left = residual.to_vec();
+    for at in places.values().filter(|at| at.len() > 1) {
+        let count = at.len() as f64;
+        let mean = at.iter().map(|&i| residual[i]).sum::<f64>() / count;
+        let scale = (count / (count - 1.0)).sqrt();
+        at.iter()
+            .for_each(|&i| left[i] = scale * (residual[i] - mean));
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
+
+    use super::*;
+    use crate::measure::Subject;
+
+    /// Four checkpoints of two flanks of 70 points each: scatter of 0.1 of their own, `shared` of the new profile, and a smooth misfit of this size.
+    fn flanks(shared: f64, misfit: f64) -> (Vec<Observation>, Vec<f64>) {
+        let mut random = ChaCha8Rng::seed_from_u64(11);
+        let mut uniform = || 1.0 - (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let mut normal = || (0..12).map(|_| uniform()).sum::<f64>() - 6.0;
+        let (mut rows, mut residual) = (Vec::new(), Vec::new());
+        for member in [Subject::Pinion, Subject::Gear] {
+            let new: Vec<f64> = (0..70).map(|_| shared * normal()).collect();
+            for (checkpoint, trace) in [1e5, 2e5, 4e5, 8e5].into_iter().enumerate() {
+                for (i, new) in new.iter().enumerate() {
+                    let s = i as f64 / 70.0;
+                    let smooth = misfit * (checkpoint as f64 + 1.0) * (9.0 * s).sin();
+                    residual.push(smooth + new + 0.1 * normal());
+                    rows.push(Observation {
+                        test: 0,
+                        member,
+                        cycles: trace,
+                        quantity: Quantity::WearDepth,
+                        position: Some(24.0 + s),
+                        value: 1.0,
+                        sigma: 0.1,
+                        trace: Some(2 * checkpoint + usize::from(member == Subject::Gear)),
+                        line: 0,
+                        face: None,
+                        tooth: None,
+                    });
+                }
+            }
+        }
+        (rows, residual)
+    }
+
+    fn found(shared: f64, misfit: f64) -> Option<f64> {
+        let (rows, residual) = flanks(shared, misfit);
+        shared(&rows.iter().collect::<Vec<_>>(), &residual)
+    }
+
+    #[test]
+    fn scatter_that_checkpoints_share_is_found_by_its_size() {
+        for shared in [0.1, 0.2] {
+            for misfit in [0.0, 1.0] {
+                let found = found(shared, misfit).unwrap();
+                assert!((found / shared - 1.0).abs() < 0.25, "{found} of {shared}");
+            }
+        }
+    }
+
+    /// Scatter of each profile alone, and a smooth misfit far larger than it, are no scatter of the new profile.
+    #[test]
+    fn what_is_smooth_or_each_profiles_own_is_not() {
+        for misfit in [0.0, 1.0, 10.0, 300.0] {
+            assert_eq!(found(0.0, misfit), None, "misfit {misfit}");
+        }
+    }
+
+    /// What is left without the shared part scatters as each profile does.
+    #[test]
+    fn without_the_shared_part_the_own_scatter_is_left() {
+        let (rows, residual) = flanks(0.3, 0.0);
+        let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual);
+        let square = left.iter().map(|r| r * r).sum::<f64>() / left.len() as f64;
+        assert!((square.sqrt() / 0.1 - 1.0).abs() < 0.1, "{}", square.sqrt());
+    }
+
+    #[test]
+    fn a_size_is_shown_with_two_digits() {
+        assert_eq!(digits(0.314_15), "0.31");
+        assert_eq!(digits(0.031_4), "0.031");
+        assert_eq!(digits(31.4), "31");
+    }
+}
