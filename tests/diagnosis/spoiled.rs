@@ -4,7 +4,7 @@
 use gearwear::learn::diagnose::{Diagnosis, Verdict};
 use gearwear::measure::{Dataset, Quantity};
 
-use crate::{diagnosed_of, says, synthetic};
+use crate::{Random, diagnosed_of, noisy, says, study, synthetic};
 
 /// Rows of wear depth by curve (test, member, cycles).
 fn curves(data: &Dataset) -> Vec<Vec<usize>> {
@@ -76,6 +76,30 @@ fn a_sigma_of_the_wrong_shape_is_no_cause() {
     let found = diagnosed_of(data);
     let words = ["stated sigma of the depths", "% of the largest depth"];
     assert!(warns(&found, &words), "{:?}", found.warnings);
+    assert_eq!(found.verdict, Verdict::NothingMissing, "{}", says(&found));
+}
+
+/// All depths of a flank were taken from one new profile, which scatters by 0.8 µm.
+#[test]
+fn the_scatter_of_a_new_profile_is_no_cause() {
+    let truth = study("");
+    let mut data = noisy(&truth, truth.dataset().unwrap(), 0.05, [0.03, 0.05], 28);
+    let mut random = Random(29);
+    let mut new = std::collections::BTreeMap::new();
+    for o in &mut data.observations {
+        if o.quantity == Quantity::WearDepth {
+            let place = (o.test, o.member, o.position.map(f64::to_bits));
+            o.value += *new.entry(place).or_insert_with(|| 0.8 * random.normal());
+        }
+    }
+    let found = diagnosed_of(data);
+    let words = ["one new profile", "`[noise] new_profile`"];
+    assert!(warns(&found, &words), "{:?}", found.warnings);
+    assert!(
+        !warns(&found, &["stated sigma of the depths"]),
+        "{:?}",
+        found.warnings
+    );
     assert_eq!(found.verdict, Verdict::NothingMissing, "{}", says(&found));
 }
 
