@@ -31,7 +31,7 @@ pub(in crate::learn) fn shared_scatter(likelihood: &Likelihood<'_>, model: &[f64
     let rows: Vec<&Observation> = (0..likelihood.len())
         .map(|i| likelihood.observation(i))
         .collect();
-    shared(&rows, &likelihood.residual(model))
+    shared_of(&rows, &likelihood.residual(model))
 }
 
 /// The same about a fit, in words, where the study expects less.
@@ -40,7 +40,7 @@ pub fn scatter_of_new_profile(study: &Study, data: &Dataset, fit: &Fit) -> Optio
     let of_fit: Vec<usize> = (0..data.observations.len()).filter(fitted).collect();
     let rows: Vec<&Observation> = of_fit.iter().map(|&row| &data.observations[row]).collect();
     let residual = (of_fit.iter().zip(&rows)).map(|(&row, o)| fit.rows[row].standardised * o.sigma);
-    let found = shared(&rows, &residual.collect::<Vec<f64>>())?;
+    let found = shared_of(&rows, &residual.collect::<Vec<f64>>())?;
     (study.noise.new_profile_um == 0.0).then(|| {
         format!(
             "{}; `[noise] new_profile = {}` counts it so for every command",
@@ -71,7 +71,7 @@ type AtThree = BTreeMap<u64, f64>;
 type Flanks = BTreeMap<(Surface, Option<String>), BTreeMap<[i64; 3], AtThree>>;
 
 /// The same of a residual.
-pub(super) fn shared(rows: &[&Observation], residual: &[f64]) -> Option<f64> {
+pub(super) fn shared_of(rows: &[&Observation], residual: &[f64]) -> Option<f64> {
     let flanks = differences(rows, residual);
     let (mut single, mut between) = (Vec::new(), Vec::new());
     let (mut opposite, mut neighbours, mut places) = (0usize, 0usize, 0usize);
@@ -186,7 +186,7 @@ mod tests {
 
     fn found(shared: f64, misfit: f64) -> Option<f64> {
         let (rows, residual) = flanks(shared, misfit);
-        shared(&rows.iter().collect::<Vec<_>>(), &residual)
+        shared_of(&rows.iter().collect::<Vec<_>>(), &residual)
     }
 
     #[test]

@@ -11,7 +11,7 @@
 //! taken where the differences speak for it by L. Laplace's law, since outliers shall not decide; neighbouring differences share two points
 //! of three, and the sizes of normal ones are correlated by 4/9, so that L/2 is what independent ones would have.
 
-use super::common_scatter::{shared, without_shared};
+use super::common_scatter::{shared_of, without_shared};
 use super::second_differences::{Difference, differences};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::fitting::fitted::Fit;
@@ -71,7 +71,7 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
     let own: Vec<&Observation> = fitted.iter().map(|&row| rows[row]).collect();
     let of_own: Vec<f64> = fitted.iter().map(|&row| residual[row]).collect();
     // what checkpoints share is told by itself too
-    let of_own = match shared(&own, &of_own) {
+    let of_own = match shared_of(&own, &of_own) {
         Some(_) => without_shared(&own, &of_own),
         None => of_own,
     };
