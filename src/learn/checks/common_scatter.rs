@@ -65,6 +65,9 @@ fn digits(um: f64) -> String {
     format!("{um:.decimals$}")
 }
 
+/// Share of a row's variance that is left without the mean of its place, at least: a row much more exact than the others is nearly that mean.
+const LEAST_SHARE: f64 = 0.05;
+
 /// Differences of one flank's three places at all checkpoints.
 type AtThree = BTreeMap<u64, f64>;
 /// Those of every flank (surface and tooth) by the places, nm.
@@ -124,7 +127,11 @@ fn nanometres(o: &Observation) -> i64 {
     (o.position.unwrap_or(0.0) * 1e6).round() as i64
 }
 
-/// A residual without what all checkpoints of a place share, scaled so that independent scatter keeps its size.
+/// A residual without what all checkpoints of a place share, scaled so that independent scatter of the stated σ keeps its size.
+///
+/// ```text
+/// r_i − Σ w r/Σ w      w = 1/σ²      variance σ_i² − 1/Σ w
+/// ```
 pub(in crate::learn) fn without_shared(rows: &[&Observation], residual: &[f64]) -> Vec<f64> {
     let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for (i, (surface, o)) in surfaces(rows).into_iter().zip(rows).enumerate() {
@@ -135,11 +142,13 @@ pub(in crate::learn) fn without_shared(rows: &[&Observation], residual: &[f64]) 
     }
     let mut left = residual.to_vec();
     for at in places.values().filter(|at| at.len() > 1) {
-        let count = at.len() as f64;
-        let mean = at.iter().map(|&i| residual[i]).sum::<f64>() / count;
-        let scale = (count / (count - 1.0)).sqrt();
-        at.iter()
-            .for_each(|&i| left[i] = scale * (residual[i] - mean));
+        let weight = |i: usize| rows[i].sigma.powi(-2);
+        let weights: f64 = at.iter().map(|&i| weight(i)).sum();
+        let mean = at.iter().map(|&i| weight(i) * residual[i]).sum::<f64>() / weights;
+        for &i in at {
+            let share = (1.0 - weight(i) / weights).max(LEAST_SHARE);
+            left[i] = (residual[i] - mean) / share.sqrt();
+        }
     }
     left
 }
@@ -214,6 +223,26 @@ mod tests {
         let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual);
         let square = left.iter().map(|r| r * r).sum::<f64>() / left.len() as f64;
         assert!((square.sqrt() / 0.1 - 1.0).abs() < 0.1, "{}", square.sqrt());
+    }
+
+    /// Scatter that grows over the checkpoints: each keeps its own size.
+    #[test]
+    fn without_the_shared_part_each_checkpoint_keeps_its_scatter() {
+        let (mut rows, mut residual) = flanks(0.0, 0.0);
+        let (_, with) = flanks(0.3, 0.0);
+        for ((o, r), with) in rows.iter_mut().zip(&mut residual).zip(with) {
+            let shared = with - *r;
+            let grown = (o.cycles / 1e5).sqrt();
+            o.sigma = 0.1 * grown;
+            *r = shared + grown * *r;
+        }
+        let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual);
+        for cycles in [1e5, 2e5, 4e5, 8e5] {
+            let own = || (rows.iter().zip(&left)).filter(|(o, _)| o.cycles == cycles);
+            let square = own().map(|(o, r)| (r / o.sigma).powi(2)).sum::<f64>();
+            let size = (square / own().count() as f64).sqrt();
+            assert!((size - 1.0).abs() < 0.15, "{size} after {cycles}");
+        }
     }
 
     #[test]
