@@ -65,11 +65,11 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     let written = report::write_comparison(&result, &target)?;
     let prospects = prospects(&study, &data);
     let mut warnings = data_warnings(&data);
-    // nobody stated those that are estimated
-    if !data.estimates_sigmas() {
+    let sanity = &compared.comparison.sanity;
+    // nobody stated those that are estimated, and about a fit to wrong values all scatters
+    if !data.estimates_sigmas() && sanity.is_empty() {
         warnings.extend(stated_sigma(&study, &data, &compared.fit));
     }
-    let sanity = &compared.comparison.sanity;
     let shared = scatter_of_new_profile(&study, &data, &compared.fit);
     // what is wrong as a whole shows most somewhere, and a scatter that no sigma tells in the depths
     let carried = match sanity.is_empty() && shared.is_none() {

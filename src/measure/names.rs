@@ -14,7 +14,7 @@ use counting::{AROUND_POWER, CYCLES, MULTIPLES, POWERS};
 pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
     AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, LOSSES, MASSES,
-    MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS,
+    MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS, SUMMARIES,
 };
 
 /// Which of two measurements of a part.
@@ -82,6 +82,11 @@ fn named(names: &[(&'static str, &[&str])], name: &str) -> Option<&'static str> 
 /// Whether a column is named as one for people.
 pub(super) fn is_for_people(name: &str) -> bool {
     FOR_PEOPLE.contains(&folded(name).as_str())
+}
+
+/// Whether the header of a column among others for checkpoints or places says that it holds no measurements: notes, or a mean or an extreme of the others.
+pub(super) fn is_aside(name: &str) -> bool {
+    is_for_people(name) || SUMMARIES.contains(&folded(name).as_str())
 }
 
 /// The member that a word means.

@@ -813,3 +813,24 @@ fn roll_lengths_are_known_in_other_languages() {
         assert!((radius - 26.5).abs() < 1e-3, "{name}: {written}{shown}");
     }
 }
+
+/// Notes and statistics that people put below a table and beside its checkpoints are no measurements; a misspelt place is refused.
+#[test]
+fn what_sums_a_table_up_or_stands_below_it_is_passed_over() {
+    let home = home();
+    let table = "Radius [mm];100000;250000;Mittelwert\n26;3,1;6,2;4,65\n26,5;2,4;4,9;3,65\n27;1,2;2,5;1,85\n";
+    let below = ";;;\nMittelwert;2,2;4,5;3,4\nMax;3,1;6,2;4,65\nBemerkung: Taster gewechselt nach 250000;;;\n";
+    let options = "--test A --member pinion --unit um --sigma 0.1";
+    let (shown, written) = rows(&home, &format!("{table}{below}"), options);
+    assert_eq!(written.lines().count(), 6, "{written}");
+    for part in [
+        "Mittelwert",
+        "row 6 stands below the table (`Mittelwert`): passed over",
+        "row 7 stands below the table (`Max`): passed over",
+        "row 8 stands below the table (`Bemerkung: Taster gewechselt nach 250000`): passed over",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    let message = refused(&home, &format!("{table}2l,2;1,0;2,0;1,5\n"), options);
+    assert!(message.contains("A5: `2l,2`"), "{message}");
+}

@@ -43,7 +43,7 @@ pub fn scatter_of_new_profile(study: &Study, data: &Dataset, fit: &Fit) -> Optio
     let found = shared_of(&rows, &residual.collect::<Vec<f64>>())?;
     (study.noise.new_profile_um == 0.0).then(|| {
         format!(
-            "{}; `[noise] new_profile = {}` counts it so for every command",
+            "{}; `[noise] new_profile = {}` counts it so for every command, beside the sigma of each worn profile",
             in_words(found),
             digits(found)
         )

@@ -1,7 +1,8 @@
 //! Whether the tests' own k follow a condition: what is taken for scatter between tests is then a law that the model lacks.
 //!
 //! ```text
-//! ln k_i = a + b ln c_i + e_i        least squares over all tests; told where |b| > t_{0.995}(n − 2) s_b
+//! ln k_i = a + b x_i + e_i        x = ln of torque or speed, or the bulk temperature/(10 K); least squares over all tests
+//!                                 told where |b| > t_{0.995}(n − 2) s_b
 //! ```
 //! Quantiles of Student's t distribution: ISO 2602 and any table of it.
 
@@ -18,12 +19,22 @@ const FACTOR: f64 = 1.25;
 /// Range of a condition, as a factor, over which a law can show.
 const RANGE: f64 = 1.2;
 
-/// A condition of tests, with its name.
-type Condition = (&'static str, fn(&Operation) -> f64);
-const CONDITIONS: [Condition; 2] = [
-    ("torque", |operation| operation.torque_nmm),
-    ("speed", |operation| operation.speed_rpm),
+/// So many times the square that the surest condition leaves of ln k, and another does not stand beside it: F of 3 and 3 degrees of freedom at 99 %.
+const WORSE: f64 = 29.5;
+/// Least square left of ln k that is counted: k of one test is not known within a per cent.
+const LEAST_LEFT: f64 = 1e-4;
+
+/// A condition of tests, with its name and x; None where a test does not state it.
+type Condition = (&'static str, fn(&Operation) -> Option<f64>);
+const TEMPERATURE: &str = "bulk temperature";
+const CONDITIONS: [Condition; 3] = [
+    ("torque", |o| Some(o.torque_nmm.ln())),
+    ("speed", |o| Some(o.speed_rpm.ln())),
+    (TEMPERATURE, |o| Some(0.1 * o.bulk_temperature_c?)),
 ];
+
+/// What k follows: the condition's name, b, its standard error, and the square left.
+type Trend = (&'static str, f64, f64, f64);
 
 /// The tests with rows, and ln of their own k.
 pub(in crate::learn) fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usize, f64)> {
@@ -44,23 +55,30 @@ pub(in crate::learn) fn trend_of_coefficients(
     let tests: Vec<(&Operation, f64)> = (own_coefficients(data, fit).into_iter())
         .map(|(test, k)| (&study.tests[test].conditions, k))
         .collect();
-    let mut found: Vec<(&str, f64, f64)> = CONDITIONS
+    let mut found: Vec<Trend> = CONDITIONS
         .iter()
         .filter_map(|(name, of)| {
-            let points: Vec<(f64, f64)> = tests.iter().map(|(o, k)| (of(o).ln(), *k)).collect();
-            let (slope, error) = line(&points)?;
-            Some((*name, slope, error))
+            let points = tests.iter().map(|(o, k)| Some((of(o)?, *k)));
+            let (slope, error, left) = line(&points.collect::<Option<Vec<_>>>()?)?;
+            Some((*name, slope, error, left))
         })
         .collect();
-    found.sort_by(|a, b| (b.1 / b.2).abs().total_cmp(&(a.1 / a.2).abs()));
+    found.sort_by(|a, b| a.3.total_cmp(&b.3));
+    if let Some(surest) = found.first().map(|first| first.3) {
+        found.retain(|trend| trend.3 <= WORSE * surest.max(LEAST_LEFT));
+    }
     in_words(&found)
 }
 
-/// The sentence on conditions with slope and standard error; None without any.
-fn in_words(found: &[(&str, f64, f64)]) -> Option<String> {
-    let each = found.iter().map(|(name, slope, error)| {
+/// The sentence on what k follows; None without any.
+fn in_words(found: &[Trend]) -> Option<String> {
+    let each = found.iter().map(|(name, slope, error, _)| {
         let turn = if *slope > 0.0 { "rises" } else { "falls" };
-        format!("{turn} with their {name} (as {name} to the power of {slope:.2} ± {error:.2})")
+        let how = match *name {
+            TEMPERATURE => format!("ln k by {slope:.2} ± {error:.2} in 10 K"),
+            _ => format!("as {name} to the power of {slope:.2} ± {error:.2}"),
+        };
+        format!("{turn} with their {name} ({how})")
     });
     let each: Vec<String> = each.collect();
     let which = match found {
@@ -74,8 +92,8 @@ fn in_words(found: &[(&str, f64, f64)]) -> Option<String> {
     ))
 }
 
-/// Slope and its standard error, where it is beyond chance and makes a difference.
-fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+/// Slope, its standard error and the square left, where the slope is beyond chance and makes a difference.
+fn line(points: &[(f64, f64)]) -> Option<(f64, f64, f64)> {
     let n = points.len() as f64;
     let student = STUDENT
         .get(points.len().checked_sub(4)?)
@@ -94,7 +112,8 @@ fn line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let slope = xy / xx;
     let left = sum(&|x, y| (y - slope * x).powi(2));
     let error = (left / (n - 2.0) / xx).sqrt();
-    (slope.abs() > student * error && slope.abs() * range > FACTOR.ln()).then_some((slope, error))
+    (slope.abs() > student * error && slope.abs() * range > FACTOR.ln())
+        .then_some((slope, error, left))
 }
 
 #[cfg(test)]
@@ -113,17 +132,23 @@ mod tests {
             (2.0, 1.01),
             (3.0, 1.49),
         ];
-        let (slope, error) = line(&five).unwrap();
+        let (slope, error, left) = line(&five).unwrap();
         assert!((slope - 0.499).abs() < 1e-12, "{slope}");
         assert!((error - 0.005_131_601).abs() < 1e-8, "{error}");
+        assert!((left - 7.9e-4).abs() < 1e-5, "{left}");
         // two conditions at once are both named
         assert_eq!(in_words(&[]), None);
-        let both = in_words(&[("speed", 0.5, 0.01), ("torque", -0.3, 0.02)]).unwrap();
+        let both = in_words(&[("speed", 0.5, 0.01, 0.1), ("torque", -0.3, 0.02, 0.2)]).unwrap();
         assert!(
             both.starts_with("k of the tests rises with their speed (as speed to the power of 0.50 ± 0.01) and falls with their torque"),
             "{both}"
         );
         assert!(both.contains("it may be either"), "{both}");
+        let warm = in_words(&[(TEMPERATURE, 0.25, 0.01, 0.1)]).unwrap();
+        assert!(
+            warm.contains("rises with their bulk temperature (ln k by 0.25 ± 0.01 in 10 K)"),
+            "{warm}"
+        );
         // too few, or one condition for all
         assert_eq!(line(&five[..3]), None);
         assert_eq!(

@@ -11,11 +11,12 @@ const LISTED: usize = 6;
 /// Relative difference from which two conditions are two.
 const DIFFERENT: f64 = 0.01;
 
-/// A condition: its name, its value, its unit.
-type Condition = (&'static str, fn(&Operation) -> f64, &'static str);
-const CONDITIONS: [Condition; 2] = [
-    ("torque", |o| 1e-3 * o.torque_nmm, "N·m"),
-    ("speed", |o| o.speed_rpm, "rpm"),
+/// A condition: its name, its value where a test has one, its unit.
+type Condition = (&'static str, fn(&Operation) -> Option<f64>, &'static str);
+const CONDITIONS: [Condition; 3] = [
+    ("torque", |o| Some(1e-3 * o.torque_nmm), "N·m"),
+    ("speed", |o| Some(o.speed_rpm), "rpm"),
+    ("bulk temperature", |o| o.bulk_temperature_c, "°C"),
 ];
 
 /// The conditions in whose order all of the tests' own k are, in words; None where they are in the order of none.
@@ -25,7 +26,7 @@ pub(super) fn in_order(tests: &[(&Operation, &OwnK<'_>)]) -> Option<String> {
         .filter_map(|condition| along(condition, tests))
         .collect();
     let which = if found.len() > 1 {
-        " (the tests change both: it may be either)"
+        " (the tests change these together: it may be either)"
     } else {
         ""
     };
@@ -34,8 +35,8 @@ pub(super) fn in_order(tests: &[(&Operation, &OwnK<'_>)]) -> Option<String> {
 
 fn along(condition: &Condition, tests: &[(&Operation, &OwnK<'_>)]) -> Option<String> {
     let (name, of, unit) = condition;
-    let mut points: Vec<(f64, &OwnK<'_>)> =
-        (tests.iter()).map(|(test, own)| (of(test), *own)).collect();
+    let points = tests.iter().map(|(test, own)| Some((of(test)?, *own)));
+    let mut points: Vec<(f64, &OwnK<'_>)> = points.collect::<Option<_>>()?;
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let differ = |a: f64, b: f64| (b - a).abs() > DIFFERENT * b.abs();
     let values = 1 + points.windows(2).filter(|w| differ(w[0].0, w[1].0)).count();
@@ -46,8 +47,12 @@ fn along(condition: &Condition, tests: &[(&Operation, &OwnK<'_>)]) -> Option<Str
     let sign = (last.1.log - first.1.log).signum();
     let pairs = (points.iter().enumerate())
         .flat_map(|(i, one)| points[i + 1..].iter().map(move |other| (one, other)));
-    let mut unequal = pairs.filter(|(one, other)| differ(one.0, other.0));
-    if !unequal.all(|(one, other)| sign * (other.1.log - one.1.log) > 0.0) {
+    // tests at one value whose k are unlike go by something else
+    let mut pairs = pairs.map(|(one, other)| match differ(one.0, other.0) {
+        true => sign * (other.1.log - one.1.log) > 0.0,
+        false => !one.1.is_unlike(other.1),
+    });
+    if !pairs.all(|agrees| agrees) {
         return None;
     }
     let turn = if sign > 0.0 { "rises" } else { "falls" };
@@ -88,24 +93,33 @@ mod tests {
 
     /// Torque in N·m, speed, k in 1e-10 mm²/N, its relative error.
     fn told(of: &[(f64, f64, f64, f64)]) -> Option<String> {
-        let operation = |torque: f64, speed: f64| Operation {
+        let of = of.iter();
+        let of: Vec<_> = of
+            .map(|&(torque, speed, k, sigma)| (torque, speed, k, sigma, None))
+            .collect();
+        told_warm(&of)
+    }
+
+    /// The same with bulk temperatures in °C.
+    fn told_warm(of: &[(f64, f64, f64, f64, Option<f64>)]) -> Option<String> {
+        let operation = |torque: f64, speed: f64, warm: Option<f64>| Operation {
             torque_nmm: 1e3 * torque,
             speed_rpm: speed,
             misalignment_mm: 0.0,
             cycles: 1e6,
-            bulk_temperature_c: None,
+            bulk_temperature_c: warm,
             flank_temperature_c: None,
             viscosity_pa_s: None,
             reversed: false,
         };
         let all: Vec<(Operation, OwnK<'_>)> = (of.iter())
-            .map(|&(torque, speed, k, sigma)| {
+            .map(|&(torque, speed, k, sigma, warm)| {
                 let own = OwnK {
                     test: "A",
                     log: (1e-10 * k).ln(),
                     sigma,
                 };
-                (operation(torque, speed), own)
+                (operation(torque, speed, warm), own)
             })
             .collect();
         let all: Vec<(&Operation, &OwnK<'_>)> = all.iter().map(|(o, own)| (o, own)).collect();
@@ -132,6 +146,28 @@ mod tests {
         assert!(both.contains("9.20·10⁻¹¹, 1.28·10⁻¹⁰"), "{both}");
         assert!(both.contains(" and falls with the speed (500, "), "{both}");
         assert!(both.ends_with("it may be either)"), "{both}");
+    }
+
+    /// Two tests at one speed tell that it is not the speed; the temperatures are in the order of all k.
+    #[test]
+    fn unlike_k_at_one_value_are_no_order_of_it() {
+        let of = [
+            (400.0, 1.74, 35.0),
+            (1000.0, 1.75, 35.5),
+            (1000.0, 3.31, 60.0),
+            (1800.0, 3.74, 65.0),
+        ];
+        let said = told_warm(&of.map(|(speed, k, warm)| (20.0, speed, k, 0.02, Some(warm))));
+        let said = said.unwrap();
+        assert!(
+            said.starts_with("k rises with the bulk temperature (35, 35.5, 60, 65 °C: 1.74"),
+            "{said}"
+        );
+        assert!(!said.contains("speed"), "{said}");
+        assert_eq!(
+            told_warm(&of.map(|(speed, k, _)| (20.0, speed, k, 0.02, None))),
+            None
+        );
     }
 
     #[test]

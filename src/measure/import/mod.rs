@@ -17,6 +17,7 @@ mod deviations;
 mod entry;
 mod exchanged;
 mod flank;
+mod footers;
 mod header_points;
 mod long;
 mod multiples;

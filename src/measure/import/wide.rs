@@ -16,8 +16,8 @@ use super::place::{PositionKind, on_flank};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
-    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, header_points,
-    nameless, no_values, units,
+    ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, footers,
+    header_points, nameless, no_values, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -95,6 +95,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         multiple
     });
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
+    let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     name_first_column(&mut sheet, head);
     let sheet = &sheet;
@@ -138,6 +139,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         multiple: multiple.as_ref(),
     };
     let (mut entries, empty) = reading.entries(&grid)?;
+    left_out.extend(below);
     left_out.extend(no_values::leave_out(&mut entries, sheet).0);
     if stated_member.is_none() {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
@@ -347,11 +349,11 @@ where
     }
 }
 
-/// Empties the columns whose header says that they are for people, and names them.
+/// Empties the columns whose header says that they are for people or sum others up, and names them.
 pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Vec<String> {
     let mut left_out = Vec::new();
     for column in 1..sheet.rows[head].len() {
-        if names::is_for_people(&sheet.rows[head][column]) {
+        if names::is_aside(&sheet.rows[head][column]) {
             left_out.push(sheet.rows[head][column].clone());
             let cells = sheet.rows[head..].iter_mut();
             for cell in cells.filter_map(|row| row.get_mut(column)) {
@@ -366,7 +368,7 @@ pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Ve
 pub(super) fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
         let cells = row.iter().skip(1);
-        let cells = cells.filter(|text| !text.is_empty() && !names::is_for_people(text));
+        let cells = cells.filter(|text| !text.is_empty() && !names::is_aside(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
             // that of `Lastwechsel [1E6]` is no checkpoint
             let is_number = !is_date(text)

@@ -176,6 +176,32 @@ pub(super) const FOR_PEOPLE: [&str; 19] = [
     "observaciones",
 ];
 
+/// Names of columns that sum others up.
+pub(super) const SUMMARIES: [&str; 22] = [
+    "mean",
+    "average",
+    "median",
+    "std",
+    "stdev",
+    "max",
+    "maximum",
+    "min",
+    "minimum",
+    "range",
+    "mittel",
+    "mittelwert",
+    "durchschnitt",
+    "standardabweichung",
+    "stabw",
+    "spannweite",
+    "media",
+    "massimo",
+    "minimo",
+    "moyenne",
+    "ecarttype",
+    "promedio",
+];
+
 /// Names that only hint at a column: too vague to be read as it.
 pub(super) const HINTS: [(&str, &[&str]); 5] = [
     ("sigma", &["error", "s"]),

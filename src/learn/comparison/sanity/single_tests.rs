@@ -13,6 +13,8 @@ use crate::study::Study;
 
 /// Standard deviations of s below 0 from which a single test's sign is doubted.
 const SURE: f64 = 6.0;
+/// Share of a transmission error that the computed one turned round must explain, where wear that was fitted to it has spoiled the rest.
+const EXPLAINS_A_TURN: f64 = 0.2;
 /// Mean square of what a trace from before the first cycle shows beyond its datum, in noise, from which it is no noise.
 const WORN: f64 = 4.0;
 /// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
@@ -46,6 +48,24 @@ fn by_test<'r, 'd>(
     (0..study.tests.len())
         .map(of)
         .filter(|(_, own)| !own.is_empty())
+}
+
+/// Tests of which the transmission error runs against the computed one, as a question; None where there is none.
+pub(super) fn turned_rotation(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
+    let is_turned = |own: &[FittedRow<'_>]| {
+        scale(own, Quantity::TransmissionError, None)
+            .is_some_and(|s| s.sigmas < -SURE && s.explains > EXPLAINS_A_TURN)
+    };
+    let turned = by_test(study, rows).filter(|(_, own)| is_turned(own));
+    let turned: Vec<&str> = turned.map(|(id, _)| id).collect();
+    (!turned.is_empty()).then(|| {
+        format!(
+            "transmission_error of test{} {} runs against the computed one, and k of the tests do not agree: has it the other sign, or do its positions run \
+             the other way? A gear that lags counts negative, and rotations from the pitch point in the sense of the pinion's turning. Turn it and check again",
+            if turned.len() > 1 { "s" } else { "" },
+            turned.join(", ")
+        )
+    })
 }
 
 /// Quantities of some tests that run against the computed ones; None where that is so of none or of all.
@@ -308,4 +328,49 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
             named(&short)
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of a transmission error that is `factor` times the computed one and has something else besides, in test B alone or in both.
+    fn said(factor: f64, both: bool) -> Option<String> {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
+        let mut models = Vec::new();
+        for test in ["A", "B"] {
+            for at in 0..12 {
+                let place = f64::from(at) / 12.0;
+                let turn = 2.0 * std::f64::consts::PI * place;
+                let own = if both || test == "B" { factor } else { 1.0 };
+                let value = own * 10.0 * turn.sin() + 12.0 * (2.0 * turn).cos() - 5.0;
+                text +=
+                    &format!("{test},pair,100000,transmission_error,{place},{value},0.5,{test}\n");
+                models.push(10.0 * turn.sin());
+            }
+        }
+        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        let fits = super::super::fits_of(&models);
+        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+        turned_rotation(&study, &rows)
+    }
+
+    /// A third of it is the computed one turned round, which is too little where nothing else is wrong.
+    #[test]
+    fn a_transmission_error_that_runs_the_other_way_is_named_with_its_tests() {
+        assert_eq!(said(1.0, true), None);
+        let one = said(-0.9, false).unwrap();
+        assert!(
+            one.starts_with("transmission_error of test B runs against"),
+            "{one}"
+        );
+        let both = said(-0.9, true).unwrap();
+        assert!(
+            both.starts_with("transmission_error of tests A, B runs against"),
+            "{both}"
+        );
+        assert_eq!(said(-0.3, true), None);
+    }
 }
