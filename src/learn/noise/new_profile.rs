@@ -37,10 +37,9 @@ impl NewProfile {
         }
         let spacing = (picked.iter().zip(&surfaces)).map(|(o, surface)| {
             let takes_part = o.quantity == Quantity::WearDepth && o.position.is_some();
-            least
-                .get(surface)
-                .filter(|_| takes_part)
-                .map_or(0.0, |d| *d)
+            let least = least.get(surface).filter(|_| takes_part);
+            // of curves of single points only the same place is the same
+            least.map_or(0.0, |d| if d.is_finite() { *d } else { f64::MIN_POSITIVE })
         });
         Some(Self {
             variance: model.new_profile_um.powi(2),
