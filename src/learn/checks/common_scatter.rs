@@ -97,7 +97,7 @@ pub(super) fn shared_of(rows: &[&Observation], residual: &[f64]) -> Option<f64> 
             before = Some(mean);
         }
     }
-    if places < LEAST || (opposite as f64) < ROUGH * (neighbours as f64) {
+    if places < LEAST || neighbours == 0 || (opposite as f64) < ROUGH * (neighbours as f64) {
         return None;
     }
     let (total, own) = (median(single)? / MEDIAN, median(between)? / MEDIAN);

@@ -114,15 +114,15 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
         if said.is_empty() {
             said.extend(single_tests::of_the_other_member(study, data, fit));
-            if said.is_empty() {
-                said.extend(single_tests::coefficients(study, data, fit));
-            }
             // a test's own k follows what its transmission error asks for
             if !said.is_empty()
                 && let Some(turned) = single_tests::turned_rotation(study, &rows)
             {
                 said = vec![turned];
             }
+        }
+        if said.is_empty() {
+            said.extend(single_tests::coefficients(study, data, fit));
         }
         said.extend(constants::constants(&fitted(data, fit)));
         said.extend(single_tests::worn_before_the_first_cycle(

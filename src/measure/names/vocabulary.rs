@@ -177,12 +177,13 @@ pub(super) const FOR_PEOPLE: [&str; 19] = [
 ];
 
 /// Names of columns that sum others up.
-pub(super) const SUMMARIES: [&str; 22] = [
+pub(super) const SUMMARIES: [&str; 23] = [
     "mean",
     "average",
     "median",
     "std",
     "stdev",
+    "stddev",
     "max",
     "maximum",
     "min",
