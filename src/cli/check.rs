@@ -71,8 +71,8 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
         warnings.extend(stated_sigma(&study, &data, &compared.fit));
     }
     let shared = scatter_of_new_profile(&study, &data, &compared.fit);
-    // what is wrong as a whole shows most somewhere, and a scatter that no sigma tells in the depths
-    let carried = match sanity.is_empty() && shared.is_none() {
+    // what is wrong as a whole shows most somewhere
+    let carried = match sanity.is_empty() {
         true => misfit_of_one_quantity(&study, &data, &compared.fit),
         false => None,
     };

@@ -833,4 +833,8 @@ fn what_sums_a_table_up_or_stands_below_it_is_passed_over() {
     }
     let message = refused(&home, &format!("{table}2l,2;1,0;2,0;1,5\n"), options);
     assert!(message.contains("A5: `2l,2`"), "{message}");
+    // a checkpoint in words is no footer
+    let down = "Lastwechsel;26;26,5;27\n100000;3,1;2,4;1,2\nEnde (250000);6,2;4,9;2,5\n";
+    let message = refused(&home, down, options);
+    assert!(message.contains("Ende (250000)"), "{message}");
 }

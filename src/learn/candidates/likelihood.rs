@@ -290,7 +290,8 @@ impl<'a> Likelihood<'a> {
         off.iter().map(|z| z * z).sum::<f64>() / self.len() as f64
     }
 
-    /// (measured − model − m)/sigma, m: each trace's most probable datum, tilt and shift.
+    /// (measured − model − m)/sigma, m: each trace's most probable datum, tilt and shift; with the scatter of a new profile, the deviation from what
+    /// all other rows predict in its standard deviation.
     pub(in crate::learn) fn standardised(&self, model: &[f64]) -> Vec<f64> {
         let residual = self.residual(model);
         let (errors, _) = self.covariance.trace_errors(&residual);

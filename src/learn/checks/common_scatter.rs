@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use super::second_differences::differences as second_differences;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::fitting::fitted::Fit;
-use crate::measure::{Dataset, Observation, Quantity, Surface, surfaces};
+use crate::measure::{Dataset, FacePlace, Observation, Quantity, Surface, surfaces};
 use crate::numeric::median;
 use crate::study::{Role, Study};
 
@@ -70,8 +70,10 @@ const LEAST_SHARE: f64 = 0.05;
 
 /// Differences of one flank's three places at all checkpoints.
 type AtThree = BTreeMap<u64, f64>;
-/// Those of every flank (surface and tooth) by the places, nm.
-type Flanks = BTreeMap<(Surface, Option<String>), BTreeMap<[i64; 3], AtThree>>;
+/// A surface, line across the face and tooth, which have a new profile of their own.
+type Flank = (Surface, Option<u64>, Option<String>);
+/// The differences of every flank by the places, nm.
+type Flanks = BTreeMap<Flank, BTreeMap<[i64; 3], AtThree>>;
 
 /// The same of a residual.
 pub(super) fn shared_of(rows: &[&Observation], residual: &[f64]) -> Option<f64> {
@@ -113,7 +115,7 @@ fn differences(rows: &[&Observation], residual: &[f64]) -> Flanks {
         if first.quantity != Quantity::WearDepth {
             continue;
         }
-        let flank = (surfaces[difference.rows[0]], first.tooth.clone());
+        let flank = flank(surfaces[difference.rows[0]], first);
         // the same places to a nanometre
         let places = difference.rows.map(|row| nanometres(rows[row]));
         let at_three = flanks.entry(flank).or_default().entry(places).or_default();
@@ -123,25 +125,39 @@ fn differences(rows: &[&Observation], residual: &[f64]) -> Flanks {
     flanks
 }
 
+fn flank(surface: Surface, o: &Observation) -> Flank {
+    (surface, o.face.map(FacePlace::key), o.tooth.clone())
+}
+
 fn nanometres(o: &Observation) -> i64 {
     (o.position.unwrap_or(0.0) * 1e6).round() as i64
 }
 
-/// A residual without what all checkpoints of a place share, scaled so that independent scatter of the stated σ keeps its size.
+/// A residual without what all checkpoints of a place share, a scatter of so many µm, scaled so that independent scatter of the stated σ keeps its size.
 ///
 /// ```text
 /// r_i − Σ w r/Σ w      w = 1/σ²      variance σ_i² − 1/Σ w
+/// r_i                  of a row alone at its place, variance σ_i² + τ²
 /// ```
-pub(in crate::learn) fn without_shared(rows: &[&Observation], residual: &[f64]) -> Vec<f64> {
+pub(in crate::learn) fn without_shared(
+    rows: &[&Observation],
+    residual: &[f64],
+    shared_um: f64,
+) -> Vec<f64> {
     let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     for (i, (surface, o)) in surfaces(rows).into_iter().zip(rows).enumerate() {
         if o.quantity == Quantity::WearDepth && o.position.is_some() {
-            let place = (surface, o.tooth.as_deref(), nanometres(o));
+            let place = (flank(surface, o), nanometres(o));
             places.entry(place).or_default().push(i);
         }
     }
     let mut left = residual.to_vec();
-    for at in places.values().filter(|at| at.len() > 1) {
+    for at in places.values() {
+        if let [alone] = at[..] {
+            let sigma = rows[alone].sigma;
+            left[alone] *= sigma / sigma.hypot(shared_um);
+            continue;
+        }
         let weight = |i: usize| rows[i].sigma.powi(-2);
         let weights: f64 = at.iter().map(|&i| weight(i)).sum();
         let mean = at.iter().map(|&i| weight(i) * residual[i]).sum::<f64>() / weights;
@@ -220,7 +236,7 @@ mod tests {
     #[test]
     fn without_the_shared_part_the_own_scatter_is_left() {
         let (rows, residual) = flanks(0.3, 0.0);
-        let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual);
+        let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual, 0.3);
         let square = left.iter().map(|r| r * r).sum::<f64>() / left.len() as f64;
         assert!((square.sqrt() / 0.1 - 1.0).abs() < 0.1, "{}", square.sqrt());
     }
@@ -236,13 +252,29 @@ mod tests {
             o.sigma = 0.1 * grown;
             *r = shared + grown * *r;
         }
-        let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual);
+        let left = without_shared(&rows.iter().collect::<Vec<_>>(), &residual, 0.3);
         for cycles in [1e5, 2e5, 4e5, 8e5] {
             let own = || (rows.iter().zip(&left)).filter(|(o, _)| o.cycles == cycles);
             let square = own().map(|(o, r)| (r / o.sigma).powi(2)).sum::<f64>();
             let size = (square / own().count() as f64).sqrt();
             assert!((size - 1.0).abs() < 0.15, "{size} after {cycles}");
         }
+    }
+
+    /// One checkpoint alone: nothing to take off, but less is the profile's own.
+    #[test]
+    fn a_row_alone_at_its_place_keeps_its_own_part() {
+        let (rows, residual) = flanks(0.3, 0.0);
+        let first: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].cycles == 1e5).collect();
+        let own: Vec<&Observation> = first.iter().map(|&i| &rows[i]).collect();
+        let of_own: Vec<f64> = first.iter().map(|&i| residual[i]).collect();
+        let left = without_shared(&own, &of_own, 0.3);
+        let square = left.iter().map(|r| r * r).sum::<f64>() / left.len() as f64;
+        assert!(
+            (square.sqrt() / 0.1 - 1.0).abs() < 0.15,
+            "{}",
+            square.sqrt()
+        );
     }
 
     #[test]

@@ -38,13 +38,30 @@ const ANOTHER_SHAPE: f64 = 10.0;
 const PARTS: u8 = 10;
 
 /// The σ that the scatter along traces calls for: as stated, unless that is clearly too small or of the wrong shape. Where a new profile is counted
-/// to scatter, of what is each profile's own.
+/// to scatter, of what is each profile's own: estimated ones hold that of the new profile too, and are lowered to it.
 pub(in crate::learn) fn sigma_model(likelihood: &Likelihood<'_>, model: &[f64]) -> SigmaModel {
-    let (rows, mut residual) = (rows(likelihood), likelihood.residual(model));
-    if likelihood.noise.new_profile_um > 0.0 {
-        residual = without_shared(&rows, &residual);
+    let (rows, residual) = (rows(likelihood), own_residual(likelihood, model));
+    let found = of_residual(&rows, &residual);
+    let estimated = likelihood.measured.data.estimates_sigmas();
+    if likelihood.noise.new_profile_um > 0.0 && estimated && found == SigmaModel::AS_STATED {
+        let scatter = scale(
+            &differences(&rows, &residual),
+            &SigmaModel::AS_STATED.of(&rows),
+        );
+        return scatter.map_or(found, |factor| SigmaModel::Stated {
+            factor: factor.min(1.0),
+        });
     }
-    of_residual(&rows, &residual)
+    found
+}
+
+/// Measured minus model, without what the scatter of a new profile makes of it where that is counted.
+fn own_residual(likelihood: &Likelihood<'_>, model: &[f64]) -> Vec<f64> {
+    let residual = likelihood.residual(model);
+    match likelihood.noise.new_profile_um {
+        um if um > 0.0 => without_shared(&rows(likelihood), &residual, um),
+        _ => residual,
+    }
 }
 
 fn of_residual(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
@@ -72,7 +89,7 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
     let of_own: Vec<f64> = fitted.iter().map(|&row| residual[row]).collect();
     // what checkpoints share is told by itself too
     let of_own = match shared_of(&own, &of_own) {
-        Some(_) => without_shared(&own, &of_own),
+        Some(um) => without_shared(&own, &of_own, um),
         None => of_own,
     };
     let scatter = scale(&differences(&own, &of_own), &SigmaModel::AS_STATED.of(&own));
@@ -133,7 +150,7 @@ pub(in crate::learn) fn too_smooth(likelihood: &Likelihood<'_>, model: &[f64]) -
 
 /// Scatter along traces over stated σ; None if there is too little to tell.
 pub(in crate::learn) fn scatter(likelihood: &Likelihood<'_>, model: &[f64]) -> Option<f64> {
-    let (rows, residual) = (rows(likelihood), likelihood.residual(model));
+    let (rows, residual) = (rows(likelihood), own_residual(likelihood, model));
     let stated = SigmaModel::AS_STATED.of(&rows);
     scale(&differences(&rows, &residual), &stated)
 }

@@ -16,21 +16,26 @@ const STUDENT: [f64; 9] = [
 ];
 /// Factor of k over the range of the condition from which it is worth telling.
 const FACTOR: f64 = 1.25;
-/// Range of a condition, as a factor, over which a law can show.
-const RANGE: f64 = 1.2;
+/// Range of x over which a law can show: a factor of 1.2 of torque or speed, 5 K.
+const RANGE: f64 = 0.182;
+const RANGE_OF_TEMPERATURE: f64 = 0.5;
 
 /// So many times the square that the surest condition leaves of ln k, and another does not stand beside it: F of 3 and 3 degrees of freedom at 99 %.
 const WORSE: f64 = 29.5;
-/// Least square left of ln k that is counted: k of one test is not known within a per cent.
+/// Least square left of ln k that is counted: no test's k is known to better than a per cent.
 const LEAST_LEFT: f64 = 1e-4;
 
-/// A condition of tests, with its name and x; None where a test does not state it.
-type Condition = (&'static str, fn(&Operation) -> Option<f64>);
+/// A condition of tests, with its name, x and the least range of that; None where a test does not state it.
+type Condition = (&'static str, fn(&Operation) -> Option<f64>, f64);
 const TEMPERATURE: &str = "bulk temperature";
 const CONDITIONS: [Condition; 3] = [
-    ("torque", |o| Some(o.torque_nmm.ln())),
-    ("speed", |o| Some(o.speed_rpm.ln())),
-    (TEMPERATURE, |o| Some(0.1 * o.bulk_temperature_c?)),
+    ("torque", |o| Some(o.torque_nmm.ln()), RANGE),
+    ("speed", |o| Some(o.speed_rpm.ln()), RANGE),
+    (
+        TEMPERATURE,
+        |o| Some(0.1 * o.bulk_temperature_c?),
+        RANGE_OF_TEMPERATURE,
+    ),
 ];
 
 /// What k follows: the condition's name, b, its standard error, and the square left.
@@ -57,9 +62,9 @@ pub(in crate::learn) fn trend_of_coefficients(
         .collect();
     let mut found: Vec<Trend> = CONDITIONS
         .iter()
-        .filter_map(|(name, of)| {
+        .filter_map(|(name, of, least)| {
             let points = tests.iter().map(|(o, k)| Some((of(o)?, *k)));
-            let (slope, error, left) = line(&points.collect::<Option<Vec<_>>>()?)?;
+            let (slope, error, left) = line(&points.collect::<Option<Vec<_>>>()?, *least)?;
             Some((*name, slope, error, left))
         })
         .collect();
@@ -84,7 +89,8 @@ fn in_words(found: &[Trend]) -> Option<String> {
     let which = match found {
         [] => return None,
         [_] => "",
-        _ => "; these tests change them together, so it may be either",
+        [_, _] => "; these tests change them together, so it may be either",
+        _ => "; these tests change them together, so it may be any of them",
     };
     Some(format!(
         "k of the tests {}{which}: what is taken for scatter between tests may be a law that the model lacks",
@@ -93,7 +99,7 @@ fn in_words(found: &[Trend]) -> Option<String> {
 }
 
 /// Slope, its standard error and the square left, where the slope is beyond chance and makes a difference.
-fn line(points: &[(f64, f64)]) -> Option<(f64, f64, f64)> {
+fn line(points: &[(f64, f64)], least_range: f64) -> Option<(f64, f64, f64)> {
     let n = points.len() as f64;
     let student = STUDENT
         .get(points.len().checked_sub(4)?)
@@ -106,7 +112,7 @@ fn line(points: &[(f64, f64)]) -> Option<(f64, f64, f64)> {
     let lowest = points.iter().map(|p| p.0).fold(f64::INFINITY, f64::min);
     let highest = points.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
     let range = highest - lowest;
-    if range < RANGE.ln() {
+    if range < least_range {
         return None;
     }
     let slope = xy / xx;
@@ -124,7 +130,7 @@ mod tests {
     #[test]
     fn a_slope_is_told_with_its_error_where_it_is_beyond_chance() {
         let scattered = [(-1.0, 0.1), (0.0, 0.0), (1.0, 1.1), (2.0, 2.0)];
-        assert_eq!(line(&scattered), None);
+        assert_eq!(line(&scattered, RANGE), None);
         let five = [
             (-1.0, -0.51),
             (0.0, 0.02),
@@ -132,7 +138,7 @@ mod tests {
             (2.0, 1.01),
             (3.0, 1.49),
         ];
-        let (slope, error, left) = line(&five).unwrap();
+        let (slope, error, left) = line(&five, RANGE).unwrap();
         assert!((slope - 0.499).abs() < 1e-12, "{slope}");
         assert!((error - 0.005_131_601).abs() < 1e-8, "{error}");
         assert!((left - 7.9e-4).abs() < 1e-5, "{left}");
@@ -150,9 +156,9 @@ mod tests {
             "{warm}"
         );
         // too few, or one condition for all
-        assert_eq!(line(&five[..3]), None);
+        assert_eq!(line(&five[..3], RANGE), None);
         assert_eq!(
-            line(&[(1.0, 0.0), (1.0, 1.0), (1.0, 2.0), (1.0, 3.0)]),
+            line(&[(1.0, 0.0), (1.0, 1.0), (1.0, 2.0), (1.0, 3.0)], RANGE),
             None
         );
     }

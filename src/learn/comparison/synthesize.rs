@@ -18,7 +18,7 @@ use crate::learn::fitting::measured::Measured;
 use crate::learn::prediction::gear_model::GearModel;
 use crate::learn::prediction::predictor::Predictor;
 use crate::learn::prediction::standard_test::{self, floor};
-use crate::measure::{Dataset, Observation, Quantity};
+use crate::measure::{Dataset, FacePlace, Observation, Quantity};
 use crate::study::{Scatter, Study, Test};
 
 /// Measurements made up, with what is true of them.
@@ -141,7 +141,13 @@ impl Synthetic {
             if um == 0.0 || o.quantity != Quantity::WearDepth {
                 return 0.0;
             }
-            let place = (o.member, o.position.map(f64::to_bits));
+            let face = o.face.map(FacePlace::key);
+            let place = (
+                o.member,
+                face,
+                o.tooth.clone(),
+                o.position.map(f64::to_bits),
+            );
             *drawn.entry(place).or_insert_with(|| um * draw.normal())
         };
         rows.iter().map(&mut at).collect()

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! h_i = w(r_i) − v_i(r_i)         w: the new profile as it was measured, v_i: a worn one; w scatters by τ, once and for all checkpoints
-//! N_ij = τ² max(0, 1 − |r_i − r_j|/d)         i, j: depths of one flank, d: the least distance between points of its curves
+//! N_ij = τ² max(0, 1 − |r_i − r_j|/d)         i, j: depths of one flank, d: the usual distance between points of its finest curve
 //! ```
 //! At radii that all checkpoints share this is τ² for rows of one radius and 0 for others. Radii that differ a little from checkpoint to
 //! checkpoint, among which a new profile was interpolated, share that much less.
@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 
 use super::NoiseModel;
 use crate::measure::neighbours::curves;
-use crate::measure::{Observation, Quantity, Surface, surfaces};
+use crate::measure::{FacePlace, Observation, Quantity, Surface, surfaces};
+use crate::numeric::median;
 
 /// What the scatter of new profiles ties together among some rows.
 pub(super) struct NewProfile {
@@ -33,7 +34,9 @@ impl NewProfile {
         for curve in curves(picked) {
             let own = least.entry(surfaces[curve[0]]).or_insert(f64::INFINITY);
             let apart = curve.windows(2).map(|two| place(two[1]) - place(two[0]));
-            *own = apart.filter(|apart| *apart > 0.0).fold(*own, f64::min);
+            let apart: Vec<f64> = apart.filter(|apart| *apart > 0.0).collect();
+            // the middle one, which a repeat a hair's breadth away does not change
+            *own = median(apart).unwrap_or(f64::INFINITY).min(*own);
         }
         let spacing = (picked.iter().zip(&surfaces)).map(|(o, surface)| {
             let takes_part = o.quantity == Quantity::WearDepth && o.position.is_some();
@@ -54,9 +57,14 @@ impl NewProfile {
             return 0.0;
         };
         let apart = (at - other).abs();
-        if self.spacing[i] == 0.0 || apart >= self.spacing[i] || a.tooth != b.tooth {
+        if self.spacing[i] == 0.0 || apart >= self.spacing[i] || flank(a) != flank(b) {
             return 0.0;
         }
         self.variance * (1.0 - apart / self.spacing[i])
     }
+}
+
+/// What tells the flanks of a surface apart: each line across the face and each tooth has a new profile of its own.
+fn flank(o: &Observation) -> (Option<u64>, Option<&str>) {
+    (o.face.map(FacePlace::key), o.tooth.as_deref())
 }

@@ -152,7 +152,10 @@ fn joined(mut all: Wide, next: Wide) -> Result<Wide> {
     all.checkpoints.sort_by(f64::total_cmp);
     all.checkpoints.dedup();
     all.joined.extend(next.joined);
-    all.left_out.extend(next.left_out);
+    // what stands below the table is told of once
+    let new = (next.left_out.into_iter()).filter(|line| !all.left_out.contains(line));
+    let new: Vec<String> = new.collect();
+    all.left_out.extend(new);
     all.empty += next.empty;
     all.entries.extend(next.entries);
     Ok(all)
