@@ -38,21 +38,9 @@ const ANOTHER_SHAPE: f64 = 10.0;
 const PARTS: u8 = 10;
 
 /// The σ that the scatter along traces calls for: as stated, unless that is clearly too small or of the wrong shape. Where a new profile is counted
-/// to scatter, of what is each profile's own: estimated ones hold that of the new profile too, and are lowered to it.
+/// to scatter, of what is each profile's own. Estimated ones hold a part of the new profile's scatter too, each curve another, so that no factor takes it out.
 pub(in crate::learn) fn sigma_model(likelihood: &Likelihood<'_>, model: &[f64]) -> SigmaModel {
-    let (rows, residual) = (rows(likelihood), own_residual(likelihood, model));
-    let found = of_residual(&rows, &residual);
-    let estimated = likelihood.measured.data.estimates_sigmas();
-    if likelihood.noise.new_profile_um > 0.0 && estimated && found == SigmaModel::AS_STATED {
-        let scatter = scale(
-            &differences(&rows, &residual),
-            &SigmaModel::AS_STATED.of(&rows),
-        );
-        return scatter.map_or(found, |factor| SigmaModel::Stated {
-            factor: factor.min(1.0),
-        });
-    }
-    found
+    of_residual(&rows(likelihood), &own_residual(likelihood, model))
 }
 
 /// Measured minus model, without what the scatter of a new profile makes of it where that is counted.

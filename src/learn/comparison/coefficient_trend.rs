@@ -126,6 +126,46 @@ fn line(points: &[(f64, f64)], least_range: f64) -> Option<(f64, f64, f64)> {
 mod tests {
     use super::*;
 
+    /// Exact laws of each condition: T^0.7, n^-0.4 and exp(0.025 (θ - 40 °C)).
+    #[test]
+    fn the_slope_of_a_condition_is_in_its_own_unit() {
+        let at = |torque: f64, speed: f64, warm: Option<f64>| Operation {
+            torque_nmm: 1e3 * torque,
+            speed_rpm: speed,
+            misalignment_mm: 0.0,
+            cycles: 1e6,
+            bulk_temperature_c: warm,
+            flank_temperature_c: None,
+            viscosity_pa_s: None,
+            reversed: false,
+        };
+        let slope = |number: usize, tests: [(Operation, f64); 4]| {
+            let (name, x, least) = CONDITIONS[number];
+            let points = tests.map(|(o, k): (Operation, f64)| (x(&o).unwrap(), k.ln()));
+            (name, line(&points, least).unwrap().0)
+        };
+        let of = |values: [f64; 4], at: &dyn Fn(f64) -> (Operation, f64)| values.map(at);
+        let torques = of([50.0, 80.0, 120.0, 200.0], &|t| {
+            (at(t, 1e3, None), t.powf(0.7))
+        });
+        let (name, found) = slope(0, torques);
+        assert!(name == "torque" && (found - 0.7).abs() < 1e-9, "{found}");
+        let speeds = of([300.0, 800.0, 1e3, 2e3], &|n| {
+            (at(90.0, n, None), n.powf(-0.4))
+        });
+        let (name, found) = slope(1, speeds);
+        assert!(name == "speed" && (found + 0.4).abs() < 1e-9, "{found}");
+        let law = |warm: f64| (0.025 * (warm - 40.0)).exp();
+        let warm = of([35.0, 40.0, 60.0, 65.0], &|warm| {
+            (at(90.0, 1e3, Some(warm)), law(warm))
+        });
+        let (name, found) = slope(2, warm);
+        assert!(
+            name == TEMPERATURE && (found - 0.25).abs() < 1e-9,
+            "{found}"
+        );
+    }
+
     /// By hand, five points: Σxx = 10, Σxy = 4.99, residual square 7.9e-4 on 3 degrees of freedom.
     #[test]
     fn a_slope_is_told_with_its_error_where_it_is_beyond_chance() {
