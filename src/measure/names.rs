@@ -86,6 +86,7 @@ pub(super) fn is_for_people(name: &str) -> bool {
 
 /// Whether the header of a column among others for checkpoints or places says that it holds no measurements: notes, or a mean or an extreme of the others.
 pub(super) fn is_aside(name: &str) -> bool {
+    let name = name.split(['[', '(']).next().unwrap_or_default();
     is_for_people(name) || SUMMARIES.contains(&folded(name).as_str())
 }
 

@@ -156,7 +156,7 @@ fn a_check_finds_cycles_of_the_gear_rows_that_stand_twice_and_a_wrong_sigma() {
     });
     let said = told(&masses);
     assert!(
-        said.contains("% of the misfit of the fit tests is that of")
+        said.contains("% of the misfit beyond noise of the fit tests is that of")
             && said.contains("rows of mass_loss"),
         "{said}"
     );

@@ -838,3 +838,32 @@ fn what_sums_a_table_up_or_stands_below_it_is_passed_over() {
     let message = refused(&home, down, options);
     assert!(message.contains("Ende (250000)"), "{message}");
 }
+
+/// Cells that say in words that there is no value are empty, columns that sum up are known with their unit, and what stands below masses is passed over as below
+/// depths.
+#[test]
+fn words_for_no_value_are_empty_cells() {
+    let home = home();
+    let table =
+        "Radius [mm];100000;250000;Max [um]\n26;3,1;n.b.;3,1\n26,5;-;4,9;4,9\n27;1,2;2,5;2,5\n";
+    let (shown, written) = rows(
+        &home,
+        table,
+        "--test A --member pinion --unit um --sigma 0.1",
+    );
+    assert_eq!(written.lines().count(), 4, "{written}{shown}");
+    assert!(
+        shown.contains("no value in C2 (`n.b.`), B3 (`-`): read as empty"),
+        "{shown}"
+    );
+    let masses = "Lastwechsel;Ritzel [mg];Rad [mg]\n100000;2,1;1,2\n250000;4,4;n.b.\nMittelwert;3,2;1,2\nBemerkung: Waage neu;;\n";
+    let (shown, written) = rows(&home, masses, "--test A --quantity mass_loss --sigma 0.1");
+    assert_eq!(written.lines().count(), 3, "{written}{shown}");
+    assert!(shown.contains("Mittelwert"), "{shown}");
+    let named = "Radius [mm];Verschlei\u{df} [\u{b5}m] nach 0,1 Mio. LW;Verschlei\u{df} [\u{b5}m] nach 0,25 Mio. LW\n26;3,1;6,2\n26,5;2,4;4,9\n27;1,2;2,5\n";
+    let (_, written) = rows(&home, named, "--test A --member pinion --sigma 0.1");
+    assert!(
+        written.contains("A,pinion,250000,wear_depth,27,2.5"),
+        "{written}"
+    );
+}

@@ -14,9 +14,19 @@ pub(super) enum Understood {
 impl Understood {
     /// A sheet as either kind of table.
     pub(super) fn of(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Self, import::ImportError> {
-        match import::long(sheet, wanted)? {
-            Some(long) => Ok(Understood::Long(long)),
-            None => import::wide(sheet, wanted).map(Understood::Wide),
+        let (sheet, without) = import::without_words(sheet);
+        let mut understood = match import::long(&sheet, wanted)? {
+            Some(long) => Understood::Long(long),
+            None => Understood::Wide(import::wide(&sheet, wanted)?),
+        };
+        understood.left_out_mut().extend(without);
+        Ok(understood)
+    }
+
+    fn left_out_mut(&mut self) -> &mut Vec<String> {
+        match self {
+            Understood::Long(long) => &mut long.left_out,
+            Understood::Wide(wide) => &mut wide.left_out,
         }
     }
 

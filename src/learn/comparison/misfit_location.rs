@@ -15,6 +15,9 @@ use crate::numeric::written::{self, count};
 /// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
 const SIGNIFICANT: f64 = 5.0;
 
+/// How many times the cycles of its first interval a test's last has to have for a wrong rate to show as an error that grows.
+const MUCH_LATER: f64 = 2.5;
+
 /// By how much the sum of the squared standardised residuals exceeds what noise alone gives.
 fn excess(cell: &Cell) -> f64 {
     (cell.chi2_per_point - 1.0) * cell.points as f64
@@ -217,8 +220,17 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     } else {
         "stays alike"
     };
+    // a wrong rate makes an error that grows with the cycles
+    let while_wear_grew = key.2 == Quantity::WearDepth
+        && word == "stays alike"
+        && last.cycles[1] > MUCH_LATER * first.cycles[1];
+    let why = if while_wear_grew {
+        ", as a loss in the first cycles or a shifted or tilted profile would make it"
+    } else {
+        ""
+    };
     format!(
-        "; the error there {word} over the test, from {} to {}",
+        "; the error there {word} over the test, from {} to {}{why}",
         signed(first),
         signed(last)
     )
@@ -423,8 +435,9 @@ mod tests {
             let place = Some(Region::LowerDouble);
             (0, Subject::Pinion, Quantity::WearDepth, place, interval)
         };
-        let told = |ends: [f64; 2], sigmas: [f64; 2]| {
+        let after = |ends: [f64; 2], sigmas: [f64; 2], times: f64| {
             let of = |i: usize| Cell {
+                cycles: [0.0, if i == 0 { 1e5 } else { times * 1e5 }],
                 bias: ends[i],
                 bias_sigma: sigmas[i],
                 rms: ends[i].abs(),
@@ -433,12 +446,23 @@ mod tests {
             let cells = BTreeMap::from([(key(0), of(0)), (key(1), of(1))]);
             trend(&key(1), &cells)
         };
+        let told = |ends, sigmas| after(ends, sigmas, 1.0);
         let changes = told([-0.13, 0.15], [0.01; 2]);
         assert!(
             changes.contains("changes its sign over the test, from −0.13 µm to +0.15 µm"),
             "{changes}"
         );
-        assert!(told([0.13, 0.15], [0.01; 2]).contains("stays alike"));
+        let alike = told([0.13, 0.15], [0.01; 2]);
+        assert!(
+            alike.contains("stays alike") && !alike.contains("profile"),
+            "{alike}"
+        );
+        // while wear grew to eight times
+        let alike = after([0.13, 0.15], [0.01; 2], 8.0);
+        assert!(
+            alike.ends_with("a shifted or tilted profile would make it"),
+            "{alike}"
+        );
         // one end within its noise
         assert!(told([-0.13, 0.15], [0.06, 0.01]).contains("grows out of its noise"));
         assert!(told([-0.15, 0.13], [0.01, 0.06]).contains("falls into its noise"));

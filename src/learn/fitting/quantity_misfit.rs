@@ -8,8 +8,8 @@ use crate::study::{Role, Study};
 
 /// Rows of a quantity from which it is looked at.
 const LEAST: usize = 6;
-/// χ² per point of its rows, and over that of the others, and its share of all misfit, from which it is said.
-const LARGE: f64 = 9.0;
+/// χ² per point of its rows, and over that of the others, and its share of all χ² beyond noise's own, from which it is said.
+const LARGE: f64 = 6.0;
 const OVER_OTHERS: f64 = 5.0;
 const SHARE: f64 = 0.3;
 /// Share of it that the scatter of neighbours must make up, where there are curves, for their sigma to be asked about.
@@ -54,13 +54,14 @@ pub(in crate::learn) fn carried_by<'d>(
             return None;
         }
         let (own, other) = (square / count as f64, rest / others as f64);
-        let share = square / (square + rest);
+        let beyond = |square: f64, count: usize| (square - count as f64).max(0.0);
+        let share = beyond(square, count) / (beyond(square, count) + beyond(rest, others));
         let carried = own > LARGE && own > OVER_OTHERS * other && share > SHARE;
         // along curves neighbours tell: what their scatter is not, a larger sigma would but hide
         let by_sigma = |scatter: f64| scatter > OF_SCATTER * own;
         (carried && scatter(quantity).is_none_or(by_sigma)).then(|| {
             format!(
-                "{:.0} % of the misfit of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): they are not what they are \
+                "{:.0} % of the misfit beyond noise of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): they are not what they are \
                  taken for, their sigma is too small, or what is missing shows most in them. Look at these values and at that sigma first, of small values above all: a \
                  share of each value leaves them almost none",
                 100.0 * share,
@@ -128,12 +129,14 @@ mod tests {
         };
         assert!(
             said(9.0, 1.2).is_some_and(
-                |s| s.contains("of the misfit of the fit tests with tip_relief is that of 8 rows of mass_loss (χ² 81 per point, the others 1.4)")
+                |s| s.contains("of the misfit beyond noise of the fit tests with tip_relief is that of 8 rows of mass_loss (χ² 81 per point, the others 1.4)")
             )
         );
+        // a third of the right sigma, of a few rows among very many
+        assert!(said(3.0, 1.0).is_some());
         // both are off alike, or hardly
         assert_eq!(said(9.0, 5.0), None);
-        assert_eq!(said(2.5, 1.0), None);
+        assert_eq!(said(2.4, 1.0), None);
         // one row makes it all
         let typo = (0..8).map(|i| (&mass, if i == 3 { 60.0 } else { 1.0 }));
         let depths = (0..400).map(|_| (&depth, 1.2));

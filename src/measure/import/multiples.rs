@@ -137,7 +137,7 @@ fn may_have_thousands(number: &str) -> bool {
 /// values. A title has neither.
 fn places_of_counts(row: &[String]) -> Vec<usize> {
     let is_count = |text: &String| counted(text).is_some();
-    let is_filled = |text: &&String| !text.is_empty() && !names::is_for_people(text);
+    let is_filled = |text: &&String| !text.is_empty() && !names::is_aside(text);
     let behind: Vec<&String> = row.iter().skip(1).filter(is_filled).collect();
     let first = row.first().filter(|text| is_count(text));
     let is_value = |text: &&String| pointed(text).parse::<f64>().is_ok();
@@ -164,9 +164,12 @@ fn counted(header: &str) -> Option<(f64, [&str; 3])> {
             || names::member(word).is_some()
             || names::is_filler(word)
     };
-    let of_cycles = [before, behind]
-        .iter()
-        .all(|text| names::words(text).iter().all(says_cycles));
+    // what the values are, with their unit in brackets, stands before it
+    let is_value = |word: &String| names::quantity(word).is_some();
+    let (of_values, _) = units::name_and_unit(before);
+    let of_cycles = (names::words(&of_values).iter())
+        .all(|word| says_cycles(word) || is_value(word))
+        && names::words(behind).iter().all(says_cycles);
     let follows = front[at + number.len()..].trim().is_empty();
     (of_cycles && follows).then_some((factor, [before, number, behind]))
 }
@@ -303,6 +306,10 @@ mod tests {
         assert_eq!(
             counted("0,25 Mio. Umdr. Rad"),
             Some((1e6, ["", "0,25", " Umdr. Rad"]))
+        );
+        assert_eq!(
+            counted("Verschlei\u{df} [\u{b5}m] nach 0,1 Mio. LW"),
+            Some((1e6, ["Verschlei\u{df} [\u{b5}m] nach ", "0,1", " LW"]))
         );
         for header in [
             "40 km",

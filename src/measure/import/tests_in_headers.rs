@@ -85,7 +85,7 @@ fn tests_of_columns<'w>(
     };
     let cells = sheet.rows[head].iter().enumerate().skip(1);
     let cells: Vec<(usize, &String)> = cells
-        .filter(|(_, text)| !text.is_empty() && !names::is_for_people(text))
+        .filter(|(_, text)| !text.is_empty() && !names::is_aside(text))
         .collect();
     let named: Vec<OfTest<'w>> = (cells.iter())
         .filter_map(|&(column, text)| {

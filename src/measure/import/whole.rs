@@ -10,7 +10,7 @@ use super::wide::{
     in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
 use super::{
-    ImportError, Sheet, cell_name, counts, decimal_commas, header_points, long, nameless,
+    ImportError, Sheet, cell_name, counts, decimal_commas, footers, header_points, long, nameless,
     no_values, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
@@ -66,6 +66,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         sheet = plain;
     }
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
+    let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     let sheet = &sheet;
     let lines = match members_across {
@@ -103,7 +104,8 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         of_gear,
     };
     let (mut entries, empty) = reading.entries(sheet, &lines)?;
-    let (left_out, _) = no_values::leave_out(&mut entries, sheet);
+    let (mut left_out, _) = no_values::leave_out(&mut entries, sheet);
+    left_out.extend(below);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
     let mut differences = false;
     if quantity == Quantity::MassLoss && !speaks_of_loss(sheet, head) {
@@ -169,7 +171,7 @@ fn is_header_of_members(row: &[String]) -> bool {
     let mut names = row
         .iter()
         .skip(1)
-        .filter(|cell| !cell.is_empty() && !names::is_for_people(cell));
+        .filter(|cell| !cell.is_empty() && !names::is_aside(cell));
     let is_member = |cell: &String| {
         names::one_member(cell).is_some() && !cell.contains(|c: char| c.is_ascii_digit())
     };

@@ -21,6 +21,9 @@ const NEAR_NOISE: f64 = 1.25;
 /// Gain of ln evidence from which the fit tests speak for an effect.
 const CLEAR: f64 = 5.0;
 
+/// Share of the scatter of k between tests to which a step must bring it down to have accounted for it.
+const STEADIER: f64 = 0.5;
+
 /// What a step is that the fit tests speak for, while the held-out ones were near the noise floor before it; None of others.
 fn not_judged(before: &LadderStep, after: &LadderStep) -> Option<String> {
     let evidence = after.improvement.as_ref()?.log_evidence?;
@@ -112,6 +115,9 @@ fn needless(result: &Result<'_>, after: &LadderStep) -> Option<String> {
     if !falls_too_little {
         return None;
     }
+    if let Some(steadier) = steadier_coefficient(result, before, after) {
+        return Some(steadier);
+    }
     not_judged(before, after).or_else(|| {
         Some(format!(
             "From {} to {} the error on {} {} ({} to {}): that step explains nothing new.",
@@ -130,6 +136,38 @@ fn needless(result: &Result<'_>, after: &LadderStep) -> Option<String> {
             significant(a, 3),
             significant(b, 3)
         ))
+    })
+}
+
+/// That a step lowers the scatter of k between tests, which each test's own k takes up before its error shows; None if it does not.
+fn steadier_coefficient(
+    result: &Result<'_>,
+    before: &LadderStep,
+    after: &LadderStep,
+) -> Option<String> {
+    let scatter = |of: &LadderStep| {
+        let mut all = result.steps.iter().zip(&result.comparisons);
+        let (_, comparison) = all.find(|(step, _)| step.study == of.study)?;
+        (comparison.tests.len() > 1).then_some(comparison.coefficient_scatter)
+    };
+    let evidence = after.improvement.as_ref()?.log_evidence?;
+    let scatters = [scatter(before)?, scatter(after)?];
+    steadier_in_words([&before.study, &after.study], evidence, scatters)
+}
+
+/// The same, from the gain of ln evidence and the scatter of k in one version and the next.
+fn steadier_in_words(
+    [before, after]: [&str; 2],
+    evidence: f64,
+    [was, is]: [f64; 2],
+) -> Option<String> {
+    (evidence > CLEAR && is < STEADIER * was).then(|| {
+        format!(
+            "From {before} to {after} the error hardly falls, since each test has a k of its own; the scatter of k between the tests falls, from {} % to {} %: \
+             the step accounts for what made them differ.",
+            significant(100.0 * was, 2),
+            significant(100.0 * is, 2)
+        )
     })
 }
 
@@ -237,7 +275,7 @@ pub fn summary(result: &Result<'_>, folder: &Path) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::Result;
-    use super::{beside_diagnosis, not_judged};
+    use super::{beside_diagnosis, not_judged, steadier_in_words};
     use crate::learn::diagnose::Fidelity;
     use crate::learn::{Improvement, LadderStep};
 
@@ -282,6 +320,16 @@ mod tests {
             "{coarse}"
         );
         assert!(!said(Fidelity::Full).contains("sharp in pressure"));
+    }
+
+    #[test]
+    fn a_step_that_explains_why_k_differs_is_not_called_needless() {
+        let said =
+            |evidence, scatters| steadier_in_words(["base", "base+ageing"], evidence, scatters);
+        let words = said(9.0, [0.35, 0.012]).unwrap();
+        assert!(words.contains("from 35 % to 1.2 %"), "{words}");
+        assert_eq!(said(9.0, [0.35, 0.3]), None);
+        assert_eq!(said(1.0, [0.35, 0.012]), None);
     }
 
     #[test]

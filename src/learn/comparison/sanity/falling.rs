@@ -1,4 +1,4 @@
-//! Wear that falls with the cycles: checkpoints exchanged, a digit lost.
+//! Wear that falls with the cycles: checkpoints exchanged, a digit lost, one written in another unit.
 //!
 //! ```text
 //! y ≈ s f of each depth curve     f the fitted model, the curve's datum removed, least squares weighted by 1/σ²
@@ -19,12 +19,33 @@ const FALLS_TO: f64 = 0.8;
 /// Fewest points of a curve, and the share of its squares that `s f` must explain.
 const FEWEST: usize = 4;
 const OF_ITS_SHAPE: f64 = 0.8;
+/// Between which the largest values of two checkpoints, each over its cycles, have to stand to each other for a unit a thousand times larger in one.
+const A_THOUSAND: [f64; 2] = [400.0, 2500.0];
 
 /// How much was worn at a checkpoint, in any unit, and its standard deviation.
 struct Worn {
     cycles: f64,
     amount: f64,
     sigma: f64,
+    /// Largest value as it was written.
+    largest: f64,
+}
+
+/// Two checkpoints between which wear falls.
+struct Fall {
+    from: f64,
+    to: f64,
+    /// The one of them that looks a thousand times too small, or too large, if one does.
+    unit: Option<OtherUnit>,
+}
+
+/// Which of two checkpoints is in another unit.
+#[derive(Clone, Copy)]
+enum OtherUnit {
+    /// The later one, in one a thousand times larger.
+    LaterInLarger,
+    /// The earlier one, in one a thousand times smaller.
+    EarlierInSmaller,
 }
 
 /// Tests whose wear falls from one checkpoint to the next.
@@ -32,30 +53,73 @@ pub(super) fn falling(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     let mut said = Vec::new();
     for quantity in [Quantity::WearDepth, Quantity::MassLoss] {
         for ((test, member), series) in series(rows, quantity) {
-            let Some((from, to)) = series.iter().find_map(|worn| fall(worn)) else {
+            let Some(fall) = series.iter().find_map(|worn| fall(worn)) else {
                 continue;
             };
-            said.push(format!(
-                "in test {} {} of the {} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, or \
-                 has one a digit more or less?",
+            let of = format!(
+                "in test {} {} of the {}",
                 study.tests[test].id,
                 quantity.name(),
                 member.name()
-            ));
+            );
+            said.push(fall.in_words(&of, quantity));
         }
     }
     said
 }
 
-/// The checkpoints between which wear falls.
-fn fall(worn: &[Worn]) -> Option<(f64, f64)> {
-    worn.windows(2).find_map(|pair| {
+impl Fall {
+    /// A question about it, `of` the values of one test and member.
+    fn in_words(&self, of: &str, quantity: Quantity) -> String {
+        let (from, to) = (self.from, self.to);
+        let [larger, smaller] = match quantity {
+            Quantity::MassLoss => ["g", "µg"],
+            _ => ["mm", "nm"],
+        };
+        match self.unit {
+            None => format!(
+                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, or has one a digit more or less?"
+            ),
+            Some(OtherUnit::LaterInLarger) => format!(
+                "{of} is about a thousand times less after {to} cycles than after {from}: was that checkpoint written in {larger}?"
+            ),
+            Some(OtherUnit::EarlierInSmaller) => format!(
+                "{of} is about a thousand times more after {from} cycles than after {to}: was that checkpoint written in {smaller}?"
+            ),
+        }
+    }
+}
+
+/// The first two checkpoints between which wear falls.
+fn fall(worn: &[Worn]) -> Option<Fall> {
+    worn.windows(2).enumerate().find_map(|(place, pair)| {
         let [before, after] = [&pair[0], &pair[1]];
         let far = before.amount - after.amount > SURE * before.sigma.hypot(after.sigma);
         // traces of one checkpoint are no fall
         let far = far && before.cycles < after.cycles;
-        (far && after.amount < FALLS_TO * before.amount).then_some((before.cycles, after.cycles))
+        (far && after.amount < FALLS_TO * before.amount).then(|| Fall {
+            from: before.cycles,
+            to: after.cycles,
+            unit: other_unit(worn, place),
+        })
     })
+}
+
+/// Which of the checkpoints at `place` and behind it is a thousand times off, by the pace of the two and of a third beside them.
+fn other_unit(worn: &[Worn], place: usize) -> Option<OtherUnit> {
+    let pace = |worn: &Worn| worn.largest / worn.cycles;
+    let is_thousand = |times: f64| (A_THOUSAND[0]..A_THOUSAND[1]).contains(&times);
+    let (before, after) = (pace(&worn[place]), pace(&worn[place + 1]));
+    if !is_thousand(before / after) {
+        return None;
+    }
+    // a third one tells which of the two it is that is off
+    let third = (worn.get(place + 2)).or_else(|| worn.get(place.checked_sub(1)?));
+    match third.map(pace) {
+        Some(third) if is_thousand(third / after) => Some(OtherUnit::LaterInLarger),
+        Some(third) if is_thousand(before / third) => Some(OtherUnit::EarlierInSmaller),
+        _ => None,
+    }
 }
 
 type Series = BTreeMap<(usize, Subject), Vec<Vec<Worn>>>;
@@ -96,6 +160,7 @@ fn mass(own: &[&FittedRow<'_>]) -> Option<Worn> {
         cycles: o.cycles,
         amount: o.value,
         sigma: o.sigma,
+        largest: o.value.abs(),
     })
 }
 
@@ -115,5 +180,41 @@ fn depth(own: &[&FittedRow<'_>]) -> Option<Worn> {
         cycles,
         amount: cycles * fy / ff,
         sigma: cycles / ff.sqrt(),
+        largest: own.iter().map(|(o, _)| o.value.abs()).fold(0.0, f64::max),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_checkpoint_in_another_unit_is_told_from_exchanged_ones() {
+        let said = |amounts: [f64; 4]| {
+            let worn = amounts.iter().enumerate().map(|(i, &amount)| Worn {
+                cycles: 1e5 * (i + 1) as f64,
+                amount,
+                sigma: 0.001 * amount,
+                largest: amount,
+            });
+            let worn: Vec<Worn> = worn.collect();
+            fall(&worn)
+                .map(|fall| fall.in_words("in test A wear_depth of the gear", Quantity::WearDepth))
+        };
+        let is = |amounts, part: &str| said(amounts).unwrap().contains(part);
+        assert!(is(
+            [2.0, 0.0041, 6.0, 8.0],
+            "after 200000 cycles than after 100000: was that checkpoint written in mm?"
+        ));
+        assert!(is(
+            [2.0, 4.0, 5.9, 0.0081],
+            "after 400000 cycles than after 300000: was that checkpoint written in mm?"
+        ));
+        assert!(is(
+            [2.0, 4100.0, 6.0, 8.0],
+            "after 200000 cycles than after 300000: was that checkpoint written in nm?"
+        ));
+        assert!(is([2.0, 6.0, 4.0, 8.0], "exchanged"));
+        assert_eq!(said([2.0, 4.0, 6.0, 8.0]), None);
+    }
 }
