@@ -165,7 +165,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
         fitted = context.with_unseen(base, fitted, &smooth);
     }
     if context.fidelity != Fidelity::Middle {
-        fitted = decide_leaders(context, base, fitted, [DECIDING, PAIRS]);
+        fitted = decide_leaders(context, base, fitted, smooth.drop, [DECIDING, PAIRS]);
     }
     let not_fitted = not_fitted(&singles, &fitted);
     if !context.approximate {

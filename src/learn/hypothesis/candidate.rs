@@ -246,6 +246,12 @@ impl Candidate {
         !cards.is_empty() && cards.iter().all(|card| card.acts_across_the_face())
     }
 
+    /// Whether it moves the gears to another centre distance.
+    pub(in crate::learn) fn moves_the_centres(&self) -> bool {
+        let mut cards = self.effects.cards().iter();
+        cards.any(|card| card.hook == Hook::Operation)
+    }
+
     /// Whether it costs many times a section: slices of the face or classes of teeth.
     pub(in crate::learn) fn is_costly(&self) -> bool {
         self.acts_across_the_face() || self.acts_on_single_teeth()

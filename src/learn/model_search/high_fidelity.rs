@@ -2,8 +2,9 @@
 
 use super::context::Context;
 use super::medium_fidelity::look_alikes_left;
-use crate::learn::candidates::candidate_model::{AnchoredOn, model, offset, predictions};
+use crate::learn::candidates::candidate_model::{Anchored, AnchoredOn, model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::fitting::fit::is_within_noise;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::inference::quadratic::State;
 use crate::learn::inference::search::{Effort, SearchEnd};
@@ -45,6 +46,8 @@ const DECIDED: [usize; 2] = [3, 7];
 /// Share of the leader's gain with which an effect that coarse finite elements have fitted may still lead, and one that the leader is mistaken for is
 /// decided like it: coarse and fine finite elements agree on gains within a few per cent.
 const ALIKE_SHARE: f64 = 0.85;
+/// Share of the attainable fall of χ² with which a leader that is sharp in pressure, and leaves more than noise, may be the right one in a wrong valley.
+const NEARLY_ALL: f64 = 0.85;
 /// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
 const GAIN: f64 = 0.0;
 
@@ -158,9 +161,35 @@ impl Context<'_> {
             .likelihood
             .fit(&exact, &candidate.parameters, start, &POLISH)
             .ok()?;
+        self.exactly(base, judged, found)
+    }
+
+    /// A fit on the exact bench that begins anew, from the best of the candidate's starts; None if it finds nothing better. Valleys of sharp laws that coarse
+    /// elements tell apart wrongly are left in no other way.
+    fn anew(&self, base: &BaseFit, judged: &FittedCandidate) -> Option<FittedCandidate> {
+        let candidate = &judged.candidate;
+        let cheap = Anchored::new(model(self.middle, candidate), base.fitted.offset.clone());
+        let (_, start) = self.starts(base, candidate, &cheap).into_iter().next()?;
+        let exact = model(self.exact, candidate);
+        let parameters = &candidate.parameters;
+        let found = (self.likelihood)
+            .fit(&exact, parameters, start, &Effort::for_simulations())
+            .ok()?;
+        self.exactly(base, judged, found)
+    }
+
+    /// What a fit on the exact bench found, with its anchor; None if it is no better than `judged`.
+    fn exactly(
+        &self,
+        base: &BaseFit,
+        judged: &FittedCandidate,
+        found: SearchEnd,
+    ) -> Option<FittedCandidate> {
         if found.objective > judged.found.objective {
             return None;
         }
+        let candidate = &judged.candidate;
+        let exact = model(self.exact, candidate);
         let at = predictions(&self.likelihood, &exact, candidate, &found.state).ok()?;
         let cheap = model(self.middle, candidate);
         let near = predictions(&self.likelihood, &cheap, candidate, &found.state).ok()?;
@@ -177,11 +206,12 @@ impl Context<'_> {
 }
 
 /// Finite elements for the leaders of the screening; the others stay as screened. `from` and `to`: the shares of the search at which this begins and
-/// ends.
+/// ends; `attainable`: the fall of χ² by anything smooth.
 pub(in crate::learn) fn decide_leaders(
     context: &Context<'_>,
     base: &BaseFit,
     mut screened: Vec<FittedCandidate>,
+    attainable: f64,
     [from, to]: [f64; 2],
 ) -> Vec<FittedCandidate> {
     screened.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
@@ -240,6 +270,18 @@ pub(in crate::learn) fn decide_leaders(
         let doing = format!("polishing: {}", leader.candidate.effects);
         context.stages.begin([to; 2], doing, 1);
         if let Some(better) = context.polish(base, leader) {
+            *leader = better;
+        }
+    }
+    let left = |leader: &FittedCandidate| {
+        let nearly_all = base.fitted.square - leader.square > NEARLY_ALL * attainable;
+        let noise = is_within_noise(leader.square, context.likelihood.len());
+        leader.candidate.sharp() && nearly_all && !noise
+    };
+    if let Some(leader) = judged.first_mut().filter(|j| left(j)) {
+        let doing = format!("once more: {}", leader.candidate.effects);
+        context.stages.begin([to; 2], doing, 1);
+        if let Some(better) = context.anew(base, leader) {
             *leader = better;
         }
     }

@@ -6,6 +6,7 @@ use super::context::Context;
 use super::screening::{LOOK, SCREEN, in_play};
 use crate::learn::candidates::candidate_model::{AnchoredOn, model};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::fitting::fit::is_within_noise;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::inference::quadratic::State;
 use crate::learn::inference::search::{Effort, SearchEnd};
@@ -37,9 +38,13 @@ const SHARP_SHARE: f64 = 0.15;
 /// Share of the leader's gain by which a form must be behind the best form of its effect not to be fitted: the analytic model is right to a tenth of
 /// that where the rate is not sharp in the pressure.
 const BEHIND_FORM: f64 = 0.15;
-/// Share of the leader's gain below which what moves single teeth is left to screening: the analytic model shares the load between them as
-/// elements do, but for the corners.
-const SINGLE_TEETH_SHARE: f64 = 0.25;
+/// Share of the leader's gain below which what costs many sections (single teeth, the face) is left to screening: the analytic model shares the load
+/// between them as elements do, but for the corners. Where anything else leaves no more than noise, it must come nearer to lead in its place.
+const COSTLY_SHARE: f64 = 0.25;
+const COSTLY_SHARE_OF_ALL: f64 = 0.6;
+/// The same for what moves the gears to another centre distance, and so to another mesh with every step: where the teeth touch then is geometry,
+/// which the analytic model knows.
+const OPERATION_SHARE: f64 = 0.05;
 
 impl Context<'_> {
     /// Fits by coarse finite elements those of the screened candidates that may matter: the leaders, and where the discrepancy is real what
@@ -96,21 +101,42 @@ impl Context<'_> {
             evidence - before >= bar && !behind
                 || contact_missed
                     && candidate.changes_contact()
-                    && worth_its_teeth(judged, before, *best)
+                    && worth_its_cost(judged, before, *best)
         };
         let wanted: Vec<bool> = screened.iter().map(wanted).collect();
-        let refined = self.by_coarse_elements(base, screened, &wanted);
+        let shares: Vec<f64> = (screened.iter())
+            .map(|judged| (judged.log_evidence - before) / best)
+            .collect();
+        let cheap: Vec<bool> = (screened.iter().zip(&wanted))
+            .map(|(judged, wanted)| *wanted && !judged.candidate.is_costly())
+            .collect();
+        let refined = self.by_coarse_elements(base, screened, &cheap, &[]);
+        // what is costly comes last: it need not be tried where something simple leaves no more than noise
+        let settled = (refined.iter().zip(&cheap))
+            .any(|(judged, cheap)| *cheap && is_within_noise(judged.square, self.likelihood.len()));
+        let known: Vec<f64> = (refined.iter().zip(&cheap))
+            .filter_map(|(judged, cheap)| cheap.then_some(judged.found.objective))
+            .collect();
+        let costly: Vec<bool> = (refined.iter().zip(&wanted).zip(&shares))
+            .map(|((judged, wanted), share)| {
+                let enough = !settled || *share >= COSTLY_SHARE_OF_ALL;
+                *wanted && judged.candidate.is_costly() && enough
+            })
+            .collect();
+        let refined = self.by_coarse_elements(base, refined, &costly, &known);
         // what the leader is mistaken for is held against it by the same means
         let alike = look_alikes_left(&refined, before, (MEANT, &share));
-        self.by_coarse_elements(base, refined, &alike)
+        self.by_coarse_elements(base, refined, &alike, &[])
     }
 
-    /// Fits by coarse finite elements those that are wanted; the others stay as they are.
+    /// Fits by coarse finite elements those that are wanted; the others stay as they are. `known`: the objectives of fits that these must come near to be
+    /// followed to their ends.
     fn by_coarse_elements(
         &self,
         base: &BaseFit,
         screened: Vec<FittedCandidate>,
         wanted: &[bool],
+        known: &[f64],
     ) -> Vec<FittedCandidate> {
         if !wanted.contains(&true) {
             return screened;
@@ -130,8 +156,9 @@ impl Context<'_> {
         let looks: Vec<Option<SearchEnd>> = places()
             .map(|place| fit(place, screened[place].found.state.clone(), &LOOK))
             .collect();
-        let least = (looks.iter().flatten()).map(|found| found.objective);
-        let bar = in_play(base.fitted.found.objective, least, IN_PLAY);
+        let looked_at = (looks.iter().flatten()).map(|found| found.objective);
+        let all = known.iter().copied().chain(looked_at);
+        let bar = in_play(base.fitted.found.objective, all, IN_PLAY);
         let refined: Vec<Option<SearchEnd>> = (places().zip(looks))
             .map(|(place, look)| {
                 Some(fitted_on(look?, bar, |start, effort| {
@@ -204,7 +231,7 @@ pub(super) fn look_alikes_left(
         let own = &judged.candidate.effects;
         let unsettled = judged.fidelity == Fidelity::Screening
             && judged.candidate.changes_contact()
-            && worth_its_teeth(judged, before, leader.log_evidence - before);
+            && worth_its_cost(judged, before, leader.log_evidence - before);
         judged.candidate.is_look_alike_of(&leader.candidate)
             && judged.fidelity != leader.fidelity
             && (unsettled || judged.log_evidence > bar)
@@ -214,11 +241,15 @@ pub(super) fn look_alikes_left(
     fitted.iter().map(left).collect()
 }
 
-/// Whether what moves single teeth gains enough of what the leader gains over the base model's log evidence `before` to be fitted by elements; all
-/// else is not asked.
-fn worth_its_teeth(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
-    !judged.candidate.acts_on_single_teeth()
-        || judged.log_evidence - before >= SINGLE_TEETH_SHARE * leader
+/// Whether what is costly by elements gains enough of what the leader gains over the base model's log evidence `before` to be fitted by them; all else
+/// is not asked.
+fn worth_its_cost(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
+    let share = (judged.log_evidence - before) / leader;
+    if judged.candidate.is_costly() {
+        share >= COSTLY_SHARE
+    } else {
+        !judged.candidate.moves_the_centres() || share >= OPERATION_SHARE
+    }
 }
 
 /// A look at a candidate fitted on if it is in play, or promises to be.
