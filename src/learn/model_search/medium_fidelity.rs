@@ -38,9 +38,10 @@ const SHARP_SHARE: f64 = 0.15;
 /// Share of the leader's gain by which a form must be behind the best form of its effect not to be fitted: the analytic model is right to a tenth of
 /// that where the rate is not sharp in the pressure.
 const BEHIND_FORM: f64 = 0.15;
-/// Share of the leader's gain below which what costs many sections (single teeth, the face) is left to screening: the analytic model shares the load
-/// between them as elements do, but for the corners. Where anything else leaves no more than noise, it must come nearer to lead in its place.
-const COSTLY_SHARE: f64 = 0.25;
+/// Share of the leader's gain below which what moves single teeth is left to screening: the analytic model shares the load between them as
+/// elements do, but for the corners.
+const SINGLE_TEETH_SHARE: f64 = 0.25;
+/// Where anything else leaves no more than noise, what costs many sections (single teeth, the face) must come nearer to lead in its place.
 const COSTLY_SHARE_OF_ALL: f64 = 0.6;
 /// The same for what moves the gears to another centre distance, and so to another mesh with every step: where the teeth touch then is geometry,
 /// which the analytic model knows.
@@ -245,11 +246,9 @@ pub(super) fn look_alikes_left(
 /// is not asked.
 fn worth_its_cost(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
     let share = (judged.log_evidence - before) / leader;
-    if judged.candidate.is_costly() {
-        share >= COSTLY_SHARE
-    } else {
-        !judged.candidate.moves_the_centres() || share >= OPERATION_SHARE
-    }
+    let candidate = &judged.candidate;
+    (!candidate.acts_on_single_teeth() || share >= SINGLE_TEETH_SHARE)
+        && (!candidate.moves_the_centres() || share >= OPERATION_SHARE)
 }
 
 /// A look at a candidate fitted on if it is in play, or promises to be.
