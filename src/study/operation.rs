@@ -52,6 +52,21 @@ pub struct Operation {
 }
 
 impl Operation {
+    /// A million revolutions at the nominal centre distance, for tests of the program: torque in N m, speed in rpm.
+    #[cfg(test)]
+    pub(crate) fn at(torque: f64, speed: f64) -> Self {
+        Self {
+            torque_nmm: 1e3 * torque,
+            speed_rpm: speed,
+            misalignment_mm: 0.0,
+            cycles: 1e6,
+            bulk_temperature_c: None,
+            flank_temperature_c: None,
+            viscosity_pa_s: None,
+            reversed: false,
+        }
+    }
+
     /// The bulk temperature as somebody stated it, °C; None where friction losses make it, which leave the flanks warmer.
     pub fn stated_temperature_c(&self) -> Option<f64> {
         self.bulk_temperature_c

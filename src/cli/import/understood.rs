@@ -14,7 +14,7 @@ pub(super) enum Understood {
 impl Understood {
     /// A sheet as either kind of table.
     pub(super) fn of(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Self, import::ImportError> {
-        let (sheet, without) = import::without_words(sheet);
+        let (sheet, without) = import::without_words(sheet, &wanted.tests);
         let mut understood = match import::long(&sheet, wanted)? {
             Some(long) => Understood::Long(long),
             None => Understood::Wide(import::wide(&sheet, wanted)?),

@@ -130,14 +130,8 @@ mod tests {
     #[test]
     fn the_slope_of_a_condition_is_in_its_own_unit() {
         let at = |torque: f64, speed: f64, warm: Option<f64>| Operation {
-            torque_nmm: 1e3 * torque,
-            speed_rpm: speed,
-            misalignment_mm: 0.0,
-            cycles: 1e6,
             bulk_temperature_c: warm,
-            flank_temperature_c: None,
-            viscosity_pa_s: None,
-            reversed: false,
+            ..Operation::at(torque, speed)
         };
         let slope = |number: usize, tests: [(Operation, f64); 4]| {
             let (name, x, least) = CONDITIONS[number];

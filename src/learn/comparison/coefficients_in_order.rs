@@ -103,14 +103,8 @@ mod tests {
     /// The same with bulk temperatures in °C.
     fn told_warm(of: &[(f64, f64, f64, f64, Option<f64>)]) -> Option<String> {
         let operation = |torque: f64, speed: f64, warm: Option<f64>| Operation {
-            torque_nmm: 1e3 * torque,
-            speed_rpm: speed,
-            misalignment_mm: 0.0,
-            cycles: 1e6,
             bulk_temperature_c: warm,
-            flank_temperature_c: None,
-            viscosity_pa_s: None,
-            reversed: false,
+            ..Operation::at(torque, speed)
         };
         let all: Vec<(Operation, OwnK<'_>)> = (of.iter())
             .map(|&(torque, speed, k, sigma, warm)| {

@@ -74,19 +74,7 @@ mod tests {
     /// Torque in N·m, speed in rpm, temperature in °C.
     fn told(of: &[(f64, f64, f64)]) -> Vec<String> {
         let tests: Vec<Operation> = (of.iter())
-            .map(|(torque, speed, celsius)| {
-                let cold = Operation {
-                    torque_nmm: 1e3 * torque,
-                    speed_rpm: *speed,
-                    misalignment_mm: 0.0,
-                    cycles: 1e6,
-                    bulk_temperature_c: None,
-                    flank_temperature_c: None,
-                    viscosity_pa_s: None,
-                    reversed: false,
-                };
-                cold.at_temperature(*celsius)
-            })
+            .map(|(torque, speed, celsius)| Operation::at(*torque, *speed).at_temperature(*celsius))
             .collect();
         conditions_together(&tests.iter().collect::<Vec<_>>())
     }
@@ -117,14 +105,9 @@ mod tests {
             "{said:?}"
         );
         let computed = |speed: f64, celsius: f64| Operation {
-            torque_nmm: 1e5,
-            speed_rpm: speed,
-            misalignment_mm: 0.0,
-            cycles: 1e6,
             bulk_temperature_c: Some(celsius),
             flank_temperature_c: Some(celsius + 10.0),
-            viscosity_pa_s: None,
-            reversed: false,
+            ..Operation::at(100.0, speed)
         };
         let tests = [computed(1000.0, 50.0), computed(3000.0, 90.0)];
         assert_eq!(

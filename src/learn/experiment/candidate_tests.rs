@@ -236,16 +236,7 @@ pub(in crate::learn) mod tests {
 
     /// A study's operation.
     pub(in crate::learn) fn plain() -> Operation {
-        Operation {
-            torque_nmm: 1e5,
-            speed_rpm: 2000.0,
-            misalignment_mm: 0.0,
-            cycles: 1e6,
-            bulk_temperature_c: None,
-            flank_temperature_c: None,
-            viscosity_pa_s: None,
-            reversed: false,
-        }
+        Operation::at(100.0, 2000.0)
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::medium_fidelity::look_alikes_left;
+use super::unseen::EXPLAINED;
 use crate::learn::candidates::candidate_model::{Anchored, AnchoredOn, model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::fitting::fit::is_within_noise;
@@ -46,8 +47,6 @@ const DECIDED: [usize; 2] = [3, 7];
 /// Share of the leader's gain with which an effect that coarse finite elements have fitted may still lead, and one that the leader is mistaken for is
 /// decided like it: coarse and fine finite elements agree on gains within a few per cent.
 const ALIKE_SHARE: f64 = 0.85;
-/// Share of the attainable fall of χ² with which a leader that is sharp in pressure, and leaves more than noise, may be the right one in a wrong valley.
-const NEARLY_ALL: f64 = 0.85;
 /// Gain of log evidence without which only the first of them is: the prior odds of one effect against nothing missing ask for 3.7.
 const GAIN: f64 = 0.0;
 
@@ -273,10 +272,11 @@ pub(in crate::learn) fn decide_leaders(
             *leader = better;
         }
     }
+    // the right law in a wrong valley
     let left = |leader: &FittedCandidate| {
-        let nearly_all = base.fitted.square - leader.square > NEARLY_ALL * attainable;
-        let noise = is_within_noise(leader.square, context.likelihood.len());
-        leader.candidate.sharp() && nearly_all && !noise
+        let explained = base.fitted.square - leader.square > EXPLAINED * attainable;
+        let is_noise = is_within_noise(leader.square, context.likelihood.len());
+        leader.candidate.sharp() && explained && !is_noise
     };
     if let Some(leader) = judged.first_mut().filter(|j| left(j)) {
         let doing = format!("once more: {}", leader.candidate.effects);

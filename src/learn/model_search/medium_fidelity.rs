@@ -41,16 +41,17 @@ const BEHIND_FORM: f64 = 0.15;
 /// Share of the leader's gain below which what moves single teeth is left to screening: the analytic model shares the load between them as
 /// elements do, but for the corners.
 const SINGLE_TEETH_SHARE: f64 = 0.25;
-/// Where anything else leaves no more than noise, what costs many sections (single teeth, the face) must come nearer to lead in its place.
-const COSTLY_SHARE_OF_ALL: f64 = 0.6;
 /// The same for what moves the gears to another centre distance, and so to another mesh with every step: where the teeth touch then is geometry,
 /// which the analytic model knows.
 const OPERATION_SHARE: f64 = 0.05;
+/// Share of the leader's gain that what costs many sections (single teeth, the face) must have by screening where anything else leaves no more than
+/// noise: it may still lead in its place.
+const COSTLY_SHARE_OF_ALL: f64 = 0.6;
 
 impl Context<'_> {
     /// Fits by coarse finite elements those of the screened candidates that may matter: the leaders, and where the discrepancy is real what
     /// the analytic model knows least: all whose rate is sharp in the local pressure, and, if more than wear is missed, all that change how
-    /// the teeth touch. `attainable`: the fall of χ² by anything smooth.
+    /// the teeth touch, unless they cost more than their gain by screening is worth. `attainable`: the fall of χ² by anything smooth.
     pub(in crate::learn) fn refine(
         &self,
         base: &BaseFit,
@@ -105,29 +106,37 @@ impl Context<'_> {
                     && worth_its_cost(judged, before, *best)
         };
         let wanted: Vec<bool> = screened.iter().map(wanted).collect();
-        let shares: Vec<f64> = (screened.iter())
-            .map(|judged| (judged.log_evidence - before) / best)
-            .collect();
-        let cheap: Vec<bool> = (screened.iter().zip(&wanted))
-            .map(|(judged, wanted)| *wanted && !judged.candidate.is_costly())
-            .collect();
-        let refined = self.by_coarse_elements(base, screened, &cheap, &[]);
-        // what is costly comes last: it need not be tried where something simple leaves no more than noise
-        let settled = (refined.iter().zip(&cheap))
-            .any(|(judged, cheap)| *cheap && is_within_noise(judged.square, self.likelihood.len()));
-        let known: Vec<f64> = (refined.iter().zip(&cheap))
-            .filter_map(|(judged, cheap)| cheap.then_some(judged.found.objective))
-            .collect();
-        let costly: Vec<bool> = (refined.iter().zip(&wanted).zip(&shares))
-            .map(|((judged, wanted), share)| {
-                let enough = !settled || *share >= COSTLY_SHARE_OF_ALL;
-                *wanted && judged.candidate.is_costly() && enough
-            })
-            .collect();
-        let refined = self.by_coarse_elements(base, refined, &costly, &known);
+        let refined =
+            self.costly_last(base, screened, &wanted, before + COSTLY_SHARE_OF_ALL * best);
         // what the leader is mistaken for is held against it by the same means
         let alike = look_alikes_left(&refined, before, (MEANT, &share));
         self.by_coarse_elements(base, refined, &alike, &[])
+    }
+
+    /// Fits those that are `wanted` by coarse finite elements, the costly ones after all others. Where one of these leaves no more than noise, costly ones are
+    /// fitted only from a log evidence `least` by screening on.
+    fn costly_last(
+        &self,
+        base: &BaseFit,
+        screened: Vec<FittedCandidate>,
+        wanted: &[bool],
+        least: f64,
+    ) -> Vec<FittedCandidate> {
+        let costly: Vec<bool> = screened.iter().map(|j| j.candidate.is_costly()).collect();
+        let cheap: Vec<bool> = wanted.iter().zip(&costly).map(|(w, c)| *w && !c).collect();
+        let refined = self.by_coarse_elements(base, screened, &cheap, &[]);
+        let fitted: Vec<&FittedCandidate> = (refined.iter().zip(&cheap))
+            .filter_map(|(judged, cheap)| cheap.then_some(judged))
+            .collect();
+        let points = self.likelihood.len();
+        let settled = fitted.iter().any(|j| is_within_noise(j.square, points));
+        let known: Vec<f64> = fitted.iter().map(|j| j.found.objective).collect();
+        let dear: Vec<bool> = (refined.iter().zip(wanted).zip(&costly))
+            .map(|((judged, wanted), costly)| {
+                *wanted && *costly && (!settled || judged.log_evidence >= least)
+            })
+            .collect();
+        self.by_coarse_elements(base, refined, &dear, &known)
     }
 
     /// Fits by coarse finite elements those that are wanted; the others stay as they are. `known`: the objectives of fits that these must come near to be
@@ -245,10 +254,10 @@ pub(super) fn look_alikes_left(
 /// Whether what is costly by elements gains enough of what the leader gains over the base model's log evidence `before` to be fitted by them; all else
 /// is not asked.
 fn worth_its_cost(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
-    let share = (judged.log_evidence - before) / leader;
+    let gains = |share: f64| judged.log_evidence - before >= share * leader;
     let candidate = &judged.candidate;
-    (!candidate.acts_on_single_teeth() || share >= SINGLE_TEETH_SHARE)
-        && (!candidate.moves_the_centres() || share >= OPERATION_SHARE)
+    (!candidate.acts_on_single_teeth() || gains(SINGLE_TEETH_SHARE))
+        && (!candidate.moves_the_centres() || gains(OPERATION_SHARE))
 }
 
 /// A look at a candidate fitted on if it is in play, or promises to be.

@@ -18,7 +18,7 @@ use crate::learn::prediction::fidelity::Fidelity;
 
 /// Share of the attainable fall of χ² below which nothing explains what is there, and standard deviations of the attainable that count in an
 /// explanation's favour: of a weak discrepancy noise alone moves the share by more than a tenth.
-const EXPLAINED: f64 = 0.85;
+pub(super) const EXPLAINED: f64 = 0.85;
 const SPREADS: f64 = 0.5;
 /// Share of the attainable gain (of ln likelihood) below which the linearised gain of what acts across the face or on single teeth is too little
 /// for a fit; and that of one start with either sign for a look at the others.

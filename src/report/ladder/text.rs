@@ -148,7 +148,9 @@ fn steadier_coefficient(
     let scatter = |of: &LadderStep| {
         let mut all = result.steps.iter().zip(&result.comparisons);
         let (_, comparison) = all.find(|(step, _)| step.study == of.study)?;
-        (comparison.tests.len() > 1).then_some(comparison.coefficient_scatter)
+        // of one test it is the prior's
+        let fitted = comparison.tests.iter().filter(|test| test.role == "fit");
+        (fitted.count() > 1).then_some(comparison.coefficient_scatter)
     };
     let evidence = after.improvement.as_ref()?.log_evidence?;
     let scatters = [scatter(before)?, scatter(after)?];

@@ -19,7 +19,7 @@ const FALLS_TO: f64 = 0.8;
 /// Fewest points of a curve, and the share of its squares that `s f` must explain.
 const FEWEST: usize = 4;
 const OF_ITS_SHAPE: f64 = 0.8;
-/// Between which the largest values of two checkpoints, each over its cycles, have to stand to each other for a unit a thousand times larger in one.
+/// Ratio of the largest values of two checkpoints, each over its cycles, that a unit a thousand times larger in one of them makes: wear is not even over life.
 const A_THOUSAND: [f64; 2] = [400.0, 2500.0];
 
 /// How much was worn at a checkpoint, in any unit, and its standard deviation.
