@@ -867,3 +867,27 @@ fn words_for_no_value_are_empty_cells() {
         "{written}"
     );
 }
+
+/// Lines of a title with a number in their second cell are no header: that stands right above its values.
+#[test]
+fn titles_with_numbers_in_cells_of_their_own_are_no_header() {
+    let home = home();
+    let values = "Radius [mm];nach 100000;nach 250000\n26;3,1;6,2\n26,5;2,4;4,9\n27;1,2;2,5\n";
+    for titles in [
+        "Messger\u{e4}t:;Klingelnberg P26\n",
+        "\u{d6}l:;ISO VG 100\n",
+        "Modul [mm];3,5\nZ\u{e4}hnezahl;19\n\n",
+        "Pr\u{fc}fstand 2;;gemessen auf P40\n;;\n",
+    ] {
+        let (shown, written) = rows(
+            &home,
+            &format!("{titles}{values}"),
+            "--test A --member pinion --unit um --sigma 0.1",
+        );
+        assert_eq!(written.lines().count(), 6, "{titles}: {shown}");
+        assert!(
+            written.contains("A,pinion,250000,wear_depth,27,2.5"),
+            "{titles}: {written}"
+        );
+    }
+}

@@ -364,7 +364,8 @@ pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Ve
     left_out
 }
 
-/// The first row with something in the first column and a number in the header of another: titles stand above it.
+/// The first row with something in the first column, a number in the header of each other, and a row below it that begins with a number; without any such,
+/// the first without that row: titles stand above it, `Gear tester; P 26` among them.
 pub(super) fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
         let cells = row.iter().skip(1);
@@ -382,10 +383,19 @@ pub(super) fn header(sheet: &Sheet) -> Result<usize> {
         let first = row.first().map_or("", String::as_str);
         pointed(first).parse::<f64>().is_err() && numbers(row)
     };
-    sheet
-        .rows
-        .iter()
-        .position(|row| is_header(row))
+    let begins_with_number = |row: &Vec<String>| {
+        row.first()
+            .is_some_and(|first| pointed(first).parse::<f64>().is_ok())
+    };
+    let is_filled = |row: &&Vec<String>| row.iter().any(|text| !text.is_empty());
+    let has_values_below = |row: usize| {
+        let mut below = sheet.rows[row + 1..].iter().filter(is_filled);
+        below.next().is_some_and(begins_with_number)
+    };
+    let mut headers = (0..sheet.rows.len()).filter(|row| is_header(&sheet.rows[*row]));
+    let first = headers.clone().next();
+    (headers.find(|row| has_values_below(*row)))
+        .or(first)
         .ok_or_else(|| no_header(sheet))
 }
 
