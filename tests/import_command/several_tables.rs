@@ -158,7 +158,9 @@ fn all_sheets_are_read_one_after_the_other() {
     // which of them cannot be read is said
     assert_eq!(code, Some(2), "{message}");
     assert!(
-        message.contains("tables.xlsx, sheet rows: A2: `A` below `test`: --test says B"),
+        message.contains(
+            "tables.xlsx, sheet pinion: row 1: `Flank wear, pinion, test A` says test A, --test says B"
+        ),
         "{message}"
     );
 }

@@ -226,9 +226,9 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
     for (text, command, says) in [
         ("radius;100000\n26;x\n", table, "B2: `x` is not a number"),
         (
-            "radius;100 000\n26;1\n",
+            "radius;stop 1 100 000\n26;1\n",
             table,
-            "B1: several numbers (write one, without marks between thousands) in the header `100 000`",
+            "B1: several numbers (write one, without marks between thousands) in the header `stop 1 100 000`",
         ),
         ("radius;100000\n;1\n", table, "A2: nothing stands here"),
         // numbers of which none tells what its mark is
@@ -890,4 +890,43 @@ fn titles_with_numbers_in_cells_of_their_own_are_no_header() {
             "{titles}: {written}"
         );
     }
+}
+
+#[test]
+fn a_title_that_names_the_test_may_name_the_member_too() {
+    let home = home();
+    let values = "Radius [mm];nach 100 000;nach 250 000 U\n26;3,1;6,2\n26,5;2,4;4,9\n27;1,2;2,5\n";
+    for titles in [
+        "Pr\u{fc}fling:;Versuch A, Ritzel\n",
+        "Versuch A: Ritzel\n",
+        "Verschlei\u{df} Versuch A, Ritzel\n",
+        "Gemessen am:;12.03.2026\nPr\u{fc}fung A;;Ritzel\n",
+    ] {
+        for options in ["", " --decimal comma"] {
+            let (shown, written) = rows(
+                &home,
+                &format!("{titles}{values}"),
+                &format!("--unit um --sigma 0.1{options}"),
+            );
+            assert!(
+                written.contains("A,pinion,250000,wear_depth,27,2.5"),
+                "{titles}: {shown} {written}"
+            );
+            assert!(written.contains("A,pinion,100000,"), "{titles}: {written}");
+        }
+        let other = refused(
+            &home,
+            &format!("{titles}{values}"),
+            "--test B --unit um --sigma 0.1",
+        );
+        assert!(other.contains("says test A, --test says B"), "{other}");
+    }
+    // a word before it may make the first group another number
+    let stops = values.replace("nach 250 000 U", "Stop 2 500 000");
+    let other = refused(
+        &home,
+        &stops,
+        "--test A --member pinion --unit um --sigma 0.1",
+    );
+    assert!(other.contains("several numbers"), "{other}");
 }

@@ -42,5 +42,6 @@ pub use ratio::Ratio;
 pub use record::{Comparison, Outlier, ParameterRecord, TestRecord};
 pub use residual_statistics::{Cell, Group, Share};
 pub use sanity::cycles_in_another_unit;
+pub(in crate::learn) use sanity::sanity_of_data;
 pub use uncertainty::Validation;
 pub use versions::{Item, compare_all, differences};

@@ -13,6 +13,7 @@ mod cycle_units;
 mod exchanged_masses;
 mod exchanged_tests;
 mod falling;
+mod falling_shapes;
 mod gear_revolutions;
 mod gross_errors;
 mod increments;
@@ -51,8 +52,8 @@ const NEAR_TEETH: f64 = 1.7;
 /// Deviation up to which two counts of cycles are the same.
 const SAME_CYCLES: f64 = 0.005;
 
-/// All that there is to say, the worst first.
-pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+/// What the measurements show by themselves, without any model, the worst first.
+pub(in crate::learn) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     // all else would follow from it
     if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];
@@ -68,6 +69,15 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     }
     if let Some(unit) = sigmas::values_of_another_unit(data) {
         return vec![unit];
+    }
+    falling_shapes::falling_shapes(study, data)
+}
+
+/// All that there is to say, the worst first.
+pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    let by_themselves = sanity_of_data(study, data);
+    if !by_themselves.is_empty() {
+        return by_themselves;
     }
     let of_one_k = of_one_k(data, fit);
     let judged = |(o, _): &FittedRow<'_>| fit.judges(o.test);

@@ -130,6 +130,14 @@ impl Diagnosis {
         self.verdict == Verdict::NothingMissing && nothing.is_some_and(|&p| p >= SURE)
     }
 
+    /// The same with questions about the measurements before all other warnings: no effect is to be trusted until they are answered.
+    pub(in crate::learn) fn asking_first(mut self, questions: Vec<String>) -> Self {
+        let asked = questions.into_iter();
+        let asked = asked.map(|question| format!("check first: {question}"));
+        self.warnings.splice(0..0, asked);
+        self
+    }
+
     /// Puts the answer together.
     pub(in crate::learn) fn new(findings: Findings<'_>) -> Self {
         let Findings {

@@ -66,7 +66,8 @@ impl Explanation {
             _ => nothing_missing(findings, next),
         };
         if let Some(driver) = driver {
-            all.reasons.extend(depends_on(driver));
+            let is_explained = matches!(decision.verdict, Verdict::Effect | Verdict::Effects);
+            all.reasons.extend(depends_on(driver, is_explained));
         }
         if matches!(decision.verdict, Verdict::Effect | Verdict::Effects) {
             all.reasons.extend(why_not_the_runner_up(findings));
@@ -343,13 +344,14 @@ fn weaker_beside(findings: &Findings<'_>, leader: &FittedCandidate) -> Option<St
     ))
 }
 
-fn depends_on(driver: &Driver) -> Vec<String> {
+/// What the discrepancy depends on; `is_explained`: by effects that are named, which then are the cause and not the traces.
+fn depends_on(driver: &Driver, is_explained: bool) -> Vec<String> {
     let mut reasons = vec![format!(
         "The discrepancy depends most on {}: {} of its variance.",
         driver.in_words(),
         percent(driver.variance_share)
     )];
-    if driver.name == "trace" {
+    if driver.name == "trace" && !is_explained {
         reasons.push("Each trace is shifted or tilted on its own, which wear of the same teeth would not do: look at centring, base radius, datum and temperature of the measuring machine, and whether they are of the same tooth. [noise] trace_tilt and trace_shift allow for it.".to_owned());
     }
     reasons

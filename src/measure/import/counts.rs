@@ -40,8 +40,8 @@ pub(super) fn refuse_others(
     let start = header.find(number).unwrap_or(0);
     let (before, behind) = (&header[..start], &header[start + number.len()..]);
     let last = names::words(before).pop().unwrap_or_default();
-    let is_ordinal = names::is_stop(&last) || ORDINALS.contains(&last.as_str());
-    if is_ordinal && number.parse().is_ok_and(|n: f64| n < NO_ORDINAL) {
+    let in_sequence = names::is_stop(&last) || is_ordinal(&last);
+    if in_sequence && number.parse().is_ok_and(|n: f64| n < NO_ORDINAL) {
         return Err(ImportError(format!(
             "{}: the header `{header}` counts stages or measurements: write the revolutions of the pinion there at which each was made",
             cell_name(row, column)
@@ -77,6 +77,11 @@ pub(super) fn refuse_others(
         }
     }
     Ok(())
+}
+
+/// Whether a word before a small number makes it the place in a sequence.
+pub(super) fn is_ordinal(word: &str) -> bool {
+    ORDINALS.contains(&word)
 }
 
 /// Whether a word leaves a count as it is: revolutions, members, tests, quantities, and words that say nothing.

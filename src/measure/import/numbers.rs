@@ -1,6 +1,7 @@
 //! Numbers in the cells of tables: decimal marks, counts in headers, what is ambiguous.
 
-use super::{ImportError, Sheet, cell_name};
+use super::{ImportError, Sheet, cell_name, counts};
+use crate::measure::names;
 use crate::measure::thousands::{CountMarks, both_readings, in_thousands, without_certain};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -45,7 +46,12 @@ pub(super) fn with_points(
                 continue;
             }
             if let Some(decimal) = decimal {
-                *text = without_groups(text, decimal, &cell_name(row, column))?;
+                match without_groups(text, decimal, &cell_name(row, column)) {
+                    Ok(plain) => *text = plain,
+                    Err(error) if counts(row, column) => return Err(error),
+                    // a date or a part's number in a title
+                    Err(_) => {}
+                }
                 continue;
             }
             if !counts(row, column) {
@@ -239,6 +245,11 @@ pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, hea
     let is_text = sheet.name.is_empty() && decimal != Some(Decimal::Comma);
     let (above, below) = sheet.rows.split_at_mut(head + 1);
     let header = &mut above[head];
+    for text in header.iter_mut().skip(1) {
+        if let Some(plain) = without_blanks(text) {
+            *text = plain;
+        }
+    }
     let numbers = || {
         below
             .iter()
@@ -258,6 +269,27 @@ pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, hea
             *text = text.replacen(&word, &word.replace(['.', ','], ""), 1);
         }
     }
+}
+
+/// A header's one number without blanks between its thousands, `after 40 000 revolutions`; None without any, and where a word before it may make
+/// its first group another number: `stop 2 500 000`.
+fn without_blanks(text: &str) -> Option<String> {
+    let words: Vec<&str> = text.split(' ').collect();
+    let is_digits = |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_digit());
+    let first = words.iter().position(|word| is_digits(word))?;
+    let groups = words[first..].iter().take_while(|word| is_digits(word));
+    let count = groups.count();
+    let number = words[first..first + count].join(".");
+    let before = words[..first].iter().flat_map(|word| names::words(word));
+    let counts_something = before.last().is_some_and(|word| {
+        names::column(&word).is_some() || names::is_stop(&word) || counts::is_ordinal(&word)
+    });
+    let (before, behind) = (&words[..first], &words[first + count..]);
+    let has_digit = |word: &&str| word.contains(|c: char| c.is_ascii_digit());
+    let has_others = before.iter().chain(behind).any(has_digit);
+    let joined = number.replace('.', "");
+    (in_thousands(&number) && !counts_something && !has_others)
+        .then(|| [before, &[joined.as_str()], behind].concat().join(" "))
 }
 
 /// The words of a text that hold digits.

@@ -194,6 +194,19 @@ impl Wanted<'_> {
         Some((id, rest.trim().to_owned()))
     }
 
+    /// The one test of which a title speaks: its id behind a word for tests, `wear, run A`.
+    pub(super) fn test_in_title(&self, title: &str) -> Option<&str> {
+        let id = self.test_named(title)?;
+        let follows_a_word_for_tests = |at: usize| {
+            let before = names::words(&title[..at]);
+            let last = before.last();
+            last.is_some_and(|word| names::column(word) == Some("test"))
+        };
+        places(id, title)
+            .any(follows_a_word_for_tests)
+            .then_some(id)
+    }
+
     /// The one test whose id stands in a sheet's name or a header.
     pub(super) fn test_named(&self, sheet: &str) -> Option<&str> {
         let stands_in = |id: &str, text: &str| places(id, text).next().is_some();

@@ -13,8 +13,9 @@ use super::super::residual_statistics::FittedRow;
 use crate::measure::{FacePlace, Quantity, Subject};
 use crate::study::Study;
 
-/// Standard deviations from which a fall is no noise, and how far it must go.
+/// Standard deviations from which a fall is no noise.
 const SURE: f64 = 6.0;
+/// How far it must go where the model's shape stands for that of the curves.
 const FALLS_TO: f64 = 0.8;
 /// Fewest points of a curve, and the share of its squares that `s f` must explain.
 const FEWEST: usize = 4;
@@ -23,16 +24,16 @@ const OF_ITS_SHAPE: f64 = 0.8;
 const A_THOUSAND: [f64; 2] = [400.0, 2500.0];
 
 /// How much was worn at a checkpoint, in any unit, and its standard deviation.
-struct Worn {
-    cycles: f64,
-    amount: f64,
-    sigma: f64,
+pub(super) struct Worn {
+    pub(super) cycles: f64,
+    pub(super) amount: f64,
+    pub(super) sigma: f64,
     /// Largest value as it was written.
-    largest: f64,
+    pub(super) largest: f64,
 }
 
 /// Two checkpoints between which wear falls.
-struct Fall {
+pub(super) struct Fall {
     from: f64,
     to: f64,
     /// The one of them that looks a thousand times too small, or too large, if one does.
@@ -53,7 +54,7 @@ pub(super) fn falling(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     let mut said = Vec::new();
     for quantity in [Quantity::WearDepth, Quantity::MassLoss] {
         for ((test, member), series) in series(rows, quantity) {
-            let Some(fall) = series.iter().find_map(|worn| fall(worn)) else {
+            let Some(fall) = series.iter().find_map(|worn| fall(worn, FALLS_TO)) else {
                 continue;
             };
             let of = format!(
@@ -70,7 +71,7 @@ pub(super) fn falling(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
 
 impl Fall {
     /// A question about it, `of` the values of one test and member.
-    fn in_words(&self, of: &str, quantity: Quantity) -> String {
+    pub(super) fn in_words(&self, of: &str, quantity: Quantity) -> String {
         let (from, to) = (self.from, self.to);
         let [larger, smaller] = match quantity {
             Quantity::MassLoss => ["g", "µg"],
@@ -78,7 +79,7 @@ impl Fall {
         };
         match self.unit {
             None => format!(
-                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, or has one a digit more or less?"
+                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, has one a digit more or less, or is this what was lost since the measurement before (gearwear import --per-interval)?"
             ),
             Some(OtherUnit::LaterInLarger) => format!(
                 "{of} is about a thousand times less after {to} cycles than after {from}: was that checkpoint written in {larger}?"
@@ -90,14 +91,14 @@ impl Fall {
     }
 }
 
-/// The first two checkpoints between which wear falls.
-fn fall(worn: &[Worn]) -> Option<Fall> {
+/// The first two checkpoints between which wear falls below this share of what it was.
+pub(super) fn fall(worn: &[Worn], share: f64) -> Option<Fall> {
     worn.windows(2).enumerate().find_map(|(place, pair)| {
         let [before, after] = [&pair[0], &pair[1]];
         let far = before.amount - after.amount > SURE * before.sigma.hypot(after.sigma);
         // traces of one checkpoint are no fall
         let far = far && before.cycles < after.cycles;
-        (far && after.amount < FALLS_TO * before.amount).then(|| Fall {
+        (far && after.amount < share * before.amount).then(|| Fall {
             from: before.cycles,
             to: after.cycles,
             unit: other_unit(worn, place),
@@ -198,7 +199,7 @@ mod tests {
                 largest: amount,
             });
             let worn: Vec<Worn> = worn.collect();
-            fall(&worn)
+            fall(&worn, FALLS_TO)
                 .map(|fall| fall.in_words("in test A wear_depth of the gear", Quantity::WearDepth))
         };
         let is = |amounts, part: &str| said(amounts).unwrap().contains(part);

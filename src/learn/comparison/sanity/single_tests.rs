@@ -22,7 +22,7 @@ const DATUMS: f64 = 3.0;
 /// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
 const CLEAR_RATIO: f64 = 1.5;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
-const NEAR_RATIO: f64 = 0.25;
+const NEAR_RATIO: f64 = 0.1;
 const ALIKE: f64 = 0.3;
 /// Deviation up to which a torque is another one times the ratio, and the part of ln of the ratio by which k must then be lower.
 const SAME_TORQUE: f64 = 0.002;

@@ -20,6 +20,8 @@ struct Label {
     /// The name of a column that says the same, and the text below it.
     column: String,
     text: String,
+    /// Whether the row says it in passing, `Specimen: run A, gear`: a column of the table says it better.
+    in_passing: bool,
 }
 
 impl Label {
@@ -72,6 +74,7 @@ pub(super) fn as_columns(
         };
         let own = header.iter().find(|column| column.what.own() == Some(key));
         match own {
+            Some(_) if label.in_passing => {}
             // a test may be said to last longer than until a checkpoint
             Some(_) if label.key == "cycles" => {}
             Some(column) => below_agrees(sheet, head, column, &label, wanted)?,
@@ -165,54 +168,105 @@ pub(in crate::measure::import) fn flank_above(
 }
 
 /// All labels of some keys above a header, each key once.
-fn labels(sheet: &Sheet, head: usize, keys: &[&str], wanted: &Wanted<'_>) -> Result<Vec<Label>> {
+fn labels(
+    sheet: &Sheet,
+    head: usize,
+    keys: &[&'static str],
+    wanted: &Wanted<'_>,
+) -> Result<Vec<Label>> {
     let mut labels: Vec<Label> = Vec::new();
     for row in 0..head {
-        let Some(label) = label(sheet, row, keys, wanted)? else {
-            continue;
-        };
-        let refused = |other: String| {
-            Err(ImportError(format!(
-                "row {}: `{}` says {} {}, {other}: take the wrong one out",
-                row + 1,
-                label.written,
-                label.key,
-                label.text
-            )))
-        };
-        let before = labels.iter().find(|before| before.key == label.key);
-        if let Some(before) = before {
-            if before.text != label.text {
-                return refused(format!("row {} says {}", before.row + 1, before.text));
-            }
-            continue;
+        for label in said_by(sheet, row, keys, wanted)? {
+            agreeing(&mut labels, label, sheet, wanted)?;
         }
-        let stated = match label.key {
-            "test" => [
-                (wanted.test, "--test"),
-                (wanted.test_named(&sheet.name), "the sheet's name"),
-            ],
-            "member" => [
-                (wanted.member.map(Subject::name), "--member"),
-                (
-                    names::one_member(&sheet.name).map(Subject::name),
-                    "the sheet's name",
-                ),
-            ],
-            _ => [(None, ""), (None, "")],
-        };
-        for (other, whose) in stated {
-            if let Some(other) = other.filter(|other| *other != label.text) {
-                return refused(format!("{whose} says {other}"));
-            }
-        }
-        labels.push(label);
     }
     Ok(labels)
 }
 
+/// Puts a label to the others, once.
+///
+/// # Errors
+/// [`ImportError`] where it contradicts one of them, the user or the sheet's name.
+fn agreeing(
+    labels: &mut Vec<Label>,
+    label: Label,
+    sheet: &Sheet,
+    wanted: &Wanted<'_>,
+) -> Result<()> {
+    let refused = |other: String| {
+        Err(ImportError(format!(
+            "row {}: `{}` says {} {}, {other}: take the wrong one out",
+            label.row + 1,
+            label.written,
+            label.key,
+            label.text
+        )))
+    };
+    let before = labels.iter().find(|before| before.key == label.key);
+    if let Some(before) = before {
+        if before.text != label.text {
+            return refused(format!("row {} says {}", before.row + 1, before.text));
+        }
+        return Ok(());
+    }
+    let stated = match label.key {
+        "test" => [
+            (wanted.test, "--test"),
+            (wanted.test_named(&sheet.name), "the sheet's name"),
+        ],
+        "member" => [
+            (wanted.member.map(Subject::name), "--member"),
+            (
+                names::one_member(&sheet.name).map(Subject::name),
+                "the sheet's name",
+            ),
+        ],
+        _ => [(None, ""), (None, "")],
+    };
+    for (other, whose) in stated {
+        if let Some(other) = other.filter(|other| *other != label.text) {
+            return refused(format!("{whose} says {other}"));
+        }
+    }
+    labels.push(label);
+    Ok(())
+}
+
+/// What a row says of the table, with what its words say in passing: of which test a title speaks, and of which member beside the test.
+fn said_by(
+    sheet: &Sheet,
+    row: usize,
+    keys: &[&'static str],
+    wanted: &Wanted<'_>,
+) -> Result<Vec<Label>> {
+    let words = filled(&sheet.rows[row]).join(" ");
+    let in_passing = |key: &'static str, text: &str| Label {
+        row,
+        written: words.clone(),
+        key,
+        column: key.to_owned(),
+        text: text.to_owned(),
+        in_passing: true,
+    };
+    let mut said: Vec<Label> = label(sheet, row, keys, wanted)?.into_iter().collect();
+    if said.is_empty() && keys.contains(&"test") {
+        let test = wanted.test_in_title(&words);
+        said.extend(test.map(|test| in_passing("test", test)));
+    }
+    if said.iter().any(|label| label.key == "test") && keys.contains(&"member") {
+        let member = names::one_member(&words);
+        said.extend(member.map(|member| in_passing("member", member.name())));
+    }
+    Ok(said)
+}
+
 /// What a row says of the table; none for other rows.
-fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Result<Option<Label>> {
+fn label(
+    sheet: &Sheet,
+    row: usize,
+    keys: &[&'static str],
+    wanted: &Wanted<'_>,
+) -> Result<Option<Label>> {
     let Some((name, text)) = name_and_text(&sheet.rows[row]) else {
         return Ok(None);
     };
@@ -226,6 +280,7 @@ fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Resul
             key: "time",
             column,
             text,
+            in_passing: false,
         }));
     }
     let key = column.what.own().filter(|own| keys.contains(own));
@@ -239,10 +294,15 @@ fn label(sheet: &Sheet, row: usize, keys: &[&str], wanted: &Wanted<'_>) -> Resul
             key,
             column,
             text,
+            in_passing: false,
         }))
     };
     match key {
-        "test" => match wanted.test_of(&text).or_else(|| wanted.test_named(&text)) {
+        "test" => match (wanted.test_of(&text))
+            .or_else(|| wanted.test_named(&text))
+            // `Run A: pinion`
+            .or_else(|| wanted.test_in_title(&format!("{name}: {text}")))
+        {
             Some(id) => label(name.to_owned(), id.to_owned()),
             // a title, where the test is stated
             None if wanted.test.is_some() || filled(&sheet.rows[row]).len() > 2 => Ok(None),
