@@ -227,3 +227,27 @@ fn points_between_thousands_of_counts_beside_decimal_commas() {
     let message = refused(&home, &both, "--sigma 0.1");
     assert!(message.contains("C2"), "{message}");
 }
+
+#[test]
+fn points_between_thousands_are_told_by_the_length_of_the_test() {
+    let home = home();
+    let stated = "--test A --member pinion --unit um --sigma 0.1";
+    let table = "radius [mm];nach 40.000 U;nach 250.000 U\n26;1;3\n27;2;5\n";
+    let (_, written) = rows(&home, table, stated);
+    assert!(
+        written.contains("A,pinion,40000,wear_depth,26,1"),
+        "{written}"
+    );
+    assert!(
+        written.contains("A,pinion,250000,wear_depth,27,5"),
+        "{written}"
+    );
+    // 2000 and 4000 revolutions are as likely as 2 and 4 in a test of a million
+    let early = table.replace("40.000", "2.000").replace("250.000", "4.000");
+    let message = refused(&home, &early, stated);
+    assert!(message.contains("marked between thousands"), "{message}");
+    // beside decimal points they are none between thousands
+    let points = table.replace("27;2;5", "27;2.5;5");
+    let message = refused(&home, &points, stated);
+    assert!(message.contains("marked between thousands"), "{message}");
+}

@@ -7,6 +7,7 @@ use std::cell::OnceCell;
 
 use super::compare::{CompareError, CompareStage, Compared, FAR_SHARE, contact_of};
 use super::missed::BaselineMisfit;
+use super::residual_statistics::Share;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::measured::{Measured, Misfit};
 use crate::learn::hypothesis::version::ModelVersion;
@@ -55,10 +56,14 @@ pub struct Addition {
 impl Addition {
     /// Whether the effect betters nothing that noise would not.
     pub fn betters_nothing(&self) -> bool {
-        let fit = &self.compared.comparison.fit;
-        let fall = self.without_chi2_per_point.zip(fit.chi2_per_point);
-        fall.is_some_and(|(without, with)| with > without - CHANCE / fit.points.max(1) as f64)
+        betters_nothing(self.without_chi2_per_point, &self.compared.comparison.fit)
     }
+}
+
+/// Whether a fit betters nothing over one of this χ² per point that noise would not: its new parameters have no hold on the measurements then.
+pub(super) fn betters_nothing(without: Option<f64>, fit: &Share) -> bool {
+    let fall = without.zip(fit.chi2_per_point);
+    fall.is_some_and(|(without, with)| with > without - CHANCE / fit.points.max(1) as f64)
 }
 
 /// One form's fit in short.

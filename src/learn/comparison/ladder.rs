@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::add::betters_nothing;
 use super::record::{Comparison, ParameterRecord};
 
 /// One version of a model.
@@ -77,13 +78,29 @@ pub fn ladder(versions: &[Version<'_>]) -> Vec<LadderStep> {
             fit_chi2_per_point: now.fit.chi2_per_point,
             holdout_chi2_per_point: now.holdout.chi2_per_point,
             rms_um: now.rms_um,
-            parameters: now.parameters.clone(),
+            parameters: parameters(now, before.map(|before| before.comparison)),
             against: before.map(|before| before.study.to_owned()),
             improvement: before.map(|before| Improvement::between(before.comparison, now)),
             sound: now.converged && now.parameters.iter().all(|p| !p.at_bound),
         }
     };
     versions.iter().map(step).collect()
+}
+
+/// The parameters of a version; those that it has beyond the one `before` without intervals where they better nothing, as where they are added.
+fn parameters(now: &Comparison, before: Option<&Comparison>) -> Vec<ParameterRecord> {
+    let mut parameters = now.parameters.clone();
+    let Some(before) = before else {
+        return parameters;
+    };
+    let is_known =
+        |own: &ParameterRecord| before.parameters.iter().any(|known| known.name == own.name);
+    if betters_nothing(before.fit.chi2_per_point, &now.fit) {
+        for own in parameters.iter_mut().filter(|own| !is_known(own)) {
+            own.interval_95 = None;
+        }
+    }
+    parameters
 }
 
 impl Improvement {

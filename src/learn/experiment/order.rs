@@ -10,8 +10,8 @@ const SAME: f64 = 1e-6;
 
 /// The rows in the order in which they are told.
 ///
-/// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: fewer hours on the rig,
-/// then fewer changes, then what takes less measuring. Then the others by what they separate, of near-equals those of fewer hours, then of fewer
+/// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: without an instrument
+/// that may not be there, then fewer hours on the rig, then fewer changes, then what takes less measuring. Then the others by what they separate, of near-equals those of fewer hours, then of fewer
 /// changes. What does not feel speed or temperature is told at one: of near-equals at the one that costs least.
 pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
     let is_made = |row: &RankedTest| {
@@ -30,8 +30,10 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
     let (mut enough, rest): (Vec<_>, Vec<_>) =
         (new.into_iter()).partition(|row| row.expected_chi2 >= ENOUGH);
     enough.sort_by(|a, b| {
+        let instrument = needs_another_instrument(a, made).cmp(&needs_another_instrument(b, made));
         let hours = a.test.hours().total_cmp(&b.test.hours());
-        hours.then_with(|| (a.changes, effort(a)).cmp(&(b.changes, effort(b))))
+        let first = instrument.then(hours);
+        first.then_with(|| (a.changes, effort(a)).cmp(&(b.changes, effort(b))))
     });
     let cost = |row: &RankedTest| (row.test.hours(), row.changes);
     let scores: Vec<_> = (rest.iter().map(|r| (r.expected_chi2, cost(r)))).collect();
@@ -43,6 +45,12 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
         }
     }
     told
+}
+
+/// Whether the quantity takes more than a balance and was in no test so far.
+fn needs_another_instrument(row: &RankedTest, made: &[MadeTest]) -> bool {
+    let is_new = !made.is_empty() && !made.iter().any(|made| made.has(&row.quantity));
+    is_new && row.quantity != Quantity::MassLoss.name()
 }
 
 /// What a quantity takes to measure: a balance, a run on the rig, traces along flanks.
@@ -105,6 +113,23 @@ mod tests {
         let order: Vec<f64> = told.iter().map(|r| r.test.torque).collect();
         assert_eq!(order, [200.0, 50.0, 100.0, 100.0]);
         assert_eq!(told[3].quantity, "transmission_error");
+    }
+
+    /// A test bench for transmission errors may not be there; a balance is.
+    #[test]
+    fn what_was_measured_before_stands_before_what_needs_another_instrument() {
+        let made = MadeTest {
+            test: row(100.0, 1e6, "wear_depth", 0, 0.0).test,
+            quantities: vec![Quantity::WearDepth],
+        };
+        let rows = vec![
+            row(100.0, 1e5, "transmission_error", 0, 60.0),
+            row(200.0, 3e6, "wear_depth", 1, 60.0),
+            row(200.0, 4e6, "mass_loss", 1, 60.0),
+        ];
+        let told = in_order(rows, &[made]);
+        let order: Vec<&str> = told.iter().map(|r| r.quantity.as_str()).collect();
+        assert_eq!(order, ["wear_depth", "mass_loss", "transmission_error"]);
     }
 
     /// What a rig costs is its hours: as many revolutions at a higher speed are cheaper.

@@ -147,6 +147,11 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             100.0 * unknown,
             next_step(decided)
         ),
+        Verdict::Unknown => format!(
+            "The diagnosis finds a cause that the catalogue does not hold ({}), of which this table cannot tell; next, by the diagnosis: {}. What follows              would separate effects that are less probable. ",
+            probability(unknown),
+            next_step(decided)
+        ),
         Verdict::Effects if !holds_its_leaders => format!(
             "The diagnosis has decided for {} ({:.0} %), which this table does not judge: add them (gearwear add), then plan from the study with them. ",
             first.effect,
@@ -278,6 +283,11 @@ mod tests {
         assert!(
             open.contains("(33 %)") && open.contains("tests at several speeds"),
             "{open}"
+        );
+        let outside = left_open(Some(&decided(Verdict::Unknown, 0.01, 0.985)), true);
+        assert!(
+            outside.contains("does not hold (98.5 %)") && outside.contains("less probable"),
+            "{outside}"
         );
         let done = left_open(Some(&decided(Verdict::Effect, 0.99, 0.01)), true);
         assert!(

@@ -115,6 +115,11 @@ impl Wanted<'_> {
         Some(self.runs[n])
     }
 
+    /// Cycles of a test.
+    pub(super) fn end(&self, test: &str) -> Option<f64> {
+        self.run(test).map(|[_, end]| end)
+    }
+
     /// Torque on the pinion of a test, N m.
     pub(super) fn torque(&self, test: &str) -> Option<f64> {
         let n = self.tests.iter().position(|id| *id == test)?;

@@ -61,7 +61,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         sheet = without;
         multiple
     });
-    let without_points = header_points::left_out(&sheet, wanted.decimal, head);
+    let without_points = header_points::left_out(&sheet, wanted.decimal, head, wanted.end(&test.0));
     if let Some(plain) = without_points.filter(|_| multiple.is_none()) {
         sheet = plain;
     }

@@ -104,7 +104,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
     let are_counts = across == Across::Checkpoints && multiple.is_none();
-    let without_points = header_points::left_out(sheet, wanted.decimal, head);
+    let without_points = header_points::left_out(sheet, wanted.decimal, head, wanted.end(&test.0));
     if let Some(sheet) = without_points.as_ref().filter(|_| are_counts) {
         grid = Grid::of(sheet, head)?;
     }
