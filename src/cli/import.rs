@@ -38,11 +38,35 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             sigma_of_others: args.all_sheets && chosen.len() > 1,
             ..wanted.clone()
         };
-        for sheet in chosen {
-            taken.take(args, &study, &named(table, sheet), sheet, &wanted)?;
+        let mut take =
+            |sheet: &Sheet| taken.take(args, &study, &named(table, sheet), sheet, &wanted);
+        for (n, sheet) in chosen.iter().enumerate() {
+            if let Err(error) = take(sheet) {
+                let refused: Vec<&str> = (chosen[n + 1..].iter())
+                    .filter(|sheet| take(sheet).is_err())
+                    .map(|sheet| sheet.name.as_str())
+                    .collect();
+                return Err(beside_others(error, chosen.len(), &refused));
+            }
         }
     }
     taken.outcome(args, &study)
+}
+
+/// Why a sheet of several was refused, with those behind it that are refused too.
+fn beside_others(error: CliError, sheets: usize, refused: &[&str]) -> CliError {
+    match error {
+        CliError::Unusable(why) if sheets > 1 => {
+            let others = match refused {
+                [] => "all others can be read".to_owned(),
+                names => format!("of the others, {} cannot be read either", names.join(", ")),
+            };
+            CliError::Unusable(format!(
+                "{why}\nNothing is written; {others}. --sheet NAME takes one by itself"
+            ))
+        }
+        other => other,
+    }
 }
 
 /// The sheets that are meant, those without a cell left out.

@@ -11,6 +11,9 @@ pub struct Combined {
     ignores_surroundings: bool,
 }
 
+/// Share of the largest lead up to which one off the straight line between its ends is rounding.
+const STRAIGHT: f64 = 1e-9;
+
 impl Combined {
     /// Adds an effect that acts through `hook`.
     pub fn push(&mut self, hook: Hook, effect: Box<dyn Effect>) {
@@ -61,6 +64,23 @@ impl Combined {
             };
             self.lead(&at).is_some_and(|lead| lead != 0.0)
         })
+    }
+
+    /// Whether what is missing at mid-face is not half of what is missing at both ends together.
+    pub fn has_bent_lead(&self, width: f64, normal_force: f64) -> bool {
+        let lead = |place| {
+            let at = FaceAt {
+                place,
+                width,
+                normal_force,
+            };
+            self.lead(&at).unwrap_or(0.0)
+        };
+        let (ends, middle) = ([lead(-1.0), lead(1.0)], lead(0.0));
+        let largest = ends
+            .iter()
+            .fold(middle.abs(), |m: f64, end| m.max(end.abs()));
+        (0.5 * (ends[0] + ends[1]) - middle).abs() > STRAIGHT * largest
     }
 
     /// The load factor of the effects that know nothing of the face.

@@ -98,6 +98,12 @@ impl Acting {
         self.effects.has_lead(self.face_width, force)
     }
 
+    /// Whether what they leave missing there is no straight wedge.
+    pub fn bends_across_the_face(&self, pair: &Pair) -> bool {
+        let force = self.normal_force(pair);
+        self.effects.has_bent_lead(self.face_width, force)
+    }
+
     /// What the effects add to the centre distance of `pair`, mm.
     pub fn added_centre_distance(&self, pair: &Pair) -> f64 {
         let state = OperationState {

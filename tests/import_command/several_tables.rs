@@ -163,6 +163,11 @@ fn all_sheets_are_read_one_after_the_other() {
         ),
         "{message}"
     );
+    // and which of the others cannot be read either
+    assert!(
+        message.contains("Nothing is written; of the others, rows cannot be read either"),
+        "{message}"
+    );
 }
 
 /// What a table says twice has to agree, and what it says of cycles has to be plain.

@@ -34,11 +34,20 @@ pub(super) const CARD: Card = Card {
         Param::new("face_position", "-", "place of traces whose row states no `face`, from the middle of the face, in half face widths", 0.0, (-1.0, 1.0), Prior::Uniform { low: -1.0, high: 1.0 }).fixed(),
         Param::either("face_mean", "1: traces whose row states no `face` are means over the face; 0: they are taken at `face_position`"),
     ],
-    forms: &[Form {
-        name: "mean over the face",
-        settings: &[("face_mean", 1.0)],
-        ..Form::PLAIN
-    }],
+    forms: &[
+        Form {
+            name: "mean over the face",
+            settings: &[("face_mean", 1.0)],
+            ..Form::PLAIN
+        },
+        // the two ends are alike
+        Form {
+            name: "near an end",
+            settings: &[("face_position", 0.8)],
+            signature: "less wear at the ends of the face than k elsewhere says, most at low torque; it evens out with time",
+            ..Form::PLAIN
+        },
+    ],
     build: |p| Box::new(LeadCrowning { amount: p[0], mesh_stiffness: p[1], face_position: p[2], face_mean: p[3] }),
 };
 

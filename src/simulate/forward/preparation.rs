@@ -66,6 +66,8 @@ const MOST_REACH: f64 = 0.8;
 /// Slices of a face that only an effect makes uneven: a wedge that opens most of the face wears its loaded end within 1.3 % of what 23 slices
 /// give, at 3.6 times the time of one.
 const SLICES_OF_EFFECTS: usize = 7;
+/// The same where it bends: under a crown of 17 µm, of which light loads close a part, 7 slices leave 2 µrad in the transmission error.
+const SLICES_OF_BENT_EFFECTS: usize = 11;
 
 /// What runs at one mounting share.
 #[derive(Clone)]
@@ -391,8 +393,10 @@ impl Forward<'_> {
         let wanted = (self.acting).is_some_and(|acting| {
             acting.acts_across_the_face(&self.cycle.pair) && !acting.acts(Hook::ToothOffset)
         });
+        let bends = || (self.acting).is_some_and(|a| a.bends_across_the_face(&self.cycle.pair));
         let count = match face.slices {
             // one stated section stays one: effects across the face are then a factor on its load, as analytically
+            0 if wanted && bends() => SLICES_OF_BENT_EFFECTS,
             0 if wanted => SLICES_OF_EFFECTS,
             stated => stated,
         };
