@@ -30,8 +30,8 @@ pub(super) const CARD: Card = Card {
         "profile_slope",
         "extra_flexibility",
     ],
-    separated_by: "measuring four teeth or more around the member",
-    left_out: "of an axis that lies off all but what the measured tooth feels: other teeth of the member, the mate, masses and what is read of the mesh are those at the mean distance of the axes (a single run is that of the measured tooth throughout); differences between the mates that a tooth meets; teeth between three around the member wear by the wave through these. Teeth at angles off not beside slices of the face",
+    separated_by: "measuring four teeth or more around the member; an axis that lies off from a misalignment: measuring both members, or their masses",
+    left_out: "of an axis that lies off all but what the measured tooth feels: other teeth of the member, the mate, masses and what is read of the mesh are those at the mean distance of the axes (a single run is that of the measured tooth throughout), and the mate that the measured tooth meets is worn as by that tooth alone; differences between the mates that a tooth meets; teeth between three around the member wear by the wave through these. Teeth at angles off not beside slices of the face",
     needs: &[],
     params: &[
         Param::new(
