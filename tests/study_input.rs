@@ -103,6 +103,10 @@ refusals! {
         => Inconsistent "face.slices" at 25:10, "11", "1", "one section of the face";
     helical_teeth_elsewhere: with("module = 2.0", "module = 2.0\nhelix_angle = 12.0")
         => UnknownKey "gears.helix_angle" at 3:1, "helix_angle", "module", "the helix angle stands in [face]";
+    an_axis_and_teeth_that_lie_off: format!("{SHORT}[[effect]]\nkind = \"run_out\"\naxis_shift = 20.0\n")
+        => Inconsistent "effect.axis_shift" at 23:14, "20.0", "0 um, or amplitude = 0", "amplitude is not 0";
+    an_axis_too_far_off: format!("{SHORT}[[effect]]\nkind = \"run_out\"\namplitude = 0.0\naxis_shift = 2e3\n")
+        => BadValue "effect.axis_shift" at 24:14, "2e3", "-1000 to 1000 um", "out of range";
     a_gear_beyond_its_bearing: format!("{SHORT}[[effect]]\nkind = \"shaft_deflection\"\noffset = 60.0\n")
         => Inconsistent "effect.offset" at 23:10, "60.0", "-50 to 50 mm", "overhung = 1";
     a_pitch_chart_with_a_wrong_count: format!("{SHORT}[teeth.pinion]\npitch_deviations = [1.0, 2.0]\n")
@@ -110,7 +114,7 @@ refusals! {
     a_pitch_chart_of_words: format!("{SHORT}[teeth.pinion]\npitch_deviations = [\"a\", \"b\"]\n")
         => WrongType "teeth.pinion.pitch_deviations" at 22:21, "\"a\"", "list of numbers", "not a list";
     a_pitch_chart_in_mm: format!("{SHORT}[teeth.pinion]\npitch_pattern = [0.0, 2000.0]\n")
-        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 µm", "out of range";
+        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 um", "out of range";
     a_pattern_longer_than_the_teeth: format!("{SHORT}[teeth.pinion]\npitch_pattern = [1.0]\n")
         => Inconsistent "teeth.pinion.pitch_pattern" at 22:17, "[1.0]", "2 to 27 numbers", "1 deviations";
     two_pitch_charts: format!("{SHORT}[teeth.gear]\npitch_pattern = [1.0, 0.0]\npitch_file = \"p.csv\"\n")

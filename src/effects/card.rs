@@ -10,7 +10,7 @@ use super::prior::Prior;
 pub struct Card {
     /// Name in study files and results.
     pub name: &'static str,
-    /// Through which hook it acts.
+    /// Through which hook it acts, unless its values say another ([`Card::hook_at`]).
     pub hook: Hook,
     /// `hook = expression`, in the parameters below and the named variables of a user's formula.
     pub formula: &'static str,
@@ -72,6 +72,8 @@ pub enum ParamRole {
     /// What the effect's dependence on speed is known by: measurements that determine none of these show a pattern that another cause
     /// could make as well.
     IdentifyingSpeed,
+    /// What it does concerns the measured tooth of a member alone.
+    MeasuredTooth,
 }
 
 /// Another accepted form of an effect's law.
@@ -190,6 +192,11 @@ impl Card {
             .iter()
             .map(|param| param.neutral.unwrap_or(param.default))
             .collect()
+    }
+
+    /// Through which hook it acts with these values.
+    pub fn hook_at(&self, values: &[f64]) -> Hook {
+        (self.build)(values).acts_through().unwrap_or(self.hook)
     }
 
     /// The defaults with `stated` ones replaced.

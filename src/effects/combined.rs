@@ -2,7 +2,7 @@
 
 use super::effect::{Effect, FaceAt, Hook, OperationChange, OperationState, Tooth, UsualTrace};
 use super::local::{Local, ProfileAt};
-use crate::gear::ToothClasses;
+use crate::gear::{Member, ToothClasses};
 
 /// The effects of one model.
 #[derive(Default)]
@@ -15,9 +15,28 @@ pub struct Combined {
 const STRAIGHT: f64 = 1e-9;
 
 impl Combined {
-    /// Adds an effect that acts through `hook`.
+    /// Adds an effect that acts through `hook`, unless it says itself that with its values it acts through another.
     pub fn push(&mut self, hook: Hook, effect: Box<dyn Effect>) {
+        let hook = effect.acts_through().unwrap_or(hook);
         self.entries.push((hook, effect));
+    }
+
+    /// The members of which an effect concerns the measured tooth alone.
+    pub fn measured_teeth(&self) -> Vec<Member> {
+        let concerns = |member: &Member| {
+            let mut each = self.entries.iter();
+            each.any(|(_, effect)| effect.of_measured_tooth() == Some(*member))
+        };
+        Member::BOTH.into_iter().filter(concerns).collect()
+    }
+
+    /// The effects that the measured tooth of a member feels; None: without all that concerns measured teeth alone.
+    pub fn felt_by(mut self, measured: Option<Member>) -> Self {
+        self.entries.retain(|(_, effect)| {
+            let alone = effect.of_measured_tooth();
+            alone.is_none() || alone == measured
+        });
+        self
     }
 
     /// Says that none of the effects asks for film, friction or temperature, which then need not be worked out.

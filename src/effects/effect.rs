@@ -163,6 +163,17 @@ pub trait Effect: Send + Sync {
         0.0
     }
 
+    /// Through which hook it acts with its values, where that is not the one that its card names.
+    fn acts_through(&self) -> Option<Hook> {
+        None
+    }
+
+    /// Whose measured tooth alone it concerns, if it does: the member's other teeth meet the mate otherwise, so that the mate, masses and what is
+    /// read of the mesh are as without it, to first order.
+    fn of_measured_tooth(&self) -> Option<Member> {
+        None
+    }
+
     /// Whether `added_depth` only displaces material, so that the member loses depth and no mass.
     fn keeps_mass(&self) -> bool {
         false

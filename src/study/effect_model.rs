@@ -146,14 +146,9 @@ impl EffectModel {
 
     /// Whether the wear coefficient only stretches time: every effect multiplies the wear or the load and none has a clock.
     pub fn stretches_time(&self) -> bool {
-        self.specs.iter().all(|spec| {
-            let hook = match &spec.law {
-                Law::Card(card) => card.hook,
-                Law::Formula { formula, .. } => formula.hook(),
-                Law::Learned(learned) => learned.law.hook(),
-            };
-            hook != Hook::AddedDepth && !speaks_of(spec, CLOCKS)
-        })
+        self.specs
+            .iter()
+            .all(|spec| spec.hook() != Hook::AddedDepth && !speaks_of(spec, CLOCKS))
     }
 
     /// The learned law of this name (`learned:cycles`).
@@ -312,10 +307,13 @@ impl EffectSpec {
         self.hook() == effects::Hook::ToothOffset
     }
 
-    /// Where it acts.
+    /// Where it acts with its values.
     pub fn hook(&self) -> effects::Hook {
         match &self.law {
-            Law::Card(card) => card.hook,
+            Law::Card(card) => {
+                let values: Vec<f64> = self.parameters.iter().map(|p| p.value).collect();
+                card.hook_at(&values)
+            }
             Law::Formula { formula, .. } => formula.hook(),
             Law::Learned(learned) => learned.law.hook(),
         }

@@ -757,6 +757,20 @@ fn mounting() {
         0.019_268_434_942_017_4,
     );
     assert!(change("thermal_expansion", &[("expansion", -1e-5)]) < 0.0);
+    let off = [("amplitude", 0.0), ("axis_shift", -30.0)];
+    same(change("run_out", &off), -0.03);
+    let combined = |stated: &[(&str, f64)]| {
+        let mut all = Combined::default();
+        all.push(Hook::ToothOffset, effect("run_out", stated));
+        all
+    };
+    assert!(combined(&off).acts(Hook::Operation) && !combined(&off).acts(Hook::ToothOffset));
+    assert!(combined(&[]).acts(Hook::ToothOffset) && !combined(&[]).acts(Hook::Operation));
+    assert_eq!(combined(&off).measured_teeth(), [Member::Pinion]);
+    assert!(combined(&[]).measured_teeth().is_empty());
+    assert_eq!(combined(&off).felt_by(Some(Member::Pinion)).len(), 1);
+    assert!(combined(&off).felt_by(Some(Member::Gear)).is_empty());
+    assert_eq!(combined(&[]).felt_by(None).len(), 1);
     assert_eq!(effect("extra_flexibility", &[]).compliance(), 0.02);
 }
 

@@ -236,8 +236,8 @@ impl Candidate {
 
     /// Whether it moves single teeth from their places alone.
     pub(in crate::learn) fn acts_on_single_teeth(&self) -> bool {
-        let cards = self.effects.cards();
-        !cards.is_empty() && cards.iter().all(|card| card.hook == Hook::ToothOffset)
+        let added = self.added();
+        !added.is_empty() && added.iter().all(EffectSpec::acts_on_teeth)
     }
 
     /// Whether it acts through slices of the face alone.
@@ -248,8 +248,14 @@ impl Candidate {
 
     /// Whether it moves the gears to another centre distance.
     pub(in crate::learn) fn moves_the_centres(&self) -> bool {
-        let mut cards = self.effects.cards().iter();
-        cards.any(|card| card.hook == Hook::Operation)
+        let mut added = self.added().iter();
+        added.any(|effect| effect.hook() == Hook::Operation)
+    }
+
+    /// The added effects in their forms: behind those of the base model.
+    fn added(&self) -> &[EffectSpec] {
+        let all = self.version.effects.specs();
+        &all[all.len() - self.effects.cards().len()..]
     }
 
     /// Whether it costs many times a section: slices of the face or classes of teeth.

@@ -1,5 +1,8 @@
 //! The gear pair as a fit sees it: a wear history of each test, read at the measured places and times.
 //!
+//! Where an effect concerns the measured tooth of a member alone, what is measured there is read from a history of that tooth, all else from one of
+//! the mean tooth.
+//!
 //! Histories are kept, so that a wear coefficient more costs nothing where it only stretches time ([`crate::learn::trajectory`]).
 
 mod derivatives;
@@ -7,9 +10,10 @@ mod derivatives;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::effects::{Combined, Hook, Local};
+use crate::effects::{Combined, Hook, Local, ParamRole};
+use crate::gear::Member;
 use crate::learn::prediction::bench::Bench;
-use crate::learn::prediction::observe::Reading;
+use crate::learn::prediction::observe::{Reading, measured_tooth};
 use crate::learn::prediction::predictor::{Linearised, Move, PredictError, Predictor};
 use crate::learn::prediction::trajectory::Trajectory;
 use crate::measure::{Observation, Quantity};
@@ -25,6 +29,8 @@ pub struct GearModel<'a> {
     bench: &'a Bench<'a>,
     effects: EffectsOf<'a>,
     stretches: bool,
+    /// The parameters that concern measured teeth alone, by their places.
+    of_measured_teeth: Vec<usize>,
     /// Each with its derivatives, without, or both.
     histories: Mutex<HashMap<Key, Vec<Arc<Trajectory>>>>,
     /// Whether histories are given up that wear far deeper than was measured.
@@ -60,6 +66,7 @@ impl<'a> GearModel<'a> {
             bench,
             effects,
             stretches: false,
+            of_measured_teeth: Vec::new(),
             histories: Mutex::default(),
             gives_up: false,
             given_up: Mutex::default(),
@@ -74,13 +81,23 @@ impl<'a> GearModel<'a> {
         effects: &'a EffectModel,
         names: Vec<N>,
     ) -> Self {
+        let of_measured_tooth = |name: &N| {
+            let card = effects.parameter(name.as_ref()).and_then(|p| p.card);
+            card.is_some_and(|card| card.role == ParamRole::MeasuredTooth)
+        };
+        let of_measured_teeth = (names.iter().enumerate())
+            .filter_map(|(place, name)| of_measured_tooth(name).then_some(place))
+            .collect();
         let build = move |values: &[f64]| {
             effects.build(&|name| {
                 let place = names.iter().position(|known| known.as_ref() == name)?;
                 values.get(place).copied()
             })
         };
-        Self::new(bench, Box::new(build)).stretching(effects.stretches_time())
+        Self {
+            of_measured_teeth,
+            ..Self::new(bench, Box::new(build)).stretching(effects.stretches_time())
+        }
     }
 
     /// The same, where the wear coefficient only stretches time: every effect multiplies it and none has a clock.
@@ -186,10 +203,54 @@ impl<'a> GearModel<'a> {
         Ok(forward)
     }
 
-    /// A test at some parameters, ready to be worn.
-    fn run(&self, test: usize, coefficient: f64, parameters: &[f64]) -> Run {
-        let measured = &self.bench.tests[test];
+    /// The runs that a test at some parameters takes, each with observations of its own; none without any.
+    fn runs(&self, test: usize, coefficient: f64, parameters: &[f64]) -> Vec<Run> {
+        let observations = &self.bench.tests[test].observations;
+        let all = 0..observations.len();
+        if all.is_empty() {
+            return Vec::new();
+        }
         let effects = (self.effects)(parameters);
+        let mut bits: Vec<u64> = parameters.iter().map(|p| p.to_bits()).collect();
+        let apart = effects.measured_teeth();
+        if apart.is_empty() {
+            let run = self.run(test, coefficient, (effects, bits, None), all.collect());
+            return vec![run];
+        }
+        let chart = self.bench.templates[test].states_teeth();
+        let whose = |row: &usize| {
+            // rows beside a pitch chart are those of the mean tooth
+            let measured = measured_tooth(&observations[*row], self.bench.set());
+            measured.filter(|member| !chart && apart.contains(member))
+        };
+        let mut runs = Vec::new();
+        for (i, member) in apart.iter().enumerate() {
+            let rows: Vec<usize> = all.clone().filter(|r| whose(r) == Some(*member)).collect();
+            if !rows.is_empty() {
+                let effects = (self.effects)(parameters).felt_by(Some(*member));
+                let bits = [&bits[..], &[i as u64]].concat();
+                runs.push(self.run(test, coefficient, (effects, bits, Some(*member)), rows));
+            }
+        }
+        let rows: Vec<usize> = all.filter(|row| whose(row).is_none()).collect();
+        if !rows.is_empty() {
+            for &place in &self.of_measured_teeth {
+                bits[place] = 0;
+            }
+            runs.push(self.run(test, coefficient, (effects.felt_by(None), bits, None), rows));
+        }
+        runs
+    }
+
+    /// One of them, ready to be worn: with these effects, told from others by the bits, for these rows.
+    fn run(
+        &self,
+        test: usize,
+        coefficient: f64,
+        (effects, bits, tooth): (Combined, Vec<u64>, Option<Member>),
+        rows: Vec<usize>,
+    ) -> Run {
+        let measured = &self.bench.tests[test];
         // one history in a coefficient of the test's own serves all others
         let worn_with = if self.stretches {
             measured.wear.0
@@ -198,19 +259,21 @@ impl<'a> GearModel<'a> {
         };
         let stretch = coefficient / worn_with;
         let observed = |row: &usize| stretch * measured.observations[*row].cycles;
-        let mut order: Vec<usize> = (0..measured.observations.len()).collect();
+        let mut order = rows.clone();
         order.sort_by(|a, b| observed(a).total_cmp(&observed(b)).then(a.cmp(b)));
         Run {
             test,
             acting: (!effects.is_empty()).then(|| self.bench.acting(test, effects)),
             worn_with,
             stretch,
-            bits: parameters.iter().map(|p| p.to_bits()).collect(),
+            bits,
+            tooth,
+            rows,
             order,
         }
     }
 
-    /// What `of` reads of every observation of a test in a history of it.
+    /// What `of` reads of every observation of a run in a history of it.
     fn read_off<T>(
         &self,
         run: &Run,
@@ -244,21 +307,26 @@ impl<'a> GearModel<'a> {
         parameters: &[f64],
         of: impl Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
     ) -> Result<Vec<T>, ForwardError> {
-        let run = self.run(test, coefficient, parameters);
-        let Some(last) = self.last(&run) else {
-            return Ok(Vec::new());
-        };
-        let mut forward = self.forward(test, run.worn_with, &run.bits, run.acting.as_ref())?;
-        let history = self.history(&mut forward, run.key(), last, &[])?;
-        self.read_off(&run, &mut forward, &history, &[], &of)
+        let runs = self.runs(test, coefficient, parameters);
+        by_row(&runs, |run| self.read_run(run, &of))
     }
 
-    /// Cycles of the history at the last observation; None without any.
-    fn last(&self, run: &Run) -> Option<f64> {
+    /// What `of` reads of every observation of a run.
+    fn read_run<T>(
+        &self,
+        run: &Run,
+        of: &dyn Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
+    ) -> Result<Vec<T>, ForwardError> {
+        let mut forward = self.forward(run.test, run.worn_with, &run.bits, run.acting.as_ref())?;
+        let history = self.history(&mut forward, run.key(), self.last(run), &[])?;
+        self.read_off(run, &mut forward, &history, &[], of)
+    }
+
+    /// Cycles of the history at the last observation.
+    fn last(&self, run: &Run) -> f64 {
         let observations = &self.bench.tests[run.test].observations;
-        run.order
-            .last()
-            .map(|&row| run.stretch * observations[row].cycles)
+        let last = run.order.last();
+        last.map_or(0.0, |&row| run.stretch * observations[row].cycles)
     }
 
     /// What every observation of a test feels where and when it was made; none for what stands nowhere on a flank.
@@ -316,17 +384,34 @@ impl Predictor for GearModel<'_> {
     }
 }
 
-/// One test at some parameters.
+/// What `values` gives of the observations of each run, in the order of all.
+fn by_row<T, E>(runs: &[Run], values: impl Fn(&Run) -> Result<Vec<T>, E>) -> Result<Vec<T>, E> {
+    if let [run] = runs {
+        return values(run);
+    }
+    let mut all: Vec<(usize, T)> = Vec::new();
+    for run in runs {
+        all.extend(run.rows.iter().copied().zip(values(run)?));
+    }
+    all.sort_by_key(|(row, _)| *row);
+    Ok(all.into_iter().map(|(_, value)| value).collect())
+}
+
+/// One test at some parameters, or what of it is of one tooth.
 struct Run {
     test: usize,
+    /// The member whose measured tooth it is of; none: of the mean tooth, or of all where they are alike.
+    tooth: Option<Member>,
     acting: Option<Acting>,
     /// Wear coefficient of the history, mm²/N.
     worn_with: f64,
     /// Cycles of the history per cycle of the test.
     stretch: f64,
-    /// The parameters.
+    /// The parameters, and which tooth.
     bits: Vec<u64>,
-    /// The observations by ascending cycles.
+    /// The observations that are read from it.
+    rows: Vec<usize>,
+    /// The same by ascending cycles.
     order: Vec<usize>,
 }
 

@@ -15,6 +15,33 @@ use crate::wear::acting::{Acting, Age, PairLoad, side};
 use crate::wear::passage::Moment;
 use meshing::Meshing;
 
+/// The tooth that an observation on a member with this many names, from 0 on.
+fn named_tooth(observation: &Observation, count: usize) -> Option<usize> {
+    let label = observation.tooth.as_deref();
+    let named = label.and_then(|label| label.trim().parse::<usize>().ok());
+    named.filter(|n| (1..=count).contains(n)).map(|n| n - 1)
+}
+
+/// The member of whose measured tooth an observation is, where effects alone let teeth differ: of what stands on a flank or is felt by a gauge, unless it
+/// names another tooth. None for what is the mean over all teeth.
+pub(in crate::learn) fn measured_tooth(observation: &Observation, set: &GearSet) -> Option<Member> {
+    let of_a_tooth = match observation.quantity {
+        Quantity::WearDepth
+        | Quantity::ContactPressure
+        | Quantity::SpanLoss
+        | Quantity::ChordalLoss => true,
+        Quantity::MassLoss
+        | Quantity::TransmissionError
+        | Quantity::LoadShare
+        | Quantity::MeshStiffness
+        | Quantity::MeanLag => false,
+    };
+    let member = observation.member.member().filter(|_| of_a_tooth)?;
+    let count = set.gears[side(member)].spec.teeth as usize;
+    let first = named_tooth(observation, count).unwrap_or(0) == 0;
+    first.then_some(member)
+}
+
 /// A worn state that can be read. Contacts are solved only when a quantity asks for them.
 pub(in crate::learn) struct Reading<'r, 'f> {
     forward: &'r mut Forward<'f>,
@@ -187,9 +214,7 @@ impl<'r, 'f> Reading<'r, 'f> {
             return self.slices_at(observation.face, value);
         };
         let count = self.forward.cycle().pair.member(member).spec.teeth as usize;
-        let label = observation.tooth.as_deref();
-        let named = label.and_then(|label| label.trim().parse::<usize>().ok());
-        let tooth = named.filter(|n| (1..=count).contains(n)).map(|n| n - 1);
+        let tooth = named_tooth(observation, count);
         let acting = self.forward.acting();
         let by_effects = acting.is_some_and(|acting| acting.acts(Hook::ToothOffset));
         let measured = (by_effects && !self.forward.states_teeth()).then_some(0);

@@ -192,6 +192,87 @@ fn what_is_measured_is_differentiated_by_the_analytic_model() {
     check(ContactKind::Hertz, &all);
 }
 
+/// Of a member whose axis lies off, what is measured on its flank and what its gauges feel are those of the pair at the shifted distance of the axes, all
+/// else that of the base model to the last bit. Derivatives: those of either, and against central differences, of which the wear steps' roughness
+/// leaves 1e-3 of the largest.
+#[test]
+fn an_axis_that_lies_off_moves_the_measured_tooth_alone() {
+    const SHIFT: f64 = 30.0;
+    let study = study();
+    let data = Dataset::parse(ROWS, "m.csv", &study.known()).unwrap();
+    let measured = Measured::new(&study, data);
+    let k = 3.0 * study.wear.coefficient;
+    let effects = |name: &str, stated: &[(&str, f64)]| {
+        EffectModel::new(vec![
+            EffectSpec::of_card(find(name).unwrap(), stated).unwrap(),
+        ])
+    };
+    for kind in [ContactKind::Hertz, ContactKind::Fem] {
+        let workshop = measured.workshop(kind).unwrap();
+        let bench = measured.bench(&workshop).unwrap();
+        let moved = effects("radial_misalignment", &[]);
+        let base = EffectModel::new(Vec::new());
+        let by_mm = 1e-3;
+        let at = |effects: &EffectModel, name: &str, value: f64| {
+            let model = GearModel::of_effects(&bench, effects, vec![name]);
+            let step = 1e-7 * value;
+            let moves = [Move {
+                parameters: vec![value + step],
+                step,
+            }];
+            let linear = model.linearise(0, k, &[value], &moves).unwrap().unwrap();
+            assert_eq!(linear.values, model.predict(0, k, &[value]).unwrap());
+            linear
+        };
+        let moved = at(&moved, "radial_misalignment.amount", by_mm * SHIFT);
+        let base = {
+            let model = GearModel::of_effects(&bench, &base, Vec::<&str>::new());
+            model.linearise(0, k, &[], &[]).unwrap().unwrap()
+        };
+        // depths, pressure, span and chord by their member
+        for (on_gear, own) in [(0.0, vec![0, 1, 9, 12]), (1.0, vec![2, 13])] {
+            let stated = [("amplitude", 0.0), ("on_gear", on_gear)];
+            let eccentric = effects("run_out", &stated);
+            let found = at(&eccentric, "run_out.axis_shift", SHIFT);
+            let model = GearModel::of_effects(&bench, &eccentric, vec!["run_out.axis_shift"]);
+            let apart = 2.0;
+            let [low, high] = [-1.0, 1.0].map(|sign| {
+                let to = [SHIFT + sign * apart];
+                model.predict_along(0, (k, &[SHIFT]), (k, &to)).unwrap()
+            });
+            for row in 0..found.values.len() {
+                let (slope, by_k) = (found.derivatives[(row, 0)], found.derivatives[(row, 1)]);
+                let difference = (high[row] - low[row]) / (2.0 * apart);
+                if own.contains(&row) {
+                    assert_eq!(found.values[row], moved.values[row], "{kind:?} {row}");
+                    let expected = by_mm * moved.derivatives[(row, 0)];
+                    assert!((slope / expected - 1.0).abs() < 1e-6, "{slope} {expected}");
+                    assert_eq!(by_k, moved.derivatives[(row, 1)], "{kind:?} {row}");
+                    assert_ne!(slope, 0.0, "{kind:?} {row}");
+                    let off = (slope - difference).abs() / difference.abs();
+                    assert!(off < 1e-3, "{kind:?} {row}: {slope} against {difference}");
+                } else {
+                    assert_eq!(found.values[row], base.values[row], "{kind:?} {row}");
+                    assert_eq!(by_k, base.derivatives[(row, 0)], "{kind:?} {row}");
+                    assert_eq!((slope, difference), (0.0, 0.0), "{kind:?} {row}");
+                }
+            }
+            // without a shift the tooth is still told from the others
+            let none = model.linearise(
+                0,
+                k,
+                &[0.0],
+                &[Move {
+                    parameters: vec![1e-5],
+                    step: 1e-5,
+                }],
+            );
+            let none = none.unwrap().unwrap();
+            assert!(own.iter().all(|row| none.derivatives[(*row, 0)] != 0.0));
+        }
+    }
+}
+
 /// Flanks that have lost h everywhere, normal to themselves, meet as before when the pinion has turned by h/r_b1: the path of contact is the common
 /// tangent of the base circles. Tolerance: edges, where a turned flank ends elsewhere.
 #[test]

@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{GearModel, Run};
+use super::{GearModel, Run, by_row};
 use crate::effects::Hook;
 use crate::learn::prediction::predictor::{Linearised, Move, PredictError};
 use crate::learn::prediction::trajectory::{Node, Trajectory};
@@ -38,22 +38,53 @@ impl GearModel<'_> {
         parameters: &[f64],
         moves: &[Move],
     ) -> Result<Option<Linearised>, ForwardError> {
-        let run = self.run(test, coefficient, parameters);
-        let columns = moves.len() + 1;
-        let Some(last) = self.last(&run) else {
-            return Ok(Some(Linearised {
-                values: Vec::new(),
-                derivatives: DMatrix::zeros(0, columns),
-            }));
+        let runs = self.runs(test, coefficient, parameters);
+        let all: usize = runs.iter().map(|run| run.rows.len()).sum();
+        let mut linearised = Linearised {
+            values: vec![0.0; all],
+            derivatives: DMatrix::zeros(all, moves.len() + 1),
         };
+        for run in &runs {
+            let Some(own) = self.linearised_run(run, parameters, moves)? else {
+                return Ok(None);
+            };
+            if runs.len() == 1 {
+                return Ok(Some(own));
+            }
+            for (i, &row) in run.rows.iter().enumerate() {
+                linearised.values[row] = own.values[i];
+                let derivatives = own.derivatives.row(i);
+                linearised.derivatives.row_mut(row).copy_from(&derivatives);
+            }
+        }
+        Ok(Some(linearised))
+    }
+
+    /// The observations of a run with their derivatives; None if these follow no trend.
+    fn linearised_run(
+        &self,
+        run: &Run,
+        parameters: &[f64],
+        moves: &[Move],
+    ) -> Result<Option<Linearised>, ForwardError> {
+        let test = run.test;
+        let columns = moves.len() + 1;
+        let last = self.last(run);
         let acting = run.acting.as_ref();
-        let shifted = |a_move: &Move| self.bench.acting(test, (self.effects)(&a_move.parameters));
+        let shifted = |a_move: &Move| {
+            let effects = (self.effects)(&a_move.parameters).felt_by(run.tooth);
+            self.bench.acting(test, effects)
+        };
         let moved: Vec<Acting> = moves.iter().map(shifted).collect();
-        let axes = self.axes(&run, moves, &moved);
+        let axes = self.axes(run, moves, &moved);
+        let unfelt = self.unfelt(run, parameters, moves);
         // what moves the axes changes nothing else
-        let tangent: Vec<usize> = (0..moves.len()).filter(|&i| axes[i] == 0.0).collect();
+        let by_tangent = |i: usize| axes[i] == 0.0 && !unfelt[i];
+        let tangent: Vec<usize> = (0..moves.len()).filter(|&i| by_tangent(i)).collect();
+        let on_teeth = acting.into_iter().chain(&moved);
+        let on_teeth = on_teeth.into_iter().any(|a| a.acts(Hook::ToothOffset));
         let mut variations: Vec<Variation> = (moves.iter().zip(moved).enumerate())
-            .filter(|(i, _)| axes[*i] == 0.0)
+            .filter(|(i, _)| by_tangent(*i))
             .map(|(_, (a_move, acting))| Variation {
                 coefficient: [0.0; 2],
                 effects: Some(acting),
@@ -68,14 +99,14 @@ impl GearModel<'_> {
         let carried = variations.len() - usize::from(self.stretches);
         let mut forward = self.forward(test, run.worn_with, &run.bits, acting)?;
         // teeth that are all alike have no derivatives by what would tell them apart
-        if acting.is_some_and(|a| a.acts(Hook::ToothOffset)) && forward.sequence().is_none() {
+        if on_teeth && forward.sequence().is_none() {
             return Ok(None);
         }
         let history = self.history(&mut forward, run.key(), last, &variations[..carried])?;
         if unsteady(&history.at(last), &variations[..carried]) {
             return Ok(None);
         }
-        let rows = self.read_off(&run, &mut forward, &history, &variations, &|reading, o| {
+        let rows = self.read_off(run, &mut forward, &history, &variations, &|reading, o| {
             Ok((reading.of(o)?, reading.tangents_of(o)?))
         })?;
         let mut derivatives = DMatrix::zeros(rows.len(), columns);
@@ -87,7 +118,7 @@ impl GearModel<'_> {
         }
         let values: Vec<f64> = rows.into_iter().map(|(value, _)| value).collect();
         if axes.iter().any(|slope| *slope != 0.0) {
-            let by_distance = self.by_distance(&run, &history, &values)?;
+            let by_distance = self.by_distance(run, &history, &values)?;
             for (column, slope) in axes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
                 for (row, by_distance) in by_distance.iter().enumerate() {
                     derivatives[(row, column)] += slope * by_distance;
@@ -114,7 +145,20 @@ impl GearModel<'_> {
         moves.iter().zip(moved).map(slope).collect()
     }
 
-    /// Derivatives of every observation by the centre distance, per mm: central differences of two runs on the steps of `history`, or to
+    /// Which moves change nothing that the tooth of a run feels: those of what concerns the measured teeth of others alone.
+    fn unfelt(&self, run: &Run, parameters: &[f64], moves: &[Move]) -> Vec<bool> {
+        let others = (self.effects)(parameters).measured_teeth();
+        let others = others.iter().any(|member| Some(*member) != run.tooth);
+        let of_teeth = &self.of_measured_teeth;
+        let changes = |a_move: &Move, place: usize| a_move.parameters[place] != parameters[place];
+        let unfelt = |a_move: &Move| {
+            let changed = (0..parameters.len()).filter(|&place| changes(a_move, place));
+            others && changed.into_iter().all(|place| of_teeth.contains(&place))
+        };
+        moves.iter().map(unfelt).collect()
+    }
+
+    /// Derivatives of every observation of a run by the centre distance, per mm: central differences of two runs on the steps of `history`, or to
     /// one side of its `values` where the gears cannot run on the other.
     fn by_distance(
         &self,
@@ -154,25 +198,27 @@ impl GearModel<'_> {
         from: (f64, &[f64]),
         to: (f64, &[f64]),
     ) -> Result<Vec<f64>, PredictError> {
-        let along = || -> Result<Vec<f64>, ForwardError> {
-            let before = self.run(test, from.0, from.1);
-            let Some(last) = self.last(&before) else {
-                return Ok(Vec::new());
+        let before = self.runs(test, from.0, from.1);
+        let after = self.runs(test, to.0, to.1);
+        let along = |run: &Run| -> Result<Vec<f64>, ForwardError> {
+            // of the same rows, unless what tells the teeth apart begins on the way
+            let Some(before) = before.iter().find(|before| before.rows == run.rows) else {
+                return self.read_run(run, &|reading, o| reading.of(o));
             };
-            let acting = before.acting.as_ref();
+            let (last, acting) = (self.last(before), before.acting.as_ref());
             let mut forward = self.forward(test, before.worn_with, &before.bits, acting)?;
             let history = self.history(&mut forward, before.key(), last, &[])?;
-            let run = self.run(test, to.0, to.1);
             let acting = run.acting.as_ref();
             let mut forward = self.forward(test, run.worn_with, &run.bits, acting)?;
             let mut moved = history.along(&mut forward)?;
             // in stretched time the last row may lie beyond the other's steps
-            if let Some(last) = self.last(&run).filter(|last| !moved.reaches(*last)) {
+            let last = self.last(run);
+            if !moved.reaches(last) {
                 moved.reach(&mut forward, last, &[], f64::INFINITY)?;
             }
-            self.read_off(&run, &mut forward, &moved, &[], &|reading, o| reading.of(o))
+            self.read_off(run, &mut forward, &moved, &[], &|reading, o| reading.of(o))
         };
-        along().map_err(|error| self.failed(test, &error))
+        by_row(&after, along).map_err(|error| self.failed(test, &error))
     }
 }
 
