@@ -114,7 +114,7 @@ refusals! {
     a_pitch_chart_of_words: format!("{SHORT}[teeth.pinion]\npitch_deviations = [\"a\", \"b\"]\n")
         => WrongType "teeth.pinion.pitch_deviations" at 22:21, "\"a\"", "list of numbers", "not a list";
     a_pitch_chart_in_mm: format!("{SHORT}[teeth.pinion]\npitch_pattern = [0.0, 2000.0]\n")
-        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 um", "out of range";
+        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 µm", "out of range";
     a_pattern_longer_than_the_teeth: format!("{SHORT}[teeth.pinion]\npitch_pattern = [1.0]\n")
         => Inconsistent "teeth.pinion.pitch_pattern" at 22:17, "[1.0]", "2 to 27 numbers", "1 deviations";
     two_pitch_charts: format!("{SHORT}[teeth.gear]\npitch_pattern = [1.0, 0.0]\npitch_file = \"p.csv\"\n")
