@@ -144,7 +144,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         // a negative curve falls too
         said.extend(negated::negated(study, &rows));
         if said.is_empty() {
-            said.extend(falling::falling(study, &rows));
+            said.extend(falling::falling(study, data, &rows));
             said.extend(reversed::reversed(study, &rows));
         }
         if said.is_empty() {

@@ -6,7 +6,7 @@
 //! R > ln 1.5 and R' < 0.35 R, for one pair only: asked
 //! ```
 //! Tests of one torque show nothing. A law of the load, k ∝ T^p, does the same for p about −2 (−3.1 to −1.5 where the middle of three torques is the
-//! geometric mean): no known one falls so steeply.
+//! geometric mean): no known one falls so steeply. Where a power of the speed brings all together as well nothing is asked.
 
 use super::super::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
@@ -18,6 +18,8 @@ use crate::study::Study;
 const FAR_APART: f64 = 1.5;
 /// Part of their range, of ln k, that may be left once two tests are exchanged.
 const LEFT: f64 = 0.35;
+/// The same that a power of the speed may leave for it to be the likelier reason.
+const LEFT_BY_SPEED: f64 = 0.5;
 /// Fewest tests: of two nobody knows which k is right.
 const FEWEST: usize = 3;
 
@@ -28,6 +30,11 @@ pub(super) fn exchanged_tests(study: &Study, data: &Dataset, fit: &Fit) -> Optio
         .map(|&(test, k)| (study.tests[test].conditions.torque_nmm.ln(), k))
         .collect();
     let (i, j, before, after) = exchanged(&tests)?;
+    let speed = |test: usize| study.tests[test].conditions.speed_rpm.ln();
+    let by_speed: Vec<(f64, f64)> = own.iter().map(|&(test, k)| (speed(test), k)).collect();
+    if range_beside_line(&by_speed) < LEFT_BY_SPEED * before {
+        return None;
+    }
     let [one, other] = [i, j].map(|at| &study.tests[own[at].0].id);
     Some(format!(
         "are tests {one} and {other} exchanged? As they stand the tests' k differ by a factor of {}; with the rows of these two under each other's names \
@@ -61,6 +68,17 @@ fn exchanged(tests: &[(f64, f64)]) -> Option<(usize, usize, f64, f64)> {
     fits.next().is_none().then_some(found)
 }
 
+/// Range of y that a straight line over x leaves.
+fn range_beside_line(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let xx: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
+    let xy: f64 = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    let slope = if xx > 0.0 { xy / xx } else { 0.0 };
+    range(points.iter().map(|p| p.1 - slope * (p.0 - x)))
+}
+
 fn range(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
 }
@@ -89,6 +107,13 @@ mod tests {
         // beside a law of the speed
         let beside = [(60.0, 5.55), (110.0, 1.46), (90.0, 4.2), (85.0, 3.52)];
         assert_eq!(found(&beside), Some((0, 1)));
+    }
+
+    #[test]
+    fn a_line_leaves_what_is_beside_it() {
+        assert!(range_beside_line(&[(1.0, 3.0), (2.0, 5.0), (4.0, 9.0)]) < 1e-12);
+        assert!((range_beside_line(&[(0.0, 0.0), (1.0, 3.0), (2.0, 0.0)]) - 3.0).abs() < 1e-12);
+        assert!((range_beside_line(&[(1.0, 0.0), (1.0, 2.0)]) - 2.0).abs() < 1e-12);
     }
 
     #[test]

@@ -10,13 +10,19 @@
 use std::collections::BTreeMap;
 
 use super::super::residual_statistics::FittedRow;
-use crate::measure::{FacePlace, Quantity, Subject};
+use crate::measure::{Dataset, FacePlace, Quantity, Subject};
 use crate::study::Study;
 
 /// Standard deviations from which a fall is no noise.
 const SURE: f64 = 6.0;
 /// How far it must go where the model's shape stands for that of the curves.
 const FALLS_TO: f64 = 0.8;
+/// Share to which a mass falls, and share of the largest one that it has been, from which it is asked about where sigmas are estimated: a wrong mass
+/// has made its own sigma large.
+const MASS_FALLS_TO: f64 = 0.75;
+const OF_LARGEST_MASS: f64 = 0.15;
+/// What is left where nothing is worn: no checkpoint of the same flank.
+const VANISHES_TO: f64 = 0.1;
 /// Fewest points of a curve, and the share of its squares that `s f` must explain.
 const FEWEST: usize = 4;
 const OF_ITS_SHAPE: f64 = 0.8;
@@ -38,6 +44,8 @@ pub(super) struct Fall {
     to: f64,
     /// The one of them that looks a thousand times too small, or too large, if one does.
     unit: Option<OtherUnit>,
+    /// Whether hardly anything is left.
+    vanishes: bool,
 }
 
 /// Which of two checkpoints is in another unit.
@@ -50,11 +58,16 @@ enum OtherUnit {
 }
 
 /// Tests whose wear falls from one checkpoint to the next.
-pub(super) fn falling(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
+pub(super) fn falling(study: &Study, data: &Dataset, rows: &[FittedRow<'_>]) -> Vec<String> {
     let mut said = Vec::new();
     for quantity in [Quantity::WearDepth, Quantity::MassLoss] {
         for ((test, member), series) in series(rows, quantity) {
-            let Some(fall) = series.iter().find_map(|worn| fall(worn, FALLS_TO)) else {
+            let estimated = quantity == Quantity::MassLoss && data.estimates_sigmas();
+            let falls = |worn: &Vec<Worn>| {
+                let plainly = || falling_mass(worn).filter(|_| estimated);
+                fall(worn, FALLS_TO).or_else(plainly)
+            };
+            let Some(fall) = series.iter().find_map(falls) else {
                 continue;
             };
             let of = format!(
@@ -78,6 +91,9 @@ impl Fall {
             _ => ["mm", "nm"],
         };
         match self.unit {
+            None if self.vanishes => format!(
+                "{of} has all but gone after {to} cycles beside what it is after {from}: was another flank, another tooth or a new part measured then?"
+            ),
             None => format!(
                 "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, has one a digit more or less, or is this what was lost since the measurement before (gearwear import --per-interval)?"
             ),
@@ -102,8 +118,22 @@ pub(super) fn fall(worn: &[Worn], share: f64) -> Option<Fall> {
             from: before.cycles,
             to: after.cycles,
             unit: other_unit(worn, place),
+            vanishes: after.amount < VANISHES_TO * before.amount,
         })
     })
+}
+
+/// The first two checkpoints between which a mass falls by far, whatever its sigma.
+fn falling_mass(worn: &[Worn]) -> Option<Fall> {
+    let largest = worn.iter().map(|worn| worn.largest).fold(0.0, f64::max);
+    let sure: Vec<Worn> = (worn.iter())
+        .filter(|worn| worn.amount > OF_LARGEST_MASS * largest)
+        .map(|worn| Worn {
+            sigma: 0.0,
+            ..*worn
+        })
+        .collect();
+    fall(&sure, MASS_FALLS_TO)
 }
 
 /// Which of the checkpoints at `place` and behind it is a thousand times off, by the pace of the two and of a third beside them.
@@ -188,6 +218,25 @@ fn depth(own: &[&FittedRow<'_>]) -> Option<Worn> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 858 mg among masses up to 179 mg.
+    #[test]
+    fn masses_that_fall_by_far_are_found_without_a_sigma() {
+        let masses = |all: &[f64]| {
+            let worn = all.iter().enumerate().map(|(i, &amount)| Worn {
+                cycles: 1e5 * (i + 1) as f64,
+                amount,
+                sigma: 276.0,
+                largest: amount,
+            });
+            falling_mass(&worn.collect::<Vec<_>>()).map(|fall| [fall.from, fall.to])
+        };
+        assert_eq!(masses(&[131.0, 858.0, 160.0, 179.0]), Some([2e5, 3e5]));
+        assert_eq!(masses(&[50.0, 131.0, 89.0, 179.0]), Some([2e5, 3e5]));
+        assert_eq!(masses(&[50.0, 89.0, 131.0, 120.0]), None);
+        // small ones scatter
+        assert_eq!(masses(&[9.0, 4.0, 131.0, 179.0]), None);
+    }
 
     #[test]
     fn a_checkpoint_in_another_unit_is_told_from_exchanged_ones() {

@@ -14,6 +14,8 @@ use crate::study::Study;
 /// Fewest places that tell a shape, and the share of a curve's squares that the common shape must explain.
 const FEWEST: usize = 6;
 const OF_ITS_SHAPE: f64 = 0.8;
+/// Standard deviations up to which a curve beside the common shape is noise.
+const NO_SHAPE: f64 = 2.0;
 /// How far the shape must shrink: the last two checkpoints of a test are often near to each other.
 const SHRINKS_TO: f64 = 0.9;
 
@@ -86,7 +88,10 @@ fn shrinks(curves: &[Curve]) -> Option<Fall> {
     let size = dot(&common, &common).sqrt();
     let of_the_shape = |(curve, shape): (&Curve, &Vec<f64>)| {
         let amount = dot(shape, &common) / size;
-        let explained = amount * amount > OF_ITS_SHAPE * dot(shape, shape);
+        let (all, of_it) = (dot(shape, shape), amount * amount);
+        let rest = ((all - of_it).max(0.0) / places.len() as f64).sqrt();
+        // an unworn flank has no shape at all
+        let explained = of_it > OF_ITS_SHAPE * all || rest < NO_SHAPE * curve.sigma;
         explained.then(|| Worn {
             cycles: curve.cycles,
             amount,
@@ -100,7 +105,8 @@ fn shrinks(curves: &[Curve]) -> Option<Fall> {
         .filter_map(of_the_shape)
         .collect();
     // a curve of the other sign is another question
-    (size > 0.0 && worn.iter().all(|worn| worn.amount > 0.0))
+    let is_negative = |worn: &Worn| worn.amount < -NO_SHAPE * worn.sigma;
+    (size > 0.0 && !worn.iter().any(is_negative))
         .then(|| fall(&worn, SHRINKS_TO))
         .flatten()
 }
@@ -201,6 +207,30 @@ mod tests {
             .collect();
         let said = shrinks(&curves).map(|fall| fall.in_words("it", Quantity::WearDepth));
         assert!(said.unwrap().contains("was that checkpoint written in mm?"));
+    }
+
+    #[test]
+    fn an_unworn_flank_among_worn_ones_is_asked_for() {
+        let unworn = |noise: f64| {
+            let mut curve = curve(3e5, 0.0, [0.3, 0.0]);
+            for (i, point) in curve.points.iter_mut().enumerate() {
+                point[1] += noise * [1.0, -0.7, 0.2, -0.9, 0.6][i % 5];
+            }
+            curve
+        };
+        for noise in [0.0, 0.02] {
+            let curves = [
+                curve(1e5, 1.0, [0.0; 2]),
+                curve(2e5, 2.0, [0.0; 2]),
+                unworn(noise),
+                curve(4e5, 4.0, [0.0; 2]),
+            ];
+            let said = shrinks(&curves).map(|fall| fall.in_words("it", Quantity::WearDepth));
+            assert!(
+                said.unwrap().contains("after 300000 cycles beside"),
+                "{noise}"
+            );
+        }
     }
 
     #[test]
