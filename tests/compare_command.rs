@@ -921,3 +921,45 @@ fn a_spreadsheets_own_form_is_read_and_told() {
         "note: try/measurements.csv: semicolons between columns, decimal commas\n"
     );
 }
+
+/// What `check` asks of the measurements is the first warning of a diagnosis too: the README's commands hold no `check`.
+#[test]
+fn a_diagnosis_asks_first_about_exchanged_checkpoints() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    write("truth.toml", BASE.to_owned());
+    succeed(&home, "synthesize truth.toml -o data --seed 6");
+    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+    let depths = |line: &&str| line.starts_with("A,pinion,") && line.contains("wear_depth");
+    let cycles = |line: &str| line.split(',').nth(2).map(str::to_owned);
+    let mut known: Vec<String> = data.lines().filter(depths).filter_map(cycles).collect();
+    known.sort_by(|a, b| {
+        let of = |text: &String| text.parse::<f64>().unwrap();
+        of(a).total_cmp(&of(b))
+    });
+    known.dedup();
+    let [.., before, last] = &known[..] else {
+        panic!("several checkpoints: {known:?}");
+    };
+    let exchanged = data.lines().map(|line| {
+        let other = match cycles(line).filter(|_| depths(&line)) {
+            Some(own) if own == *last => before,
+            Some(own) if own == *before => last,
+            _ => return line.to_owned(),
+        };
+        let mut cells: Vec<&str> = line.split(',').collect();
+        cells[2] = other;
+        cells.join(",")
+    });
+    let exchanged: Vec<String> = exchanged.collect();
+    write("data/measurements.csv", exchanged.join("\n") + "\n");
+    let file = FILE.replace("measurements.csv", "data/measurements.csv");
+    write("base.toml", format!("{BASE}{file}"));
+    succeed(&home, "diagnose base.toml --fast -o diagnosis");
+    let found = document(&home.path().join("diagnosis"), "diagnosis.json");
+    let first = found["warnings"][0].as_str().unwrap();
+    assert!(
+        first.starts_with("check first: in test A wear_depth of the pinion is less after"),
+        "{first}"
+    );
+}

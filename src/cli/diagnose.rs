@@ -8,8 +8,8 @@ use serde_json::json;
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome};
 use super::{each, folder, inputs};
-use crate::learn::Measured;
 use crate::learn::diagnose::{Fidelity, diagnose};
+use crate::learn::{Measured, questions};
 use crate::report;
 use crate::study::{self, Study};
 
@@ -97,6 +97,8 @@ fn one(
     let measured = Measured::new(&study, data);
     let progress = context.progress("diagnose");
     let diagnosis = diagnose(&measured, fidelity, &|done, what| progress.show(done, what))?;
+    let questions = questions(&measured, diagnosis.leaves_only_noise);
+    let diagnosis = diagnosis.asking_first(questions);
     drop(progress);
     let mut document = json!(diagnosis);
     document[inputs::KEY] = json!(inputs::identity(&study)?);

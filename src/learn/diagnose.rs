@@ -38,15 +38,12 @@ pub use crate::learn::prediction::fidelity::Fidelity;
 
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
-use crate::learn::comparison::sanity_of_data;
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::discrepancy::gaussian_process;
 use crate::learn::discrepancy::smooth::SmoothDiscrepancy;
 use crate::learn::explanation::findings::Findings;
-use crate::learn::fitting::fit::is_within_noise;
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::learn::hypothesis::version::ModelVersion;
 use crate::learn::model_search::beside_unknown::WithDiscrepancy;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::high_fidelity::decide_leaders;
@@ -197,8 +194,6 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
     let posterior = JudgedCandidates::new(likelihood, base, fitted, discrepancy, &smooth, rule);
     let doing = "held-out tests and the next experiment".to_owned();
     stages.begin([EXPERIMENT, LAWS], doing, 1);
-    let leaves = (posterior.leader()).map_or(base.fitted.square, |leader| leader.square);
-    let questions = questions(context, is_within_noise(leaves, likelihood.len()));
     let diagnosis = Diagnosis::new(Findings {
         context,
         workshop,
@@ -219,20 +214,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
         None
     };
     stages.begin([1.0; 2], "done".to_owned(), 1);
-    diagnosis.with_learned(learned).asking_first(questions)
-}
-
-/// What `check` asks of the measurements: what they show by themselves; against the base model only where what leads leaves more than noise,
-/// for else the answer is known.
-fn questions(context: &Context<'_>, within_noise: bool) -> Vec<String> {
-    let measured = context.likelihood.measured;
-    if within_noise {
-        return sanity_of_data(measured.study(), &measured.data);
-    }
-    let version = ModelVersion::of(measured.study());
-    let compared = measured.compare(context.hertz, &version, &|_| {});
-    // the diagnosis stands without it
-    compared.map_or_else(|_| Vec::new(), |compared| compared.comparison.sanity)
+    diagnosis.with_learned(learned)
 }
 
 /// The effects of which no form could be fitted.

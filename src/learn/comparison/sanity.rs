@@ -53,7 +53,7 @@ const NEAR_TEETH: f64 = 1.7;
 const SAME_CYCLES: f64 = 0.005;
 
 /// What the measurements show by themselves, without any model, the worst first.
-pub(in crate::learn) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
+pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     // all else would follow from it
     if let Some(other) = cycles_in_another_unit(study, data) {
         return vec![other];

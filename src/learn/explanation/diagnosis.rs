@@ -18,6 +18,7 @@ use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::discrepancy::residual_drivers::{self, ResidualDrivers};
 use crate::learn::discrepancy::smooth::MapPoint;
 use crate::learn::experiment::next::{NextExperiment, separating};
+use crate::learn::fitting::fit::is_within_noise;
 use crate::learn::hypothesis::Hypothesis;
 use crate::learn::hypothesis::candidate::NotJudged;
 use crate::learn::model_search::context::Context;
@@ -89,6 +90,9 @@ pub struct Diagnosis {
     pub beside_unknown: Vec<RemainderEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
+    /// Whether what leads leaves no more than noise; not part of the document.
+    #[serde(skip)]
+    pub leaves_only_noise: bool,
     /// Effects that could not be judged.
     pub not_judged: Vec<NotJudged>,
     /// What is doubtful.
@@ -131,7 +135,7 @@ impl Diagnosis {
     }
 
     /// The same with questions about the measurements before all other warnings: no effect is to be trusted until they are answered.
-    pub(in crate::learn) fn asking_first(mut self, questions: Vec<String>) -> Self {
+    pub fn asking_first(mut self, questions: Vec<String>) -> Self {
         let asked = questions.into_iter();
         let asked = asked.map(|question| format!("check first: {question}"));
         self.warnings.splice(0..0, asked);
@@ -210,6 +214,10 @@ impl Diagnosis {
             rule: posterior.rule,
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),
+            leaves_only_noise: {
+                let left = leader.map_or(base.fitted.square, |leader| leader.square);
+                is_within_noise(left, likelihood.len())
+            },
             not_judged: findings.not_judged,
         }
     }
