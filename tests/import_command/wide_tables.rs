@@ -895,7 +895,8 @@ fn titles_with_numbers_in_cells_of_their_own_are_no_header() {
 #[test]
 fn a_title_that_names_the_test_may_name_the_member_too() {
     let home = home();
-    let values = "Radius [mm];nach 100 000;nach 250 000 U\n26;3,1;6,2\n26,5;2,4;4,9\n27;1,2;2,5\n";
+    let values =
+        "Radius [mm];Lastwechsel 100 000;nach 250 000 U\n26;3,1;6,2\n26,5;2,4;4,9\n27;1,2;2,5\n";
     for titles in [
         "Pr\u{fc}fling:;Versuch A, Ritzel\n",
         "Versuch A: Ritzel\n",

@@ -90,7 +90,8 @@ pub struct Diagnosis {
     pub beside_unknown: Vec<RemainderEvidence>,
     /// The thresholds by which this was decided.
     pub rule: DecisionRule,
-    /// Whether what leads leaves no more than noise; not part of the document.
+    /// Whether what leads leaves no more than noise, or than the analytic model's own error where that decides in place of finite elements; not part
+    /// of the document.
     #[serde(skip)]
     pub leaves_only_noise: bool,
     /// Effects that could not be judged.
@@ -216,7 +217,7 @@ impl Diagnosis {
             sparse_regression: names(findings.sparse_regression),
             leaves_only_noise: {
                 let left = leader.map_or(base.fitted.square, |leader| leader.square);
-                is_within_noise(left, likelihood.len())
+                context.approximate || is_within_noise(left, likelihood.len())
             },
             not_judged: findings.not_judged,
         }

@@ -280,11 +280,12 @@ fn without_blanks(text: &str) -> Option<String> {
     let groups = words[first..].iter().take_while(|word| is_digits(word));
     let count = groups.count();
     let number = words[first..first + count].join(".");
-    let before = words[..first].iter().flat_map(|word| names::words(word));
-    let counts_something = before.last().is_some_and(|word| {
-        names::column(&word).is_some() || names::is_stop(&word) || counts::is_ordinal(&word)
-    });
     let (before, behind) = (&words[..first], &words[first + count..]);
+    let last = before.iter().flat_map(|word| names::words(word)).last();
+    let counts_something = last.is_some_and(|word| {
+        let names_other = names::column(&word).is_some_and(|column| column != "cycles");
+        names_other || names::is_stop(&word) || counts::is_ordinal(&word)
+    });
     let has_digit = |word: &&str| word.contains(|c: char| c.is_ascii_digit());
     let has_others = before.iter().chain(behind).any(has_digit);
     let joined = number.replace('.', "");
