@@ -405,6 +405,25 @@ fn a_hopeless_effect_is_given_up_early() {
         out.contains("(without it ") && out.contains("leave it out"),
         "{out}"
     );
+    // nor has it intervals on the ladder, where those of what it is added to stand
+    let ladder = [
+        "ladder",
+        "made/known.toml",
+        "made/known+tip_relief.toml",
+        "--json",
+    ];
+    let (code, out, err) = gearwear(&home, &ladder);
+    assert_eq!(code, Some(0), "{err}");
+    let steps: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let parameters = steps[1]["parameters"].as_array().unwrap();
+    assert!(parameters.len() > 1, "{steps}");
+    for parameter in parameters {
+        let is_new = parameter["name"]
+            .as_str()
+            .unwrap()
+            .starts_with("tip_relief");
+        assert_eq!(parameter["interval_95"].is_null(), is_new, "{parameter}");
+    }
     // so it is where the effect that is there is fitted along, and what noise alone has set has no interval
     let free = "[fit]\nfree = [\"wear.coefficient\", \"running_in.amplitude\"]\n";
     write(

@@ -445,3 +445,39 @@ fn a_relief_of_the_gears_wears_as_that_of_the_effect() {
         }
     }
 }
+
+/// A crown bends across the face, a wedge does not, whatever it does with the load: shafts that bend tilt the gears.
+#[test]
+fn what_bends_across_the_face_has_more_slices() {
+    let set = set();
+    let members = members(&set);
+    let slices = |leads: &[(&str, f64)]| {
+        let mut effects = Combined::default();
+        for (name, amount) in leads {
+            let card = find(name).unwrap();
+            let mut values = card.defaults();
+            values[0] = *amount;
+            effects.push(card.hook, (card.build)(&values));
+        }
+        let acting = Acting {
+            effects,
+            ..acting(find("running_in").unwrap(), &[0.0, 1e5, f64::INFINITY])
+        };
+        let (conditions, numerics) = (conditions(0.0), numerics());
+        let acting = Some(&acting);
+        let forward =
+            Forward::with_effects(&set, Some(&members), conditions, numerics, acting).unwrap();
+        forward.slices().map(|slices| slices.count())
+    };
+    assert_eq!(slices(&[]), None);
+    assert_eq!(slices(&[("lead_crowning", 0.0)]), None);
+    for wedge in [-30.0, 0.1] {
+        assert_eq!(slices(&[("lead_misalignment", wedge)]), Some(7));
+    }
+    for crown in [0.1, 17.0] {
+        assert_eq!(slices(&[("lead_crowning", crown)]), Some(11));
+        let both = [("lead_crowning", crown), ("lead_misalignment", 40.0)];
+        assert_eq!(slices(&both), Some(11));
+    }
+    assert_eq!(slices(&[("shaft_deflection", 60.0)]), Some(7));
+}

@@ -1,6 +1,7 @@
 //! The forward model of one test: a gear pair under its conditions, by one of the contact models.
 
 mod again;
+mod altered;
 mod derivatives;
 mod error;
 mod fresh;
@@ -27,10 +28,11 @@ use crate::simulate::members::Members;
 use crate::simulate::numerics::Numerics;
 use crate::simulate::wear_state::line_load;
 use crate::wear::acting::Acting;
+use altered::Altered;
 pub use derivatives::{DifferentiatedContacts, Variation};
 pub use error::ForwardError;
 pub use fresh::Fresh;
-use preparation::{Altered, Shelf};
+use preparation::Shelf;
 pub use preparation::{Mounting, Preparation};
 
 /// Conditions of a run or test.

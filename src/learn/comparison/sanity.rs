@@ -14,6 +14,7 @@ mod exchanged_masses;
 mod exchanged_tests;
 mod falling;
 mod falling_shapes;
+mod flank_curves;
 mod gear_revolutions;
 mod gross_errors;
 mod increments;

@@ -32,7 +32,7 @@ pub(super) fn exchanged_tests(study: &Study, data: &Dataset, fit: &Fit) -> Optio
     let (i, j, before, after) = exchanged(&tests)?;
     let speed = |test: usize| study.tests[test].conditions.speed_rpm.ln();
     let by_speed: Vec<(f64, f64)> = own.iter().map(|&(test, k)| (speed(test), k)).collect();
-    if range_beside_line(&by_speed) < LEFT_BY_SPEED * before {
+    if is_law(&by_speed) {
         return None;
     }
     let [one, other] = [i, j].map(|at| &study.tests[own[at].0].id);
@@ -66,6 +66,11 @@ fn exchanged(tests: &[(f64, f64)]) -> Option<(usize, usize, f64, f64)> {
     });
     let found = fits.next()?;
     fits.next().is_none().then_some(found)
+}
+
+/// Whether y follows a straight line over x.
+fn is_law(points: &[(f64, f64)]) -> bool {
+    range_beside_line(points) < LEFT_BY_SPEED * range(points.iter().map(|p| p.1))
 }
 
 /// Range of y that a straight line over x leaves.
@@ -114,6 +119,18 @@ mod tests {
         assert!(range_beside_line(&[(1.0, 3.0), (2.0, 5.0), (4.0, 9.0)]) < 1e-12);
         assert!((range_beside_line(&[(0.0, 0.0), (1.0, 3.0), (2.0, 0.0)]) - 3.0).abs() < 1e-12);
         assert!((range_beside_line(&[(1.0, 0.0), (1.0, 2.0)]) - 2.0).abs() < 1e-12);
+    }
+
+    /// k of three speeds under a law of the film, of which the first and the last would agree once exchanged; and of the same speeds at random.
+    #[test]
+    fn k_that_follows_the_speed_is_told_from_exchanged_tests() {
+        let at = |k: [f64; 4]| {
+            let speeds = [400.0_f64, 1500.0, 1500.0, 2600.0];
+            let points = speeds.iter().zip(k).map(|(n, k)| (n.ln(), k.ln()));
+            is_law(&points.collect::<Vec<_>>())
+        };
+        assert!(at([4.19, 3.27, 3.38, 2.45]));
+        assert!(!at([3.3, 4.6, 2.4, 3.2]));
     }
 
     #[test]

@@ -91,11 +91,11 @@ impl Fall {
             _ => ["mm", "nm"],
         };
         match self.unit {
-            None if self.vanishes => format!(
+            None if self.vanishes && quantity == Quantity::WearDepth => format!(
                 "{of} has all but gone after {to} cycles beside what it is after {from}: was another flank, another tooth or a new part measured then?"
             ),
             None => format!(
-                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, has one a digit more or less, or is this what was lost since the measurement before (gearwear import --per-interval)?"
+                "{of} is less after {to} cycles than after {from}: wear does not fall. Are the cycles of two checkpoints exchanged, is a decimal point wrong in the cycles or values of one, or is this what was lost since the measurement before (gearwear import --per-interval)?"
             ),
             Some(OtherUnit::LaterInLarger) => format!(
                 "{of} is about a thousand times less after {to} cycles than after {from}: was that checkpoint written in {larger}?"
@@ -118,9 +118,16 @@ pub(super) fn fall(worn: &[Worn], share: f64) -> Option<Fall> {
             from: before.cycles,
             to: after.cycles,
             unit: other_unit(worn, place),
-            vanishes: after.amount < VANISHES_TO * before.amount,
+            vanishes: vanishes(worn, place),
         })
     })
+}
+
+/// Whether hardly anything is left behind the checkpoint at `place`, by that one and by a third: of two alone the other may be too large.
+fn vanishes(worn: &[Worn], place: usize) -> bool {
+    let is_far_above = |other: &Worn| worn[place + 1].amount < VANISHES_TO * other.amount;
+    let others = worn[..place].iter().chain(&worn[place + 2..]);
+    is_far_above(&worn[place]) && others.into_iter().any(is_far_above)
 }
 
 /// The first two checkpoints between which a mass falls by far, whatever its sigma.
@@ -265,6 +272,12 @@ mod tests {
             "after 200000 cycles than after 300000: was that checkpoint written in nm?"
         ));
         assert!(is([2.0, 6.0, 4.0, 8.0], "exchanged"));
+        // the second is a hundred times too large, the third is of an unworn flank
+        assert!(is([2.0, 400.0, 6.0, 8.0], "decimal point"));
+        assert!(is(
+            [2.0, 4.0, 0.02, 8.0],
+            "all but gone after 300000 cycles"
+        ));
         assert_eq!(said([2.0, 4.0, 6.0, 8.0]), None);
     }
 }

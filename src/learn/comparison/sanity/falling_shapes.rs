@@ -8,7 +8,8 @@
 use std::collections::BTreeMap;
 
 use super::falling::{Fall, Worn, fall};
-use crate::measure::{Dataset, FacePlace, Observation, Quantity, Subject};
+use super::flank_curves::{Curve, flank_curves};
+use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Study;
 
 /// Fewest places that tell a shape, and the share of a curve's squares that the common shape must explain.
@@ -19,17 +20,10 @@ const NO_SHAPE: f64 = 2.0;
 /// How far the shape must shrink: the last two checkpoints of a test are often near to each other.
 const SHRINKS_TO: f64 = 0.9;
 
-/// Depths at rising radii after some cycles.
-struct Curve {
-    cycles: f64,
-    points: Vec<[f64; 2]>,
-    sigma: f64,
-}
-
 /// A question about each test and member whose curves shrink.
 pub(super) fn falling_shapes(study: &Study, data: &Dataset) -> Vec<String> {
     let mut said: BTreeMap<(usize, Subject), String> = BTreeMap::new();
-    for ((test, member, _), curves) in curves(data) {
+    for ((test, member, _), curves) in flank_curves(data.observations.iter()) {
         if let Some(fall) = shrinks(&curves) {
             let of = format!(
                 "in test {} wear_depth of the {}",
@@ -41,35 +35,6 @@ pub(super) fn falling_shapes(study: &Study, data: &Dataset) -> Vec<String> {
         }
     }
     said.into_values().collect()
-}
-
-/// A test, a member, and where across the face and on which tooth.
-type Key<'d> = (usize, Subject, (Option<u64>, Option<&'d str>));
-
-/// The curves of each place by rising cycles.
-fn curves(data: &Dataset) -> BTreeMap<Key<'_>, Vec<Curve>> {
-    let mut rows: BTreeMap<_, Vec<&Observation>> = BTreeMap::new();
-    let depths = (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
-    for o in depths.filter(|o| o.cycles > 0.0) {
-        let cut = (o.face.map(FacePlace::key), o.tooth.as_deref());
-        // positive numbers stand in the order of their bits
-        let key = ((o.test, o.member, cut), o.cycles.to_bits(), o.trace);
-        rows.entry(key).or_default().push(o);
-    }
-    let mut all: BTreeMap<_, Vec<Curve>> = BTreeMap::new();
-    for ((of, cycles, _), own) in rows {
-        let mut points: Vec<[f64; 2]> = (own.iter())
-            .filter_map(|o| Some([o.position?, o.value]))
-            .collect();
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let sigma = own.iter().map(|o| o.sigma).sum::<f64>() / own.len() as f64;
-        all.entry(of).or_default().push(Curve {
-            cycles: f64::from_bits(cycles),
-            points,
-            sigma,
-        });
-    }
-    all
 }
 
 /// The first two checkpoints between which the common shape shrinks.

@@ -5,10 +5,8 @@
 //! r(a, b) < 0.5 and r(a, b reversed) > 0.9: wear that goes on in between keeps its pattern
 //! ```
 
-use std::collections::BTreeMap;
-
 use super::super::residual_statistics::FittedRow;
-use crate::measure::{FacePlace, Quantity};
+use super::flank_curves::{Curve, flank_curves};
 use crate::study::Study;
 
 /// Fewest points of a curve.
@@ -19,38 +17,10 @@ const ALIKE: f64 = 0.9;
 /// Standard deviation of a curve's values over their sigma from which it has a pattern.
 const PATTERN: f64 = 5.0;
 
-/// Places and values of a curve, by rising place, and its sigma.
-struct Curve {
-    cycles: f64,
-    points: Vec<[f64; 2]>,
-    sigma: f64,
-}
-
 /// Tests in which two checkpoints that follow each other run opposite ways along a flank.
 pub(super) fn reversed(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
-    let mut curves: BTreeMap<_, BTreeMap<u64, Curve>> = BTreeMap::new();
-    for (o, _) in rows
-        .iter()
-        .filter(|(o, _)| o.quantity == Quantity::WearDepth)
-    {
-        let Some(place) = o.position else { continue };
-        let cut = (o.face.map(FacePlace::key), o.tooth.as_deref());
-        let of_flank = curves.entry((o.test, o.member, cut)).or_default();
-        // positive numbers stand in the order of their bits
-        let curve = of_flank.entry(o.cycles.to_bits()).or_insert_with(|| Curve {
-            cycles: o.cycles,
-            points: Vec::new(),
-            sigma: 0.0,
-        });
-        curve.points.push([place, o.value]);
-        curve.sigma = curve.sigma.max(o.sigma);
-    }
     let mut said = Vec::new();
-    for ((test, member, _), of_flank) in curves {
-        let mut of_flank: Vec<Curve> = of_flank.into_values().collect();
-        for curve in &mut of_flank {
-            curve.points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        }
+    for ((test, member, _), of_flank) in flank_curves(rows.iter().map(|(o, _)| *o)) {
         if let Some(pair) = of_flank
             .windows(2)
             .find(|pair| opposite(&pair[0], &pair[1]))
