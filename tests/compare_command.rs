@@ -955,7 +955,14 @@ fn a_diagnosis_asks_first_about_exchanged_checkpoints() {
     write("data/measurements.csv", exchanged.join("\n") + "\n");
     let file = FILE.replace("measurements.csv", "data/measurements.csv");
     write("base.toml", format!("{BASE}{file}"));
-    succeed(&home, "diagnose base.toml --fast -o diagnosis");
+    let shown = succeed(&home, "diagnose base.toml --fast -o diagnosis");
+    assert!(shown.contains("\ncheck first: in test A"), "{shown}");
+    let page = fs::read_to_string(home.path().join("diagnosis/report.html")).unwrap();
+    assert!(page.contains("Check first: in test A"), "{page}");
+    assert!(
+        !page.contains("(gearwear import --per-interval)?."),
+        "{page}"
+    );
     let found = document(&home.path().join("diagnosis"), "diagnosis.json");
     let first = found["warnings"][0].as_str().unwrap();
     assert!(

@@ -27,7 +27,7 @@ pub use crate::learn::experiment::{
     NextTest, NextTests, Plan, RankedTest, Separated, made_up_chi2, plan_after, plan_first,
 };
 pub use crate::learn::explanation::{
-    Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened,
+    CHECK_FIRST, Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened,
 };
 pub use crate::learn::hypothesis::candidate::NotJudged;
 pub use crate::learn::hypothesis::{EffectSet, Hypothesis};

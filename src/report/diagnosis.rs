@@ -7,7 +7,7 @@ use std::path::Path;
 
 pub use self::page::page;
 use super::comparison::with_unit;
-use crate::learn::diagnose::{Diagnosis, Fidelity, Hypothesis, Ranked, Verdict};
+use crate::learn::diagnose::{CHECK_FIRST, Diagnosis, Fidelity, Hypothesis, Ranked, Verdict};
 use crate::numeric::written::{probability, significant, uncertain};
 
 /// Entries of the ranking shown on the terminal.
@@ -28,7 +28,10 @@ pub fn summary(title: &str, diagnosis: &Diagnosis, study: &str, folder: &Path) -
     text += &ranking(diagnosis);
     text += &values_of_rivals(diagnosis);
     for warning in &diagnosis.warnings {
-        let _ = writeln!(text, "\nwarning: {warning}");
+        let _ = match warning.strip_prefix(CHECK_FIRST) {
+            Some(question) => writeln!(text, "\n{CHECK_FIRST}{question}"),
+            None => writeln!(text, "\nwarning: {warning}"),
+        };
     }
     if let Some(next) = &diagnosis.next_experiment {
         let _ = writeln!(text, "\nnext experiment: {}", next.why);

@@ -24,6 +24,9 @@ use crate::learn::hypothesis::candidate::NotJudged;
 use crate::learn::model_search::context::Context;
 use crate::learn::model_search::learned_drivers::LearnedAnswer;
 
+/// How a warning begins that is a question about the measurements.
+pub const CHECK_FIRST: &str = "check first: ";
+
 /// One effect, or several.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -138,7 +141,7 @@ impl Diagnosis {
     /// The same with questions about the measurements before all other warnings: no effect is to be trusted until they are answered.
     pub fn asking_first(mut self, questions: Vec<String>) -> Self {
         let asked = questions.into_iter();
-        let asked = asked.map(|question| format!("check first: {question}"));
+        let asked = asked.map(|question| format!("{CHECK_FIRST}{question}"));
         self.warnings.splice(0..0, asked);
         self
     }

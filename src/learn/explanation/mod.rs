@@ -12,6 +12,6 @@ mod sentences;
 mod warnings;
 mod wording;
 
-pub use diagnosis::{Diagnosis, Named, Screened};
+pub use diagnosis::{CHECK_FIRST, Diagnosis, Named, Screened};
 pub use ranked::{ParameterValue, Ranked};
 pub use remainder::Remainder;

@@ -2,7 +2,7 @@
 
 use super::{NOISE_MODEL, figures, means, name, parameters, unknown_name};
 use crate::learn::diagnose::{
-    Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
+    CHECK_FIRST, Diagnosis, Hypothesis, NextExperiment, NextTest, Ranked, Screened, Verdict,
 };
 use crate::numeric::written::{count, fixed, plain, probability, significant};
 use crate::report::html::{Cell, Page, Section, Table};
@@ -47,7 +47,11 @@ fn why(diagnosis: &Diagnosis) -> Section {
         why = why.paragraph(reason);
     }
     for warning in &diagnosis.warnings {
-        why = why.note(format!("Warning: {warning}."));
+        why = why.note(match warning.strip_prefix(CHECK_FIRST) {
+            // a question, with its mark
+            Some(question) => format!("Check first: {question}"),
+            None => format!("Warning: {warning}."),
+        });
     }
     why
 }
