@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::learn::fitting::fit::{Coefficient, FitError, Problem};
+use crate::learn::fitting::fit::{Coefficient, FitError, Problem, is_within_noise};
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::hypothesis::parameters::Parameter;
 use crate::learn::hypothesis::version::{ModelVersion, parameter};
@@ -195,6 +195,11 @@ impl Misfit {
     /// Whether far more than noise is left: the last decimals of such a fit say nothing.
     pub(in crate::learn) fn is_far(&self) -> bool {
         self.beyond_noise() > FAR * self.points
+    }
+
+    /// Whether no more than noise is left.
+    pub(in crate::learn) fn is_noise(&self) -> bool {
+        is_within_noise(self.square, self.points as usize)
     }
 }
 

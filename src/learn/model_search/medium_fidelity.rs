@@ -17,7 +17,7 @@ use crate::learn::prediction::gear_model::GearModel;
 /// gain as much as this at all.
 const REFINED: usize = 3;
 const REFINED_SHARE: f64 = 0.4;
-const MEANT: f64 = 1.0;
+pub(super) const MEANT: f64 = 1.0;
 /// Share of the attainable fall of χ² with which a leader leaves nothing for a second effect, and the share of its gain that another must have then to
 /// lead in its place: the analytic model knows gains to a tenth of the leader's.
 const NEARLY_ALL: f64 = 0.97;
@@ -261,7 +261,7 @@ fn worth_its_cost(judged: &FittedCandidate, before: f64, leader: f64) -> bool {
 }
 
 /// A look at a candidate fitted on if it is in play, or promises to be.
-fn fitted_on(
+pub(super) fn fitted_on(
     look: SearchEnd,
     bar: f64,
     fit: impl Fn(State, &Effort) -> Option<SearchEnd>,

@@ -12,6 +12,7 @@ pub(in crate::learn) mod learned_drivers;
 pub(in crate::learn) mod matching_pursuit;
 mod medium_fidelity;
 pub(in crate::learn) mod nested_forms;
+mod other_valleys;
 mod pair_exchange;
 pub(in crate::learn) mod pair_fit;
 pub(in crate::learn) mod pairs;

@@ -88,14 +88,16 @@ impl Attempt<'_> {
         Ok(first)
     }
 
-    /// The first fit or, where that has not settled, the one from the priors' medians if it attains more evidence.
+    /// The first fit or, where that has not settled or leaves more than noise, the one from the priors' medians if it attains more evidence: a cheaper
+    /// model may have led the first one into a valley of its own.
     pub(super) fn best_of_starts(&self, first: Fit) -> Fit {
-        if first.is_settled() || self.version.effects.is_empty() || self.attains_promise(&first) {
+        let done = first.is_settled() && self.measured.misfit(&first).is_noise();
+        if done || self.version.effects.is_empty() || self.attains_promise(&first) {
             return first;
         }
         let attained = first.attained_evidence();
         let medians = self.version.medians();
-        let second = if self.is_far(&first) {
+        let second = if first.is_settled() || self.is_far(&first) {
             (self.from(medians, &self.look_effort()).ok())
                 .filter(|second| second.attained_evidence() > attained)
                 .and_then(|second| self.go_on(&second).ok())
