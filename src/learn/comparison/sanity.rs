@@ -7,6 +7,7 @@
 //! s does not depend on the k that the fit came to: wear is proportional to k, so a quotient of two s is that of the quantities.
 
 mod coefficient;
+mod common_tilt;
 mod constants;
 mod copied_curves;
 mod cycle_units;
@@ -25,6 +26,7 @@ mod moved_places;
 mod negated;
 mod no_wear;
 mod reversed;
+mod same_moments;
 mod sigmas;
 mod single_tests;
 mod unworn_members;
@@ -50,6 +52,9 @@ const FACTOR: f64 = 2.5;
 const NEAR: f64 = 0.25;
 /// How far from its number of teeth the factor of either member may be.
 const NEAR_TEETH: f64 = 1.7;
+/// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters, and from which it is where nothing else is wrong.
+const CLEAR_RATIO: f64 = 1.5;
+const LOW_RATIO: f64 = 1.2;
 /// Deviation up to which two counts of cycles are the same.
 const SAME_CYCLES: f64 = 0.005;
 
@@ -99,6 +104,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         // exchanged masses are at odds with the depths of both members
         said.extend(exchanged_masses::exchanged_masses(study, &rows));
         if said.is_empty() {
+            said.extend(same_moments::increments(study, &rows));
+        }
+        if said.is_empty() {
             let of_tests = single_tests::depths_and_masses(study, &rows, k);
             let of_all = || depths_and_masses(study, &rows, k).into_iter().collect();
             said.extend(of_tests.unwrap_or_else(of_all));
@@ -124,7 +132,12 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             said.extend(exchanged_tests::exchanged_tests(study, data, fit));
         }
         if said.is_empty() {
-            said.extend(single_tests::of_the_other_member(study, data, fit));
+            said.extend(single_tests::of_the_other_member(
+                study,
+                data,
+                fit,
+                CLEAR_RATIO,
+            ));
             // a test's own k follows what its transmission error asks for
             if !said.is_empty()
                 && let Some(turned) = single_tests::turned_rotation(study, &rows)
@@ -149,7 +162,16 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             said.extend(reversed::reversed(study, &rows));
         }
         if said.is_empty() {
-            said.extend(moved_places::moved_places(&rows));
+            said.extend(moved_places::moved_places(study, &rows));
+        }
+        if said.is_empty() {
+            said.extend(common_tilt::common_tilt(study, &rows));
+        }
+        // other slips may bring k there too
+        if said.is_empty() {
+            said.extend(single_tests::of_the_other_member(
+                study, data, fit, LOW_RATIO,
+            ));
         }
     }
     said.extend(sigmas::of_another_unit(data, values_asked));
@@ -280,11 +302,11 @@ fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -> Option<St
         // a unit is that of all masses, not of the one that its sigma makes weigh most
         let of_all = total(rows, Quantity::MassLoss, member).filter(|total| *total > 0.0)?;
         let [one, all] = [mass.factor, of_all].map(|mass| depth.factor / mass);
-        let nearer = if one.ln().abs() < all.ln().abs() {
-            one
-        } else {
-            all
-        };
+        let together = same_moments::mass_over_depth(rows, member).map(|log| (-log).exp());
+        let nearer = [Some(one), Some(all), together].into_iter().flatten();
+        let nearer = nearer.min_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()))?;
+        // wear that is far from the model's wears another shape, of which the scale of depths says little
+        let sure = sure && !mass_balance::balance(study, rows, member, FACTOR);
         let far = |scale: f64| (k * scale / study.wear.coefficient).ln().abs();
         let masses_first = far(mass.factor) >= far(depth.factor);
         (sure && (one > 1.0) == (all > 1.0)).then_some((nearer, masses_first))

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use super::super::residual_statistics::FittedRow;
 use super::{SAME_CYCLES, rounded};
 use crate::gear::Gear;
 use crate::measure::neighbours::curves;
@@ -23,10 +24,12 @@ const SURE: f64 = 5.0;
 
 /// Tests of which the masses are hundreds of times more or less than the depths make up.
 pub(super) fn masses_and_depths(study: &Study, data: &Dataset) -> Option<String> {
-    let ratios = ratios(study, data);
-    let all: Vec<(usize, f64)> = ratios
-        .iter()
-        .filter_map(|(test, logs)| Some((*test, median(logs.clone())?)))
+    let mut of_tests: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    for ((test, _), logs) in ratios(study, data.observations.iter()) {
+        of_tests.entry(test).or_default().extend(logs);
+    }
+    let all: Vec<(usize, f64)> = (of_tests.into_iter())
+        .filter_map(|(test, logs)| Some((test, median(logs)?)))
         .collect();
     let far = |(_, log): &&(usize, f64)| log.abs() > FACTOR.ln();
     let (_, first) = *all.iter().find(far)?;
@@ -54,11 +57,21 @@ pub(super) fn masses_and_depths(study: &Study, data: &Dataset) -> Option<String>
     ))
 }
 
-/// ln of mass over that of the depths by test, wherever both were measured.
-fn ratios(study: &Study, data: &Dataset) -> BTreeMap<usize, Vec<f64>> {
+/// Whether a member's masses are what its depths make up, but for less than a factor.
+pub(super) fn balance(study: &Study, rows: &[FittedRow<'_>], member: Subject, factor: f64) -> bool {
+    let own = rows.iter().map(|(o, _)| *o).filter(|o| o.member == member);
+    let logs: Vec<f64> = ratios(study, own).into_values().flatten().collect();
+    median(logs).is_some_and(|log| log.abs() < factor.ln())
+}
+
+/// ln of mass over that of the depths by test and member, wherever both were measured.
+fn ratios<'d>(
+    study: &Study,
+    all: impl Iterator<Item = &'d Observation> + Clone,
+) -> BTreeMap<(usize, Subject), Vec<f64>> {
     let mut areas: BTreeMap<(usize, Subject, u64), Vec<f64>> = BTreeMap::new();
     let depths = |o: &&Observation| o.quantity == Quantity::WearDepth;
-    let depths: Vec<&Observation> = data.observations.iter().filter(depths).collect();
+    let depths: Vec<&Observation> = all.clone().filter(depths).collect();
     for curve in curves(&depths) {
         let first = depths[curve[0]];
         let curve: Vec<&Observation> = curve.into_iter().map(|i| depths[i]).collect();
@@ -67,9 +80,9 @@ fn ratios(study: &Study, data: &Dataset) -> BTreeMap<usize, Vec<f64>> {
             areas.entry(key).or_default().push(area);
         }
     }
-    let mut ratios: BTreeMap<usize, Vec<f64>> = BTreeMap::new();
+    let mut ratios: BTreeMap<_, Vec<f64>> = BTreeMap::new();
     let lost = |o: &&Observation| o.quantity == Quantity::MassLoss && o.value > 0.0;
-    for o in data.observations.iter().filter(lost) {
+    for o in all.filter(lost) {
         let same = |(test, member, cycles): &(usize, Subject, u64)| {
             (*test, *member) == (o.test, o.member)
                 && (f64::from_bits(*cycles) / o.cycles - 1.0).abs() < SAME_CYCLES
@@ -85,7 +98,7 @@ fn ratios(study: &Study, data: &Dataset) -> BTreeMap<usize, Vec<f64>> {
         let ratio = (o.value / (1e-3 * density * volume)).ln();
         // a noisy mass is more than a small one by chance, never hundreds of times less than a large one
         if ratio < 0.0 || o.value > SURE * o.sigma {
-            ratios.entry(o.test).or_default().push(ratio);
+            ratios.entry((o.test, o.member)).or_default().push(ratio);
         }
     }
     ratios
@@ -133,9 +146,13 @@ mod tests {
             Dataset::parse(&text, "m.csv", &study.known()).unwrap()
         };
         let by_hand = 227.432;
-        let ratio = ratios(&study, &of(by_hand))[&0][0];
+        let ratio_of = |mass| {
+            let data = of(mass);
+            ratios(&study, data.observations.iter())[&(0, Subject::Pinion)][0]
+        };
+        let ratio = ratio_of(by_hand);
         assert!(ratio.abs() < 1e-3, "{ratio}");
-        assert!((ratios(&study, &of(2.0 * by_hand))[&0][0] - 2f64.ln()).abs() < 1e-3);
+        assert!((ratio_of(2.0 * by_hand) - 2f64.ln()).abs() < 1e-3);
         assert_eq!(masses_and_depths(&study, &of(by_hand)), None);
         let said = |mass| masses_and_depths(&study, &of(mass)).unwrap();
         assert!(

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 
 use super::super::residual_statistics::FittedRow;
 use crate::measure::{FacePlace, Quantity, Subject};
+use crate::study::Study;
 
 /// Fewest points of a curve, and fewest curves.
 const FEWEST: usize = 6;
@@ -22,11 +23,15 @@ const STEP: f64 = 0.05;
 const STEPS: i32 = 10;
 
 /// Place, measured depth, the model's and σ; by rising place.
-type Point = [f64; 4];
+pub(super) type Point = [f64; 4];
 
-/// A question for each member of which the places fit far better otherwise, or one for both.
-pub(super) fn moved_places(rows: &[FittedRow<'_>]) -> Vec<String> {
+/// A question for each member of which the places fit far better otherwise, or one for both; else for the tests of which those of a member fit far
+/// better upside down.
+pub(super) fn moved_places(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     let [pinion, gear] = [Subject::Pinion, Subject::Gear].map(|member| of(rows, member));
+    if pinion.or(gear).is_none() {
+        return upside_down_in_some_tests(study, rows);
+    }
     let both = pinion.is_some() && pinion == gear;
     let said = [("the pinion's", pinion), ("the gear's", gear)];
     let said = said
@@ -49,13 +54,36 @@ pub(super) fn moved_places(rows: &[FittedRow<'_>]) -> Vec<String> {
     lines.take(if both { 1 } else { 2 }).collect()
 }
 
+fn upside_down_in_some_tests(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
+    let mut said = Vec::new();
+    for member in [Subject::Pinion, Subject::Gear] {
+        let turned = (study.tests.iter().enumerate()).filter(|(test, _)| {
+            let own = rows.iter().filter(|(o, _)| o.test == *test);
+            let own: Vec<FittedRow<'_>> = own.copied().collect();
+            of(&own, member) == Some(Better::UpsideDown)
+        });
+        let turned: Vec<&str> = turned.map(|(_, test)| test.id.as_str()).collect();
+        if !turned.is_empty() {
+            said.push(format!(
+                "the {}'s depth curves of test{} {} fit far better upside down, those of the other tests do not: do their places run from tip to \
+                 root where root to tip is stated?",
+                member.name(),
+                if turned.len() > 1 { "s" } else { "" },
+                turned.join(", ")
+            ));
+        }
+    }
+    said
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Better {
     UpsideDown,
     Moved(i32),
 }
 
-fn of(rows: &[FittedRow<'_>], member: Subject) -> Option<Better> {
+/// A member's curves of some length, by rising place.
+pub(super) fn curves_of(rows: &[FittedRow<'_>], member: Subject) -> Vec<Vec<Point>> {
     let mut curves: BTreeMap<_, Vec<Point>> = BTreeMap::new();
     let own = rows
         .iter()
@@ -79,6 +107,11 @@ fn of(rows: &[FittedRow<'_>], member: Subject) -> Option<Better> {
     for curve in &mut curves {
         curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
     }
+    curves
+}
+
+fn of(rows: &[FittedRow<'_>], member: Subject) -> Option<Better> {
+    let curves = curves_of(rows, member);
     if curves.len() < CURVES {
         return None;
     }
@@ -150,51 +183,62 @@ fn between(curve: &[Point], place: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learn::fitting::fitted::RowFit;
     use crate::measure::Dataset;
-    use crate::study::Study;
 
     fn wear(place: f64) -> f64 {
         let x = place - 27.0;
         6.0 * (1.0 - 0.5 * x).abs() + 2.0 * (-x * x).exp()
     }
 
-    /// What is said of three curves of the pinion that wore as the model has it at other places.
-    fn said(true_place: &dyn Fn(f64) -> f64) -> Vec<String> {
+    /// What is said of three curves of the pinion of each test that wore as the model has it at other places.
+    fn said(of_tests: &[(&str, &dyn Fn(f64) -> f64)]) -> Vec<String> {
         let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
         let study = Study::parse(study, "study.toml").unwrap();
         let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
-        let mut fits = Vec::new();
-        for cycles in [1e5, 2e5, 3e5] {
-            for at in 0..20 {
-                let place = 26.0 + 0.15 * f64::from(at);
-                let value = 1e-5 * cycles * wear(true_place(place)) + 0.4;
-                text += &format!("A,pinion,{cycles},wear_depth,{place},{value},0.1\n");
-                fits.push(RowFit {
-                    model: 0.5e-5 * cycles * wear(place),
-                    datum: 0.0,
-                    residual: 0.0,
-                    standardised: 0.0,
-                });
+        let mut models = Vec::new();
+        for (test, true_place) in of_tests {
+            for cycles in [1e5, 2e5, 3e5] {
+                for at in 0..20 {
+                    let place = 26.0 + 0.15 * f64::from(at);
+                    let value = 1e-5 * cycles * wear(true_place(place)) + 0.4;
+                    text += &format!("{test},pinion,{cycles},wear_depth,{place},{value},0.1\n");
+                    models.push(0.5e-5 * cycles * wear(place));
+                }
             }
         }
         let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        let fits = super::super::fits_of(&models);
         let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
-        moved_places(&rows)
+        moved_places(&study, &rows)
     }
 
     #[test]
     fn places_upside_down_or_moved_are_asked_about() {
-        let turned = said(&|place| 26.0 + 28.85 - place);
+        let right = |place: f64| place;
+        let mirrored = |place: f64| 26.0 + 28.85 - place;
+        let turned = said(&[("A", &mirrored)]);
         assert!(
             turned[0].starts_with("the pinion's depth curves fit far better upside down"),
             "{turned:?}"
         );
-        let moved = said(&|place| place - 0.3);
+        let moved = said(&[("A", &|place| place - 0.3)]);
         assert!(
             moved[0].contains("at radii that are about 0.30 mm smaller"),
             "{moved:?}"
         );
-        assert!(said(&|place| place).is_empty());
+        assert!(said(&[("A", &right)]).is_empty());
+        let one_test = said(&[
+            ("A", &right),
+            ("B", &mirrored),
+            ("C", &right),
+            ("D", &right),
+        ]);
+        assert_eq!(one_test.len(), 1);
+        assert!(
+            one_test[0]
+                .starts_with("the pinion's depth curves of test B fit far better upside down"),
+            "{one_test:?}"
+        );
+        assert!(said(&[("A", &right), ("B", &right)]).is_empty());
     }
 }

@@ -19,8 +19,6 @@ const EXPLAINS_A_TURN: f64 = 0.2;
 const WORN: f64 = 4.0;
 /// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
 const DATUMS: f64 = 3.0;
-/// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters.
-const CLEAR_RATIO: f64 = 1.5;
 /// How near the ratio a test's k must be, and how near each other those of the other tests, in ln of the ratio.
 const NEAR_RATIO: f64 = 0.1;
 const ALIKE: f64 = 0.3;
@@ -164,11 +162,16 @@ fn far_off(study: &Study, own: &[(usize, f64)], (test, k): (usize, f64)) -> Opti
 }
 
 /// A test whose own k lies off those of the others, which agree, by the ratio of the numbers of teeth: its torque may be the gear's (too
-/// little wear for what is stated) or its cycles (too much). Only where what the correction makes of it lies among the other tests'.
-pub(super) fn of_the_other_member(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+/// little wear for what is stated) or its cycles (too much); from a `least_ratio` on. Only where what the correction makes of it lies among the other tests'.
+pub(super) fn of_the_other_member(
+    study: &Study,
+    data: &Dataset,
+    fit: &Fit,
+    least_ratio: f64,
+) -> Vec<String> {
     let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
     let ratio = f64::from(gear) / f64::from(pinion);
-    if ratio < CLEAR_RATIO {
+    if ratio < least_ratio {
         return Vec::new();
     }
     let own = own_coefficients(data, fit);
