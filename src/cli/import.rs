@@ -38,6 +38,9 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             sigma_of_others: args.all_sheets && chosen.len() > 1,
             ..wanted.clone()
         };
+        if args.all_sheets {
+            taken.pass_over(&sheets, &chosen);
+        }
         let mut take =
             |sheet: &Sheet| taken.take(args, &study, &named(table, sheet), sheet, &wanted);
         for (n, sheet) in chosen.iter().enumerate() {
@@ -69,7 +72,7 @@ fn beside_others(error: CliError, sheets: usize, refused: &[&str]) -> CliError {
     }
 }
 
-/// The sheets that are meant, those without a cell left out.
+/// The sheets that are meant; of all, those without a table left out.
 fn chosen<'s>(
     sheets: &'s [Sheet],
     table: &Path,
@@ -82,8 +85,14 @@ fn chosen<'s>(
     match (&args.sheet, sheets) {
         (None, [one]) => Ok(vec![one]),
         (None, all) if args.all_sheets => {
+            let tables: Vec<&Sheet> = all.iter().filter(|sheet| sheet.holds_numbers()).collect();
+            // where none does, each says what is wrong with it
             let is_filled = |sheet: &&Sheet| sheet.rows.iter().flatten().any(|c| !c.is_empty());
-            Ok(all.iter().filter(is_filled).collect())
+            Ok(if tables.is_empty() {
+                all.iter().filter(is_filled).collect()
+            } else {
+                tables
+            })
         }
         (Some(name), _) => match sheets.iter().find(|sheet| sheet.name == *name) {
             Some(sheet) => Ok(vec![sheet]),

@@ -9,23 +9,47 @@ use super::{home, line, refused, rows};
 
 const WEIGHED: &str = "test;cycles;member;mass [mg]\nA;0;pinion;1000\nA;100000;pinion;990\n";
 
-/// A workbook of one sheet, its parts stored unpacked; `cells` are those of rows below a header.
+/// A cell that holds a text.
+pub(super) fn text(text: &str) -> String {
+    format!("<c t='inlineStr'><is><t>{text}</t></is></c>")
+}
+
+/// A workbook of one sheet; `cells` are those of rows below a header.
 fn workbook(home: &TempDir, header: [&str; 4], cells: [&str; 2]) {
-    let text = |text: &str| format!("<c t='inlineStr'><is><t>{text}</t></is></c>");
     let head: String = header.into_iter().map(text).collect();
-    let body: String = cells.map(|cells| format!("<row>{cells}</row>")).concat();
+    workbook_of(home, &[("w", &[&head[..], cells[0], cells[1]])]);
+}
+
+/// A workbook of sheets with the cells of each row, its parts stored unpacked.
+pub(super) fn workbook_of(home: &TempDir, sheets: &[(&str, &[&str])]) {
     let ns = "xmlns='urn:s' xmlns:r='urn:r'";
-    let parts = [
-        ("xl/workbook.xml", format!("<workbook {ns}><sheets><sheet name='w' r:id='a'/></sheets></workbook>")),
-        ("xl/_rels/workbook.xml.rels", "<Relationships><Relationship Id='a' Target='s.xml'/></Relationships>".to_owned()),
+    let names: String = (sheets.iter().enumerate())
+        .map(|(i, (name, _))| format!("<sheet name='{name}' r:id='a{i}'/>"))
+        .collect();
+    let relations: String = (0..sheets.len())
+        .map(|i| format!("<Relationship Id='a{i}' Target='s{i}.xml'/>"))
+        .collect();
+    let mut parts = vec![
         (
-            "xl/styles.xml",
+            "xl/workbook.xml".to_owned(),
+            format!("<workbook {ns}><sheets>{names}</sheets></workbook>"),
+        ),
+        (
+            "xl/_rels/workbook.xml.rels".to_owned(),
+            format!("<Relationships>{relations}</Relationships>"),
+        ),
+        (
+            "xl/styles.xml".to_owned(),
             "<styleSheet><numFmts><numFmt numFmtId='164' formatCode='dd/mm/yyyy'/></numFmts>\
              <cellXfs><xf numFmtId='0'/><xf numFmtId='164'/><xf numFmtId='14'/></cellXfs></styleSheet>"
                 .to_owned(),
         ),
-        ("xl/s.xml", format!("<worksheet><sheetData><row>{head}</row>{body}</sheetData></worksheet>")),
     ];
+    for (i, (_, rows)) in sheets.iter().enumerate() {
+        let rows: String = rows.iter().map(|row| format!("<row>{row}</row>")).collect();
+        let data = format!("<worksheet><sheetData>{rows}</sheetData></worksheet>");
+        parts.push((format!("xl/s{i}.xml"), data));
+    }
     let mut file = Vec::new();
     let mut directory = Vec::new();
     for (name, text) in &parts {

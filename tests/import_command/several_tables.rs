@@ -1,5 +1,6 @@
 //! Several tables, sheets and files, and rows behind those that are there.
 
+use super::doubtful::{text, workbook_of};
 use super::*;
 
 #[test]
@@ -168,6 +169,39 @@ fn all_sheets_are_read_one_after_the_other() {
         message.contains("Nothing is written; of the others, rows cannot be read either"),
         "{message}"
     );
+}
+
+/// Of a cover nothing is read, and it is said; a row of units stands below the header.
+#[test]
+fn covers_are_passed_over_and_units_below_a_header_are_read() {
+    let home = home();
+    let row = |cells: [&str; 3]| cells.map(text).concat();
+    let (cover, seal) = (row(["Report 2025/17", "", ""]), row(["Pages", "4", ""]));
+    let head = row(["Radius", "40000", "100000"]);
+    let units = row(["mm", "mm", "mm"]);
+    let dates = row(["measured on", "2025-03-01", "2025-03-04"]);
+    let values = "<c><v>26.5</v></c><c><v>0.0025</v></c><c><v>0.006</v></c>";
+    let sheets: [(&str, &[&str]); 2] = [
+        ("Cover", &[&cover, &seal]),
+        ("A pinion", &[&head, &units, values]),
+    ];
+    workbook_of(&home, &sheets);
+    let import = "import dated.xlsx --all-sheets --study study.toml --sigma 0.1";
+    let shown = succeed(&home, &format!("{import} -o out.csv"));
+    assert!(
+        shown.contains("sheet Cover passed over: none of its rows holds two numbers"),
+        "{shown}"
+    );
+    assert!(shown.contains("row 2 holds the columns' units"), "{shown}");
+    let written = read(&home, "out.csv");
+    assert!(
+        written.contains("A,pinion,40000,wear_depth,26.5,2.5,0.1,"),
+        "{written}"
+    );
+    let head = row(["Radius [mm]", "40000 [mm]", "100000 [mm]"]);
+    workbook_of(&home, &[("A pinion", &[&head, &dates, values])]);
+    let shown = succeed(&home, &format!("{import} -o out.csv --force"));
+    assert!(shown.contains("row 2 holds dates: passed over"), "{shown}");
 }
 
 /// What a table says twice has to agree, and what it says of cycles has to be plain.

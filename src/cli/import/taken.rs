@@ -46,6 +46,20 @@ impl Taken {
         }
     }
 
+    /// Says which of the sheets are not among those `chosen`, but for empty ones.
+    pub(super) fn pass_over(&mut self, sheets: &[Sheet], chosen: &[&Sheet]) {
+        for sheet in sheets {
+            let is_chosen = chosen.iter().any(|one| one.name == sheet.name);
+            let is_filled = sheet.rows.iter().flatten().any(|cell| !cell.is_empty());
+            if !is_chosen && is_filled {
+                self.text += &format!(
+                    "sheet {} passed over: none of its rows holds two numbers\n",
+                    sheet.name
+                );
+            }
+        }
+    }
+
     /// Takes in a sheet, `name` in messages.
     pub(super) fn take(
         &mut self,

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::numbers::pointed;
 use super::{ImportError, xlsx};
 use crate::measure::table::field_spans;
 
@@ -16,6 +17,14 @@ pub struct Sheet {
     pub without_result: Option<String>,
     /// Whether `1.234` can only be one and a bit: numbers of a spreadsheet, and texts with commas between columns.
     pub plain_decimals: bool,
+}
+
+impl Sheet {
+    /// Whether a row holds two numbers, as those of every table do but for covers and notes.
+    pub fn holds_numbers(&self) -> bool {
+        let is_number = |cell: &&String| pointed(cell).parse::<f64>().is_ok();
+        (self.rows.iter()).any(|row| row.iter().filter(is_number).count() > 1)
+    }
 }
 
 /// Spreadsheets that have to be saved in another form first.

@@ -4,7 +4,7 @@ use super::arrange::stated_above;
 use super::columns::half_understood;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, of_one_test};
-use super::{ImportError, Sheet, cell_name, multiples};
+use super::{ImportError, Sheet, cell_name, multiples, second_header};
 use crate::measure::names;
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -14,7 +14,8 @@ type Result<T> = std::result::Result<T, ImportError>;
 /// # Errors
 /// [`ImportError`] where cells are no numbers, or where it cannot be told what is what.
 pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
-    let (sheet, multiplied) = multiples::in_each_header(sheet)?;
+    let (sheet, between) = second_header::merged(sheet)?;
+    let (sheet, multiplied) = multiples::in_each_header(&sheet)?;
     half_understood::refuse(&sheet, wanted)?;
     if wanted.per_interval.cycles {
         return Err(ImportError(
@@ -29,6 +30,7 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         sheet.rows[row].clear();
     }
     let mut obeyed: Vec<String> = above.obeyed.into_iter().map(|(_, words)| words).collect();
+    obeyed.extend(between);
     obeyed.extend(multiplied);
     let wanted = &Wanted {
         test: wanted.test.or(above.test),

@@ -131,6 +131,19 @@ fn find(known: &[(&str, f64)], unit: &str) -> Option<f64> {
     found.map(|(_, factor)| *factor)
 }
 
+/// Whether a text is a unit of some quantity or place.
+pub(super) fn is_unit(text: &str) -> bool {
+    let of_values = Quantity::ALL.into_iter().flat_map(units);
+    let mut known = of_values.chain(&LENGTHS).chain(&ANGLES);
+    let text = plain(text);
+    text != "1" && known.any(|(name, _)| name.eq_ignore_ascii_case(&text))
+}
+
+/// Whether both are the same unit.
+pub(super) fn are_same(one: &str, other: &str) -> bool {
+    plain(one).eq_ignore_ascii_case(&plain(other))
+}
+
 /// With the letter u for micro.
 fn plain(unit: &str) -> String {
     unit.trim()

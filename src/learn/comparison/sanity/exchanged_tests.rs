@@ -3,7 +3,7 @@
 //! ```text
 //! depth ∝ k T at the same cycles:    the rows of test i under the name of test j call for k_i T_i/T_j
 //! R = range of ln k of all tests as they stand, R' once i and j are exchanged
-//! R > ln 1.5 and R' < 0.35 R, for one pair only: asked
+//! R > ln 1.5 and R' < 0.35 R, and R' < ln 1.15 or R > ln 3, for one pair only: asked
 //! ```
 //! Tests of one torque show nothing. A law of the load, k ∝ T^p, does the same for p about −2 (−3.1 to −1.5 where the middle of three torques is the
 //! geometric mean): no known one falls so steeply. Where a power of the speed brings all together as well nothing is asked.
@@ -18,6 +18,9 @@ use crate::study::Study;
 const FAR_APART: f64 = 1.5;
 /// Part of their range, of ln k, that may be left once two tests are exchanged.
 const LEFT: f64 = 0.35;
+/// The factor that may be left, unless the tests' k were farther apart than any that scatter: by 20 or 30 % they come together by chance.
+const AGREE: f64 = 1.15;
+const NO_SCATTER: f64 = 3.0;
 /// The same that a power of the speed may leave for it to be the likelier reason.
 const LEFT_BY_SPEED: f64 = 0.5;
 /// Fewest tests: of two nobody knows which k is right.
@@ -62,7 +65,8 @@ fn exchanged(tests: &[(f64, f64)]) -> Option<(usize, usize, f64, f64)> {
             _ => k,
         };
         let after = range(tests.iter().enumerate().map(of));
-        (after < LEFT * before).then_some((i, j, before, after))
+        let agree = after < AGREE.ln() || before > NO_SCATTER.ln();
+        (after < LEFT * before && agree).then_some((i, j, before, after))
     });
     let found = fits.next()?;
     fits.next().is_none().then_some(found)
@@ -140,6 +144,9 @@ mod tests {
             let law = [10.0_f64, 15.0, 25.0, 40.0].map(|t| (t, t.powf(power)));
             assert_eq!(found(&law), None, "{power}");
         }
+        // k that scatters by a quarter
+        let scatter = [(96.0, 0.66), (150.0, 1.6), (96.0, 1.05), (54.0, 1.15)];
+        assert_eq!(found(&scatter), None);
         // one test apart from the others; two tests only; one torque
         assert_eq!(found(&[(10.0, 2.5), (15.0, 1.0), (25.0, 1.0)]), None);
         assert_eq!(found(&[(10.0, 2.5), (25.0, 0.4)]), None);
