@@ -61,9 +61,9 @@ pub(in crate::learn) fn carried_by<'d>(
         let by_sigma = |scatter: f64| scatter > OF_SCATTER * own;
         (carried && scatter(quantity).is_none_or(by_sigma)).then(|| {
             format!(
-                "{:.0} % of the misfit beyond noise of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): they are not what they are \
-                 taken for, their sigma is too small, or what is missing shows most in them. Look at these values and at that sigma first, of small values above all: a \
-                 share of each value leaves them almost none",
+                "{:.0} % of the misfit beyond noise of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): either \
+                 these values are wrong, or their sigma is too small, or the missing effect shows most in them. Look at the values and their sigma first; a sigma stated as a \
+                 share of the value is too small where the value is small",
                 100.0 * share,
                 quantity.name()
             )
