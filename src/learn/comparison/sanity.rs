@@ -11,6 +11,7 @@ mod common_tilt;
 mod constants;
 mod copied_curves;
 mod cycle_units;
+mod depths_and_masses;
 mod exchanged_masses;
 mod exchanged_tests;
 mod falling;
@@ -25,6 +26,7 @@ mod materials;
 mod moved_places;
 mod negated;
 mod no_wear;
+mod other_units;
 mod reversed;
 mod same_moments;
 mod sigmas;
@@ -37,7 +39,6 @@ pub use self::cycle_units::cycles_in_another_unit;
 use super::residual_statistics::{FittedRow, fitted};
 use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
-use crate::numeric::written;
 use crate::study::Study;
 
 /// Standard deviations by which a negative loss of mass is no noise.
@@ -50,8 +51,6 @@ const EXPLAINS_OVER_A_ROTATION: f64 = 0.8;
 const FACTOR: f64 = 2.5;
 /// How far from a known factor it is told by name.
 const NEAR: f64 = 0.25;
-/// How far from its number of teeth the factor of either member may be.
-const NEAR_TEETH: f64 = 1.7;
 /// Ratio of the numbers of teeth from which a test that is off by it is told from one that scatters, and from which it is where nothing else is wrong.
 const CLEAR_RATIO: f64 = 1.5;
 const LOW_RATIO: f64 = 1.2;
@@ -107,8 +106,11 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
             said.extend(same_moments::increments(study, &rows));
         }
         if said.is_empty() {
-            let of_tests = single_tests::depths_and_masses(study, &rows, k);
-            let of_all = || depths_and_masses(study, &rows, k).into_iter().collect();
+            let of_tests = single_tests::depths_and_masses_of_tests(study, &rows, k);
+            let of_all = || {
+                let found = depths_and_masses::depths_and_masses(study, &rows, k);
+                found.into_iter().collect()
+            };
             said.extend(of_tests.unwrap_or_else(of_all));
             values_asked = !said.is_empty();
         }
@@ -119,7 +121,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         if said.is_empty() {
             said.extend(mass_balance::masses_and_depths(study, data));
         }
-        said.extend(other_units(study, &rows));
+        said.extend(other_units::other_units(study, &rows));
         said.extend(coefficient::coefficient(fit.coefficient));
         if said.is_empty() {
             said.extend(coefficient::far_from_stated(
@@ -237,17 +239,6 @@ fn scale(rows: &[FittedRow<'_>], quantity: Quantity, member: Option<Subject>) ->
     })
 }
 
-/// Sum of a quantity of a member over that of the model.
-fn total(rows: &[FittedRow<'_>], quantity: Quantity, member: Subject) -> Option<f64> {
-    let own = rows
-        .iter()
-        .filter(|(o, _)| o.quantity == quantity && o.member == member);
-    let (value, model) = own.fold((0.0, 0.0), |(value, model), (o, row)| {
-        (value + o.value, model + row.model)
-    });
-    (model > 0.0).then(|| value / model)
-}
-
 /// Whether most of the masses have grown by more than their noise.
 fn gains(rows: &[FittedRow<'_>]) -> bool {
     let masses = rows.iter().map(|(o, _)| o);
@@ -289,143 +280,6 @@ fn signs(rows: &[FittedRow<'_>]) -> Vec<String> {
              the pinion's turning. Turn the sign (or the sense of the positions) and compare again"
                 .to_owned(),
         );
-    }
-    said
-}
-
-/// Depths and masses of a member that call for different coefficients; `k`: the fitted one.
-fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -> Option<String> {
-    let of = |member: Subject| {
-        let depth = scale(rows, Quantity::WearDepth, Some(member))?;
-        let mass = scale(rows, Quantity::MassLoss, Some(member))?;
-        let sure = depth.explains.min(mass.explains) > EXPLAINS && mass.factor > 0.0;
-        // a unit is that of all masses, not of the one that its sigma makes weigh most
-        let of_all = total(rows, Quantity::MassLoss, member).filter(|total| *total > 0.0)?;
-        let [one, all] = [mass.factor, of_all].map(|mass| depth.factor / mass);
-        let together = same_moments::mass_over_depth(rows, member).map(|log| (-log).exp());
-        let nearer = [Some(one), Some(all), together].into_iter().flatten();
-        let nearer = nearer.min_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()))?;
-        // wear that is far from the model's wears another shape, of which the scale of depths says little
-        let sure = sure && !mass_balance::balance(study, rows, member, FACTOR);
-        let far = |scale: f64| (k * scale / study.wear.coefficient).ln().abs();
-        let masses_first = far(mass.factor) >= far(depth.factor);
-        (sure && (one > 1.0) == (all > 1.0)).then_some((nearer, masses_first))
-    };
-    let gears = &study.gears;
-    let members = [
-        (Subject::Pinion, gears.pinion.spec.teeth),
-        (Subject::Gear, gears.gear.spec.teeth),
-    ];
-    let ratios: Vec<(Subject, f64, (f64, bool))> = members
-        .into_iter()
-        .filter_map(|(member, teeth)| Some((member, f64::from(teeth), of(member)?)))
-        .collect();
-    let (member, teeth, (ratio, masses_first)) =
-        (ratios.iter().copied()).max_by(|a, b| a.2.0.ln().abs().total_cmp(&b.2.0.ln().abs()))?;
-    if ratio.ln().abs() < FACTOR.ln() {
-        return None;
-    }
-    // what else is missing may pull at one member, hardly at both alike
-    let one_tooth = |(_, teeth, (ratio, _)): &(Subject, f64, (f64, bool))| {
-        (ratio / teeth).ln().abs() < NEAR_TEETH.ln()
-    };
-    let of_one_tooth = ratios.len() > 1 && ratios.iter().all(one_tooth);
-    // what is farther from the stated k is likelier to be off
-    let known = [
-        (
-            1e3,
-            if masses_first {
-                "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm)"
-            } else {
-                "the depths look like nm: they are wanted in µm (or the masses like g, wanted in mg)"
-            },
-        ),
-        (
-            1e-3,
-            if masses_first {
-                "the masses look like µg, or like mg that were taken for g: they are wanted in mg (or the depths like mm, wanted in µm)"
-            } else {
-                "the depths look like mm: they are wanted in µm (or the masses like µg, or like mg that were taken for g; wanted in mg)"
-            },
-        ),
-        (1e6, "the masses look like kg: they are wanted in mg"),
-        (
-            teeth,
-            "the masses look like those of one tooth: the loss of all teeth is wanted",
-        ),
-    ];
-    let hint = (known.iter())
-        .find(|(factor, _)| {
-            (ratio / factor - 1.0).abs() < NEAR || *factor == teeth && of_one_tooth
-        })
-        .map_or(
-            "look at their units (µm and mg), at density and face_width, whether the mass is the whole member's and of no other, and whether all values \
-             count from the start (gearwear import --per-interval)",
-            |(_, hint)| hint,
-        );
-    let (more, by) = if ratio > 1.0 {
-        ("more", ratio)
-    } else {
-        ("less", ratio.recip())
-    };
-    Some(format!(
-        "the {}'s depths say {} times {more} wear than its masses: {hint}",
-        member.name(),
-        rounded(by)
-    ))
-}
-
-/// Quantities that k hardly changes and that are off by a factor.
-fn other_units(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
-    let face_width = study.gears.face_width;
-    let radius = study.gears.gear.base_radius;
-    let known: [(Quantity, &[(f64, &str)]); 4] = [
-        (
-            Quantity::TransmissionError,
-            &[
-                (1e-3, "mrad"),
-                (1.0 / 4.848, "seconds of arc"),
-                (1e-3 * radius, "µm along the line of action"),
-            ],
-        ),
-        (Quantity::LoadShare, &[(100.0, "percent")]),
-        (
-            Quantity::ContactPressure,
-            &[(1e-3, "GPa"), (145.0, "psi"), (10.0, "bar")],
-        ),
-        (
-            Quantity::MeshStiffness,
-            &[
-                (face_width, "N/µm of the whole face width"),
-                (1e3, "N/mm per mm"),
-            ],
-        ),
-    ];
-    let mut said = Vec::new();
-    for (quantity, units) in known {
-        let Some(found) = scale(rows, quantity, None) else {
-            continue;
-        };
-        if found.explains < EXPLAINS_OVER_A_ROTATION
-            || found.factor <= 0.0
-            || found.factor.ln().abs() < FACTOR.ln()
-        {
-            continue;
-        }
-        let near = |&&(factor, _): &&(f64, &str)| (found.factor / factor - 1.0).abs() < NEAR;
-        let looks = match units.iter().find(near) {
-            Some((_, unit)) => format!("this looks like {unit}"),
-            None => "look at its unit".to_owned(),
-        };
-        said.push(format!(
-            "{} is {} times the computed one: {looks}, it is wanted in {}",
-            quantity.name(),
-            rounded(found.factor),
-            match quantity.unit() {
-                "1" => "parts of 1".to_owned(),
-                unit => written::unit(unit),
-            }
-        ));
     }
     said
 }

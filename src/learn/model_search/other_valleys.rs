@@ -17,8 +17,8 @@ use crate::learn::prediction::fidelity::Fidelity;
 const BEHIND_LEADER: f64 = 0.25;
 
 impl Context<'_> {
-    /// Where the leader leaves more than noise, each effect that is fitted once more from its defaults; then the leader's other forms, where screening
-    /// has passed them over, from where it ended.
+    /// Where the leader leaves more than noise, each effect of several parameters is fitted once more from its defaults; then the leader's other forms
+    /// that screening has passed over, from where it ended.
     pub(in crate::learn) fn from_other_valleys(
         &self,
         base: &BaseFit,
@@ -30,7 +30,6 @@ impl Context<'_> {
             let several_valleys = |form: &FittedCandidate| {
                 form.fidelity == Fidelity::Middle
                     && form.candidate.changes_contact()
-                    && !form.candidate.is_costly()
                     && form.candidate.parameters.len() > form.candidate.inherited + 1
             };
             let from_defaults = |form: &FittedCandidate| {
@@ -64,8 +63,12 @@ impl Context<'_> {
     ) -> Vec<FittedCandidate> {
         let least = refined[leader].found.objective;
         let nearly = least + BEHIND_LEADER * (base.fitted.found.objective - least);
+        // sections of the face differ by what the analytic model knows, and cost too much to look again
         let fits: Vec<Option<SearchEnd>> = (refined.par_iter())
             .map(|form| {
+                if form.candidate.is_costly() {
+                    return None;
+                }
                 let found = self.in_another_valley(base, form, start(form)?, nearly)?;
                 let own = match form.fidelity {
                     Fidelity::Screening => least,

@@ -97,6 +97,9 @@ impl Attempt<'_> {
         }
         let attained = first.attained_evidence();
         let medians = self.version.medians();
+        if first.is_settled() && self.start.values == medians {
+            return first;
+        }
         let second = if first.is_settled() || self.is_far(&first) {
             (self.from(medians, &self.look_effort()).ok())
                 .filter(|second| second.attained_evidence() > attained)

@@ -153,6 +153,16 @@ mod tests {
         let ratio = ratio_of(by_hand);
         assert!(ratio.abs() < 1e-3, "{ratio}");
         assert!((ratio_of(2.0 * by_hand) - 2f64.ln()).abs() < 1e-3);
+        // within a factor, of the member that was weighed
+        let balances = |mass, member| {
+            let data = of(mass);
+            let fits = super::super::fits_of(&[1.0; 6]);
+            let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+            balance(&study, &rows, member, 2.5)
+        };
+        assert!(balances(2.0 * by_hand, Subject::Pinion));
+        assert!(!balances(3.0 * by_hand, Subject::Pinion));
+        assert!(!balances(by_hand, Subject::Gear));
         assert_eq!(masses_and_depths(&study, &of(by_hand)), None);
         let said = |mass| masses_and_depths(&study, &of(mass)).unwrap();
         assert!(

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::super::residual_statistics::FittedRow;
 use super::coefficient::FAR_FROM_STATED;
+use super::depths_and_masses::depths_and_masses;
 use super::{EXPLAINS, SAME_CYCLES, rounded, scale};
 use crate::learn::comparison::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
@@ -109,7 +110,7 @@ pub(super) fn signs(study: &Study, rows: &[FittedRow<'_>]) -> Option<Vec<String>
 }
 
 /// Depths and masses of some tests that call for different coefficients; None where that is so of none, or of all that have both.
-pub(super) fn depths_and_masses(
+pub(super) fn depths_and_masses_of_tests(
     study: &Study,
     rows: &[FittedRow<'_>],
     k: f64,
@@ -124,7 +125,7 @@ pub(super) fn depths_and_masses(
         .filter_map(|(id, own)| {
             Some(format!(
                 "in test {id} {}",
-                super::depths_and_masses(study, own, k)?
+                depths_and_masses(study, own, k)?
             ))
         })
         .collect();
