@@ -162,7 +162,7 @@ fn search(context: &Context<'_>, base: &BaseFit, workshop: &Workshop) -> Diagnos
         let doing = "the leaders by coarse finite elements".to_owned();
         stages.begin([MEDIUM, DECIDING], doing, COARSE_FITS);
         fitted = context.refine(base, fitted, smooth.is_real(), smooth.drop);
-        fitted = context.from_other_valleys(base, fitted);
+        fitted = context.with_other_valleys(base, fitted);
         fitted = context.with_unseen(base, fitted, &smooth);
     }
     if context.fidelity != Fidelity::Middle {

@@ -19,7 +19,7 @@ const BEHIND_LEADER: f64 = 0.25;
 impl Context<'_> {
     /// Where the leader leaves more than noise, each effect of several parameters is fitted once more from its defaults; then the leader's other forms
     /// that screening has passed over, from where it ended.
-    pub(in crate::learn) fn from_other_valleys(
+    pub(in crate::learn) fn with_other_valleys(
         &self,
         base: &BaseFit,
         mut refined: Vec<FittedCandidate>,
