@@ -74,8 +74,8 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
             (ratio / factor - 1.0).abs() < NEAR || *factor == teeth && of_one_tooth
         })
         .map_or(
-            "look at their units (µm and mg), at density and face_width, whether the mass is the whole member's and of no other, and whether all values \
-             count from the start (gearwear import --per-interval)",
+            "look at their units (µm and mg), at density and face_width, whether the mass is the whole member's and of no other, whether the traces \
+             stand for the whole face and for all teeth, and whether all values count from the start (gearwear import --per-interval)",
             |(_, hint)| hint,
         );
     let (more, by) = if ratio > 1.0 {
@@ -99,4 +99,45 @@ fn total(rows: &[FittedRow<'_>], quantity: Quantity, member: Subject) -> Option<
         (value + o.value, model + row.model)
     });
     (model > 0.0).then(|| value / model)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Dataset;
+
+    /// What is said of 10, 20 and 30 µm off the whole flanks of a pinion that weigh `mass` times 227.4 mg each (by hand, `mass_balance`), where the model
+    /// has those depths and `model_mass` times the masses.
+    fn said(mass: f64, model_mass: f64) -> Option<String> {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        let mut models = Vec::new();
+        for i in 1..4 {
+            let (cycles, i) = (100_000 * i, f64::from(i));
+            for radius in [26.0, 26.5, 27.4, 28.2, 29.0] {
+                let depth = 10.0 * i;
+                text += &format!("A,pinion,{cycles},wear_depth,{radius},{depth},0.1\n");
+                models.push(depth);
+            }
+            let lost = 227.4 * i;
+            text += &format!("A,pinion,{cycles},mass_loss,,{},1\n", mass * lost);
+            models.push(model_mass * lost);
+        }
+        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        let fits = super::super::fits_of(&models);
+        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+        depths_and_masses(&study, &rows, 1e-10)
+    }
+
+    #[test]
+    fn masses_that_are_those_of_the_depths_are_not_asked_about_whatever_the_model_has() {
+        assert_eq!(said(1.0, 1.0), None);
+        assert_eq!(said(1.0, 0.2), None);
+        let five = said(5.0, 1.0).unwrap();
+        assert!(
+            five.starts_with("the pinion's depths say 5.0 times less wear than its masses"),
+            "{five}"
+        );
+    }
 }
