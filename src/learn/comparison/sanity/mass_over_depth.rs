@@ -331,6 +331,14 @@ mod tests {
     /// What is said of three tests that lost 20, 30 and 40 mg by the model on either member and wore in proportion, of which
     /// masses (pinion, gear) and depths are these times the model's.
     fn said(masses: [[f64; 2]; 3], depths: [f64; 3]) -> Option<String> {
+        said_of(masses, |test, _, _| depths[test])
+    }
+
+    /// The same with depths that are so many times the model's in a test, on a member (0: the pinion), at a place.
+    fn said_of(
+        masses: [[f64; 2]; 3],
+        depths: impl Fn(usize, usize, usize) -> f64,
+    ) -> Option<String> {
         let text = include_str!("../../../../validation/challenges/none_L2/study.toml");
         let mut study = Study::parse(text, "study.toml").unwrap();
         let first = study.tests[0].clone();
@@ -349,8 +357,9 @@ mod tests {
                 text += &format!("{id},{name},200000,mass_loss,,{mass},{}\n", 0.01 * mass);
                 models.push(loss);
                 for (place, model) in [3.0, 5.0, 8.0, 6.0].into_iter().enumerate() {
+                    let factor = depths(test, member, place);
                     let (place, model) = (radius + 0.2 * place as f64, model * loss / 20.0);
-                    let depth = depths[test] * model;
+                    let depth = factor * model;
                     let sigma = 0.01 * depth;
                     text += &format!("{id},{name},200000,wear_depth,{place},{depth},{sigma}\n");
                     models.push(model);
@@ -436,6 +445,23 @@ mod tests {
             [2.0, 1.0, 0.5],
             &["are the depths of tests A and C exchanged?"],
         );
+    }
+
+    /// Half as much in a test, on one member: everywhere, or another shape that comes to the same.
+    #[test]
+    fn one_member_that_wears_in_another_shape_is_not_asked_about() {
+        let of = |shape: [f64; 4]| {
+            said_of([RIGHT; 3], |test, member, place| match (test, member) {
+                (1, 1) => shape[place],
+                _ => 1.0,
+            })
+        };
+        let half = of([0.5; 4]).unwrap();
+        assert!(
+            half.starts_with("the depths of the gear in test B are 0.50 times"),
+            "{half}"
+        );
+        assert_eq!(of([0.43, 0.43, 2.07, 2.07]), None);
     }
 
     #[test]
