@@ -9,7 +9,7 @@
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::super::residual_statistics::FittedRow;
-use super::moved_places::{Point, curves_of};
+use super::flank_curves::{Point, curves_of};
 use super::rounded;
 use crate::measure::Subject;
 use crate::numeric::median;
@@ -170,5 +170,45 @@ mod tests {
             .take(8)
             .collect();
         assert!(tilt_of_test(&alike_worn).is_none());
+    }
+
+    /// More depth towards larger radii is more at the tip, of either member.
+    #[test]
+    fn the_higher_end_and_the_size_are_named() {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let said = |size: f64| {
+            let mut text = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
+            let mut models = Vec::new();
+            for test in ["A", "B"] {
+                for (i, curve) in curves(&|_| size).into_iter().enumerate() {
+                    for [place, depth, model, sigma] in curve {
+                        let place = place + 0.5;
+                        let cycles = 10_000 * (i + 1);
+                        text += &format!(
+                            "{test},pinion,{cycles},wear_depth,{place},{depth},{sigma},{test}{i}\n"
+                        );
+                        models.push(model);
+                    }
+                }
+            }
+            let data = crate::measure::Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+            let fits = super::super::fits_of(&models);
+            let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+            common_tilt(&study, &rows)
+        };
+        let tip = said(2.0);
+        assert_eq!(tip.len(), 1);
+        assert!(
+            tip[0].starts_with("the pinion's depth curves are tilted by the same 2.")
+                && tip[0].contains("more at the tip than at the root"),
+            "{tip:?}"
+        );
+        let root = said(-2.0);
+        assert!(
+            root[0].contains("more at the root than at the tip"),
+            "{root:?}"
+        );
+        assert!(said(0.0).is_empty());
     }
 }

@@ -17,7 +17,7 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
         // a unit is that of all masses, not of the one that its sigma makes weigh most
         let of_all = total(rows, Quantity::MassLoss, member).filter(|total| *total > 0.0)?;
         let [one, all] = [mass.factor, of_all].map(|mass| depth.factor / mass);
-        let together = same_moments::mass_over_depth(rows, member).map(|log| (-log).exp());
+        let together = same_moments::ratio_at_same_moments(rows, member).map(|log| (-log).exp());
         let nearer = [Some(one), Some(all), together].into_iter().flatten();
         let nearer = nearer.min_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs()))?;
         // wear that is far from the model's wears another shape, of which the scale of depths says little

@@ -1,7 +1,8 @@
-//! The depth curves of a flank, one for each checkpoint and trace.
+//! The depth curves of a flank, one for each checkpoint and trace, alone and beside the model's.
 
 use std::collections::BTreeMap;
 
+use super::super::residual_statistics::FittedRow;
 use crate::measure::{FacePlace, Observation, Quantity, Subject};
 
 /// Depths along a flank after some cycles.
@@ -39,6 +40,40 @@ pub(super) fn flank_curves<'d>(
             points,
             sigma,
         });
+    }
+    curves
+}
+
+/// Fewest points of a curve that is held against the model's.
+pub(super) const FEWEST: usize = 6;
+
+/// Place, measured depth, the model's and σ; by rising place.
+pub(super) type Point = [f64; 4];
+
+/// A member's curves of some length, by rising place.
+pub(super) fn curves_of(rows: &[FittedRow<'_>], member: Subject) -> Vec<Vec<Point>> {
+    let mut curves: BTreeMap<_, Vec<Point>> = BTreeMap::new();
+    let own = rows
+        .iter()
+        .filter(|(o, _)| (o.quantity, o.member) == (Quantity::WearDepth, member));
+    for (o, row) in own {
+        let Some(place) = o.position else { continue };
+        let face = o.face.map(FacePlace::key);
+        let key = (
+            o.test,
+            o.cycles.to_bits(),
+            o.trace,
+            face,
+            o.tooth.as_deref(),
+        );
+        curves
+            .entry(key)
+            .or_default()
+            .push([place, o.value, row.model, o.sigma]);
+    }
+    let mut curves: Vec<Vec<Point>> = curves.into_values().filter(|c| c.len() >= FEWEST).collect();
+    for curve in &mut curves {
+        curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
     }
     curves
 }

@@ -6,14 +6,12 @@
 //! ```
 //! Of the shape alone: neither k nor zeros hide it. One curve upside down among others is told by these (`reversed`).
 
-use std::collections::BTreeMap;
-
 use super::super::residual_statistics::FittedRow;
-use crate::measure::{FacePlace, Quantity, Subject};
+use super::flank_curves::{FEWEST, Point, curves_of};
+use crate::measure::Subject;
 use crate::study::Study;
 
-/// Fewest points of a curve, and fewest curves.
-const FEWEST: usize = 6;
+/// Fewest curves.
 const CURVES: usize = 3;
 /// χ² per point of the shape from which it is looked at, and the part that must be left.
 const LARGE: f64 = 4.0;
@@ -21,9 +19,6 @@ const LEFT: f64 = 1.0 / 3.0;
 /// Distances that are tried, in mm: so many steps to either side.
 const STEP: f64 = 0.05;
 const STEPS: i32 = 10;
-
-/// Place, measured depth, the model's and σ; by rising place.
-pub(super) type Point = [f64; 4];
 
 /// A question for each member of which the places fit far better otherwise, or one for both; else for the tests of which those of a member fit far
 /// better upside down.
@@ -80,34 +75,6 @@ fn upside_down_in_some_tests(study: &Study, rows: &[FittedRow<'_>]) -> Vec<Strin
 enum Better {
     UpsideDown,
     Moved(i32),
-}
-
-/// A member's curves of some length, by rising place.
-pub(super) fn curves_of(rows: &[FittedRow<'_>], member: Subject) -> Vec<Vec<Point>> {
-    let mut curves: BTreeMap<_, Vec<Point>> = BTreeMap::new();
-    let own = rows
-        .iter()
-        .filter(|(o, _)| (o.quantity, o.member) == (Quantity::WearDepth, member));
-    for (o, row) in own {
-        let Some(place) = o.position else { continue };
-        let face = o.face.map(FacePlace::key);
-        let key = (
-            o.test,
-            o.cycles.to_bits(),
-            o.trace,
-            face,
-            o.tooth.as_deref(),
-        );
-        curves
-            .entry(key)
-            .or_default()
-            .push([place, o.value, row.model, o.sigma]);
-    }
-    let mut curves: Vec<Vec<Point>> = curves.into_values().filter(|c| c.len() >= FEWEST).collect();
-    for curve in &mut curves {
-        curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    }
-    curves
 }
 
 fn of(rows: &[FittedRow<'_>], member: Subject) -> Option<Better> {

@@ -40,7 +40,7 @@ impl Moment {
 }
 
 /// The middle one of a member's ln ratios of mass over depth; None where no mass was weighed when a trace was taken.
-pub(super) fn mass_over_depth(rows: &[FittedRow<'_>], member: Subject) -> Option<f64> {
+pub(super) fn ratio_at_same_moments(rows: &[FittedRow<'_>], member: Subject) -> Option<f64> {
     median(moments(rows, member).iter().map(Moment::ratio).collect())
 }
 
