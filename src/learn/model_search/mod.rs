@@ -1,7 +1,7 @@
 //! Stage 5, model search: which of the catalogue's effects, alone and in pairs, come nearest to the measurements.
 //!
 //! ```text
-//! screening (analytic) -> nested forms -> medium fidelity (coarse finite elements) -> high fidelity -> pairs, pair exchange
+//! screening (analytic) -> nested forms -> medium fidelity (coarse finite elements) -> other valleys -> high fidelity -> pairs, pair exchange
 //! ```
 
 mod base_fit;
