@@ -269,12 +269,12 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             table,
             "a number with a letter, a multiple or a time",
         ),
+        ("radius;3 days\n26;1\n", table, "a multiple or a time"),
         (
-            "radius;70 min\n26;1\n",
+            "radius;1 h;100000\n26;1;2\n",
             table,
-            "a number with a letter, a multiple or a time",
+            "the header B1 `1 h` is a running time, C1 `100000` is not",
         ),
-        ("radius;100 h\n26;1\n", table, "a multiple or a time"),
         ("radius;N1\n26;1\n", table, "a number with a letter"),
         (
             "radius;1.00.000\n26;1\n",
@@ -676,6 +676,39 @@ fn formulas_without_a_stored_result_are_refused() {
         shown.contains("A,pinion,250000,wear_depth,26,3,"),
         "{shown}"
     );
+}
+
+/// Rigs stop after hours: the speed of the test in the study makes revolutions of them, in whichever direction the table goes.
+#[test]
+fn running_times_of_a_wide_table_become_revolutions_by_the_speed_of_the_test() {
+    for (name, table) in [
+        (
+            "across.csv",
+            "radius [mm];nach 1,0 h;after 2,5 [h]\n26;1,5;2,5\n27;1,2;2,2\n",
+        ),
+        (
+            "down.csv",
+            "running time [min];26;27\n60;1.5;1.2\n150;2.5;2.2\n",
+        ),
+    ] {
+        let home = home();
+        std::fs::write(home.path().join(name), table).unwrap();
+        let line = format!(
+            "import {name} --study study.toml --test A --member pinion --unit um --sigma 0.1 --no-traces -o m.csv"
+        );
+        let shown = succeed(&home, &line);
+        assert!(
+            shown.contains("turned into pinion revolutions by the 2000 rpm of test A in the study"),
+            "{shown}"
+        );
+        let rows = read(&home, "m.csv");
+        for row in [
+            "A,pinion,120000,wear_depth,26,1.5,",
+            "A,pinion,300000,wear_depth,27,2.2,",
+        ] {
+            assert!(rows.contains(row), "no `{row}` of {name} in:\n{rows}");
+        }
+    }
 }
 
 /// A header with one name fewer than the rows have cells: hours would be losses.

@@ -1,11 +1,14 @@
 //! What the user states of a table, and what the name of its sheet says.
 
-use super::numbers::rounded;
+use super::numbers::{pointed, rounded};
 use super::place::PositionKind;
 use super::{Across, Decimal, ImportError, PerInterval, Sheet, There, units};
 use crate::gear::{Gear, Member};
 use crate::measure::{Quantity, Subject, names};
 use crate::source_text::is_misspelt;
+
+/// Part of a running time by which it may miss the end of its test and still be that.
+const SAME_TIME: f64 = 0.005;
 
 /// What the user states of a table.
 #[derive(Debug, Clone)]
@@ -126,8 +129,25 @@ impl Wanted<'_> {
         self.torques.get(n).copied()
     }
 
+    /// Revolutions of the pinion in a running time of a test: so many times `hours`, as `written`. The end of the test if that is within the
+    /// rounding of what is written.
+    pub(super) fn revolutions_after(
+        &self,
+        test: &str,
+        written: &str,
+        time: f64,
+        hours: f64,
+    ) -> f64 {
+        let decimals = pointed(written)
+            .rsplit_once('.')
+            .map_or(0, |(_, digits)| digits.len());
+        // a whole number of hours may be meant to the minute
+        let rounding = (0.5 * 10f64.powi(-(decimals as i32))).min(SAME_TIME * time);
+        self.revolutions_in(test, hours * time, hours * rounding)
+    }
+
     /// Revolutions of the pinion in so many hours of a test, known to within `rounding` hours: the end of the test if that is within.
-    pub(super) fn revolutions_in(&self, test: &str, hours: f64, rounding: f64) -> f64 {
+    fn revolutions_in(&self, test: &str, hours: f64, rounding: f64) -> f64 {
         let Some([rpm, end]) = self.run(test) else {
             return hours;
         };

@@ -2,6 +2,7 @@
 
 mod grid;
 mod reading;
+mod running_times;
 
 use self::grid::{Grid, Places};
 use self::reading::Reading;
@@ -98,6 +99,11 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
     name_first_column(&mut sheet, head);
+    let times = running_times::as_revolutions(&sheet, head, wanted, &test.0)?;
+    let times = times.map(|(converted, said)| {
+        sheet = converted;
+        said
+    });
     let sheet = &sheet;
     let mut grid = Grid::of(sheet, head)?;
     let corner = grid.corner();
@@ -110,7 +116,9 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     }
     let mut left_out = grid.leave_out(across, &places)?;
     grid.refuse_unclear(across, quantity, multiple.is_some())?;
-    counts::refuse_others_above(sheet, head)?;
+    if times.is_none() {
+        counts::refuse_others_above(sheet, head)?;
+    }
     // beside positions the headers' unit is that of the positions
     let headers = match across {
         Across::Checkpoints => grid.headers(),
@@ -145,7 +153,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
     }
     let joined = wanted.there.join(&mut entries, true);
-    let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
+    let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).chain(times).collect();
     if let Some(named) = &deviation {
         let states_sign = turned || titles.lost_is_negative.is_some();
         arranged.push(named.as_depths(&mut entries, (states_sign, turned), wanted)?);

@@ -5,7 +5,7 @@ use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
 use crate::measure::import::flank::Flank;
 use crate::measure::import::multiples::Multiple;
-use crate::measure::import::numbers::{number, plain_count, pointed, rounded};
+use crate::measure::import::numbers::{number, plain_count, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
 use crate::measure::import::wanted::Wanted;
@@ -13,9 +13,6 @@ use crate::measure::import::{ImportError, Sheet, cell_name, sigma_unit, units};
 use crate::measure::{Place, Quantity, Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
-
-/// Part of a running time by which it may miss the end of its test and still be that.
-const SAME_TIME: f64 = 0.005;
 
 /// One row of a long table.
 pub(super) struct Line<'t> {
@@ -224,13 +221,7 @@ impl Line<'_> {
         };
         Ok(match column.hours {
             Some(hours) => {
-                let decimals = pointed(text)
-                    .rsplit_once('.')
-                    .map_or(0, |(_, digits)| digits.len());
-                // a whole number of hours may be meant to the minute
-                let rounding = (0.5 * 10f64.powi(-(decimals as i32))).min(SAME_TIME * cycles);
-                self.wanted
-                    .revolutions_in(test, hours * cycles, hours * rounding)
+                self.wanted.revolutions_after(test, text, cycles, hours)
             }
             None if column.of_gear => self.wanted.pinion_revolutions(test, cycles),
             None => cycles,
