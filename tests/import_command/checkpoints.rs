@@ -285,6 +285,46 @@ fn what_counts_no_revolutions_is_no_checkpoint() {
     );
 }
 
+/// A title may say the test, the member and the count in one line, a date beside them.
+#[test]
+fn a_title_says_after_how_many_revolutions_a_curve_was_measured() {
+    let home = home();
+    let table = |title: &str, radius: f64| {
+        format!(
+            "{title}\nradius [mm];depth [um]\n{radius};1\n{};2\n",
+            radius + 0.5
+        )
+    };
+    for (title, radius, start) in [
+        (
+            "Essai A, 100000 tours pignon, 12/03/2025",
+            26.0,
+            "A,pinion,100000,wear_depth,26,",
+        ),
+        (
+            "Run A; pinion; after 250 000 revolutions",
+            26.0,
+            "A,pinion,250000,wear_depth,26,",
+        ),
+        (
+            "Run A, 509434 gear rev",
+            52.0,
+            "A,gear,1000000,wear_depth,52,",
+        ),
+    ] {
+        let (shown, written) = rows(&home, &table(title, radius), "--sigma 0.1");
+        assert!(written.starts_with(start), "{title}: {shown}{written}");
+    }
+    // hours, torques and multiples are no counts
+    for title in [
+        "Run A, 3 h, pinion",
+        "Run A, 100 N m, pinion",
+        "Run A, 0.8 Mio. rev, pinion",
+    ] {
+        refused(&home, &table(title, 26.0), "--sigma 0.1");
+    }
+}
+
 /// 509 434 revolutions of 53 teeth are 1 000 000.07 of 27: the end of the test, rounded.
 #[test]
 fn rounded_revolutions_of_the_gear_may_be_the_end_of_the_test() {

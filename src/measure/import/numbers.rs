@@ -273,7 +273,7 @@ pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, hea
 
 /// A header's one number without blanks between its thousands, `after 40 000 revolutions`; None without any, and where a word before it may make
 /// its first group another number: `stop 2 500 000`.
-fn without_blanks(text: &str) -> Option<String> {
+pub(super) fn without_blanks(text: &str) -> Option<String> {
     let words: Vec<&str> = text.split(' ').collect();
     let is_digits = |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_digit());
     let first = words.iter().position(|word| is_digits(word))?;

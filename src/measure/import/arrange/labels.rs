@@ -2,7 +2,7 @@
 
 use super::{has, is_curve, put_column, speeds, torques};
 use crate::measure::import::columns::{Column, columns};
-use crate::measure::import::numbers::{header_number, number_words, plain_count};
+use crate::measure::import::numbers::{header_number, number_words, plain_count, without_blanks};
 use crate::measure::import::{ImportError, Sheet, Wanted, cell_name, counts, units};
 use crate::measure::{Subject, names};
 
@@ -257,7 +257,52 @@ fn said_by(
         let member = names::one_member(&words);
         said.extend(member.map(|member| in_passing("member", member.name())));
     }
+    if said.iter().all(|label| label.key != "cycles") && keys.contains(&"cycles") {
+        let count = count_in_title(&words, row, wanted)?;
+        said.extend(count.map(|(column, count)| Label {
+            column: column.to_owned(),
+            ..in_passing("cycles", &count.to_string())
+        }));
+    }
     Ok(said)
+}
+
+/// The revolutions of which a title speaks between its commas, `Run A, 800000 cycles, 12 March`, and the name of their column.
+fn count_in_title(
+    title: &str,
+    row: usize,
+    wanted: &Wanted<'_>,
+) -> Result<Option<(&'static str, f64)>> {
+    let parts = title
+        .split([';', '/', '|'])
+        .flat_map(|part| part.split(", "));
+    for part in parts {
+        let joined = without_blanks(part);
+        let part = joined.as_deref().unwrap_or(part);
+        let says_revolutions = || {
+            let words = names::words(part);
+            words.iter().any(|word| names::revolutions(word).is_some())
+        };
+        let [number] = number_words(part)[..] else {
+            continue;
+        };
+        let is_count = counts::refuse_others(part, number, None, row, 0).is_ok();
+        let Some(count) = header_number(part, row, 0).ok().filter(|_| is_count) else {
+            continue;
+        };
+        if !says_revolutions() {
+            continue;
+        }
+        if wanted.decimal.is_none() {
+            plain_count(part, row, 0, false)?;
+        }
+        let of_gear = names::counts_gear_revolutions(part);
+        return Ok(Some((
+            if of_gear { "cycles (gear)" } else { "cycles" },
+            count,
+        )));
+    }
+    Ok(None)
 }
 
 /// What a row says of the table; none for other rows.

@@ -220,9 +220,7 @@ impl Line<'_> {
             None => cycles,
         };
         Ok(match column.hours {
-            Some(hours) => {
-                self.wanted.revolutions_after(test, text, cycles, hours)
-            }
+            Some(hours) => self.wanted.revolutions_after(test, text, cycles, hours),
             None if column.of_gear => self.wanted.pinion_revolutions(test, cycles),
             None => cycles,
         })
