@@ -164,7 +164,7 @@ refusals! {
     radius_below_the_form_circle: with("26.31", "25.0")
         => BadValue "position" at 3:28, "`25.0`", "29.000 mm", "off the pinion's flank";
     radius_above_the_tip: with("28.9995", "29.001")
-        => BadValue "position" at 8:23, "`29.001`", "29.000 mm", "off the pinion's flank";
+        => BadValue "position" at 8:23, "`29.001`", "29.000 mm", "look whether it has the right sign, is that of this member";
     diameter: with("26.31", "52.62")
         => BadValue "position" at 3:28, "`52.62`", "29.000 mm", "looks like a diameter";
     metres: with("26.31", "0.02631")

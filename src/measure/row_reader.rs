@@ -250,6 +250,13 @@ impl<'k> Reader<'k> {
                 on_flank(member, 1e3 * radius),
                 "this looks like metres".to_owned(),
             ),
+            (
+                (form - (tip - form)..=tip + (tip - form)).contains(&radius),
+                format!(
+                    "both ends of the flank follow from gears.{member}.profile_shift of the study, beside module, teeth and addendum: look whether it \
+                     has the right sign, is that of this member and in modules; points of a trace beyond the flank are left out by gearwear import"
+                ),
+            ),
         ];
         let hints = hints.into_iter().filter(|(likely, _)| *likely);
         Err(hints
