@@ -10,6 +10,7 @@ mod coefficient;
 mod common_tilt;
 mod constants;
 mod copied_curves;
+mod copied_rows;
 mod cycle_units;
 mod depths_and_masses;
 mod exchanged_masses;
@@ -67,6 +68,9 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
         return vec![gross];
     }
     if let Some(copied) = copied_curves::copied_curves(study, data) {
+        return vec![copied];
+    }
+    if let Some(copied) = copied_rows::copied_rows(study, data) {
         return vec![copied];
     }
     if let Some(increments) = increments::increments(study, data) {
