@@ -30,7 +30,7 @@ pub(super) fn identity(study: &Study) -> Result<String, CliError> {
 /// # Errors
 /// As of [`identity`].
 pub(super) fn identity_of(text: &str, study: &Study) -> Result<String, CliError> {
-    let mut parts = vec![text.as_bytes().to_vec()];
+    let mut parts = vec![without_rig(text).into_bytes()];
     for path in study.inputs() {
         parts.push(fs::read(path).map_err(|source| CliError::Io {
             doing: "read",
@@ -41,6 +41,19 @@ pub(super) fn identity_of(text: &str, study: &Study) -> Result<String, CliError>
     let parts: Vec<&[u8]> = parts.iter().map(Vec::as_slice).collect();
     let bytes = fingerprint(&parts);
     Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}
+
+/// A study's text without its table `[rig]`, which bounds the tests that are suggested and changes no answer.
+fn without_rig(text: &str) -> String {
+    let mut is_of_rig = false;
+    let own = text.split_inclusive('\n').filter(|line| {
+        let line = line.trim();
+        if line.starts_with('[') {
+            is_of_rig = line.starts_with("[rig]");
+        }
+        !is_of_rig
+    });
+    own.collect()
 }
 
 /// The diagnosis in the study's own result folder, or beside it as `climb` leaves one, if it was made from the same input.
@@ -75,4 +88,18 @@ pub(super) fn finished<T: DeserializeOwned>(
         document[KEY] == own && !(by_elements && by_analytic)
     });
     Ok(usable.find_map(|document| serde_json::from_value(document).ok()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rig_is_no_part_of_what_a_diagnosis_was_made_from() {
+        let text = "[wear]\ncycles = 1e6\n[rig]\ntorque_max = 90 # N m\n\n[[test]]\nid = \"A\"\n";
+        assert_eq!(
+            without_rig(text),
+            "[wear]\ncycles = 1e6\n[[test]]\nid = \"A\"\n"
+        );
+    }
 }

@@ -122,6 +122,11 @@ const TABLES: &[(&str, &str, &str)] = &[
         "May be absent. One of `pitch_file`, `pitch_deviations` and `pitch_pattern` at most.",
     ),
     (
+        "rig",
+        "`[rig]`",
+        "May be absent. What the test rig can do: `gearwear plan` and `gearwear diagnose` then suggest only tests that it can run, at its limits where more would be better.",
+    ),
+    (
         "numerics",
         "`[numerics]`",
         "May be absent. The defaults are those whose error `gearwear validate convergence` shows.",

@@ -131,6 +131,7 @@ const CONTACTS: &[&str] = &[
     ContactKind::Paper.name(),
 ];
 const NOT_STATED: Without = Words("none; reported if needed");
+const ANY: Without = Words("no limit");
 const OPERATION: Without = Words("that of `[operation]`");
 
 /// Every key there is, in the order of the tables.
@@ -249,6 +250,16 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("teeth.pinion", "eccentricity_phase", &q::ECCENTRICITY_PHASE, Default("0.0"), "0: the pairs stand back most as tooth 1 passes the pitch point"),
     doc("teeth.pinion", "classes", Value::Count(1, 64), Default("64"), "largest number of classes of teeth, each with wear of its own; teeth with equal deviation, equal neighbours and equal mates form a class, and beyond this number the most similar classes are merged: faster, and wrong by as much as they differ"),
 
+    number("rig", "torque_min", &q::TORQUE, ANY, "least on the pinion"),
+    number("rig", "torque_max", &q::TORQUE, ANY, "largest on the pinion"),
+    number("rig", "speed_min", &q::SPEED, ANY, "least of the pinion"),
+    number("rig", "speed_max", &q::SPEED, ANY, "largest of the pinion"),
+    number("rig", "misalignment_max", &q::MISALIGNMENT, ANY, "largest radial misalignment that can be set; that of `[operation]` where it cannot be changed"),
+    number("rig", "temperature_min", &q::TEMPERATURE, ANY, "least bulk temperature of the teeth that can be held"),
+    number("rig", "temperature_max", &q::TEMPERATURE, ANY, "largest bulk temperature of the teeth that can be held"),
+    number("rig", "hours_max", &q::RIG_HOURS, ANY, "longest test"),
+    doc("rig", "reversible", Value::Flag, Default("true"), "whether it can drive the other flanks"),
+
     doc("numerics", "order", Value::Count(1, 2), Default("2"), "1: linear triangles, 2: quadratic ones"),
     doc("numerics", "elements_per_half_width", Value::Count(1, 64), Default("5"), "flank elements on the smallest Hertz half width; if not stated, fewer are used (down to 1) where 5 would need more than 3000 unknowns on the parts of a member's flanks that touch"),
     doc("numerics", "positions", Value::Count(8, 5000), Default("100"), "mesh positions per base pitch"),
@@ -306,6 +317,7 @@ mod tests {
         ("face.pinion", &[]),
         ("teeth", &[]),
         ("teeth.pinion", &[]),
+        ("rig", &[]),
         ("numerics", &[]),
     ];
 
@@ -380,6 +392,7 @@ mod tests {
                         && stated.tests == plain.tests
                         && stated.free == plain.free
                         && stated.face == plain.face
+                        && stated.rig == plain.rig
                         && numerics(&stated) == numerics(&plain);
                     assert!(same, "{place} = {value} is not its default");
                 }

@@ -28,6 +28,7 @@ mod profile;
 mod quantity;
 mod reader;
 mod relative;
+mod rig;
 mod settings;
 mod setup;
 mod size_limits;
@@ -59,6 +60,7 @@ pub use learned::LearnedLaw;
 pub use materials::{Lubricant, Material, Materials, Thermal};
 pub use numerics::{Numerics, Order};
 pub use operation::{Operation, Role, Test};
+pub use rig::Rig;
 pub use settings::{ContactKind, Noise, Outliers, Scatter, Wear};
 pub use temperature::Temperatures;
 
@@ -82,6 +84,7 @@ const ROOT_KEYS: &[&str] = &[
     "measurements",
     "face",
     "teeth",
+    "rig",
     "numerics",
 ];
 
@@ -105,6 +108,7 @@ pub const KEYS: &[(&str, &[&str])] = &[
     ("face.pinion", face::MEMBER_KEYS),
     ("teeth", teeth::KEYS),
     ("teeth.pinion", teeth::MEMBER_KEYS),
+    ("rig", rig::KEYS),
     ("numerics", numerics::KEYS),
 ];
 
@@ -143,6 +147,8 @@ pub struct Study {
     pub face: Face,
     /// `[teeth]`.
     pub teeth: Teeth,
+    /// `[rig]`.
+    pub rig: Rig,
     /// Files of the measured profiles of pinion and gear; what they hold is in `gears`.
     pub profiles: [Option<PathBuf>; 2],
     /// Files of the measured leads of pinion and gear; what they hold is in `face`.
@@ -424,6 +430,7 @@ impl Study {
             face,
             leads,
             teeth,
+            rig: rig::read(&root)?,
             pitches,
             gears,
             source: Source {

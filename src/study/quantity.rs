@@ -348,6 +348,8 @@ pub(super) const MISALIGNMENT: Quantity = Quantity {
     reason: "added to the centre distance; a negative one moves the axes together",
     slips: &[],
 };
+pub(super) const RIG_HOURS: Quantity =
+    quantity("h", Above(0.0), 1e6, "how long a test may take on the rig");
 pub(super) const CYCLES: Quantity = quantity(
     "pinion revolutions",
     Above(0.0),

@@ -66,6 +66,28 @@ fn after_measurements_all_feasible_tests_are_ranked() {
 
 /// A plan separates what the diagnosis of the same inputs left, whatever leads by the analytic model's own ranking; without one it says
 /// whose leaders they are.
+/// A rig bounds the tests of a campaign and of a table, and the bounds are no part of what a diagnosis was made from.
+#[test]
+fn only_tests_are_suggested_that_the_rig_can_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let study = small(folder.path());
+    let text = std::fs::read_to_string(&study).unwrap();
+    let limits =
+        "\n[rig]\ntorque_max = 110\nspeed_min = 1500\nmisalignment_max = 0.0\nreversible = false\n";
+    std::fs::write(&study, text + limits).unwrap();
+    let plan = planned(&study, &folder.path().join("plan"));
+    let rows = plan["tests"].as_array().unwrap();
+    assert!(rows.len() > 6, "{}", rows.len());
+    for row in rows {
+        let of = |key: &str| row["test"][key].as_f64().unwrap();
+        assert!(
+            of("torque") <= 110.0 && of("speed") >= 1500.0 && of("misalignment") <= 0.0,
+            "{row}"
+        );
+        assert_eq!(row["test"]["reversed"], false, "{row}");
+    }
+}
+
 #[test]
 fn a_plan_starts_from_the_diagnosis_of_the_same_inputs() {
     let folder = tempfile::tempdir().unwrap();

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::numeric::written::{count, significant};
-use crate::study::{Operation, Study};
+use crate::study::{Operation, Rig, Study};
 
 /// Conditions of a test, in the study's units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,10 @@ const SPEEDS: [f64; 3] = [1.0, 0.3, 3.0];
 const MISALIGNMENTS: [f64; 3] = [0.0, 0.3, 0.6];
 const TEMPERATURES: [f64; 2] = [-20.0, 20.0];
 const LONGER: f64 = 3.0;
+/// Factor of torque, speed or length, misalignment (mm) and temperature (K) from which two tests are not the same.
+const ANOTHER: f64 = 1.2;
+const OTHER_PLACE: f64 = 0.1;
+const WARMER: f64 = 5.0;
 /// A simpler test is preferred to one that gives up to this much more.
 pub(in crate::learn) const NEARLY: f64 = 0.8;
 /// Expected χ² from which more is of no use: the two are then told apart for certain. A mean counts no pair higher.
@@ -71,8 +75,9 @@ pub fn made_up_chi2(chi2: f64, digits: usize) -> String {
     }
 }
 
-/// Feasible tests with their number of changes against `plain`, the plainest first; at other temperatures where it states one.
-fn grid(plain: &Operation) -> Vec<(usize, Operation)> {
+/// Feasible tests with their number of changes against `plain`, the plainest first; at other temperatures where it states one. What the rig
+/// cannot run is replaced by the nearest that it can, where that still differs enough from the tests before it.
+fn grid(plain: &Operation, rig: &Rig) -> Vec<(usize, Operation)> {
     let mut all = Vec::new();
     for (t, torque) in TORQUES.into_iter().enumerate() {
         for (s, speed) in SPEEDS.into_iter().enumerate() {
@@ -95,25 +100,47 @@ fn grid(plain: &Operation) -> Vec<(usize, Operation)> {
         cycles: LONGER * plain.cycles,
         ..*plain
     };
-    let reversed = Operation {
-        reversed: !plain.reversed,
-        ..*plain
-    };
-    all.extend([(1, longer), (1, reversed)]);
+    all.push((1, longer));
+    if rig.reversible {
+        let reversed = Operation {
+            reversed: !plain.reversed,
+            ..*plain
+        };
+        all.push((1, reversed));
+    }
     let stated = plain.stated_temperature_c().into_iter();
     let others = stated.flat_map(|celsius| TEMPERATURES.map(|more| celsius + more));
     all.extend(others.map(|celsius| (1, plain.at_temperature(celsius))));
     all.sort_by_key(|(changes, _)| *changes);
-    all
+    let mut run: Vec<(usize, Operation)> = Vec::with_capacity(all.len());
+    for (changes, wanted) in all {
+        let own = rig.nearest(&wanted);
+        if run.iter().all(|(_, before)| is_another(&own, before)) {
+            run.push((changes, own));
+        }
+    }
+    run
 }
 
-/// The tests of the grid at whose temperature the study's tables say something.
+/// Whether two conditions differ by enough to make both of use.
+fn is_another(a: &Operation, b: &Operation) -> bool {
+    let apart = |a: f64, b: f64| a.max(b) >= ANOTHER * a.min(b);
+    let celsius = [a, b].map(|o| o.stated_temperature_c().unwrap_or(0.0));
+    apart(a.torque_nmm, b.torque_nmm)
+        || apart(a.speed_rpm, b.speed_rpm)
+        || apart(a.cycles, b.cycles)
+        || (a.misalignment_mm - b.misalignment_mm).abs() >= OTHER_PLACE
+        || (celsius[0] - celsius[1]).abs() >= WARMER
+        || a.reversed != b.reversed
+}
+
+/// The tests of the grid that the study's rig can run, at whose temperature its tables say something.
 pub(in crate::learn) fn feasible(study: &Study, plain: &Operation) -> Vec<(usize, Operation)> {
     let holds = |(_, operation): &(usize, Operation)| {
         let celsius = operation.stated_temperature_c();
         celsius.is_none_or(|celsius| study.holds_temperature(celsius))
     };
-    grid(plain).into_iter().filter(holds).collect()
+    grid(plain, &study.rig).into_iter().filter(holds).collect()
 }
 
 /// The order of scores, the largest first; among those nearly as large as the largest left, the one of the least cost first: its number of
@@ -241,7 +268,7 @@ pub(in crate::learn) mod tests {
 
     #[test]
     fn the_grid_starts_plain_and_changes_two_things_at_most() {
-        let grid = grid(&plain());
+        let grid = grid(&plain(), &Rig::default());
         assert_eq!(grid[0], (0, plain()));
         // 27 − 8 with three changes, and a longer and a reversed test
         assert_eq!(grid.len(), 27 - 8 + 2);
@@ -252,7 +279,7 @@ pub(in crate::learn) mod tests {
     #[test]
     fn other_temperatures_are_feasible_where_one_is_stated() {
         let warm = plain().at_temperature(60.0);
-        let grid = grid(&warm);
+        let grid = grid(&warm, &Rig::default());
         assert_eq!(grid.len(), 27 - 8 + 2 + 2);
         let at = |celsius: f64| {
             let found = grid
@@ -272,7 +299,36 @@ pub(in crate::learn) mod tests {
             ..warm
         };
         assert_eq!(shown(&computed).bulk_temperature, None);
-        assert_eq!(super::grid(&computed).len(), 21);
+        assert_eq!(super::grid(&computed, &Rig::default()).len(), 21);
+    }
+
+    /// A rig to 120 N m, from 1500 rpm, of fixed centre distance and one drive direction, a shift long.
+    #[test]
+    fn a_rig_runs_what_it_can_and_the_nearest_to_what_it_cannot() {
+        let rig = Rig {
+            torque_nmm: [20e3, 120e3],
+            speed_rpm: [1500.0, 6000.0],
+            misalignment_mm: 0.0,
+            hours: 8.0,
+            reversible: false,
+            ..Rig::default()
+        };
+        let grid = grid(&plain(), &rig);
+        for (_, o) in &grid {
+            assert!((20e3..=120e3).contains(&o.torque_nmm) && o.speed_rpm >= 1500.0);
+            assert!(o.misalignment_mm == 0.0 && !o.reversed);
+            assert!(shown(o).hours() <= 8.0 + 1e-9, "{o:?}");
+        }
+        // 100, 50 and 120 N m by 2000, 1500 and 6000 rpm; a longer test would take 25 h
+        assert_eq!(grid.len(), 9);
+        // what cannot be changed at all leaves the study's own test, at its own length
+        let fixed = Rig {
+            torque_nmm: [100e3; 2],
+            speed_rpm: [2000.0; 2],
+            hours: 9.0,
+            ..rig
+        };
+        assert_eq!(super::grid(&plain(), &fixed), [(0, plain())]);
     }
 
     #[test]
