@@ -1,6 +1,7 @@
 //! Stage 4, data checks: what the measurements themselves keep from being concluded.
 
 pub(in crate::learn) mod common_scatter;
+mod fourth_differences;
 pub(in crate::learn) mod goodness_of_fit;
 pub(in crate::learn) mod identifiability;
 pub(in crate::learn) mod noise_level;

@@ -200,9 +200,11 @@ fn more(first: &NextTest, further: &[NextTest], plain: &Operation, together: f64
         .map(|(test, count)| {
             let number = ["one", "two", "three"].get(count - 1);
             let number = number.map_or_else(|| count.to_string(), |word| (*word).to_owned());
-            let more = if test == first { "more " } else { "" };
-            let tests = if count > 1 { "tests" } else { "test" };
-            format!("{number} {more}{tests} with {}", changes(test, plain))
+            let s = if count > 1 { "s" } else { "" };
+            if test == first {
+                return format!("{number} repeat{s} of it");
+            }
+            format!("{number} test{s} with {}", changes(test, plain))
         })
         .collect();
     format!(
@@ -418,14 +420,12 @@ mod tests {
         let same = [first.clone(), first.clone(), first.clone()];
         assert_eq!(
             more(&first, &same, &plain(), 3.2),
-            " Together with three more tests with 50 N·m: χ² 3, still little: other measurements are needed."
+            " Together with three repeats of it: χ² 3, still little: other measurements are needed."
         );
         let others = [first.clone(), test(200.0)];
         let said = more(&first, &others, &plain(), 30.0);
         assert!(
-            said.starts_with(
-                " Together with one more test with 50 N·m and one test with 200 N·m: χ² 30"
-            ),
+            said.starts_with(" Together with one repeat of it and one test with 200 N·m: χ² 30"),
             "{said}"
         );
         assert!(more(&first, &[], &plain(), 30.0).is_empty());

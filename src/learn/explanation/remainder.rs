@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::findings::Findings;
 use super::ranked::form;
-use super::wording::{Explanation, added, before, chi2, of_attainable, percent, values};
+use super::wording::{Explanation, added, before, change, chi2, of_attainable, percent, values};
 use crate::learn::decision::Verdict;
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -100,22 +100,23 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let sentence = match &group[..] {
         [effects] => {
             let alone = posterior.best_form(effects);
-            let with = alone.zip(beside_fit(effects)).map_or(String::new(), |(alone, beside)| {
-                let differ = form(alone) != form(beside);
-                let of_form = |fitted| match form(fitted) {
-                    _ if !differ => String::new(),
-                    own if own.is_empty() => " (in its own form)".to_owned(),
-                    other => format!(" (in the form {other})"),
-                };
-                format!(
-                    " With it alone{} χ² per point falls from {:.2} to {:.2}; beside what is left{}, {}.",
-                    of_form(alone),
-                    before(findings),
-                    chi2(findings, alone),
-                    of_form(beside),
-                    values(beside)
-                )
-            });
+            let with = alone
+                .zip(beside_fit(effects))
+                .map_or(String::new(), |(alone, beside)| {
+                    let differ = form(alone) != form(beside);
+                    let of_form = |fitted| match form(fitted) {
+                        _ if !differ => String::new(),
+                        own if own.is_empty() => " (in its own form)".to_owned(),
+                        other => format!(" (in the form {other})"),
+                    };
+                    format!(
+                        " With it alone{} χ² per point {}; beside what is left{}, {}.",
+                        of_form(alone),
+                        change(before(findings), chi2(findings, alone)),
+                        of_form(beside),
+                        values(beside)
+                    )
+                });
             let converged = beside_fit(effects).is_none_or(|beside| beside.converged);
             let probability = posterior.decision.probability_in_all(effects);
             missing(effects, probability, converged) + &with

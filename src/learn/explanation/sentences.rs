@@ -5,7 +5,9 @@ use super::outlook::Outlook;
 use super::remainder::partial;
 use super::rivals::ambiguous;
 use super::scatter::{made_twice, of_scatter};
-use super::wording::{Explanation, added, before, chi2, of_attainable, percent, values};
+use super::wording::{
+    Explanation, added, before, change, chi2, in_other_forms, of_attainable, percent, values,
+};
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::checks::sufficiency::{few, measured_once};
@@ -309,13 +311,13 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     }
     Explanation {
         sentence: format!(
-            "{} missing: {} (probability {}). With {} χ² per point falls from {:.2} to {:.2}; {}.",
+            "{} missing: {} (probability {}). With {}{} χ² per point {}; {}.",
             missing(several, leader.converged),
             candidate.effects.in_words(),
             percent((findings.posterior.decision).probability_of(&candidate.effects)),
             if several { "them" } else { "it" },
-            before(findings),
-            chi2(findings, leader),
+            in_other_forms(candidate),
+            change(before(findings), chi2(findings, leader)),
             values(leader)
         ),
         reasons: (candidate.added_forms().map(shows)).chain(weaker).collect(),

@@ -1,6 +1,7 @@
 //! What keeps an answer from being trusted.
 
 use super::ranked::{form, parameters};
+use crate::effects::Card;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::common_scatter;
@@ -12,8 +13,8 @@ use crate::learn::decision::{Decision, Verdict};
 use crate::learn::fitting::collinear::act_together;
 use crate::learn::fitting::quantity_misfit::carried_by;
 use crate::learn::fitting::test_apart::test_apart;
-use crate::learn::hypothesis::Hypothesis;
 use crate::learn::hypothesis::parameters::{Estimate, short};
+use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::context::Context;
 use crate::learn::noise::SigmaModel;
 
@@ -224,25 +225,40 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
     let as_good = others
         .iter()
         .filter(|other| leader.log_evidence - other.log_evidence < SETTLED);
-    let as_good: Vec<String> = as_good.map(|other| form_in_words(other)).collect();
+    let as_good: Vec<&&FittedCandidate> = as_good.collect();
+    // an effect that all of them have in one form has that for sure
+    let cards = effects.cards().iter().copied();
+    let differs = |n: usize| {
+        let of = |fitted: &FittedCandidate| fitted.candidate.forms[n].map(|form| form.name);
+        as_good.iter().any(|other| of(other) != of(leader))
+    };
+    let open: Vec<(usize, &'static Card)> = (cards.enumerate())
+        .filter(|(n, card)| differs(*n) || as_good.is_empty() && !card.forms.is_empty())
+        .collect();
+    let as_good: Vec<String> = (as_good.iter())
+        .map(|other| form_in_words(other, &open))
+        .collect();
+    let of_open = EffectSet::new(open.iter().map(|(_, card)| *card));
     let has_forms = effects.cards().iter().any(|card| !card.forms.is_empty());
     let one_alone = effects.len() > 1 && has_forms && others.is_empty();
     form_warning(
-        &effects.in_words(),
-        &form_in_words(leader),
+        &of_open.in_words(),
+        &form_in_words(leader, &open),
         &as_good,
         one_alone,
     )
 }
 
-/// The forms of a fit's effects, the cards' own ones too.
-fn form_in_words(fitted: &FittedCandidate) -> String {
-    let forms = fitted.candidate.forms.iter();
-    let names = forms.map(|form| form.as_ref().map_or("own", |form| form.name));
-    names
-        .map(|name| format!("\"{name}\""))
-        .collect::<Vec<_>>()
-        .join(" and ")
+/// The forms of some of a fit's effects, told by their places in it, the cards' own ones too.
+fn form_in_words(fitted: &FittedCandidate, of: &[(usize, &'static Card)]) -> String {
+    let names = of.iter().map(|&(n, card)| {
+        let name = fitted.candidate.forms[n].map_or("own", |form| form.name);
+        match of.len() {
+            1 => format!("\"{name}\""),
+            _ => format!("{} \"{name}\"", card.name),
+        }
+    });
+    names.collect::<Vec<_>>().join(" with ")
 }
 
 /// `others`: the forms that are as good; `one_alone`: no other one was fitted.

@@ -24,6 +24,32 @@ pub(super) fn chi2(findings: &Findings<'_>, fitted: &FittedCandidate) -> f64 {
     likelihood.chi2_per_point(&fitted.found.model)
 }
 
+/// What χ² per point does with a fit; it may rise where the fit did not converge, or by other σ than the stated.
+pub(super) fn change(from: f64, to: f64) -> String {
+    if to < from {
+        format!("falls from {from:.2} to {to:.2}")
+    } else {
+        format!("does not fall (from {from:.2} to {to:.2})")
+    }
+}
+
+/// The forms of a candidate's effects that are not the cards' own, in brackets; nothing if all are.
+pub(super) fn in_other_forms(candidate: &Candidate) -> String {
+    let several = candidate.effects.len() > 1;
+    let named = candidate.added_forms().filter_map(|(card, form)| {
+        let name = form?.name;
+        Some(match several {
+            true => format!("{} in the form {name}", card.name),
+            false => format!("in the form {name}"),
+        })
+    });
+    let named: Vec<String> = named.collect();
+    match named.is_empty() {
+        true => String::new(),
+        false => format!(" ({})", named.join(", ")),
+    }
+}
+
 /// `98 %`, never a certainty.
 pub(super) fn percent(p: f64) -> String {
     if p > 0.999 {
