@@ -105,7 +105,7 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
                 if sanity.is_empty() {
                     ""
                 } else {
-                    "put right what stands under `check first`, then "
+                    "look at what stands under `check first` and put right what is wrong there, then "
                 }
             ),
         ),

@@ -31,6 +31,8 @@ mod other_units;
 mod reversed;
 mod same_moments;
 mod sigmas;
+mod signs;
+mod since_the_last;
 mod single_tests;
 mod unworn_members;
 
@@ -42,12 +44,8 @@ use crate::learn::fitting::fitted::{Fit, RowFit};
 use crate::measure::{Dataset, Observation, Quantity, Subject};
 use crate::study::Study;
 
-/// Standard deviations by which a negative loss of mass is no noise.
-const GAIN_SIGMAS: f64 = 2.0;
 /// Share of what is measured that `s·f` must explain for a sign or a unit to be told.
 const EXPLAINS: f64 = 0.5;
-/// The same where a model's law may turn a curve round: what stands over a rotation.
-const EXPLAINS_OVER_A_ROTATION: f64 = 0.8;
 /// Factor between two quantities from which it is no law that the model lacks.
 const FACTOR: f64 = 2.5;
 /// How far from a known factor it is told by name.
@@ -100,7 +98,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     if let Some(nothing) = no_wear::no_wear(study, &rows) {
         return vec![nothing];
     }
-    let mut said = single_tests::signs(study, &rows).unwrap_or_else(|| signs(&rows));
+    let mut said = signs::signs(study, &rows);
     let mut values_asked = false;
     if said.is_empty() {
         let k = fit.coefficient;
@@ -108,6 +106,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         said.extend(exchanged_masses::exchanged_masses(study, &rows));
         if said.is_empty() {
             said.extend(same_moments::increments(study, &rows));
+        }
+        if said.is_empty() {
+            said.extend(since_the_last::since_the_last(study, &rows));
         }
         if said.is_empty() {
             let of_tests = single_tests::depths_and_masses_of_tests(study, &rows, k);
@@ -241,51 +242,6 @@ fn scale(rows: &[FittedRow<'_>], quantity: Quantity, member: Option<Subject>) ->
         sigmas: fy / ff.sqrt(),
         explains: fy * fy / (ff * yy),
     })
-}
-
-/// Whether most of the masses have grown by more than their noise.
-fn gains(rows: &[FittedRow<'_>]) -> bool {
-    let masses = rows.iter().map(|(o, _)| o);
-    let masses: Vec<_> = masses
-        .filter(|o| o.quantity == Quantity::MassLoss)
-        .collect();
-    let grown = masses.iter().filter(|o| o.value < -GAIN_SIGMAS * o.sigma);
-    2 * grown.count() > masses.len()
-}
-
-/// Quantities that run against the computed ones.
-fn signs(rows: &[FittedRow<'_>]) -> Vec<String> {
-    let turned = |quantity, member, explains: f64| {
-        scale(rows, quantity, member).is_some_and(|s| s.factor < 0.0 && s.explains > explains)
-    };
-    let mut said = Vec::new();
-    let [pinion, gear] = [Subject::Pinion, Subject::Gear]
-        .map(|member| turned(Quantity::WearDepth, Some(member), EXPLAINS));
-    let whose = match (pinion, gear) {
-        (true, true) => Some("wear_depth"),
-        (true, false) => Some("wear_depth of the pinion"),
-        (false, true) => Some("wear_depth of the gear"),
-        _ => None,
-    };
-    if let Some(whose) = whose {
-        said.push(format!(
-            "{whose} has the other sign: lost material counts positive, here it counts negative. Turn the sign of these values and compare again; \
-             k and all that follows mean nothing until then"
-        ));
-    }
-    if turned(Quantity::MassLoss, None, EXPLAINS) || gains(rows) {
-        said.push(
-            "mass_loss has the other sign: lost mass counts positive. Turn the sign of these values and compare again".to_owned(),
-        );
-    }
-    if turned(Quantity::TransmissionError, None, EXPLAINS_OVER_A_ROTATION) {
-        said.push(
-            "transmission_error runs against the computed one: a gear that lags counts negative, and rotations from the pitch point in the sense of \
-             the pinion's turning. Turn the sign (or the sense of the positions) and compare again"
-                .to_owned(),
-        );
-    }
-    said
 }
 
 /// Two digits, whole from 10 on.

@@ -264,7 +264,9 @@ fn tests(lines: &mut Vec<String>, tests: &[TestRecord]) {
 pub(super) fn next_step(result: &super::Result<'_>) -> String {
     let name = result.name;
     if !result.comparison.sanity.is_empty() {
-        format!("put right what stands under `check first`, then gearwear compare {name}")
+        format!(
+            "look at what stands under `check first` and put right what is wrong there, then gearwear compare {name}"
+        )
     } else if lacks(result.comparison) {
         format!(
             "gearwear diagnose {name} tells whether an effect is missing, and which; gearwear add {name} EFFECT if you know it (`gearwear effects` lists them)"

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! y = ln m_p/m_g of what was lost after the same cycles, f the same by the model, d of the depths (s_p/s_g, where both were measured)
-//! |y − d − f| > ln 1.5 and |y + d + f| < ln 1.2: exchanged, they fit
+//! |y − d − f| > ln 1.5 and |y + d + f| < ln 1.2: exchanged, they fit; beside such a test also where |y + d + f| is less by 0.1
 //! ```
 //! A member that wears by a k of its own does so in its depths too; where none were measured it is asked rather than said.
 
@@ -16,6 +16,8 @@ const SURE: f64 = 5.0;
 /// Factor by which masses as they stand must be off, and within which they must fit once exchanged.
 const OFF: f64 = 1.5;
 const FITS: f64 = 1.2;
+/// By how much, in ln, masses must be nearer once exchanged where those of another test are for sure.
+const NEARER: f64 = 0.1;
 /// Fewest pairs of masses in all.
 const FEWEST: usize = 2;
 
@@ -27,10 +29,21 @@ struct Weighed {
 }
 
 impl Weighed {
-    fn is_exchanged(&self, depths: f64) -> bool {
+    /// How far the ratio of both masses is from the expected one, in ln, as it stands and once exchanged.
+    fn off(&self, depths: f64) -> [f64; 2] {
         let [measured, model] = [self.measured, self.model].map(|[p, g]| (p / g).ln());
         let expected = model + depths;
-        (measured - expected).abs() > OFF.ln() && (measured + expected).abs() < FITS.ln()
+        [(measured - expected).abs(), (measured + expected).abs()]
+    }
+
+    fn is_exchanged(&self, depths: f64) -> bool {
+        let [standing, exchanged] = self.off(depths);
+        standing > OFF.ln() && exchanged < FITS.ln()
+    }
+
+    fn is_nearer_exchanged(&self, depths: f64) -> bool {
+        let [standing, exchanged] = self.off(depths);
+        exchanged < standing - NEARER
     }
 }
 
@@ -42,18 +55,16 @@ pub(super) fn exchanged_masses(study: &Study, rows: &[FittedRow<'_>]) -> Option<
     };
     let of_depths = depths(Subject::Pinion).zip(depths(Subject::Gear));
     let of_depths = of_depths.map_or(0.0, |(pinion, gear)| (pinion / gear).ln());
-    let exchanged: Vec<(usize, Vec<Weighed>)> = (0..study.tests.len())
+    let mut exchanged: Vec<(usize, Vec<Weighed>)> = (0..study.tests.len())
         .map(|test| (test, weighed(rows, test)))
-        .filter(|(_, pairs)| !pairs.is_empty() && pairs.iter().all(|p| p.is_exchanged(of_depths)))
+        .filter(|(_, pairs)| !pairs.is_empty())
         .collect();
-    if exchanged
-        .iter()
-        .map(|(_, pairs)| pairs.len())
-        .sum::<usize>()
-        < FEWEST
-    {
+    let is_sure = |pairs: &[Weighed]| pairs.iter().all(|p| p.is_exchanged(of_depths));
+    let sure = exchanged.iter().filter(|(_, pairs)| is_sure(pairs));
+    if sure.map(|(_, pairs)| pairs.len()).sum::<usize>() < FEWEST {
         return None;
     }
+    exchanged.retain(|(_, pairs)| pairs.iter().all(|p| p.is_nearer_exchanged(of_depths)));
     let (first, pairs) = exchanged.first()?;
     let Weighed {
         cycles,

@@ -1,7 +1,8 @@
 //! Quantities other than wear that are off the computed ones by a factor, and the unit that has it.
 
 use super::super::residual_statistics::FittedRow;
-use super::{EXPLAINS_OVER_A_ROTATION, FACTOR, NEAR, rounded, scale};
+use super::signs::EXPLAINS_OVER_A_ROTATION;
+use super::{FACTOR, NEAR, rounded, scale};
 use crate::measure::Quantity;
 use crate::numeric::written;
 use crate::study::Study;

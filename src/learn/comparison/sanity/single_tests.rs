@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use super::super::residual_statistics::FittedRow;
 use super::coefficient::FAR_FROM_STATED;
 use super::depths_and_masses::depths_and_masses;
-use super::{EXPLAINS, SAME_CYCLES, rounded, scale};
+use super::{SAME_CYCLES, rounded, scale};
 use crate::learn::comparison::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::test_apart::test_apart;
-use crate::measure::{Dataset, Quantity, Subject};
+use crate::measure::{Dataset, Quantity};
 use crate::study::Study;
 
 /// Standard deviations of s below 0 from which a single test's sign is doubted.
@@ -32,7 +32,7 @@ const AMONG: f64 = 2.0;
 const USUAL_PARTS: [u32; 6] = [2, 3, 4, 5, 8, 10];
 
 /// Each test that has rows, with these.
-fn by_test<'r, 'd>(
+pub(super) fn by_test<'r, 'd>(
     study: &'r Study,
     rows: &'r [FittedRow<'d>],
 ) -> impl Iterator<Item = (&'r str, Vec<FittedRow<'d>>)> {
@@ -65,48 +65,6 @@ pub(super) fn turned_rotation(study: &Study, rows: &[FittedRow<'_>]) -> Option<S
             turned.join(", ")
         )
     })
-}
-
-/// Quantities of some tests that run against the computed ones; None where that is so of none or of all.
-pub(super) fn signs(study: &Study, rows: &[FittedRow<'_>]) -> Option<Vec<String>> {
-    let turned = |quantity, member| {
-        let scales: Vec<_> = by_test(study, rows)
-            .filter_map(|(id, own)| Some((id, scale(&own, quantity, member)?)))
-            .collect();
-        let turned: Vec<&str> = scales
-            .iter()
-            .filter(|(_, s)| s.sigmas < -SURE && s.explains > EXPLAINS)
-            .map(|(id, _)| *id)
-            .collect();
-        if turned.len() < scales.len() {
-            turned
-        } else {
-            Vec::new()
-        }
-    };
-    let [pinion, gear] =
-        [Subject::Pinion, Subject::Gear].map(|member| turned(Quantity::WearDepth, Some(member)));
-    let mass = ("mass_loss", turned(Quantity::MassLoss, None));
-    let kinds = if pinion == gear {
-        vec![("wear_depth", pinion), mass]
-    } else {
-        vec![
-            ("wear_depth of the pinion", pinion),
-            ("wear_depth of the gear", gear),
-            mass,
-        ]
-    };
-    let said: Vec<String> = (kinds.into_iter())
-        .filter(|(_, tests)| !tests.is_empty())
-        .map(|(whose, tests)| {
-            format!(
-                "{whose} has the other sign in test {} than in the others: lost material counts positive. Turn the sign of these values and compare \
-                 again; k and all that follows mean nothing until then",
-                tests.join(", ")
-            )
-        })
-        .collect();
-    (!said.is_empty()).then_some(said)
 }
 
 /// Depths and masses of some tests that call for different coefficients; None where that is so of none, or of all that have both.
