@@ -964,3 +964,24 @@ fn a_title_that_names_the_test_may_name_the_member_too() {
     );
     assert!(other.contains("several numbers"), "{other}");
 }
+
+/// Where every header names the one test of the table, with digits in its id, the row is still the header and no title.
+#[test]
+fn headers_that_all_name_one_test_are_a_header() {
+    let home = home();
+    let study = STUDY.replace("id = \"A\"", "id = \"V1\"");
+    fs::write(home.path().join("study.toml"), study).unwrap();
+    for [first, second] in [
+        ["Essai V1, 80000 tours", "Essai V1, 400000 tours"],
+        ["\"Essai V1, 80000 tours\"", "\"Essai V1, 400000 tours\""],
+        ["Versuch V1: 80000", "Versuch V1: 400000"],
+    ] {
+        let table = format!("Rayon (mm);{first};{second}\n26;1,5;2,5\n27;1,2;2,2\n");
+        let (_, written) = rows(&home, &table, "--member pinion --sigma 0.1");
+        assert!(
+            written.contains("V1,pinion,80000,wear_depth,26,1.5,")
+                && written.contains("V1,pinion,400000,wear_depth,27,2.2,"),
+            "{first}: {written}"
+        );
+    }
+}
