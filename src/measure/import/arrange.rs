@@ -24,6 +24,7 @@ use crate::measure::Quantity;
 pub(super) use durations::hint;
 pub(super) use labels::{flank_above, stated_above};
 pub(super) use sides::side;
+pub(super) use speeds::passed_over as speed_passed_over;
 
 /// A table with a column for everything, or one for each member.
 #[derive(Debug)]

@@ -86,7 +86,7 @@ pub(super) fn as_columns(
             }
         }
     }
-    speeds::agree(sheet, head, &speeds, wanted)?;
+    speeds::agree(sheet, head, &speeds, wanted, said)?;
     torques::agree(sheet, head, wanted, said)?;
     if speeds::are_needed(&columns(&sheet.rows[head])) {
         for speed in speeds {
