@@ -90,6 +90,12 @@ pub(super) fn is_aside(name: &str) -> bool {
     is_for_people(name) || SUMMARIES.contains(&folded(name).as_str())
 }
 
+/// Whether a header is that of a mean, an extreme or the like of other columns; a standard deviation may be stated of each value.
+pub(super) fn is_statistic(name: &str) -> bool {
+    let name = name.split(['[', '(']).next().unwrap_or_default();
+    SUMMARIES.contains(&folded(name).as_str()) && column(name) != Some("sigma")
+}
+
 /// The member that a word means.
 pub(super) fn member(word: &str) -> Option<Subject> {
     let word = folded(word);

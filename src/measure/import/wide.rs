@@ -14,6 +14,7 @@ use super::numbers::{
     without_thousands,
 };
 use super::place::{PositionKind, on_flank};
+use super::row_sigmas::{self, RowSigmas};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
@@ -68,6 +69,8 @@ pub struct Wide {
     pub left_out: Vec<String>,
     /// Cells without a value.
     pub empty: usize,
+    /// Whether a column states the standard deviations of each row.
+    pub has_sigma: bool,
     /// Rows of a measurement file.
     pub entries: Vec<Entry>,
 }
@@ -95,6 +98,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         sheet = without;
         multiple
     });
+    let sigmas = RowSigmas::taken(&mut sheet, head, wanted)?;
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
@@ -154,11 +158,14 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     }
     let joined = wanted.there.join(&mut entries, true);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).chain(times).collect();
+    if let Some(sigmas) = &sigmas {
+        arranged.push(sigmas.state(&mut entries, (quantity, &unit.0), wanted)?);
+    }
     if let Some(named) = &deviation {
         let states_sign = turned || titles.lost_is_negative.is_some();
         arranged.push(named.as_depths(&mut entries, (states_sign, turned), wanted)?);
     }
-    arranged.extend(in_order(&mut entries, wanted)?);
+    arranged.extend(in_order(&mut entries, sigmas.is_some(), wanted)?);
     let [column_numbers, row_numbers] = grid.numbers();
     let (on_flank, checkpoints) = match across {
         Across::Checkpoints => (row_numbers, column_numbers),
@@ -185,6 +192,7 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         passed_over,
         left_out,
         empty,
+        has_sigma: sigmas.is_some(),
         entries,
         test,
     })
@@ -232,8 +240,12 @@ fn refuse_either_flank(
     )))
 }
 
-/// Sorts entries by time and place and names their traces.
-pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec<String>> {
+/// Sorts entries by time and place and names their traces; `has_sigma`: a column states their standard deviations.
+pub(super) fn in_order(
+    entries: &mut [Entry],
+    has_sigma: bool,
+    wanted: &Wanted<'_>,
+) -> Result<Vec<String>> {
     let place = |entry: &Entry| entry.position.unwrap_or(0.0);
     entries.sort_by(|a, b| {
         let by_time = a.cycles.total_cmp(&b.cycles);
@@ -250,7 +262,9 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec
     }
     state_face(entries, wanted)?;
     name_repeats(entries);
-    state_sigma(entries, wanted)?;
+    if !has_sigma {
+        state_sigma(entries, wanted)?;
+    }
     wanted.per_interval.add_up(entries, true)
 }
 
@@ -357,11 +371,16 @@ where
     }
 }
 
+/// Whether the header of a column says that it holds no values of a checkpoint or place: notes, statistics, standard deviations.
+pub(super) fn is_aside(header: &str) -> bool {
+    names::is_aside(header) || row_sigmas::is_one(header)
+}
+
 /// Empties the columns whose header says that they are for people or sum others up, and names them.
 pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Vec<String> {
     let mut left_out = Vec::new();
     for column in 1..sheet.rows[head].len() {
-        if names::is_aside(&sheet.rows[head][column]) {
+        if is_aside(&sheet.rows[head][column]) {
             left_out.push(sheet.rows[head][column].clone());
             let cells = sheet.rows[head..].iter_mut();
             for cell in cells.filter_map(|row| row.get_mut(column)) {
@@ -377,7 +396,7 @@ pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Ve
 pub(super) fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
         let cells = row.iter().skip(1);
-        let cells = cells.filter(|text| !text.is_empty() && !names::is_aside(text));
+        let cells = cells.filter(|text| !text.is_empty() && !is_aside(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
             // that of `Lastwechsel [1E6]` is no checkpoint
             let is_number = !is_date(text)
