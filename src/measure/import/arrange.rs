@@ -12,6 +12,7 @@ mod profiles;
 mod sides;
 mod speeds;
 mod torques;
+mod totals;
 mod weighings;
 
 use std::collections::BTreeSet;
@@ -35,6 +36,8 @@ pub(super) struct Arranged {
     pub(super) sheets: Vec<Sheet>,
     /// What was made of the table, in words.
     pub(super) said: Vec<String>,
+    /// The rows that are left out, in words.
+    pub(super) left_out: Vec<String>,
     /// Whether the values are what deviations lost, whatever the sign of these.
     pub(super) differences: bool,
     /// Of each table the rows that go on where another one ended, in the order of the stops.
@@ -95,7 +98,9 @@ fn with_header(
     head: usize,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
-    let (sheet, named) = durations::named(sheet, head, wanted);
+    let mut sheet = sheet.clone();
+    let left_out = totals::leave_out(&mut sheet, head, wanted);
+    let (sheet, named) = durations::named(&sheet, head, wanted);
     let (sheet, of_one) = sides::of_one(&sheet, head, wanted);
     let named = [named, of_one].concat();
     let both = match sides::apart(&sheet, head) {
@@ -108,6 +113,7 @@ fn with_header(
     };
     Ok(found.map(|found| Arranged {
         said: [named, found.said].concat(),
+        left_out,
         ..found
     }))
 }
@@ -175,6 +181,7 @@ fn completed(
         head,
         sheets,
         said,
+        left_out: Vec::new(),
         differences,
         stops,
     }))

@@ -76,6 +76,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         head,
         sheets,
         said,
+        left_out,
         differences,
         stops,
     }) = arranged(sheet, wanted)?
@@ -97,6 +98,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
         arranged: [said, long.arranged].concat(),
+        left_out: [left_out, long.left_out].concat(),
         ..long
     }))
 }
