@@ -93,9 +93,7 @@ pub(super) fn is_aside(name: &str) -> bool {
 /// Whether a word says that a row sums others up.
 pub(super) fn is_total(word: &str) -> bool {
     let word = folded(word);
-    [&TOTALS[..], &SUMMARIES[..]]
-        .concat()
-        .contains(&word.as_str())
+    TOTALS.iter().chain(&SUMMARIES).any(|known| *known == word)
 }
 
 /// Whether a header is that of a mean, an extreme or the like of other columns; a standard deviation may be stated of each value.

@@ -7,6 +7,7 @@ mod durations;
 mod gauges;
 mod intervals;
 mod labels;
+mod merged;
 mod pairs;
 mod profiles;
 mod sides;
@@ -100,9 +101,10 @@ fn with_header(
 ) -> Result<Option<Arranged>, ImportError> {
     let mut sheet = sheet.clone();
     let left_out = totals::leave_out(&mut sheet, head, wanted);
+    let filled = merged::fill(&mut sheet, head, wanted);
     let (sheet, named) = durations::named(&sheet, head, wanted);
     let (sheet, of_one) = sides::of_one(&sheet, head, wanted);
-    let named = [named, of_one].concat();
+    let named = [filled, named, of_one].concat();
     let both = match sides::apart(&sheet, head) {
         Some(both) => completed(both, &sheet, head, wanted)?,
         None => None,

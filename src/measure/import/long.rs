@@ -18,7 +18,7 @@ use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
-    no_values,
+    no_values, second_header,
 };
 use crate::measure::{Quantity, names};
 use line::Line;
@@ -72,6 +72,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             "{cell}: a formula without a stored result: open the table in the spreadsheet program and save it, then its results stand in the file"
         )));
     }
+    let (sheet, between) = &second_header::merged(sheet)?;
     let Some(Arranged {
         head,
         sheets,
@@ -97,7 +98,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
-        arranged: [said, long.arranged].concat(),
+        arranged: [between.clone(), said, long.arranged].concat(),
         left_out: [left_out, long.left_out].concat(),
         ..long
     }))
