@@ -985,3 +985,74 @@ fn headers_that_all_name_one_test_are_a_header() {
         );
     }
 }
+
+/// Whose flank a table is of: a title that names its values and one member, or the flank on which alone its places can lie. The pinion's radii are
+/// 25 to 29 mm, the gear's 50 to 55.
+#[test]
+fn titles_and_places_say_whose_flank_a_table_is_of() {
+    let home = home();
+    let table = |title: &str, places: [&str; 3], header: &str| {
+        let [a, b, c] = places;
+        format!("{title}\n{header};80.000 LW;400.000 LW\n{a};1,5;2,5\n{b};1,2;2,2\n{c};1,1;2,1\n")
+    };
+    let of_gear = ["51,5", "52,5", "53,5"];
+    let of_pinion = ["26", "27", "28"];
+    let options = "--test A --sigma 0.1";
+    for title in [
+        "Verschlei\u{df} Rad [\u{b5}m]",
+        "Pr\u{fc}fprotokoll Verschlei\u{df} Rad",
+        "Usure roue (\u{b5}m)",
+    ] {
+        let (shown, written) = rows(&home, &table(title, of_gear, "Radius [mm]"), options);
+        assert!(
+            written.contains("A,gear,80000,wear_depth,51.5,1.5,"),
+            "{written}"
+        );
+        let says = format!("layout   row 1, `{title}`: member gear\n");
+        assert!(shown.contains(&says), "no `{says}` in:\n{shown}");
+        assert!(!shown.contains("passed over"), "{shown}");
+    }
+    // roll angles lie on both flanks: a title that names one settles it
+    let angles = table(
+        "Usura pignone [um]",
+        ["18", "20", "22"],
+        "angolo di rotolamento [deg]",
+    );
+    let (_, written) = rows(&home, &angles, options);
+    assert!(written.contains("A,pinion,80000,"), "{written}");
+    let angles = angles.replace("Usura pignone", "Gear wear");
+    let message = refused(&home, &angles, options);
+    assert!(message.contains("say whose they are"), "{message}");
+    // nothing says it, or says otherwise
+    let (shown, written) = rows(&home, &table("", of_gear, "Radius [mm]"), options);
+    assert!(written.contains("A,gear,80000,"), "{written}");
+    assert!(
+        shown.contains(
+            "layout   these places lie on the gear's flank alone: taken for the gear's\n"
+        ),
+        "{shown}"
+    );
+    let (shown, written) = rows(
+        &home,
+        &table("Verschlei\u{df} Rad", of_pinion, "Radius"),
+        options,
+    );
+    assert!(written.contains("A,pinion,80000,"), "{written}");
+    assert!(
+        shown.contains("taken for the pinion's, though row 1 says `Verschlei\u{df} Rad`"),
+        "{shown}"
+    );
+    // they may be the pinion's diameters
+    for unclear in [
+        table("", of_gear, "Ort"),
+        table("Verschlei\u{df} Ritzel", of_gear, "Radius"),
+    ] {
+        let message = refused(&home, &unclear, options);
+        assert!(
+            message.contains("the header (80.000 to 400.000)")
+                && message
+                    .contains("they lie on the gear's flank: if they are that, say --member gear"),
+            "{message}"
+        );
+    }
+}

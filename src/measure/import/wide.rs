@@ -3,6 +3,7 @@
 mod grid;
 mod reading;
 mod running_times;
+mod whose;
 
 use self::grid::{Grid, Places};
 use self::reading::Reading;
@@ -88,9 +89,6 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let head = header(sheet)?;
     decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
-    let stated_member =
-        (wanted.stated_member(sheet, quantity)?).or_else(|| member_of_corner(sheet, head));
-    let member = stated_member.unwrap_or(Subject::Pinion);
     let mut sheet = sheet.clone();
     without_thousands(&mut sheet, wanted.decimal, head);
     let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head)?;
@@ -111,6 +109,8 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let sheet = &sheet;
     let mut grid = Grid::of(sheet, head)?;
     let corner = grid.corner();
+    let whose = whose::of(sheet, head, &grid, quantity, wanted)?;
+    let member = whose.member;
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
     let are_counts = across == Across::Checkpoints && multiple.is_none();
@@ -132,7 +132,10 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let deviation = deviations::named(sheet, head, quantity, wanted);
     let is_used = |words: &str| {
         let is_of_deviations = deviation.as_ref().is_some_and(|named| named.is_of(words));
-        is_of_deviations || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())
+        let is_of_member = whose.title.as_deref() == Some(words);
+        is_of_deviations
+            || is_of_member
+            || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())
     };
     let titles = Titles::of(sheet, head, quantity)?.without(is_used);
     let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
@@ -153,11 +156,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let (mut entries, empty) = reading.entries(&grid)?;
     left_out.extend(below);
     left_out.extend(no_values::leave_out(&mut entries, sheet).0);
-    if stated_member.is_none() {
+    if !whose.is_said {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
     }
     let joined = wanted.there.join(&mut entries, true);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).chain(times).collect();
+    arranged.extend(whose.said);
     if let Some(sigmas) = &sigmas {
         arranged.push(sigmas.state(&mut entries, (quantity, &unit.0), wanted)?);
     }
@@ -196,12 +200,6 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         entries,
         test,
     })
-}
-
-/// The member that the first header names.
-fn member_of_corner(sheet: &Sheet, head: usize) -> Option<Subject> {
-    let corner = sheet.rows[head].first()?;
-    names::one_member(corner).filter(|named| named.member().is_some())
 }
 
 /// Refuses places that lie on the flank of either member, where nothing says whose they are.
