@@ -233,9 +233,9 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         ("radius;100000\n;1\n", table, "A2: nothing stands here"),
         // numbers of which none tells what its mark is
         (
-            "radius;100000\n26.500;1.234\n27.000;2.512\n",
-            table,
-            "A2: is `26.500` 26.500 or 26500? No number of the table shows which: say --decimal point or --decimal comma",
+            "cycles;pinion;gear\n100000;1.234;2.512\n",
+            "import table.csv --study study.toml --test A --sigma 0.2 --quantity mass_loss",
+            "B2: is `1.234` 1.234 or 1234? No number of the table shows which: say --decimal point or --decimal comma",
         ),
         (
             "radius;100000 [um];200000 [mm]\n26,5;1;2\n",
@@ -1055,4 +1055,36 @@ fn titles_and_places_say_whose_flank_a_table_is_of() {
             "{message}"
         );
     }
+}
+
+/// A place tells what its mark is where it lies on a flank in one of the two readings: the gear's radii are 50 to 55 mm.
+#[test]
+fn a_place_on_the_flank_tells_decimals_from_thousands() {
+    let home = home();
+    for places in [["52,221", "53,489"], ["52.221", "53.489"]] {
+        let [first, second] = places;
+        let mark = if first.contains(',') { "," } else { "." };
+        let values = ["1.862", "2.038"].map(|value| value.replace('.', mark));
+        let [a, b] = &values;
+        let wide = format!("Rayon [mm];100000\n{first};{a}\n{second};{b}\n");
+        let long = format!(
+            "test;member;cycles;rayon [mm];depth\nA;gear;100000;{first};{a}\nA;gear;100000;{second};{b}\n"
+        );
+        for (table, options) in [
+            (wide, "--test A --member gear --sigma 0.1"),
+            (long, "--sigma 0.1"),
+        ] {
+            let (_, written) = rows(&home, &table, options);
+            assert!(
+                written.contains("A,gear,100000,wear_depth,52.221,1.862,"),
+                "{table}{written}"
+            );
+        }
+    }
+    let (_, written) = rows(
+        &home,
+        "radius;100000\n26.500;1.234\n27.000;2.512\n",
+        "--test A --sigma 0.2",
+    );
+    assert!(written.contains("wear_depth,26.5,1.234,"), "{written}");
 }

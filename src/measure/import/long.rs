@@ -13,6 +13,7 @@ mod weights;
 use super::arrange::{Arranged, arranged, speed_passed_over};
 use super::columns::{Column, What, columns, known_by_content, with_sides};
 use super::entry::{Entry, state_face, state_sigma};
+use super::flank::can_be_on_a_flank;
 use super::numbers::{counts_without_thousands, with_points};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
@@ -123,9 +124,16 @@ fn of_columns(
         let others: Vec<usize> = numbers.iter().flatten().map(|read| read.at).collect();
         counts_without_thousands(&mut sheet, head, read.cycles.at, &others);
     }
-    let sheet = &with_points(&sheet, wanted.decimal, |row, column| {
-        row > head && numbers.iter().flatten().any(|read| read.at == column)
-    })?;
+    let counts = |row, column| row > head && numbers.iter().flatten().any(|read| read.at == column);
+    let is_place = |_, column, number| {
+        let quantity = match read.value.what {
+            What::Values(quantity) => quantity,
+            _ => wanted.quantity.unwrap_or(Quantity::WearDepth),
+        };
+        (read.position.filter(|position| position.at == column))
+            .is_some_and(|position| can_be_on_a_flank(number, &position.written, quantity, wanted))
+    };
+    let sheet = &with_points(&sheet, wanted.decimal, counts, is_place)?;
     let single = match (read.quantity, read.value.what) {
         (Some(_), _) => None,
         (None, what) => Some(single_quantity(&read, what, wanted)?),

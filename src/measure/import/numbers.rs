@@ -15,14 +15,17 @@ pub enum Decimal {
     Comma,
 }
 
-/// The sheet with decimal points in its numbers; `counts` says which cells tell how decimals are written.
+/// The sheet with decimal points in its numbers; `counts` says which cells tell how decimals are written, `is_place` whether a number can be the place on a
+/// flank that a cell tells.
 ///
 /// Where nothing but marks between groups of three digits stands in the numbers (`1.234`, `26.500`), they may be marks between
-/// thousands: then it has to be said. Numbers of a spreadsheet have no marks of their own.
+/// thousands: then a place tells, which lies on the flank in one of the two readings, or it has to be said. Numbers of a spreadsheet have no marks of
+/// their own.
 pub(super) fn with_points(
     sheet: &Sheet,
     decimal: Option<Decimal>,
     counts: impl Fn(usize, usize) -> bool,
+    is_place: impl Fn(usize, usize, f64) -> bool,
 ) -> Result<Sheet> {
     let is_text = sheet.name.is_empty();
     let mut sheet = sheet.clone();
@@ -59,7 +62,10 @@ pub(super) fn with_points(
             }
             let mark = usize::from(text.contains(','));
             first[mark].get_or_insert_with(|| (cell_name(row, column), text.clone()));
-            if in_thousands(text.trim_start_matches(['+', '-'])) {
+            let is_place = |number: f64| is_place(row, column, number);
+            if in_thousands(text.trim_start_matches(['+', '-']))
+                && !is_decimal_place(text, is_place)
+            {
                 unclear.get_or_insert_with(|| (cell_name(row, column), text.clone()));
             } else {
                 clear = true;
@@ -80,6 +86,12 @@ pub(super) fn with_points(
             text.replace(['.', ','], "")
         ))),
     }
+}
+
+/// Whether a number with one mark lies on the flank if that is a decimal mark, and does not if it stands between thousands.
+fn is_decimal_place(text: &str, is_place: impl Fn(f64) -> bool) -> bool {
+    let reads_as_place = |text: String| text.parse::<f64>().is_ok_and(&is_place);
+    reads_as_place(pointed(text)) && !reads_as_place(text.replace(['.', ','], ""))
 }
 
 /// Leaves the marks between thousands out of numbers where they can be nothing else: `1.000.000`, and `250.000` in the same column.

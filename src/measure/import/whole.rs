@@ -55,9 +55,8 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     decimal_commas::refuse(sheet, head)?;
     let mut sheet = sheet.clone();
     without_thousands(&mut sheet, wanted.decimal, head);
-    let mut sheet = with_points(&sheet, wanted.decimal, |row, column| {
-        row > head && column > 0
-    })?;
+    let counts = |row, column| row > head && column > 0;
+    let mut sheet = with_points(&sheet, wanted.decimal, counts, |_, _, _| false)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple

@@ -9,6 +9,7 @@ use self::grid::{Grid, Places};
 use self::reading::Reading;
 use super::arrange::{self, flank_above};
 use super::entry::{Entry, name_repeats, refuse_twice, state_face, state_sigma};
+use super::flank::can_be_on_a_flank;
 use super::multiples::{self, Multiple};
 use super::numbers::{
     header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
@@ -91,7 +92,10 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let test = wanted.one_test(sheet)?;
     let mut sheet = sheet.clone();
     without_thousands(&mut sheet, wanted.decimal, head);
-    let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head)?;
+    let corner = sheet.rows[head].first().cloned().unwrap_or_default();
+    let is_place =
+        |_, column, number| column == 0 && can_be_on_a_flank(number, &corner, quantity, wanted);
+    let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head, is_place)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple
