@@ -19,7 +19,7 @@ mod weighings;
 use std::collections::BTreeSet;
 
 use super::columns::{Column, What, columns};
-use super::numbers::pointed;
+use super::numbers::{counts_without_blanks, pointed};
 use super::{ImportError, Sheet, Wanted, decimal_commas, multiples, nameless};
 use crate::measure::Quantity;
 
@@ -103,7 +103,12 @@ fn with_header(
     let left_out = totals::leave_out(&mut sheet, head, wanted);
     let filled = merged::fill(&mut sheet, head, wanted);
     let (sheet, named) = durations::named(&sheet, head, wanted);
-    let (sheet, of_one) = sides::of_one(&sheet, head, wanted);
+    let (mut sheet, of_one) = sides::of_one(&sheet, head, wanted);
+    for column in columns(&sheet.rows[head]) {
+        if column.what.own() == Some("cycles") {
+            counts_without_blanks(&mut sheet, head, column.at);
+        }
+    }
     let named = [filled, named, of_one].concat();
     let both = match sides::apart(&sheet, head) {
         Some(both) => completed(both, &sheet, head, wanted)?,

@@ -115,15 +115,28 @@ fn leave_out_certain_thousands(sheet: &mut Sheet) {
     }
 }
 
-/// Leaves the marks between thousands out of a column of counts of a text below row `head`, where its own numbers or the decimals of the `others`
-/// tell what they are, as in measurement files.
+/// Leaves blanks between thousands, `80 000`, out of a column of counts below row `head`.
+pub(super) fn counts_without_blanks(sheet: &mut Sheet, head: usize, counts: usize) {
+    let below = sheet.rows.iter_mut().skip(head + 1);
+    for text in below.filter_map(|row| row.get_mut(counts)) {
+        if let Some(plain) = without_blanks(text) {
+            *text = plain;
+        }
+    }
+}
+
+/// Leaves the marks between thousands out of a column of counts below row `head`, where its own numbers or the decimals of the `others`
+/// tell what they are, as in measurement files. Of a spreadsheet its counts have to be texts: its own numbers have no marks but decimal points.
 pub(super) fn counts_without_thousands(
     sheet: &mut Sheet,
     head: usize,
     counts: usize,
     others: &[usize],
 ) {
-    let is_text = sheet.name.is_empty();
+    // a number of a spreadsheet has no zero at the end of its decimals
+    let is_typed = |text: &String| in_thousands(text) && text.ends_with('0');
+    let mut typed = sheet.rows[head + 1..].iter();
+    let is_text = sheet.name.is_empty() || typed.any(|row| row.get(counts).is_some_and(is_typed));
     if !is_text {
         return;
     }
@@ -245,7 +258,7 @@ pub(super) fn plain_count(
     plain_cycles(text, row, column)
 }
 
-/// The header row `head` without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are; or where they are commas and
+/// The header row `head` and the first column without blanks between the thousands of their numbers; the header without marks there too, where one with several (`1.000.000`) tells what they are; or where they are commas and
 /// the values below have points as decimal marks.
 pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, head: usize) {
     let marked = |text: &String, least: usize| {
@@ -253,6 +266,7 @@ pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, hea
         let several = |word: &&str| in_thousands(word) && word.matches(['.', ',']).count() >= least;
         words.filter(several).map(str::to_owned).next()
     };
+    counts_without_blanks(sheet, head, 0);
     // the numbers of a spreadsheet's cells say nothing of how its texts are written
     let is_text = sheet.name.is_empty() && decimal != Some(Decimal::Comma);
     let (above, below) = sheet.rows.split_at_mut(head + 1);
