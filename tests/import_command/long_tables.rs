@@ -596,3 +596,26 @@ fn merged_cells_of_tests_and_members_hold_for_the_rows_below() {
         "{message}"
     );
 }
+
+/// What lies below the limit of detection has no value: the message says what to do with it.
+#[test]
+fn a_value_below_the_limit_of_detection_is_to_be_left_empty() {
+    let home = home();
+    let long = "Prova;Ruota;Cicli;Raggio [mm];Usura [um]\nA;pignone;80000;26,5;1,29\nA;pignone;80000;27,5;<0,2\n";
+    let wide = "Raggio [mm];80000\n26,5;1,29\n27,5;\u{2264} 0,2\n";
+    for (table, options, cell) in [
+        (long, "--sigma 0.1", "E3: `<0,2`"),
+        (
+            wide,
+            "--test A --member pinion --sigma 0.1",
+            "B3: `\u{2264} 0,2`",
+        ),
+    ] {
+        let message = refused(&home, table, options);
+        assert!(
+            message.contains(cell)
+                && message.contains("is a limit of detection, not a value: leave the cell empty"),
+            "{message}"
+        );
+    }
+}

@@ -258,8 +258,8 @@ pub(super) fn plain_count(
     plain_cycles(text, row, column)
 }
 
-/// The header row `head` and the first column without blanks between the thousands of their numbers; the header without marks there too, where one with several (`1.000.000`) tells what they are; or where they are commas and
-/// the values below have points as decimal marks.
+/// Leaves blanks between thousands out of the header row `head` and the first column, and marks out of the header, where one number there with several
+/// (`1.000.000`) tells what they are; or where they are commas and the values below have points as decimal marks.
 pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, head: usize) {
     let marked = |text: &String, least: usize| {
         let words = number_words(text).into_iter();
@@ -333,6 +333,13 @@ pub(super) fn number(text: &str, row: usize, column: usize) -> Result<f64> {
     found.ok_or_else(|| {
         if is_date(text) {
             return dated(text, row, column);
+        }
+        if text.starts_with(['<', '>', '\u{2264}', '\u{2265}']) {
+            return ImportError(format!(
+                "{}: `{text}` is a limit of detection, not a value: leave the cell empty; a value that is only known to lie below or above a limit is \
+                 not used",
+                cell_name(row, column)
+            ));
         }
         ImportError(format!(
             "{}: `{text}` is not a number; leave cells without a value empty",
