@@ -14,7 +14,7 @@ use counting::{AROUND_POWER, CYCLES, MULTIPLES, POWERS};
 pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
     AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, LOSSES, MASSES,
-    MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS, SUMMARIES,
+    MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS, SUMMARIES, TOTALS,
 };
 
 /// Which of two measurements of a part.
@@ -88,6 +88,18 @@ pub(super) fn is_for_people(name: &str) -> bool {
 pub(super) fn is_aside(name: &str) -> bool {
     let name = name.split(['[', '(']).next().unwrap_or_default();
     is_for_people(name) || SUMMARIES.contains(&folded(name).as_str())
+}
+
+/// Whether a word says that a row sums others up.
+pub(super) fn is_total(word: &str) -> bool {
+    let word = folded(word);
+    TOTALS.iter().chain(&SUMMARIES).any(|known| *known == word)
+}
+
+/// Whether a header is that of a mean, an extreme or the like of other columns; a standard deviation may be stated of each value.
+pub(super) fn is_statistic(name: &str) -> bool {
+    let name = name.split(['[', '(']).next().unwrap_or_default();
+    SUMMARIES.contains(&folded(name).as_str()) && column(name) != Some("sigma")
 }
 
 /// The member that a word means.

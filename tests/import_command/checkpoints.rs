@@ -417,3 +417,48 @@ fn checkpoints_within_a_thousandth_are_one() {
             .starts_with("A,pinion,99997,")
     );
 }
+
+/// Beside revolutions a column of speeds is passed over, and said to be the study's only where it is: 2000 rpm of 27 teeth are 1019 of 53.
+#[test]
+fn a_speed_beside_revolutions_is_compared_with_that_of_the_test() {
+    let home = home();
+    for (header, speed, says) in [
+        ("speed [rpm]", "2000", "a speed, which is the study's"),
+        (
+            "speed [rpm]",
+            "1019",
+            "the gear's speed, which is that of the test over the ratio",
+        ),
+        (
+            "Drehzahl Rad [1/min]",
+            "1019",
+            "the gear's speed, which is that of the test over the ratio",
+        ),
+        (
+            "speed [rpm]",
+            "1500",
+            "a speed, which is not the study's: D2: `1500` below `speed [rpm]` is another one than that of test A, 2000 rpm",
+        ),
+        (
+            "gear speed [rpm]",
+            "2000",
+            "a speed, which is not the study's: D2: `2000` below `gear speed [rpm]` is another one than that of test A, 1019 rpm",
+        ),
+        (
+            "speed [rpm]",
+            "high",
+            "a speed, which could not be compared with the study's",
+        ),
+    ] {
+        let table =
+            format!("test,member,cycles,{header},radius,depth\nA,pinion,40000,{speed},26,1\n");
+        let (shown, _) = rows(&home, &table, "--sigma 0.1");
+        let says = format!("passed over the column `{header}`: {says}");
+        assert!(shown.contains(&says), "no `{says}` in:\n{shown}");
+    }
+    // running times become revolutions beside the gear's speed too
+    let table = "test,member,hours,speed [rpm],radius,depth\nA,pinion,1.5,1019,26,1\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    assert!(written.starts_with("A,pinion,180000,"), "{written}");
+    assert!(shown.contains("`speed [rpm]`: the gear's speed"), "{shown}");
+}

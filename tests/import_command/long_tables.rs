@@ -533,3 +533,89 @@ fn a_long_table_that_lacks_something_is_told_what() {
         "A,pinion,120000,mass_loss,,0.2,1,\nA,gear,120000,mass_loss,,0.5,1,\n"
     );
 }
+
+/// Units may stand in a row of their own below the header of a long table too.
+#[test]
+fn a_row_of_units_stands_below_the_header_of_a_long_table() {
+    let home = home();
+    let table = "Run;Part;Cycles;Diameter;Depth\n;;-;mm;mm\nA;pinion;80000;52.0;0.0015\nA;gear;80000;104.5;0.0025\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    assert_eq!(
+        written,
+        "A,pinion,80000,wear_depth,26,1.5,0.1,\nA,gear,80000,wear_depth,52.25,2.5,0.1,\n"
+    );
+    assert!(
+        shown.contains("layout   row 2 holds the columns' units\n"),
+        "{shown}"
+    );
+    let other = table.replace("Depth", "Depth [um]");
+    let message = refused(&home, &other, "--sigma 0.1");
+    assert!(
+        message.contains("`Depth [um]` is in um, and `mm` stands below it"),
+        "{message}"
+    );
+}
+
+/// Of merged cells a spreadsheet stores the first alone.
+#[test]
+fn merged_cells_of_tests_and_members_hold_for_the_rows_below() {
+    let home = home();
+    let table = "Versuch;Rad;Lastwechsel;Radius [mm];Verschlei\u{df} [um]\n\
+                 A;Ritzel;80000;26;1,5\n;;80000;27;1,2\n;Rad;80000;52;1,1\n;;80000;53;0,9\n\
+                 B;Ritzel;80000;26;2,5\n;;80000;27;2,2\n";
+    let (shown, written) = rows(&home, table, "--sigma 0.1");
+    let lines: Vec<&str> = written.lines().collect();
+    assert_eq!(lines.len(), 6, "{written}");
+    for (row, begins) in [
+        (1, "A,pinion,80000,wear_depth,27,1.2,"),
+        (3, "A,gear,80000,wear_depth,53,0.9,"),
+        (5, "B,pinion,80000,wear_depth,27,2.2,"),
+    ] {
+        assert!(
+            lines[row].starts_with(begins),
+            "no `{begins}` in:\n{written}"
+        );
+    }
+    for part in [
+        "layout   `Versuch`: empty cells hold the value above them\n",
+        "layout   `Rad`: empty cells hold the value above them\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    // a cell that is empty among rows that state theirs each, or with nothing above it, is a gap
+    let gap = "test;member;cycles;radius;depth\nA;pinion;1e5;26;1\nA;pinion;1e5;27;2\n;pinion;1e5;28;3\nB;pinion;1e5;26;4\n";
+    let message = refused(&home, gap, "--sigma 0.1");
+    assert!(
+        message.contains("A4: nothing stands here below `test`"),
+        "{message}"
+    );
+    let first = "test;member;cycles;radius;depth\n;pinion;1e5;26;1\nA;pinion;1e5;27;2\n";
+    let message = refused(&home, first, "--sigma 0.1");
+    assert!(
+        message.contains("A2: nothing stands here below `test`"),
+        "{message}"
+    );
+}
+
+/// What lies below the limit of detection has no value: the message says what to do with it.
+#[test]
+fn a_value_below_the_limit_of_detection_is_to_be_left_empty() {
+    let home = home();
+    let long = "Prova;Ruota;Cicli;Raggio [mm];Usura [um]\nA;pignone;80000;26,5;1,29\nA;pignone;80000;27,5;<0,2\n";
+    let wide = "Raggio [mm];80000\n26,5;1,29\n27,5;\u{2264} 0,2\n";
+    for (table, options, cell) in [
+        (long, "--sigma 0.1", "E3: `<0,2`"),
+        (
+            wide,
+            "--test A --member pinion --sigma 0.1",
+            "B3: `\u{2264} 0,2`",
+        ),
+    ] {
+        let message = refused(&home, table, options);
+        assert!(
+            message.contains(cell)
+                && message.contains("is a limit of detection, not a value: leave the cell empty"),
+            "{message}"
+        );
+    }
+}

@@ -527,3 +527,42 @@ fn intervals_that_cannot_be_added_up_are_refused_with_their_row() {
         "{message}"
     );
 }
+
+/// What sums the rows of a long table up is no measurement of a test of that name.
+#[test]
+fn rows_that_sum_others_up_are_passed_over() {
+    let home = home();
+    for total in [
+        "Summe",
+        "Mittelwert",
+        "Total",
+        "Mean",
+        "Somme",
+        "Totale",
+        "Media",
+        "Moyenne",
+        "Summe A",
+    ] {
+        let table = format!(
+            "Versuch;Lastwechsel;Massenverlust Ritzel [mg];Massenverlust Rad [mg]\n\
+             A;80000;9,46;15,37\nA;400000;29,38;50,88\n{total};;38,84;66,25\n"
+        );
+        let (shown, written) = rows(&home, &table, "--sigma 0.5");
+        assert_eq!(written.lines().count(), 4, "{written}");
+        let says = format!("left out row 4 sums others up (`{total}`): passed over\n");
+        assert_eq!(shown.matches(&says).count(), 1, "no `{says}` in:\n{shown}");
+    }
+    let of_members = "Versuch;Teil;Lastwechsel;Massenverlust [mg]\nA;Ritzel;80000;9,46\nA;Rad;80000;15,37\nA;Summe;80000;24,83\n";
+    let (_, written) = rows(&home, of_members, "--sigma 0.5");
+    assert_eq!(written.lines().count(), 2, "{written}");
+    // any other word is a test that the study lacks
+    let message = refused(
+        &home,
+        "Versuch;Teil;Lastwechsel;Massenverlust [mg]\nSumme X;Ritzel;80000;9,46\n",
+        "--sigma 0.5",
+    );
+    assert!(
+        message.contains("the study has no test Summe X"),
+        "{message}"
+    );
+}

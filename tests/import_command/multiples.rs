@@ -1,6 +1,7 @@
 //! Powers of ten in headers of cycles, and the decimal mark of depths that the program works out itself.
 
-use super::{home, refused, rows};
+use super::doubtful::{text, workbook_of};
+use super::{home, line, read, refused, rows, succeed};
 
 const OPTIONS: &str = "--test A --member pinion --sigma 0.1";
 
@@ -138,17 +139,21 @@ fn numbers_of_titles_are_no_counts() {
     );
 }
 
-/// A header with a multiple in words stays one above a row of units, of which it is said that they are no numbers.
+/// A header with a multiple in words stays one above a row of units, which are those of its columns.
 #[test]
 fn a_row_of_units_makes_no_title_of_the_header() {
     let home = home();
     let header = "Test;Lastwechsel in Mio.;Radius;Verschleiss";
     let table = format!("{header}\n;;mm;um\nA;0.01;26.5;1.0\n");
     for table in [table.replace(";;", "-;-;"), table] {
-        let message = refused(&home, &table, "--member pinion --sigma 0.1");
+        let (shown, written) = rows(&home, &table, "--member pinion --sigma 0.1");
+        assert_eq!(
+            written, "A,pinion,10000,wear_depth,26.5,1,0.1,\n",
+            "{table}"
+        );
         assert!(
-            message.contains("2: `") && message.contains("is not a number"),
-            "{message}"
+            shown.contains("layout   row 2 holds the columns' units\n"),
+            "{shown}"
         );
     }
     let table = format!("{header}\n;;;\nA;0.01;26.5;1.0\nA;0.02;26.5;2.0\n");
@@ -249,5 +254,65 @@ fn points_between_thousands_are_told_by_the_length_of_the_test() {
     // beside decimal points they are none between thousands
     let points = table.replace("27;2;5", "27;2.5;5");
     let message = refused(&home, &points, stated);
+    assert!(message.contains("marked between thousands"), "{message}");
+}
+
+/// Blanks between thousands are plain ones where people type them, and no-break ones where programs write them.
+#[test]
+fn blanks_between_thousands_of_counts_are_left_out() {
+    let home = home();
+    let long = "Prova;Ruota;Cicli;Raggio [mm];Usura [\u{b5}m]\nA;pignone;80 000;26,5;1,293\nA;pignone;1 000 000;26,5;2,293\n";
+    let wide = "Cicli;26,5;27\n80 000;1,293;1,1\n1 000 000;2,293;2,1\n";
+    for (table, options) in [
+        (long, "--sigma 0.1"),
+        (wide, "--test A --member pinion --sigma 0.1"),
+    ] {
+        let (_, written) = rows(&home, table, options);
+        assert!(
+            written.contains("A,pinion,80000,wear_depth,26.5,1.293,")
+                && written.contains("A,pinion,1000000,wear_depth,26.5,2.293,"),
+            "{table}{written}"
+        );
+    }
+    let message = refused(&home, &long.replace("80 000", "80 00"), "--sigma 0.1");
+    assert!(message.contains("`80 00` is not a number"), "{message}");
+}
+
+/// Numbers that a spreadsheet holds as texts are read as those of a text are: beside decimal commas a point in a count stands between its thousands.
+#[test]
+fn counts_that_a_spreadsheet_holds_as_texts_are_read_beside_decimal_commas() {
+    let home = home();
+    let row = |cells: [&str; 5]| cells.map(text).concat();
+    let header = row([
+        "Versuch",
+        "Rad",
+        "Lastwechsel",
+        "Radius [mm]",
+        "Verschlei\u{df} [\u{b5}m]",
+    ]);
+    let import = "import dated.xlsx --study study.toml --sigma 0.1";
+    let first = row(["A", "Ritzel", "80.000", "26,961", "1,293"]);
+    let second = row(["A", "Ritzel", "81.234", "27,262", "0,951"]);
+    workbook_of(&home, &[("w", &[&header, &first, &second])]);
+    succeed(&home, &format!("{import} -o out.csv"));
+    let written = read(&home, "out.csv");
+    assert!(
+        written.contains("A,pinion,80000,wear_depth,26.961,1.293,")
+            && written.contains("A,pinion,81234,wear_depth,27.262,0.951,"),
+        "{written}"
+    );
+    // beside numbers of its own nobody knows
+    let number = |cell: &str| format!("<c><v>{cell}</v></c>");
+    let own = [
+        text("A"),
+        text("Ritzel"),
+        text("80.000"),
+        number("26.961"),
+        number("1.293"),
+    ]
+    .concat();
+    workbook_of(&home, &[("w", &[&header, &own])]);
+    let (code, _, message) = line(&home, import);
+    assert_eq!(code, Some(2));
     assert!(message.contains("marked between thousands"), "{message}");
 }

@@ -243,3 +243,57 @@ fn a_table_without_uncertainties_is_shown_before_it_is_refused() {
     );
     rows(&home, table, "--sigma 0.1");
 }
+
+/// A column of standard deviations beside the checkpoints is that of all values of its row, unless it is a statistic of these.
+#[test]
+fn a_column_of_standard_deviations_of_a_wide_table_is_read() {
+    let home = home();
+    let table = |header: &str| {
+        format!(
+            "Radius [mm];100000;250000;{header}\n26;3,1;6,2;0,15\n26,5;2,4;4,9;0,2\n27;1,2;2,5;\n"
+        )
+    };
+    let options = "--test A --member pinion";
+    let (shown, written) = rows(&home, &table("std dev"), options);
+    for row in [
+        "A,pinion,100000,wear_depth,26,3.1,0.15,",
+        "A,pinion,250000,wear_depth,26.5,4.9,0.2,",
+        "A,pinion,250000,wear_depth,27,2.5,,",
+    ] {
+        assert!(written.contains(row), "no `{row}` in:\n{written}");
+    }
+    for part in [
+        "layout   `std dev`: the standard deviation of all values of its row, in µm\n",
+        "sigma    as the column says; empty in 2 rows, where it is estimated\n",
+    ] {
+        assert!(shown.contains(part), "no `{part}` in:\n{shown}");
+    }
+    assert!(!shown.contains("comment column"), "{shown}");
+    let (_, written) = rows(&home, &table("U (k=2) [mm]"), options);
+    assert!(written.contains("26,3.1,75,"), "{written}");
+    let message = refused(&home, &table("std dev"), &format!("{options} --sigma 0.1"));
+    assert!(
+        message.contains("the table has a column of sigma, D1: `std dev`")
+            && message.contains("leave the option out"),
+        "{message}"
+    );
+    let message = refused(&home, &table("std dev").replace("250000", "sigma"), options);
+    assert!(
+        message.contains("C1: `sigma` and D1: `std dev` both look like"),
+        "{message}"
+    );
+    // beside a mean it is the scatter of the columns
+    let statistics =
+        "Radius [mm];100000;250000;Mean;StdDev\n26;3,1;6,2;4,65;2,19\n26,5;2,4;4,9;3,65;1,77\n";
+    let (shown, written) = rows(&home, statistics, &format!("{options} --sigma 0.1"));
+    assert!(written.contains("26,3.1,0.1,"), "{written}");
+    assert!(shown.contains("`Mean`, `StdDev`"), "{shown}");
+    // of masses it is that of both members
+    let masses =
+        "Lastwechsel;Ritzel;Rad;Unsicherheit [mg]\n100000;2,1;1,2;0,3\n250000;4,4;2,6;0,4\n";
+    let (_, written) = rows(&home, masses, "--test A --quantity mass_loss");
+    assert!(
+        written.contains("A,gear,250000,mass_loss,,2.6,0.4,"),
+        "{written}"
+    );
+}

@@ -233,9 +233,9 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
         ("radius;100000\n;1\n", table, "A2: nothing stands here"),
         // numbers of which none tells what its mark is
         (
-            "radius;100000\n26.500;1.234\n27.000;2.512\n",
-            table,
-            "A2: is `26.500` 26.500 or 26500? No number of the table shows which: say --decimal point or --decimal comma",
+            "cycles;pinion;gear\n100000;1.234;2.512\n",
+            "import table.csv --study study.toml --test A --sigma 0.2 --quantity mass_loss",
+            "B2: is `1.234` 1.234 or 1234? No number of the table shows which: say --decimal point or --decimal comma",
         ),
         (
             "radius;100000 [um];200000 [mm]\n26,5;1;2\n",
@@ -963,4 +963,128 @@ fn a_title_that_names_the_test_may_name_the_member_too() {
         "--test A --member pinion --unit um --sigma 0.1",
     );
     assert!(other.contains("several numbers"), "{other}");
+}
+
+/// Where every header names the one test of the table, with digits in its id, the row is still the header and no title.
+#[test]
+fn headers_that_all_name_one_test_are_a_header() {
+    let home = home();
+    let study = STUDY.replace("id = \"A\"", "id = \"V1\"");
+    fs::write(home.path().join("study.toml"), study).unwrap();
+    for [first, second] in [
+        ["Essai V1, 80000 tours", "Essai V1, 400000 tours"],
+        ["\"Essai V1, 80000 tours\"", "\"Essai V1, 400000 tours\""],
+        ["Versuch V1: 80000", "Versuch V1: 400000"],
+    ] {
+        let table = format!("Rayon (mm);{first};{second}\n26;1,5;2,5\n27;1,2;2,2\n");
+        let (_, written) = rows(&home, &table, "--member pinion --sigma 0.1");
+        assert!(
+            written.contains("V1,pinion,80000,wear_depth,26,1.5,")
+                && written.contains("V1,pinion,400000,wear_depth,27,2.2,"),
+            "{first}: {written}"
+        );
+    }
+}
+
+/// Whose flank a table is of: a title that names its values and one member, or the flank on which alone its places can lie. The pinion's radii are
+/// 25 to 29 mm, the gear's 50 to 55.
+#[test]
+fn titles_and_places_say_whose_flank_a_table_is_of() {
+    let home = home();
+    let table = |title: &str, places: [&str; 3], header: &str| {
+        let [a, b, c] = places;
+        format!("{title}\n{header};80.000 LW;400.000 LW\n{a};1,5;2,5\n{b};1,2;2,2\n{c};1,1;2,1\n")
+    };
+    let of_gear = ["51,5", "52,5", "53,5"];
+    let of_pinion = ["26", "27", "28"];
+    let options = "--test A --sigma 0.1";
+    for title in [
+        "Verschlei\u{df} Rad [\u{b5}m]",
+        "Pr\u{fc}fprotokoll Verschlei\u{df} Rad",
+        "Usure roue (\u{b5}m)",
+    ] {
+        let (shown, written) = rows(&home, &table(title, of_gear, "Radius [mm]"), options);
+        assert!(
+            written.contains("A,gear,80000,wear_depth,51.5,1.5,"),
+            "{written}"
+        );
+        let says = format!("layout   row 1, `{title}`: member gear\n");
+        assert!(shown.contains(&says), "no `{says}` in:\n{shown}");
+        assert!(!shown.contains("passed over"), "{shown}");
+    }
+    // roll angles lie on both flanks: a title that names one settles it
+    let angles = table(
+        "Usura pignone [um]",
+        ["18", "20", "22"],
+        "angolo di rotolamento [deg]",
+    );
+    let (_, written) = rows(&home, &angles, options);
+    assert!(written.contains("A,pinion,80000,"), "{written}");
+    let angles = angles.replace("Usura pignone", "Gear wear");
+    let message = refused(&home, &angles, options);
+    assert!(message.contains("say whose they are"), "{message}");
+    // nothing says it, or says otherwise
+    let (shown, written) = rows(&home, &table("", of_gear, "Radius [mm]"), options);
+    assert!(written.contains("A,gear,80000,"), "{written}");
+    assert!(
+        shown.contains(
+            "layout   these places lie on the gear's flank alone: taken for the gear's\n"
+        ),
+        "{shown}"
+    );
+    let (shown, written) = rows(
+        &home,
+        &table("Verschlei\u{df} Rad", of_pinion, "Radius"),
+        options,
+    );
+    assert!(written.contains("A,pinion,80000,"), "{written}");
+    assert!(
+        shown.contains("taken for the pinion's, though row 1 says `Verschlei\u{df} Rad`"),
+        "{shown}"
+    );
+    // they may be the pinion's diameters
+    for unclear in [
+        table("", of_gear, "Ort"),
+        table("Verschlei\u{df} Ritzel", of_gear, "Radius"),
+    ] {
+        let message = refused(&home, &unclear, options);
+        assert!(
+            message.contains("the header (80.000 to 400.000)")
+                && message
+                    .contains("they lie on the gear's flank: if they are that, say --member gear"),
+            "{message}"
+        );
+    }
+}
+
+/// A place tells what its mark is where it lies on a flank in one of the two readings: the gear's radii are 50 to 55 mm.
+#[test]
+fn a_place_on_the_flank_tells_decimals_from_thousands() {
+    let home = home();
+    for places in [["52,221", "53,489"], ["52.221", "53.489"]] {
+        let [first, second] = places;
+        let mark = if first.contains(',') { "," } else { "." };
+        let values = ["1.862", "2.038"].map(|value| value.replace('.', mark));
+        let [a, b] = &values;
+        let wide = format!("Rayon [mm];100000\n{first};{a}\n{second};{b}\n");
+        let long = format!(
+            "test;member;cycles;rayon [mm];depth\nA;gear;100000;{first};{a}\nA;gear;100000;{second};{b}\n"
+        );
+        for (table, options) in [
+            (wide, "--test A --member gear --sigma 0.1"),
+            (long, "--sigma 0.1"),
+        ] {
+            let (_, written) = rows(&home, &table, options);
+            assert!(
+                written.contains("A,gear,100000,wear_depth,52.221,1.862,"),
+                "{table}{written}"
+            );
+        }
+    }
+    let (_, written) = rows(
+        &home,
+        "radius;100000\n26.500;1.234\n27.000;2.512\n",
+        "--test A --sigma 0.2",
+    );
+    assert!(written.contains("wear_depth,26.5,1.234,"), "{written}");
 }

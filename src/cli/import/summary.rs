@@ -76,10 +76,11 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         wide.quantity.name()
     );
     line(&mut text, "values", &values);
+    let unit = wide.quantity.shown_unit();
     line(
         &mut text,
         "sigma",
-        &stated_sigma(args, &wide.quantity.shown_unit()),
+        &sigma(args, wide.has_sigma, &wide.entries, &unit),
     );
     face(&mut text, args);
     let traces = match (args.no_traces, wide.position) {
@@ -165,16 +166,7 @@ pub(super) fn long(args: &ImportArgs, table: &str, long: &Long) -> String {
         .first()
         .map_or(Quantity::WearDepth, |entry| entry.quantity)
         .shown_unit();
-    let states_sigma = args.sigma.is_some() || args.relative_sigma > 0.0;
-    let sigma = match entries.iter().filter(|entry| entry.sigma.is_none()).count() {
-        _ if long.has_sigma && states_sigma => {
-            "as the column says (what the options say is of the sheets without one)".to_owned()
-        }
-        _ if states_sigma => stated_sigma(args, &unit),
-        0 => "as the column says".to_owned(),
-        n if n == entries.len() => stated_sigma(args, &unit),
-        n => format!("as the column says; empty in {n} rows, where it is estimated"),
-    };
+    let sigma = sigma(args, long.has_sigma, entries, &unit);
     line(&mut text, "sigma", &sigma);
     face(&mut text, args);
     line(&mut text, "traces", long.traces);
@@ -306,6 +298,20 @@ fn sign(turned: bool, stated: bool) -> &'static str {
 fn members(members: &[Subject]) -> String {
     let names: Vec<&str> = members.iter().map(|member| member.name()).collect();
     names.join(" ")
+}
+
+/// What states the standard deviation of the values.
+fn sigma(args: &ImportArgs, has_column: bool, entries: &[Entry], unit: &str) -> String {
+    let states_sigma = args.sigma.is_some() || args.relative_sigma > 0.0;
+    match entries.iter().filter(|entry| entry.sigma.is_none()).count() {
+        _ if has_column && states_sigma => {
+            "as the column says (what the options say is of the sheets without one)".to_owned()
+        }
+        _ if states_sigma => stated_sigma(args, unit),
+        0 => "as the column says".to_owned(),
+        n if n == entries.len() => stated_sigma(args, unit),
+        n => format!("as the column says; empty in {n} rows, where it is estimated"),
+    }
 }
 
 /// What is said of the standard deviation where no column has it.

@@ -7,23 +7,26 @@ mod durations;
 mod gauges;
 mod intervals;
 mod labels;
+mod merged;
 mod pairs;
 mod profiles;
 mod sides;
 mod speeds;
 mod torques;
+mod totals;
 mod weighings;
 
 use std::collections::BTreeSet;
 
 use super::columns::{Column, What, columns};
-use super::numbers::pointed;
+use super::numbers::{counts_without_blanks, pointed};
 use super::{ImportError, Sheet, Wanted, decimal_commas, multiples, nameless};
 use crate::measure::Quantity;
 
 pub(super) use durations::hint;
 pub(super) use labels::{flank_above, stated_above};
 pub(super) use sides::side;
+pub(super) use speeds::passed_over as speed_passed_over;
 
 /// A table with a column for everything, or one for each member.
 #[derive(Debug)]
@@ -34,6 +37,8 @@ pub(super) struct Arranged {
     pub(super) sheets: Vec<Sheet>,
     /// What was made of the table, in words.
     pub(super) said: Vec<String>,
+    /// The rows that are left out, in words.
+    pub(super) left_out: Vec<String>,
     /// Whether the values are what deviations lost, whatever the sign of these.
     pub(super) differences: bool,
     /// Of each table the rows that go on where another one ended, in the order of the stops.
@@ -94,9 +99,17 @@ fn with_header(
     head: usize,
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
-    let (sheet, named) = durations::named(sheet, head, wanted);
-    let (sheet, of_one) = sides::of_one(&sheet, head, wanted);
-    let named = [named, of_one].concat();
+    let mut sheet = sheet.clone();
+    let left_out = totals::leave_out(&mut sheet, head, wanted);
+    let filled = merged::fill(&mut sheet, head, wanted);
+    let (sheet, named) = durations::named(&sheet, head, wanted);
+    let (mut sheet, of_one) = sides::of_one(&sheet, head, wanted);
+    for column in columns(&sheet.rows[head]) {
+        if column.what.own() == Some("cycles") {
+            counts_without_blanks(&mut sheet, head, column.at);
+        }
+    }
+    let named = [filled, named, of_one].concat();
     let both = match sides::apart(&sheet, head) {
         Some(both) => completed(both, &sheet, head, wanted)?,
         None => None,
@@ -107,6 +120,7 @@ fn with_header(
     };
     Ok(found.map(|found| Arranged {
         said: [named, found.said].concat(),
+        left_out,
         ..found
     }))
 }
@@ -174,6 +188,7 @@ fn completed(
         head,
         sheets,
         said,
+        left_out: Vec::new(),
         differences,
         stops,
     }))

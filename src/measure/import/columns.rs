@@ -25,10 +25,10 @@ pub(super) enum What {
     Span(When),
     /// Chords of a tooth, of one of two measurements.
     Chord(When),
-    /// The speed of rotation in revolutions per minute, of the gear if so.
+    /// The speed of rotation in revolutions per minute, of the member that the name says.
     Speed {
-        /// Whether it is the gear's.
-        of_gear: bool,
+        /// Of which it is; none if the name does not say.
+        of: Option<Subject>,
     },
     /// A torque, of the member that the name says.
     Torque {
@@ -118,10 +118,8 @@ impl Column {
             What::Span(when)
         } else if let Some(when) = names::chord(&name) {
             What::Chord(when)
-        } else if let Some(whose) = names::speed(&name, unit.as_deref()) {
-            What::Speed {
-                of_gear: whose == Some(Subject::Gear),
-            }
+        } else if let Some(of) = names::speed(&name, unit.as_deref()) {
+            What::Speed { of }
         } else if let Some(of) = names::torque(&name, unit.as_deref()) {
             What::Torque { of }
         } else if names::is_flank(&name) {

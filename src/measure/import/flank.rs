@@ -2,9 +2,10 @@
 //! where no flank is that could wear.
 
 use super::place::{PositionKind, on_flank};
+use super::wanted::Wanted;
 use super::{ImportError, units};
 use crate::gear::Gear;
-use crate::measure::Subject;
+use crate::measure::{Quantity, Subject};
 
 /// Least part of a curve's places that lie on the flank it is of.
 pub(super) const MOST: f64 = 0.8;
@@ -28,6 +29,22 @@ pub(super) struct Flank<'g> {
 pub(super) enum Side {
     Below,
     Above,
+}
+
+/// Whether a number below a header can be a place on the flank of either gear.
+pub(super) fn can_be_on_a_flank(
+    number: f64,
+    header: &str,
+    quantity: Quantity,
+    wanted: &Wanted<'_>,
+) -> bool {
+    let kind = PositionKind::of(quantity, wanted.position, header);
+    let members = [Subject::Pinion, Subject::Gear].into_iter();
+    kind.has_unit()
+        && members.zip(wanted.gears).any(|(member, gear)| {
+            Flank::new(gear, member, kind, header)
+                .is_ok_and(|flank| flank.is_close(flank.radius(number)))
+        })
 }
 
 impl<'g> Flank<'g> {

@@ -10,15 +10,16 @@ mod stops;
 mod traces;
 mod weights;
 
-use super::arrange::{Arranged, arranged};
+use super::arrange::{Arranged, arranged, speed_passed_over};
 use super::columns::{Column, What, columns, known_by_content, with_sides};
 use super::entry::{Entry, state_face, state_sigma};
+use super::flank::can_be_on_a_flank;
 use super::numbers::{counts_without_thousands, with_points};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
-    no_values,
+    no_values, second_header,
 };
 use crate::measure::{Quantity, names};
 use line::Line;
@@ -39,7 +40,7 @@ pub struct Long {
     /// The columns that are read, as written, each with what it is.
     pub columns: Vec<(String, String)>,
     /// The columns that are passed over, each with the reason.
-    pub passed_over: Vec<(String, &'static str)>,
+    pub passed_over: Vec<(String, String)>,
     /// The rows that are left out because the flank does not reach there, in words.
     pub left_out: Vec<String>,
     /// Unit of the values in the table, and what states it; none where a column says what each value is.
@@ -72,10 +73,12 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             "{cell}: a formula without a stored result: open the table in the spreadsheet program and save it, then its results stand in the file"
         )));
     }
+    let (sheet, between) = &second_header::merged(sheet)?;
     let Some(Arranged {
         head,
         sheets,
         said,
+        left_out,
         differences,
         stops,
     }) = arranged(sheet, wanted)?
@@ -96,7 +99,8 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
-        arranged: [said, long.arranged].concat(),
+        arranged: [between.clone(), said, long.arranged].concat(),
+        left_out: [left_out, long.left_out].concat(),
         ..long
     }))
 }
@@ -120,9 +124,16 @@ fn of_columns(
         let others: Vec<usize> = numbers.iter().flatten().map(|read| read.at).collect();
         counts_without_thousands(&mut sheet, head, read.cycles.at, &others);
     }
-    let sheet = &with_points(&sheet, wanted.decimal, |row, column| {
-        row > head && numbers.iter().flatten().any(|read| read.at == column)
-    })?;
+    let counts = |row, column| row > head && numbers.iter().flatten().any(|read| read.at == column);
+    let is_place = |_, column, number| {
+        let quantity = match read.value.what {
+            What::Values(quantity) => quantity,
+            _ => wanted.quantity.unwrap_or(Quantity::WearDepth),
+        };
+        (read.position.filter(|position| position.at == column))
+            .is_some_and(|position| can_be_on_a_flank(number, &position.written, quantity, wanted))
+    };
+    let sheet = &with_points(&sheet, wanted.decimal, counts, is_place)?;
     let single = match (read.quantity, read.value.what) {
         (Some(_), _) => None,
         (None, what) => Some(single_quantity(&read, what, wanted)?),
@@ -212,13 +223,7 @@ fn of_columns(
         left_out,
         unit: unit.transpose()?,
         columns: read.in_words(&columns, single, &titles, wanted)?,
-        passed_over: passed_over(
-            sheet,
-            head,
-            &columns,
-            read.value,
-            wanted.per_interval.cycles,
-        ),
+        passed_over: passed_over(sheet, head, &columns, read.value, wanted),
         titles,
         turned,
         flank,
@@ -260,12 +265,13 @@ fn passed_over(
     head: usize,
     columns: &[Column],
     value: &Column,
-    numbers_intervals: bool,
-) -> Vec<(String, &'static str)> {
+    wanted: &Wanted<'_>,
+) -> Vec<(String, String)> {
+    let numbers_intervals = wanted.per_interval.cycles;
     let uses_speeds = columns
         .iter()
         .any(|column| column.what.own() == Some("cycles") && column.hours.is_some());
-    let mut passed_over: Vec<(String, &'static str)> = (columns.iter())
+    let mut passed_over: Vec<(String, String)> = (columns.iter())
         .filter_map(|column| {
             let why = match column.what {
                 What::ForPeople if column.hours.is_some() => {
@@ -281,7 +287,10 @@ fn passed_over(
                 What::Profile(_) => "another profile",
                 What::Span(_) | What::Chord(_) => "a measurement of the tooth thickness",
                 What::Flank => "one flank of each member stands in it, taken for the loaded one",
-                What::Speed { .. } if !uses_speeds => "a speed, which is the study's",
+                What::Speed { of } if !uses_speeds => {
+                    let why = speed_passed_over(sheet, head, (columns, column, of), wanted);
+                    return Some((column.written.clone(), why));
+                }
                 What::Torque { .. } => "a torque, which is the study's",
                 What::Expanded => {
                     "an expanded uncertainty that does not say its k: call it `U (k=2)` and it is read"
@@ -290,7 +299,7 @@ fn passed_over(
                 What::Values(_) if column.at != value.at => "another quantity",
                 _ => return None,
             };
-            Some((column.written.clone(), why))
+            Some((column.written.clone(), why.to_owned()))
         })
         .collect();
     let widest = sheet.rows[head..].iter().map(Vec::len).max().unwrap_or(0);
@@ -302,7 +311,8 @@ fn passed_over(
             .iter()
             .any(|row| row.get(at).is_some_and(|cell| !cell.is_empty()));
         if !named && filled {
-            passed_over.push((cell_name(head, at), "no name stands in its header"));
+            let why = "no name stands in its header".to_owned();
+            passed_over.push((cell_name(head, at), why));
         }
     }
     passed_over

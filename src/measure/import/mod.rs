@@ -28,6 +28,7 @@ mod numbers;
 mod per_interval;
 mod place;
 mod repeats;
+mod row_sigmas;
 mod second_header;
 mod sigma_unit;
 mod tests_in_headers;

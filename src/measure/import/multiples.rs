@@ -1,6 +1,7 @@
 //! Headers by which a table counts cycles in multiples: `Lastwechsel [1E6]`, `Lastwechsel in Mio.`, `0,25 [1E6]` in each of them.
 
 use super::numbers::{header_number, number_words, pointed};
+use super::wide::is_aside;
 use super::{ImportError, Sheet, cell_name, units};
 use crate::measure::names;
 
@@ -137,7 +138,7 @@ fn may_have_thousands(number: &str) -> bool {
 /// values. A title has neither.
 fn places_of_counts(row: &[String]) -> Vec<usize> {
     let is_count = |text: &String| counted(text).is_some();
-    let is_filled = |text: &&String| !text.is_empty() && !names::is_aside(text);
+    let is_filled = |text: &&String| !text.is_empty() && !is_aside(text);
     let behind: Vec<&String> = row.iter().skip(1).filter(is_filled).collect();
     let first = row.first().filter(|text| is_count(text));
     let is_value = |text: &&String| pointed(text).parse::<f64>().is_ok();

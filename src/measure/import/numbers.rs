@@ -15,14 +15,17 @@ pub enum Decimal {
     Comma,
 }
 
-/// The sheet with decimal points in its numbers; `counts` says which cells tell how decimals are written.
+/// The sheet with decimal points in its numbers; `counts` says which cells tell how decimals are written, `is_place` whether a number can be the place on a
+/// flank that a cell tells.
 ///
 /// Where nothing but marks between groups of three digits stands in the numbers (`1.234`, `26.500`), they may be marks between
-/// thousands: then it has to be said. Numbers of a spreadsheet have no marks of their own.
+/// thousands: then a place tells, which lies on the flank in one of the two readings, or it has to be said. Numbers of a spreadsheet have no marks of
+/// their own.
 pub(super) fn with_points(
     sheet: &Sheet,
     decimal: Option<Decimal>,
     counts: impl Fn(usize, usize) -> bool,
+    is_place: impl Fn(usize, usize, f64) -> bool,
 ) -> Result<Sheet> {
     let is_text = sheet.name.is_empty();
     let mut sheet = sheet.clone();
@@ -59,7 +62,10 @@ pub(super) fn with_points(
             }
             let mark = usize::from(text.contains(','));
             first[mark].get_or_insert_with(|| (cell_name(row, column), text.clone()));
-            if in_thousands(text.trim_start_matches(['+', '-'])) {
+            let is_place = |number: f64| is_place(row, column, number);
+            if in_thousands(text.trim_start_matches(['+', '-']))
+                && !is_decimal_place(text, is_place)
+            {
                 unclear.get_or_insert_with(|| (cell_name(row, column), text.clone()));
             } else {
                 clear = true;
@@ -80,6 +86,12 @@ pub(super) fn with_points(
             text.replace(['.', ','], "")
         ))),
     }
+}
+
+/// Whether a number with one mark lies on the flank if that is a decimal mark, and does not if it stands between thousands.
+fn is_decimal_place(text: &str, is_place: impl Fn(f64) -> bool) -> bool {
+    let reads_as_place = |text: String| text.parse::<f64>().is_ok_and(&is_place);
+    reads_as_place(pointed(text)) && !reads_as_place(text.replace(['.', ','], ""))
 }
 
 /// Leaves the marks between thousands out of numbers where they can be nothing else: `1.000.000`, and `250.000` in the same column.
@@ -103,15 +115,28 @@ fn leave_out_certain_thousands(sheet: &mut Sheet) {
     }
 }
 
-/// Leaves the marks between thousands out of a column of counts of a text below row `head`, where its own numbers or the decimals of the `others`
-/// tell what they are, as in measurement files.
+/// Leaves blanks between thousands, `80 000`, out of a column of counts below row `head`.
+pub(super) fn counts_without_blanks(sheet: &mut Sheet, head: usize, counts: usize) {
+    let below = sheet.rows.iter_mut().skip(head + 1);
+    for text in below.filter_map(|row| row.get_mut(counts)) {
+        if let Some(plain) = without_blanks(text) {
+            *text = plain;
+        }
+    }
+}
+
+/// Leaves the marks between thousands out of a column of counts below row `head`, where its own numbers or the decimals of the `others`
+/// tell what they are, as in measurement files. Of a spreadsheet its counts have to be texts: its own numbers have no marks but decimal points.
 pub(super) fn counts_without_thousands(
     sheet: &mut Sheet,
     head: usize,
     counts: usize,
     others: &[usize],
 ) {
-    let is_text = sheet.name.is_empty();
+    // a number of a spreadsheet has no zero at the end of its decimals
+    let is_typed = |text: &String| in_thousands(text) && text.ends_with('0');
+    let mut typed = sheet.rows[head + 1..].iter();
+    let is_text = sheet.name.is_empty() || typed.any(|row| row.get(counts).is_some_and(is_typed));
     if !is_text {
         return;
     }
@@ -233,14 +258,15 @@ pub(super) fn plain_count(
     plain_cycles(text, row, column)
 }
 
-/// The header row `head` without marks between the thousands of its numbers, where one with several (`1.000.000`) tells what they are; or where they are commas and
-/// the values below have points as decimal marks.
+/// Leaves blanks between thousands out of the header row `head` and the first column, and marks out of the header, where one number there with several
+/// (`1.000.000`) tells what they are; or where they are commas and the values below have points as decimal marks.
 pub(super) fn without_thousands(sheet: &mut Sheet, decimal: Option<Decimal>, head: usize) {
     let marked = |text: &String, least: usize| {
         let words = number_words(text).into_iter();
         let several = |word: &&str| in_thousands(word) && word.matches(['.', ',']).count() >= least;
         words.filter(several).map(str::to_owned).next()
     };
+    counts_without_blanks(sheet, head, 0);
     // the numbers of a spreadsheet's cells say nothing of how its texts are written
     let is_text = sheet.name.is_empty() && decimal != Some(Decimal::Comma);
     let (above, below) = sheet.rows.split_at_mut(head + 1);
@@ -307,6 +333,13 @@ pub(super) fn number(text: &str, row: usize, column: usize) -> Result<f64> {
     found.ok_or_else(|| {
         if is_date(text) {
             return dated(text, row, column);
+        }
+        if text.starts_with(['<', '>', '\u{2264}', '\u{2265}']) {
+            return ImportError(format!(
+                "{}: `{text}` is a limit of detection, not a value: leave the cell empty; a value that is only known to lie below or above a limit is \
+                 not used",
+                cell_name(row, column)
+            ));
         }
         ImportError(format!(
             "{}: `{text}` is not a number; leave cells without a value empty",

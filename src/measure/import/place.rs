@@ -88,6 +88,15 @@ impl PositionKind {
         }
     }
 
+    /// Whether it is stated, or a header names it and leaves it not to what is taken for granted.
+    pub(super) fn is_said_by(self, stated: Option<Self>, header: &str) -> bool {
+        let text = header.to_lowercase();
+        let says = |word: &str| text.contains(word);
+        let is_radius = ["radi", "raggi", "rayon"].into_iter().any(says)
+            || text.split([' ', '_', '[', '(']).next() == Some("r");
+        stated.is_some() || self != PositionKind::Radius || is_radius
+    }
+
     /// Whether it has a unit of its own.
     pub(super) fn has_unit(self) -> bool {
         !matches!(self, PositionKind::Rotation | PositionKind::Teeth)

@@ -1,7 +1,10 @@
-//! A row between the header of a wide table and its values: units of the columns, or the dates of measurement.
+//! A row between the header of a table and its values: units of the columns, or, of a wide table, the dates of measurement.
 
 use super::numbers::{is_date, pointed};
 use super::{ImportError, Sheet, cell_name, units};
+
+/// What stands below the header of a column without a unit.
+const NONE: &str = "-";
 
 /// The sheet without such rows, units put into the headers above them, and what is said of each.
 ///
@@ -15,14 +18,14 @@ pub(super) fn merged(sheet: &Sheet) -> Result<(Sheet, Vec<String>), ImportError>
         .collect();
     for rows in filled.windows(3) {
         let [head, between, first] = [rows[0], rows[1], rows[2]];
-        let begins_with_number = |row: usize| {
-            let first = sheet.rows[row].first();
-            first.is_some_and(|cell| pointed(cell).parse::<f64>().is_ok())
-        };
-        if !begins_with_number(first) || begins_with_number(between) || begins_with_number(head) {
+        let begins_with_number =
+            |row: usize| sheet.rows[row].first().is_some_and(|cell| is_number(cell));
+        // the values of a long table begin with words
+        let holds_number = sheet.rows[first].iter().any(|cell| is_number(cell));
+        if !holds_number || begins_with_number(between) || begins_with_number(head) {
             continue;
         }
-        if is_of_dates(&sheet.rows[between]) {
+        if begins_with_number(first) && is_of_dates(&sheet.rows[between]) {
             said.push(format!("row {} holds dates: passed over", between + 1));
             sheet.rows[between].clear();
         } else if is_of_units(&sheet.rows[between]) {
@@ -34,6 +37,10 @@ pub(super) fn merged(sheet: &Sheet) -> Result<(Sheet, Vec<String>), ImportError>
     Ok((sheet, said))
 }
 
+fn is_number(cell: &str) -> bool {
+    pointed(cell).parse::<f64>().is_ok()
+}
+
 /// Whether all but the first cell are dates or empty.
 fn is_of_dates(cells: &[String]) -> bool {
     let mut dates = cells.iter().skip(1).filter(|cell| !cell.is_empty());
@@ -42,12 +49,18 @@ fn is_of_dates(cells: &[String]) -> bool {
 
 fn is_of_units(cells: &[String]) -> bool {
     let mut named = cells.iter().filter(|cell| !cell.is_empty());
-    named.clone().count() > 1 && named.all(|cell| units::is_unit(unit(cell)))
+    named.clone().count() > 1
+        && named.clone().any(|cell| unit(cell) != NONE)
+        && named.all(|cell| unit(cell) == NONE || units::is_unit(unit(cell)))
 }
 
-/// Without brackets.
+/// Without brackets around it.
 fn unit(cell: &str) -> &str {
-    units::bracketed(cell).unwrap_or(cell).trim()
+    let cell = cell.trim();
+    let is_bracketed = cell.starts_with(['[', '(']);
+    units::bracketed(cell)
+        .filter(|_| is_bracketed)
+        .unwrap_or(cell)
 }
 
 fn put_into_headers(sheet: &mut Sheet, head: usize, between: usize) -> Result<(), ImportError> {
@@ -59,6 +72,9 @@ fn put_into_headers(sheet: &mut Sheet, head: usize, between: usize) -> Result<()
             continue;
         }
         let below = unit(below);
+        if below == NONE {
+            continue;
+        }
         match units::bracketed(header).filter(|stated| units::is_unit(stated)) {
             None => *header = format!("{header} [{below}]"),
             Some(stated) if units::are_same(stated, below) => {}
@@ -102,6 +118,11 @@ mod tests {
             "26.0|1.5|3.2",
         ];
         assert!(merged(&dates).unwrap()[1].is_empty());
+        let long = ["Run|Revs|Radius|Depth", "|-|mm|\u{b5}m", "A|80000|26.0|1.5"];
+        assert_eq!(
+            merged(&long).unwrap()[0],
+            ["Run", "Revs", "Radius [mm]", "Depth [\u{b5}m]"]
+        );
         // what the header states too; another one; words
         assert!(merged(&["Radius [mm]|1e5 [um]", "mm|um", "26|1.5"]).is_ok());
         assert!(merged(&["Radius [mm]|1e5 [mm]", "mm|um", "26|1.5"]).is_err());

@@ -8,11 +8,11 @@ use crate::measure::Quantity;
 /// Least and largest coverage factor that is believed.
 const COVERAGE: [f64; 2] = [1.0, 5.0];
 
-/// From the column's unit to the quantity's own, and from an expanded uncertainty to one standard deviation. Beside values in another unit
+/// From the column's unit to the quantity's own beside values in a unit that is stated, and from an expanded uncertainty to one standard deviation. Beside values in another unit
 /// the column has to state its own.
 pub(super) fn factor(
     sigma: &Column,
-    value: &Column,
+    of_values: Option<&str>,
     (head, quantity): (usize, Quantity),
     wanted: &Wanted<'_>,
 ) -> Result<f64, ImportError> {
@@ -25,7 +25,7 @@ pub(super) fn factor(
         ));
     }
     let unit = sigma.unit.as_deref();
-    let to_own = match (unit, value.unit.as_deref(), wanted.unit) {
+    let to_own = match (unit, of_values, wanted.unit) {
         (Some("%"), _, _) if quantity != Quantity::LoadShare => refuse(format!(
             "a share of each value is no sigma; write it in {}, or leave the column out and say --sigma and --relative-sigma 0.03",
             quantity.shown_unit()

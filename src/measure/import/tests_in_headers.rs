@@ -3,9 +3,8 @@
 use super::arrange::stated_above;
 use super::columns::half_understood;
 use super::wanted::Wanted;
-use super::wide::{Wide, header, of_one_test};
+use super::wide::{Wide, header, is_aside, of_one_test};
 use super::{ImportError, Sheet, cell_name, multiples, second_header};
-use crate::measure::names;
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -87,7 +86,7 @@ fn tests_of_columns<'w>(
     };
     let cells = sheet.rows[head].iter().enumerate().skip(1);
     let cells: Vec<(usize, &String)> = cells
-        .filter(|(_, text)| !text.is_empty() && !names::is_aside(text))
+        .filter(|(_, text)| !text.is_empty() && !is_aside(text))
         .collect();
     let named: Vec<OfTest<'w>> = (cells.iter())
         .filter_map(|&(column, text)| {

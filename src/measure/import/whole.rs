@@ -3,11 +3,12 @@
 use super::entry::Entry;
 use super::multiples::Multiple;
 use super::numbers::{number, plain_cycles, with_points, without_thousands};
+use super::row_sigmas::RowSigmas;
 use super::titles::Titles;
 use super::wanted::Wanted;
 use super::wide::{
     Across, Wide, across_numbers, checkpoint, counts_gear_revolutions, down_numbers, header,
-    in_order, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
+    in_order, is_aside, leave_out_what_is_for_people, no_header, refuse_twice_in_a_line, unit_of,
 };
 use super::{
     ImportError, Sheet, cell_name, counts, decimal_commas, footers, header_points, long, nameless,
@@ -54,9 +55,8 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     decimal_commas::refuse(sheet, head)?;
     let mut sheet = sheet.clone();
     without_thousands(&mut sheet, wanted.decimal, head);
-    let mut sheet = with_points(&sheet, wanted.decimal, |row, column| {
-        row > head && column > 0
-    })?;
+    let counts = |row, column| row > head && column > 0;
+    let mut sheet = with_points(&sheet, wanted.decimal, counts, |_, _, _| false)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple
@@ -65,6 +65,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     if let Some(plain) = without_points.filter(|_| multiple.is_none()) {
         sheet = plain;
     }
+    let sigmas = RowSigmas::taken(&mut sheet, head, wanted)?;
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
@@ -107,6 +108,9 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     let (mut left_out, _) = no_values::leave_out(&mut entries, sheet);
     left_out.extend(below);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).collect();
+    if let Some(sigmas) = &sigmas {
+        arranged.push(sigmas.state(&mut entries, (quantity, &unit.0), wanted)?);
+    }
     let mut differences = false;
     if quantity == Quantity::MassLoss && !speaks_of_loss(sheet, head) {
         let way_out = "add those of the new parts, at 0, and the losses are taken from them; if the values are what was lost since the start, write \
@@ -122,7 +126,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     if differences {
         (wanted.per_interval).refuse_differences(&[Quantity::MassLoss])?;
     }
-    arranged.extend(in_order(&mut entries, wanted)?);
+    arranged.extend(in_order(&mut entries, sigmas.is_some(), wanted)?);
     let mut checkpoints: Vec<f64> = entries.iter().map(|entry| entry.cycles).collect();
     checkpoints.dedup();
     Ok(Wide {
@@ -143,6 +147,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
         passed_over,
         left_out,
         empty,
+        has_sigma: sigmas.is_some(),
         entries,
     })
 }
@@ -171,7 +176,7 @@ fn is_header_of_members(row: &[String]) -> bool {
     let mut names = row
         .iter()
         .skip(1)
-        .filter(|cell| !cell.is_empty() && !names::is_aside(cell));
+        .filter(|cell| !cell.is_empty() && !is_aside(cell));
     let is_member = |cell: &String| {
         names::one_member(cell).is_some() && !cell.contains(|c: char| c.is_ascii_digit())
     };

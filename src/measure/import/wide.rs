@@ -3,17 +3,20 @@
 mod grid;
 mod reading;
 mod running_times;
+mod whose;
 
 use self::grid::{Grid, Places};
 use self::reading::Reading;
 use super::arrange::{self, flank_above};
 use super::entry::{Entry, name_repeats, refuse_twice, state_face, state_sigma};
+use super::flank::can_be_on_a_flank;
 use super::multiples::{self, Multiple};
 use super::numbers::{
     header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
     without_thousands,
 };
 use super::place::{PositionKind, on_flank};
+use super::row_sigmas::{self, RowSigmas};
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
@@ -68,6 +71,8 @@ pub struct Wide {
     pub left_out: Vec<String>,
     /// Cells without a value.
     pub empty: usize,
+    /// Whether a column states the standard deviations of each row.
+    pub has_sigma: bool,
     /// Rows of a measurement file.
     pub entries: Vec<Entry>,
 }
@@ -85,16 +90,17 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let head = header(sheet)?;
     decimal_commas::refuse(sheet, head)?;
     let test = wanted.one_test(sheet)?;
-    let stated_member =
-        (wanted.stated_member(sheet, quantity)?).or_else(|| member_of_corner(sheet, head));
-    let member = stated_member.unwrap_or(Subject::Pinion);
     let mut sheet = sheet.clone();
     without_thousands(&mut sheet, wanted.decimal, head);
-    let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head)?;
+    let corner = sheet.rows[head].first().cloned().unwrap_or_default();
+    let is_place =
+        |_, column, number| column == 0 && can_be_on_a_flank(number, &corner, quantity, wanted);
+    let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head, is_place)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple
     });
+    let sigmas = RowSigmas::taken(&mut sheet, head, wanted)?;
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
@@ -107,6 +113,8 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let sheet = &sheet;
     let mut grid = Grid::of(sheet, head)?;
     let corner = grid.corner();
+    let whose = whose::of(sheet, head, &grid, quantity, wanted)?;
+    let member = whose.member;
     let places = Places::of((quantity, member), wanted, corner)?;
     let across = grid.orientation(&places, wanted.across)?;
     let are_counts = across == Across::Checkpoints && multiple.is_none();
@@ -128,7 +136,10 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let deviation = deviations::named(sheet, head, quantity, wanted);
     let is_used = |words: &str| {
         let is_of_deviations = deviation.as_ref().is_some_and(|named| named.is_of(words));
-        is_of_deviations || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())
+        let is_of_member = whose.title.as_deref() == Some(words);
+        is_of_deviations
+            || is_of_member
+            || names::is_flank(words.split([' ', ':']).next().unwrap_or_default())
     };
     let titles = Titles::of(sheet, head, quantity)?.without(is_used);
     let unit = wanted.unit_of_values(quantity, said, titles.unit.as_deref())?;
@@ -149,16 +160,20 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let (mut entries, empty) = reading.entries(&grid)?;
     left_out.extend(below);
     left_out.extend(no_values::leave_out(&mut entries, sheet).0);
-    if stated_member.is_none() {
+    if !whose.is_said {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
     }
     let joined = wanted.there.join(&mut entries, true);
     let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).chain(times).collect();
+    arranged.extend(whose.said);
+    if let Some(sigmas) = &sigmas {
+        arranged.push(sigmas.state(&mut entries, (quantity, &unit.0), wanted)?);
+    }
     if let Some(named) = &deviation {
         let states_sign = turned || titles.lost_is_negative.is_some();
         arranged.push(named.as_depths(&mut entries, (states_sign, turned), wanted)?);
     }
-    arranged.extend(in_order(&mut entries, wanted)?);
+    arranged.extend(in_order(&mut entries, sigmas.is_some(), wanted)?);
     let [column_numbers, row_numbers] = grid.numbers();
     let (on_flank, checkpoints) = match across {
         Across::Checkpoints => (row_numbers, column_numbers),
@@ -185,15 +200,10 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         passed_over,
         left_out,
         empty,
+        has_sigma: sigmas.is_some(),
         entries,
         test,
     })
-}
-
-/// The member that the first header names.
-fn member_of_corner(sheet: &Sheet, head: usize) -> Option<Subject> {
-    let corner = sheet.rows[head].first()?;
-    names::one_member(corner).filter(|named| named.member().is_some())
 }
 
 /// Refuses places that lie on the flank of either member, where nothing says whose they are.
@@ -232,8 +242,12 @@ fn refuse_either_flank(
     )))
 }
 
-/// Sorts entries by time and place and names their traces.
-pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec<String>> {
+/// Sorts entries by time and place and names their traces; `has_sigma`: a column states their standard deviations.
+pub(super) fn in_order(
+    entries: &mut [Entry],
+    has_sigma: bool,
+    wanted: &Wanted<'_>,
+) -> Result<Vec<String>> {
     let place = |entry: &Entry| entry.position.unwrap_or(0.0);
     entries.sort_by(|a, b| {
         let by_time = a.cycles.total_cmp(&b.cycles);
@@ -250,7 +264,9 @@ pub(super) fn in_order(entries: &mut [Entry], wanted: &Wanted<'_>) -> Result<Vec
     }
     state_face(entries, wanted)?;
     name_repeats(entries);
-    state_sigma(entries, wanted)?;
+    if !has_sigma {
+        state_sigma(entries, wanted)?;
+    }
     wanted.per_interval.add_up(entries, true)
 }
 
@@ -357,11 +373,16 @@ where
     }
 }
 
+/// Whether the header of a column says that it holds no values of a checkpoint or place: notes, statistics, standard deviations.
+pub(super) fn is_aside(header: &str) -> bool {
+    names::is_aside(header) || row_sigmas::is_one(header)
+}
+
 /// Empties the columns whose header says that they are for people or sum others up, and names them.
 pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Vec<String> {
     let mut left_out = Vec::new();
     for column in 1..sheet.rows[head].len() {
-        if names::is_aside(&sheet.rows[head][column]) {
+        if is_aside(&sheet.rows[head][column]) {
             left_out.push(sheet.rows[head][column].clone());
             let cells = sheet.rows[head..].iter_mut();
             for cell in cells.filter_map(|row| row.get_mut(column)) {
@@ -377,7 +398,7 @@ pub(super) fn leave_out_what_is_for_people(sheet: &mut Sheet, head: usize) -> Ve
 pub(super) fn header(sheet: &Sheet) -> Result<usize> {
     let numbers = |row: &[String]| {
         let cells = row.iter().skip(1);
-        let cells = cells.filter(|text| !text.is_empty() && !names::is_aside(text));
+        let cells = cells.filter(|text| !text.is_empty() && !is_aside(text));
         let (all, good) = cells.fold((0, 0), |(all, good), text| {
             // that of `Lastwechsel [1E6]` is no checkpoint
             let is_number = !is_date(text)

@@ -203,6 +203,22 @@ pub(super) const SUMMARIES: [&str; 23] = [
     "promedio",
 ];
 
+/// Names of rows that add others up.
+pub(super) const TOTALS: [&str; 12] = [
+    "sum",
+    "total",
+    "totals",
+    "subtotal",
+    "summe",
+    "gesamt",
+    "gesamtsumme",
+    "zwischensumme",
+    "somma",
+    "totale",
+    "somme",
+    "suma",
+];
+
 /// Names that only hint at a column: too vague to be read as it.
 pub(super) const HINTS: [(&str, &[&str]); 5] = [
     ("sigma", &["error", "s"]),

@@ -116,7 +116,7 @@ pub(super) fn as_totals(
             cycles.cell(head)
         )));
     }
-    let read = with_points(sheet, wanted.decimal, |_, _| false)?;
+    let read = with_points(sheet, wanted.decimal, |_, _| false, |_, _, _| false)?;
     let text = |row: usize, column: Option<&Column>| -> &str {
         let cell = column.and_then(|column| read.rows[row].get(column.at));
         cell.map_or("", String::as_str)

@@ -86,7 +86,7 @@ pub(super) fn as_columns(
             }
         }
     }
-    speeds::agree(sheet, head, &speeds, wanted)?;
+    speeds::agree(sheet, head, &speeds, wanted, said)?;
     torques::agree(sheet, head, wanted, said)?;
     if speeds::are_needed(&columns(&sheet.rows[head])) {
         for speed in speeds {
@@ -122,7 +122,11 @@ pub(in crate::measure::import) fn stated_above<'w>(
         return Err(says_cycles());
     }
     let numbers = |cells: &Vec<String>| {
-        let plain = |cell: &&String| number_words(cell).len() == 1 && !cell.contains([':', '=']);
+        let plain = |cell: &&String| match wanted.test_in_header(cell) {
+            // the id of a test may hold digits of its own: `Essai V1, 80000 tours`
+            Some((_, rest)) => number_words(&rest).len() == 1,
+            None => number_words(cell).len() == 1 && !cell.contains([':', '=']),
+        };
         cells.iter().filter(plain).count()
     };
     let head = sheet.rows.iter().position(|cells| numbers(cells) > 1);

@@ -105,9 +105,8 @@ impl Pair {
         wanted: &Wanted<'_>,
     ) -> Result<Vec<Reading>, ImportError> {
         let places = [self.before.at, self.after.at];
-        let read = with_points(sheet, wanted.decimal, |row, column| {
-            row > head && places.contains(&column)
-        })?;
+        let counts = |row, column| row > head && places.contains(&column);
+        let read = with_points(sheet, wanted.decimal, counts, |_, _, _| false)?;
         let text = |sheet: &Sheet, row: usize, at: usize| -> String {
             sheet.rows[row].get(at).cloned().unwrap_or_default()
         };

@@ -39,67 +39,173 @@ pub(super) fn are_needed(columns: &[Column]) -> bool {
     columns.iter().any(is_time)
 }
 
-/// Refuses speeds that are not those of the tests.
+/// Refuses speeds that are not those of the tests, where times become revolutions by these; says of which columns they are the gear's.
 pub(super) fn agree(
     sheet: &Sheet,
     head: usize,
     above: &[Stated],
     wanted: &Wanted<'_>,
+    said: &mut Vec<String>,
 ) -> Result<(), ImportError> {
     let mut columns = columns(&sheet.rows[head]);
     known_by_content(&mut columns, sheet, head, wanted);
     if !are_needed(&columns) {
         return Ok(());
     }
-    let tests = columns
-        .iter()
-        .find(|column| column.what.own() == Some("test"));
-    let one = wanted.one_test(sheet).ok().map(|(test, _)| test);
-    for (row, cells) in sheet.rows.iter().enumerate().skip(head + 1) {
-        let text = |column: &Column| cells.get(column.at).map_or("", String::as_str);
-        if cells.iter().all(String::is_empty) {
-            continue;
-        }
-        let test = match tests {
-            Some(column) => wanted.test_of(text(column)),
-            None => one.as_deref(),
-        };
-        let Some((test, [rpm, _])) = test.and_then(|test| Some((test, wanted.run(test)?))) else {
-            continue;
-        };
-        let check = |number: &str, of_gear: bool, place: String| {
-            let ratio = if of_gear { wanted.ratio() } else { 1.0 };
-            let is_same = |speed: f64| (ratio * speed - rpm).abs() <= SAME_SPEED * rpm;
-            let mut speeds = readings(leading_number(number).0).peekable();
-            if speeds.peek().is_some() && !speeds.any(is_same) {
-                return Err(ImportError(format!(
-                    "{place} is another speed than that of test {test} in the study, {:.0} rpm: running times become revolutions by the speed of the \
-                     test; correct the one that is wrong, or write revolutions in place of times",
-                    rpm / ratio
-                )));
-            }
-            Ok(())
-        };
+    let refused = |place: String, test: &str, own: f64| {
+        Err(ImportError(format!(
+            "{place} is another speed than that of test {test} in the study, {own:.0} rpm: running times become revolutions by the speed of the \
+             test; correct the one that is wrong, or write revolutions in place of times"
+        )))
+    };
+    for (_, test, rpm) in runs(sheet, head, &columns, wanted) {
         for line in above {
-            let place = format!("row {}: `{}`", line.row + 1, line.written);
-            check(&line.number, line.of_gear, place)?;
-        }
-        for column in &columns {
-            let What::Speed { of_gear } = column.what else {
-                continue;
+            let of = if line.of_gear {
+                Subject::Gear
+            } else {
+                Subject::Pinion
             };
-            let number = text(column);
-            if !number.is_empty() {
-                let place = format!(
-                    "{}: `{number}` below `{}`",
-                    cell_name(row, column.at),
-                    column.written
-                );
-                check(number, of_gear, place)?;
+            if let Some(Is::Another(own)) = is(&line.number, Some(of), rpm, wanted.ratio()) {
+                let place = format!("row {}: `{}`", line.row + 1, line.written);
+                return refused(place, test, own);
             }
         }
     }
+    for column in &columns {
+        let What::Speed { of } = column.what else {
+            continue;
+        };
+        let told = told(sheet, head, (&columns, column, of), wanted);
+        match told {
+            Told::Another { place, test, own } => return refused(place, &test, own),
+            Told::OfGear if of.is_none() => said.push(format!("`{}`: {OF_GEAR}", column.written)),
+            _ => {}
+        }
+    }
     Ok(())
+}
+
+/// Why a column of speeds that nothing needs is passed over: whether they are those of the tests.
+pub(in crate::measure::import) fn passed_over(
+    sheet: &Sheet,
+    head: usize,
+    (columns, column, of): (&[Column], &Column, Option<Subject>),
+    wanted: &Wanted<'_>,
+) -> String {
+    match told(sheet, head, (columns, column, of), wanted) {
+        Told::Nothing => "a speed, which could not be compared with the study's".to_owned(),
+        Told::Own => "a speed, which is the study's".to_owned(),
+        Told::OfGear => OF_GEAR.to_owned(),
+        Told::Another { place, test, own } => format!(
+            "a speed, which is not the study's: {place} is another one than that of test {test}, {own:.0} rpm; correct the one that is wrong"
+        ),
+    }
+}
+
+const OF_GEAR: &str =
+    "the gear's speed, which is that of the test over the ratio of the numbers of teeth";
+
+/// What a column of speeds says beside the study.
+enum Told {
+    /// No number, or of no test.
+    Nothing,
+    /// The speeds of the tests.
+    Own,
+    /// Those of the gear in the tests.
+    OfGear,
+    /// Another speed than that of a test, where it stands and that of the test.
+    Another {
+        place: String,
+        test: String,
+        own: f64,
+    },
+}
+
+/// What a column says whose name says `of` which member it is.
+fn told(
+    sheet: &Sheet,
+    head: usize,
+    (columns, column, of): (&[Column], &Column, Option<Subject>),
+    wanted: &Wanted<'_>,
+) -> Told {
+    let mut told = Told::Nothing;
+    for (row, test, rpm) in runs(sheet, head, columns, wanted) {
+        let number = sheet.rows[row].get(column.at).map_or("", String::as_str);
+        // a column is of one member throughout
+        let of = match told {
+            Told::OfGear => Some(Subject::Gear),
+            Told::Own => Some(Subject::Pinion),
+            _ => of,
+        };
+        told = match is(number, of, rpm, wanted.ratio()) {
+            None => continue,
+            Some(Is::Pinions) => Told::Own,
+            Some(Is::Gears) => Told::OfGear,
+            Some(Is::Another(own)) => {
+                let cell = cell_name(row, column.at);
+                return Told::Another {
+                    place: format!("{cell}: `{number}` below `{}`", column.written),
+                    test: test.to_owned(),
+                    own,
+                };
+            }
+        };
+    }
+    told
+}
+
+/// The rows below a header that hold something, each with its test and the speed of that.
+fn runs<'s>(
+    sheet: &'s Sheet,
+    head: usize,
+    columns: &[Column],
+    wanted: &'s Wanted<'_>,
+) -> Vec<(usize, &'s str, f64)> {
+    let tests = columns
+        .iter()
+        .find(|column| column.what.own() == Some("test"));
+    let one = wanted.one_test(sheet).ok();
+    let one = one.and_then(|(id, _)| wanted.tests.iter().copied().find(|test| *test == id));
+    let rows = sheet.rows.iter().enumerate().skip(head + 1);
+    let filled = rows.filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
+    filled
+        .filter_map(|(row, cells)| {
+            let test = match tests {
+                Some(column) => wanted.test_of(cells.get(column.at)?),
+                None => one,
+            }?;
+            let [rpm, _] = wanted.run(test)?;
+            Some((row, test, rpm))
+        })
+        .collect()
+}
+
+/// Whose speed a number is.
+enum Is {
+    Pinions,
+    Gears,
+    /// Another one than this of the test.
+    Another(f64),
+}
+
+/// Whose speed a text states where the pinion of the test has `rpm`, if its column says `of` whom it is; none if it states no number.
+fn is(text: &str, of: Option<Subject>, rpm: f64, ratio: f64) -> Option<Is> {
+    let speeds: Vec<f64> = readings(leading_number(text).0).collect();
+    if speeds.is_empty() {
+        return None;
+    }
+    let is = |own: f64| {
+        let is_same = |speed: &f64| (speed - own).abs() <= SAME_SPEED * own;
+        speeds.iter().any(is_same)
+    };
+    let of_gear = rpm / ratio;
+    Some(match of {
+        Some(Subject::Gear) if is(of_gear) => Is::Gears,
+        Some(Subject::Gear) => Is::Another(of_gear),
+        _ if is(rpm) => Is::Pinions,
+        None if is(of_gear) => Is::Gears,
+        _ => Is::Another(rpm),
+    })
 }
 
 /// A text's number and what stands behind it.

@@ -85,8 +85,12 @@ impl Line<'_> {
         let written_sigma = match (sigma, self.text(sigma)) {
             (None, _) | (_, "") => None,
             (Some(column), text) => {
-                let factor =
-                    sigma_unit::factor(column, value, (self.read.head, quantity), self.wanted)?;
+                let factor = sigma_unit::factor(
+                    column,
+                    value.unit.as_deref(),
+                    (self.read.head, quantity),
+                    self.wanted,
+                )?;
                 Some(rounded(factor * number(text, self.row, column.at)?))
             }
         };

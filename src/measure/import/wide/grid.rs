@@ -1,14 +1,13 @@
 //! The columns and rows of a wide table with the number of each, and which of both are places.
 
-use super::{
-    Across, Result, across_numbers, checkpoint, down_numbers, from_to, refuse_twice_in_a_line,
-};
+use super::{Across, Result, across_numbers, checkpoint, down_numbers, refuse_twice_in_a_line};
 use crate::gear::Gear;
 use crate::measure::import::flank::{Flank, MOST, Side};
-use crate::measure::import::numbers::plain_cycles;
+use crate::measure::import::numbers::{number_words, plain_cycles};
 use crate::measure::import::place::PositionKind;
 use crate::measure::import::wanted::Wanted;
 use crate::measure::import::{ImportError, Sheet, cell_name, units};
+use crate::measure::thousands::in_thousands;
 use crate::measure::{Quantity, Subject};
 
 /// How places on a flank are told.
@@ -141,7 +140,8 @@ impl<'s> Grid<'s> {
                 "both the first column and the header could be {what}: say --columns checkpoints or --columns positions"
             ))),
             (false, false) => {
-                let [[from, to], [row_from, row_to]] = self.numbers().map(|all| from_to(&all));
+                let [from, to] = self.ends(&self.across, |at| (self.head, at));
+                let [row_from, row_to] = self.ends(&self.down, |at| (at, 0));
                 let first = self.first_off(places, [good(&self.down), good(&self.across)]);
                 Err(ImportError(format!(
                     "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}{}: look at --member, at \
@@ -150,6 +150,23 @@ impl<'s> Grid<'s> {
                 )))
             }
         }
+    }
+
+    /// The least and the largest number of a line, as written where a mark may stand between thousands: `80.000`.
+    fn ends(&self, line: &Line, cell: impl Fn(usize) -> (usize, usize)) -> [String; 2] {
+        let shown = |end: Option<&(usize, f64)>| {
+            end.map_or_else(String::new, |&(at, number)| {
+                let (row, column) = cell(at);
+                let mut words = number_words(self.cell(row, column)).into_iter();
+                let marked = words.find(|word| in_thousands(word));
+                marked.map_or_else(|| number.to_string(), str::to_owned)
+            })
+        };
+        let by_number = |a: &&(usize, f64), b: &&(usize, f64)| a.1.total_cmp(&b.1);
+        [
+            shown(line.iter().min_by(by_number)),
+            shown(line.iter().max_by(by_number)),
+        ]
     }
 
     /// The first number that is no place, of the first column or of the header, whichever has more `good` ones; none where both have none.

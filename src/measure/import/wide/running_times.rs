@@ -3,6 +3,7 @@
 use crate::measure::import::columns::Column;
 use crate::measure::import::numbers::{number, number_words, pointed};
 use crate::measure::import::wanted::Wanted;
+use crate::measure::import::wide::is_aside;
 use crate::measure::import::{ImportError, Sheet, cell_name, units};
 use crate::measure::names;
 
@@ -58,7 +59,7 @@ struct Time {
 
 fn in_headers(sheet: &Sheet, head: usize) -> Result<Vec<Time>, ImportError> {
     let cells = sheet.rows[head].iter().enumerate().skip(1);
-    let counts = cells.filter(|(_, text)| !text.is_empty() && !names::is_aside(text));
+    let counts = cells.filter(|(_, text)| !text.is_empty() && !is_aside(text));
     let counts: Vec<(usize, &String)> = counts.collect();
     let of = |&(column, text): &(usize, &String)| time_in(text, head, column);
     let times: Vec<Time> = counts.iter().filter_map(of).collect();
