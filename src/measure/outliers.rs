@@ -292,7 +292,7 @@ impl Dataset {
             let (value, expected) = (o.value, outlier.expected);
             let unit = o.quantity.shown_unit();
             format!(
-                "{} ({value:.4} {unit} where {expected:.4} is expected, {:.0} standard deviations)",
+                "{} ({value:.4} {unit} where {expected:.4} is expected by them, {:.0} times their scatter)",
                 self.place(o),
                 outlier.apart
             )
