@@ -21,7 +21,7 @@ use crate::study::Study;
 /// Arguments of `check`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Reads the study and its measurements, fits the model (by its analytic contact; by finite elements where something was\nmeasured over a rotation or depths have no trace; seconds) to look for wrong signs, units and zeros, and draws measurements against it. Exit code 2 where something cannot be read.\n\nExamples:\n  gearwear check study.toml\n  gearwear check study.toml -o looked-at"
+    after_help = "Reads the study and its measurements, fits the model (by its analytic contact; by finite elements where something was measured over a rotation or depths have no trace; seconds) to look for wrong signs, units and zeros, and draws measurements against it. Exit code 2 where something cannot be read.\n\nExamples:\n  gearwear check study.toml\n  gearwear check study.toml -o looked-at"
 )]
 pub struct CheckArgs {
     #[command(flatten)]

@@ -19,7 +19,7 @@ use crate::study::{Operation, Study};
 /// Arguments of `export`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The deck holds both gears in plane strain, bores rigid, the pinion under the study's torque, frictionless contact\nbetween all flanks that can touch. expected.json beside it holds what gearwear finds for the same position.\n\nExamples:\n  gearwear export study.toml --position 0.25\n  gearwear export study.toml --position 0.25 -o deck && cd deck && ccx position_0.2500"
+    after_help = "The deck holds both gears in plane strain, bores rigid, the pinion under the study's torque, frictionless contact between all flanks that can touch. expected.json beside it holds what gearwear finds for the same position.\n\nExamples:\n  gearwear export study.toml --position 0.25\n  gearwear export study.toml --position 0.25 -o deck && cd deck && ccx position_0.2500"
 )]
 pub struct ExportArgs {
     #[command(flatten)]

@@ -14,7 +14,7 @@ use crate::study::Study;
 /// Arguments of `plan`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "With measurements: all feasible tests, by how well each separates the leaders of the diagnosis in STUDYSTEM.out/diagnose if that is\nof the same study and measurements, without it the leaders by the analytic model.\nWithout: the tests that show and tell apart most effects of the catalogue.\nOnly tests are suggested that the rig can run: [rig] in the study states its limits (torque_max = 120, hours_max = 40, ...).\nTests are judged by the analytic contact model.\n\nExamples:\n  gearwear plan study.toml\n  gearwear plan study.toml --tests 3 --noise 0.05\n  gearwear plan study.toml -o results/plan --json --quiet | jq '.tests[0]'"
+    after_help = "With measurements: all feasible tests, by how well each separates the leaders of the diagnosis in STUDYSTEM.out/diagnose if that is of the same study and measurements, without it the leaders by the analytic model.\nWithout: the tests that show and tell apart most effects of the catalogue.\nOnly tests are suggested that the rig can run: [rig] in the study states its limits (torque_max = 120, hours_max = 40, ...).\nTests are judged by the analytic contact model.\n\nExamples:\n  gearwear plan study.toml\n  gearwear plan study.toml --tests 3 --noise 0.05\n  gearwear plan study.toml -o results/plan --json --quiet | jq '.tests[0]'"
 )]
 pub struct PlanArgs {
     #[command(flatten)]

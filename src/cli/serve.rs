@@ -14,7 +14,7 @@ use crate::study::Study;
 /// Arguments of `serve`.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Models: standardised (rows; 0 is the study's value, 1 a standard deviation of the prior away), forward (rows; parameters in their\nunits), log_likelihood and log_posterior. The arguments are the parameters that [fit] free names, in that order. Gradients are exact.\nThere is no password: whoever reaches the port can ask. SIGTERM or Ctrl-C ends the server, exit code 0.\n\nExamples:\n  gearwear serve study.toml\n  gearwear serve study.toml --port 8000\n  PORT=8000 gearwear serve study.toml --quiet\n  curl -d '{\"name\": \"standardised\", \"input\": [[0.0]]}' http://localhost:4242/Evaluate"
+    after_help = "Models: standardised (rows; 0 is the study's value, 1 a standard deviation of the prior away), forward (rows; parameters in their units), log_likelihood and log_posterior. The arguments are the parameters that [fit] free names, in that order. Gradients are exact.\nThere is no password: whoever reaches the port can ask. SIGTERM or Ctrl-C ends the server, exit code 0.\n\nExamples:\n  gearwear serve study.toml\n  gearwear serve study.toml --port 8000\n  PORT=8000 gearwear serve study.toml --quiet\n  curl -d '{\"name\": \"standardised\", \"input\": [[0.0]]}' http://localhost:4242/Evaluate"
 )]
 pub struct ServeArgs {
     /// Study file (TOML) with tests and measurements
