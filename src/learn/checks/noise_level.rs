@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! d_i: second differences of measured minus model along a trace ([`second_differences`](super::second_differences))
-//! σ/stated = √(median(d²/var d)/0.4549), of fourth differences where that is less
+//! σ/stated = √(median(d²/var d)/0.4549)
 //! L = −N ln(mean |d|/√var d) − Σ ln √var d                                   ln likelihood of N differences as Laplace's law has it
 //! ```
 //! 0.4549 is the median of χ² with one degree of freedom. Evidence knows only the stated σ: if that
@@ -64,16 +64,27 @@ fn of_residual(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
     let Some(scatter) = scatter.filter(|found| *found >= SMOOTH) else {
         return SigmaModel::AS_STATED;
     };
-    another_shape(rows, &differences).unwrap_or_else(|| {
-        let scatter = fourth(rows, residual).map_or(scatter, |fourth| fourth.min(scatter));
-        let tolerated = match median_points(rows) {
-            points if points < COARSE => TOLERATED_OF_COARSE,
-            _ => TOLERATED,
-        };
-        SigmaModel::Stated {
-            factor: if scatter > tolerated { scatter } else { 1.0 },
-        }
+    another_shape(rows, &differences).unwrap_or(SigmaModel::Stated {
+        factor: if scatter > TOLERATED { scatter } else { 1.0 },
     })
+}
+
+/// The same of what is to be said of measurements, where a misfit that bends between coarse points is no scatter. (A diagnosis takes its σ from what
+/// is left by the base model as a whole: so large a one keeps coarse traces from deciding by what no candidate resolves.)
+fn of_scatter_alone(rows: &[&Observation], residual: &[f64]) -> SigmaModel {
+    match of_residual(rows, residual) {
+        SigmaModel::Stated { factor } if factor > 1.0 => {
+            let scatter = fourth(rows, residual).map_or(factor, |fourth| fourth.min(factor));
+            let tolerated = match median_points(rows) {
+                points if points < COARSE => TOLERATED_OF_COARSE,
+                _ => TOLERATED,
+            };
+            SigmaModel::Stated {
+                factor: if scatter > tolerated { scatter } else { 1.0 },
+            }
+        }
+        other => other,
+    }
 }
 
 /// Scatter over stated σ by fourth differences; None of too few.
@@ -110,7 +121,7 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
     let scatter = scale(&differences(&own, &of_own), &SigmaModel::AS_STATED.of(&own));
     match scatter.filter(|found| *found < SMOOTH) {
         Some(smooth) => Some(smooth_in_words(smooth)),
-        None => scatter_in_words(of_residual(&own, &of_own)),
+        None => scatter_in_words(of_scatter_alone(&own, &of_own)),
     }
 }
 
@@ -367,7 +378,7 @@ mod tests {
                 }
             }
             let rows: Vec<&Observation> = kept.iter().collect();
-            of_residual(&rows, &own)
+            of_scatter_alone(&rows, &own)
         };
         assert_eq!(of(10, 0.1), SigmaModel::AS_STATED);
         // σ that are too small by three are found among few points too
