@@ -129,6 +129,12 @@ impl Standing {
         self.holdout.or(self.left_out)
     }
 
+    /// ln likelihood of all measurements up to a constant: the evidence of the fit tests and, given that fit, the error of the others.
+    fn log_likelihood_of_all(&self) -> f64 {
+        let error = self.error().unwrap_or(f64::INFINITY);
+        self.log_evidence - 0.5 * self.points as f64 * error
+    }
+
     /// As a step to this version from the one `before`.
     pub fn step(&self, before: Option<&Self>, effects: Vec<String>) -> ClimbStep {
         ClimbStep {

@@ -226,7 +226,7 @@ pub(in crate::learn) fn purpose(test: &NextTest, plain: &Operation) -> String {
     if test.reversed != plain.reversed {
         says.push("the other flanks, which are still new");
     }
-    if differs(test.cycles, plain.cycles) {
+    if differs(test.cycles, plain.cycles) && test.cycles > plain.cycles {
         says.push("later in life, when what runs in or sets in shows");
     }
     if says.is_empty() {

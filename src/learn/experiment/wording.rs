@@ -28,8 +28,14 @@ pub(super) fn sentence(
         0 => String::new(),
         _ => format!(": {}", purpose(&best.test, plain)),
     };
+    // what tells nothing is no advice
+    let telling = |separated: &Separated| grade(separated.chi2) != Grade::Little;
+    let begin = match best.separates.iter().any(telling) {
+        true => "Next: measure",
+        false => "No test in reach tells apart what is left; the best would be to measure",
+    };
     format!(
-        "Next: measure the {} in a test with {} ({} on the rig){purpose}. {}{}",
+        "{begin} the {} in a test with {} ({} on the rig){purpose}. {}{}",
         best.quantity.replace('_', " "),
         changes(&best.test, plain),
         duration(&best.test),

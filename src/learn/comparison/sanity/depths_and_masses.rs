@@ -5,6 +5,8 @@ use super::{EXPLAINS, FACTOR, NEAR, mass_balance, rounded, same_moments, scale};
 use crate::measure::{Quantity, Subject};
 use crate::study::Study;
 
+/// Factor within which both members are off alike.
+const ALIKE: f64 = 2.0;
 /// How far from its number of teeth the factor of either member may be.
 const NEAR_TEETH: f64 = 1.7;
 
@@ -83,9 +85,15 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
     } else {
         ("less", ratio.recip())
     };
+    // of both members alike it is not one member's
+    let alike =
+        |(_, _, (own, _)): &(Subject, f64, (f64, bool))| (own / ratio).ln().abs() < ALIKE.ln();
+    let (whose, their) = match ratios.len() > 1 && ratios.iter().all(alike) {
+        true => ("depths of both members".to_owned(), "their"),
+        false => (format!("{}'s depths", member.name()), "its"),
+    };
     Some(format!(
-        "the {}'s depths say {} times {more} wear than its masses: {hint}",
-        member.name(),
+        "the {whose} say {} times {more} wear than {their} masses: {hint}",
         rounded(by)
     ))
 }
