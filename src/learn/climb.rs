@@ -131,8 +131,8 @@ impl Standing {
 
     /// ln likelihood of all measurements up to a constant: the evidence of the fit tests and, given that fit, the error of the others.
     fn log_likelihood_of_all(&self) -> f64 {
-        let error = self.error().unwrap_or(f64::INFINITY);
-        self.log_evidence - 0.5 * self.points as f64 * error
+        let of_others = self.error().map_or(0.0, |error| self.points as f64 * error);
+        self.log_evidence - 0.5 * of_others
     }
 
     /// As a step to this version from the one `before`.
