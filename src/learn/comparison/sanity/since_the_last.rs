@@ -3,8 +3,7 @@
 //! ```text
 //! W_i of a member: s·l of the traces at one moment, or the mass; l_i: the model's largest depth, or mass       (s: measured over model)
 //! χ² of W = a·l and of W = b·(l_i − l_(i−1)), with σ of W and 5 % for what the model lacks, over all of a test
-//! asked: the first above 10 per degree of freedom and six times the second, that below 2.5, and less for each member and quantity;
-//!        of one test among others: fifteen times, below 1.2
+//! asked: the first above 10 per degree of freedom and six times the second, that below 2.5, and less for each member and quantity
 //! ```
 //! Where one of both quantities counts so, [`super::same_moments`] finds it by the other.
 
@@ -26,9 +25,6 @@ const LACKING: f64 = 0.05;
 const OFF: f64 = 10.0;
 const FOLLOWS: f64 = 2.5;
 const RATIO: f64 = 6.0;
-/// The last two for one test alone, which causes of its own may have worn so.
-const FOLLOWS_ALONE: f64 = 1.2;
-const RATIO_ALONE: f64 = 15.0;
 
 /// What a member has lost at one moment.
 struct Loss {
@@ -39,22 +35,20 @@ struct Loss {
 
 /// A question about the tests of which all wear is in proportion to the intervals between measurements.
 pub(super) fn since_the_last(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
-    let follow = |follows: f64, ratio: f64| -> Vec<&str> {
-        let tests = by_test(study, rows).filter(|(_, own)| {
-            let parts = [Subject::Pinion, Subject::Gear]
-                .into_iter()
-                .flat_map(|member| {
-                    [Quantity::WearDepth, Quantity::MassLoss]
-                        .map(|quantity| losses(own, member, quantity))
-                });
-            let parts: Vec<Vec<Loss>> = parts.filter(|part| part.len() >= SEVERAL).collect();
-            follow_intervals(&parts, follows, ratio)
-        });
-        tests.map(|(id, _)| id).collect()
-    };
-    let mut tests = follow(FOLLOWS, RATIO);
+    let tests = by_test(study, rows).filter(|(_, own)| {
+        let parts = [Subject::Pinion, Subject::Gear]
+            .into_iter()
+            .flat_map(|member| {
+                [Quantity::WearDepth, Quantity::MassLoss]
+                    .map(|quantity| losses(own, member, quantity))
+            });
+        let parts: Vec<Vec<Loss>> = parts.filter(|part| part.len() >= SEVERAL).collect();
+        follow_intervals(&parts)
+    });
+    let tests: Vec<&str> = tests.map(|(id, _)| id).collect();
+    // one among others may have worn so by a cause of its own
     if tests.len() == 1 && by_test(study, rows).count() > 1 {
-        tests = follow(FOLLOWS_ALONE, RATIO_ALONE);
+        return None;
     }
     (!tests.is_empty()).then(|| {
         format!(
@@ -66,8 +60,8 @@ pub(super) fn since_the_last(study: &Study, rows: &[FittedRow<'_>]) -> Option<St
     })
 }
 
-/// Whether the losses of a test, by rising cycles for each member and quantity, do: up to a χ² per degree of freedom, by a ratio of both χ².
-fn follow_intervals(parts: &[Vec<Loss>], follows: f64, ratio: f64) -> bool {
+/// Whether the losses of a test, by rising cycles for each member and quantity, follow the intervals.
+fn follow_intervals(parts: &[Vec<Loss>]) -> bool {
     let freedom: usize = parts.iter().map(|part| part.len() - 1).sum();
     let chi2 = |part: &Vec<Loss>| {
         let totals: Vec<f64> = part.iter().map(|loss| loss.model).collect();
@@ -80,8 +74,8 @@ fn follow_intervals(parts: &[Vec<Loss>], follows: f64, ratio: f64) -> bool {
     parts.len() >= TWICE
         && each.iter().all(|[totals, intervals]| intervals < totals)
         && totals > OFF * freedom as f64
-        && intervals < follows * freedom as f64
-        && totals > ratio * intervals
+        && intervals < FOLLOWS * freedom as f64
+        && totals > RATIO * intervals
 }
 
 /// χ² of losses in proportion to these.
@@ -150,7 +144,7 @@ mod tests {
                 });
                 losses.collect::<Vec<Loss>>()
             };
-            follow_intervals(&[part(), part()], FOLLOWS, RATIO)
+            follow_intervals(&[part(), part()])
         };
         assert!(of([0.82, 3.15, 4.05]));
         assert!(!of([0.82, 3.95, 8.1]));
