@@ -628,7 +628,7 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
                 times(cells, 1e-3);
             }
         },
-        &["times more wear than its masses", "look like g"],
+        &["times more wear than their masses", "look like g"],
     );
     told(
         &|cells| {
@@ -650,7 +650,7 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
             }
         },
         &[
-            "times less wear than its masses: the masses look like µg, or like mg that were taken for g",
+            "times less wear than their masses: the masses look like µg, or like mg that were taken for g",
         ],
     );
     told(
@@ -721,7 +721,7 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
         },
         &[
             "in test B the",
-            "times less wear than its masses",
+            "times less wear than",
             "look like mm",
         ],
     );

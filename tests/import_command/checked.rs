@@ -207,7 +207,7 @@ fn a_check_of_a_wrong_unit_does_not_wear_teeth_away() {
     let output = check.timeout(Duration::from_secs(60)).output().unwrap();
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(
-        said.contains("times less wear than its masses"),
+        said.contains("times less wear than their masses"),
         "{:?} {said}",
         output.status
     );
