@@ -719,11 +719,7 @@ fn measurements_that_cannot_be_meant_so_are_told_first() {
                 times(cells, 1e-3);
             }
         },
-        &[
-            "in test B the",
-            "times less wear than",
-            "look like mm",
-        ],
+        &["in test B the", "times less wear than", "look like mm"],
     );
     told(
         &|cells| {
