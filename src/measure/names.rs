@@ -1,9 +1,10 @@
 //! Names that people give to columns of tables and to what stands in them, in English, German, Italian, French and Spanish, and what
-//! they are in a measurement file. [`folded`] says what does not count in a name; the words themselves stand in `vocabulary`, those for counts,
-//! times and speeds in `counting`.
+//! they are in a measurement file. [`folded`] says what does not count in a name; the words themselves stand in `vocabulary`, those for what
+//! is measured in `measured`, those for counts, times and speeds in `counting`.
 
 mod conditions;
 mod counting;
+mod measured;
 mod uncertainties;
 mod vocabulary;
 
@@ -11,10 +12,13 @@ use super::quantity::{Quantity, Subject};
 
 pub(super) use conditions::{hours, hours_of_unit, is_time, newton_metres, speed, torque};
 use counting::{AROUND_POWER, CYCLES, MULTIPLES, POWERS};
+use measured::{
+    CHORDS, DEVIATIONS, LOSSES, MASSES, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, SPANS,
+};
 pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
-    AFTER, BEFORE, CHORDS, COLUMNS, DEVIATIONS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, LOSSES, MASSES,
-    MEMBERS, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, REPEATS, SPANS, STOPS, SUMMARIES, TOTALS,
+    AFTER, BEFORE, COLUMNS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEMBERS, REPEATS, STOPS, SUMMARIES,
+    TOTALS,
 };
 
 /// Which of two measurements of a part.

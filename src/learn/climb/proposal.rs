@@ -229,6 +229,9 @@ mod tests {
             ("lubricant_ageing", of(6510.2, 0.915), true),
         ];
         assert_eq!(choose(&all).unwrap().place, 0);
+        // 444 × 0.027/2 = 6 is less than 8
+        let near = [all[0], ("lubricant_ageing", of(6510.2, 0.889), true)];
+        assert_eq!(choose(&near).unwrap().place, 0);
         let clear = [all[0], ("lubricant_ageing", of(6510.2, 0.8), true)];
         assert_eq!(choose(&clear).unwrap().place, 1);
     }

@@ -319,6 +319,8 @@ pub(in crate::learn) mod tests {
             assert!(o.misalignment_mm == 0.0 && !o.reversed);
             assert!(shown(o).hours() <= 8.0 + 1e-9, "{o:?}");
         }
+        // a shift at 2000 rpm: 60 · 2000 · 8
+        assert_eq!(grid[0].1.cycles, 960e3);
         // 100, 50 and 120 N m by 2000, 1500 and 6000 rpm; a longer test would take 25 h
         assert_eq!(grid.len(), 9);
         // what cannot be changed at all leaves the study's own test, at its own length

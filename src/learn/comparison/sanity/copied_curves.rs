@@ -3,29 +3,16 @@
 use std::collections::BTreeMap;
 
 use crate::measure::{Dataset, FacePlace, Observation, Quantity};
-use crate::study::{Operation, Study};
+use crate::study::Study;
 
 /// Fewest different values of a curve of which the same ones elsewhere are no chance.
 const FEWEST: usize = 5;
 
 /// A question about the first two curves with the same values, and how many more there are.
 pub(super) fn copied_curves(study: &Study, data: &Dataset) -> Option<String> {
-    // tests made alike may be computed ones, without noise
-    let may_be_alike = |a: &Observation, b: &Observation| {
-        let [a, b] = [a, b].map(|o| (&study.tests[o.test].conditions, o.cycles));
-        let own = |o: &Operation| [o.torque_nmm, o.speed_rpm, o.misalignment_mm];
-        a.1 == b.1 && own(a.0) == own(b.0)
-    };
-    let mut curves: BTreeMap<_, Vec<&Observation>> = BTreeMap::new();
-    let depths = (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
-    for o in depths {
-        let place = (o.face.map(FacePlace::key), o.tooth.as_deref());
-        let key = (o.test, o.member, o.cycles.to_bits(), o.trace, place);
-        curves.entry(key).or_default().push(o);
-    }
     let mut first: BTreeMap<Vec<u64>, &Observation> = BTreeMap::new();
     let mut copies: Vec<[&Observation; 2]> = Vec::new();
-    for own in curves.values() {
+    for own in depth_curves(data) {
         let values: Vec<u64> = own.iter().map(|o| o.value.to_bits()).collect();
         let mut different = values.clone();
         different.sort_unstable();
@@ -34,7 +21,7 @@ pub(super) fn copied_curves(study: &Study, data: &Dataset) -> Option<String> {
             continue;
         }
         match first.get(&values) {
-            Some(one) if may_be_alike(one, own[0]) => {}
+            Some(one) if may_be_alike(study, one, own[0]) => {}
             Some(one) => copies.push([one, own[0]]),
             None => {
                 first.insert(values, own[0]);
@@ -60,6 +47,27 @@ pub(super) fn copied_curves(study: &Study, data: &Dataset) -> Option<String> {
         whose(one),
         whose(other)
     ))
+}
+
+/// The depth curves of the file: one of each test, member, moment, trace and place.
+pub(super) fn depth_curves(data: &Dataset) -> Vec<Vec<&Observation>> {
+    let mut curves: BTreeMap<_, Vec<&Observation>> = BTreeMap::new();
+    let depths = (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
+    for o in depths {
+        let place = (o.face.map(FacePlace::key), o.tooth.as_deref());
+        let key = (o.test, o.member, o.cycles.to_bits(), o.trace, place);
+        curves.entry(key).or_default().push(o);
+    }
+    curves.into_values().collect()
+}
+
+/// Whether two rows are of tests made alike, after the same cycles: these may be computed ones, without noise.
+pub(super) fn may_be_alike(study: &Study, a: &Observation, b: &Observation) -> bool {
+    let own = |o: &Observation| {
+        let own = &study.tests[o.test].conditions;
+        [own.torque_nmm, own.speed_rpm, own.misalignment_mm, o.cycles]
+    };
+    own(a) == own(b)
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::measure::{Dataset, FacePlace, Observation, Quantity};
+use super::copied_curves::{depth_curves, may_be_alike};
+use crate::measure::{Dataset, Observation};
 use crate::study::Study;
 
 /// Fewest neighbouring rows, each with another value, of which the same ones elsewhere are no chance.
@@ -16,15 +17,9 @@ const FINEST: f64 = 0.2;
 ///
 /// Whole curves are [`super::copied_curves`]' to find; tests under the same conditions may be computed ones, without noise.
 pub(super) fn copied_rows(study: &Study, data: &Dataset) -> Option<String> {
-    let mut curves: BTreeMap<_, Vec<&Observation>> = BTreeMap::new();
-    let depths = (data.observations.iter()).filter(|o| o.quantity == Quantity::WearDepth);
-    for o in depths.filter(|o| o.cycles > 0.0) {
-        let place = (o.face.map(FacePlace::key), o.tooth.as_deref());
-        let key = (o.member, o.test, o.cycles.to_bits(), o.trace, place);
-        curves.entry(key).or_default().push(o);
-    }
-    let curves: Vec<Vec<&Observation>> = curves.into_values().collect();
-    let curves: Vec<&Vec<&Observation>> = curves.iter().filter(|own| is_fine(own)).collect();
+    let curves = depth_curves(data);
+    let worn = curves.iter().filter(|own| own[0].cycles > 0.0);
+    let curves: Vec<&Vec<&Observation>> = worn.filter(|own| is_fine(own)).collect();
     let mut longest: Option<Block<'_>> = None;
     for (n, one) in curves.iter().enumerate() {
         for other in &curves[n + 1..] {
@@ -95,15 +90,6 @@ fn is_fine(curve: &[&Observation]) -> bool {
     curve.len() >= FEWEST && finest <= FINEST * sigma
 }
 
-/// Whether two curves are of tests under the same conditions, after the same cycles.
-fn may_be_alike(study: &Study, a: &Observation, b: &Observation) -> bool {
-    let own = |o: &Observation| {
-        let own = &study.tests[o.test].conditions;
-        [own.torque_nmm, own.speed_rpm, own.misalignment_mm, o.cycles]
-    };
-    a.test != b.test && own(a) == own(b)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -115,7 +101,6 @@ mod tests {
         let mut text = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
         for cycles in [100_000, 200_000] {
             for i in 0..12 {
-                // steps of two in three hundred that repeat late
                 let own = f64::from(cycles) * 1e-5 * (1.0 + (i as f64 * 1.7).sin().abs());
                 let value = match same.contains(&i) {
                     true => 0.7 + (i as f64 * 0.9).cos() * 0.5,
