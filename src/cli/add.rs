@@ -23,6 +23,7 @@ use super::{CliError, Context, Outcome, inputs};
 use crate::learn::diagnose::{Decided, Verdict};
 use crate::learn::{AddedForm, ModelVersion};
 use crate::measure::Dataset;
+use crate::numeric::written;
 use crate::study::{Study, WEAR_COEFFICIENT, rounded};
 
 /// Arguments of `add`.
@@ -131,7 +132,7 @@ fn found_beside(effect: &str, decided: &Decided) -> Option<String> {
             known => known,
         })
         .collect();
-    let figure = format!("({:.1} %)", 100.0 * probability);
+    let figure = format!("({})", written::probability(*probability));
     Some(match &others[..] {
         [] => {
             format!("the diagnosis of these measurements has it all the same, by itself {figure}")
@@ -154,9 +155,9 @@ fn named_otherwise(effect: &str, decided: &Decided) -> String {
         .filter(|first| named && !possible && !holds(&first.effect, effect));
     other.map_or(String::new(), |other| {
         format!(
-            "  the diagnosis of these measurements names {} ({:.1} %), not this\n",
+            "  the diagnosis of these measurements names {} ({}), not this\n",
             other.effect,
-            100.0 * other.probability
+            written::probability(other.probability)
         )
     })
 }

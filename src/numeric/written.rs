@@ -128,8 +128,16 @@ pub fn probability(p: f64) -> String {
     } else if p < 0.001 {
         "<0.1 %".to_owned()
     } else {
-        format!("{:.1} %", 100.0 * p)
+        format!("{} %", rounded_down(100.0 * p, 1))
     }
+}
+
+/// A percentage rounded down, so that none is shown that reaches a threshold which its figure does not.
+pub fn rounded_down(percent: f64, decimals: usize) -> String {
+    // a figure that is 0.29 but for the machine's rounding is 29 %
+    let steps = 10f64.powi(decimals as i32);
+    let down = (percent * steps * (1.0 + 1e-12)).floor() / steps;
+    format!("{down:.decimals$}")
 }
 
 /// Seconds as seconds, or minutes and hours when long.
@@ -247,6 +255,10 @@ mod tests {
         assert_eq!(plain(1018.868), "1018.87");
         assert_eq!(plain(6e-10), "6·10\u{207b}\u{b9}\u{2070}");
         assert_eq!(percent(0.0123, 2), "1.2 %");
+        // 84.987 % is not the 85 % from which an effect is named
+        assert_eq!(probability(0.849_87), "84.9 %");
+        assert_eq!(probability(0.29), "29.0 %");
+        assert_eq!(rounded_down(100.0 * 0.29, 0), "29");
         assert_eq!(duration(7200.0), "2.00 h");
     }
 }

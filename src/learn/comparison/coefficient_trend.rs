@@ -1,7 +1,7 @@
-//! Whether the tests' own k follow a condition: what is taken for scatter between tests is then a law that the model lacks.
+//! Whether the tests' own k follow a condition, or their length: what is taken for scatter between tests is then a law that the model lacks.
 //!
 //! ```text
-//! ln k_i = a + b x_i + e_i        x = ln of torque or speed, or the bulk temperature/(10 K); least squares over all tests
+//! ln k_i = a + b x_i + e_i        x = ln of torque, speed or last cycles measured, or the bulk temperature/(10 K); least squares over all tests
 //!                                 told where |b| > t_{0.995}(n − 2) s_b
 //! ```
 //! Quantiles of Student's t distribution: ISO 2602 and any table of it.
@@ -25,17 +25,19 @@ const WORSE: f64 = 29.5;
 /// Least square left of ln k that is counted: no test's k is known to better than a per cent.
 const LEAST_LEFT: f64 = 1e-4;
 
-/// A condition of tests, with its name, x and the least range of that; None where a test does not state it.
-type Condition = (&'static str, fn(&Operation) -> Option<f64>, f64);
+/// A condition of tests, with its name, x of an operation and the last cycles measured, and the least range of that; None where a test does not state it.
+type Condition = (&'static str, fn(&Operation, f64) -> Option<f64>, f64);
 const TEMPERATURE: &str = "bulk temperature";
-const CONDITIONS: [Condition; 3] = [
-    ("torque", |o| Some(o.torque_nmm.ln()), RANGE),
-    ("speed", |o| Some(o.speed_rpm.ln()), RANGE),
+const CYCLES: &str = "number of cycles";
+const CONDITIONS: [Condition; 4] = [
+    ("torque", |o, _| Some(o.torque_nmm.ln()), RANGE),
+    ("speed", |o, _| Some(o.speed_rpm.ln()), RANGE),
     (
         TEMPERATURE,
-        |o| Some(0.1 * o.bulk_temperature_c?),
+        |o, _| Some(0.1 * o.bulk_temperature_c?),
         RANGE_OF_TEMPERATURE,
     ),
+    (CYCLES, |_, cycles| Some(cycles.ln()), RANGE),
 ];
 
 /// What k follows: the condition's name, b, its standard error, and the square left.
@@ -57,13 +59,17 @@ pub(in crate::learn) fn trend_of_coefficients(
     data: &Dataset,
     fit: &Fit,
 ) -> Option<String> {
-    let tests: Vec<(&Operation, f64)> = (own_coefficients(data, fit).into_iter())
-        .map(|(test, k)| (&study.tests[test].conditions, k))
+    let last_cycles = |test: usize| {
+        let rows = data.observations.iter().filter(|o| o.test == test);
+        rows.map(|o| o.cycles).fold(0.0, f64::max)
+    };
+    let tests: Vec<(&Operation, f64, f64)> = (own_coefficients(data, fit).into_iter())
+        .map(|(test, k)| (&study.tests[test].conditions, last_cycles(test), k))
         .collect();
     let mut found: Vec<Trend> = CONDITIONS
         .iter()
         .filter_map(|(name, of, least)| {
-            let points = tests.iter().map(|(o, k)| Some((of(o)?, *k)));
+            let points = (tests.iter()).map(|(o, cycles, k)| Some((of(o, *cycles)?, *k)));
             let (slope, error, left) = line(&points.collect::<Option<Vec<_>>>()?, *least)?;
             Some((*name, slope, error, left))
         })
@@ -81,6 +87,7 @@ fn in_words(found: &[Trend]) -> Option<String> {
         let turn = if *slope > 0.0 { "rises" } else { "falls" };
         let how = match *name {
             TEMPERATURE => format!("ln k by {slope:.2} ± {error:.2} in 10 K"),
+            CYCLES => format!("as cycles to the power of {slope:.2} ± {error:.2}"),
             _ => format!("as {name} to the power of {slope:.2} ± {error:.2}"),
         };
         format!("{turn} with their {name} ({how})")
@@ -135,7 +142,7 @@ mod tests {
         };
         let slope = |number: usize, tests: [(Operation, f64); 4]| {
             let (name, x, least) = CONDITIONS[number];
-            let points = tests.map(|(o, k): (Operation, f64)| (x(&o).unwrap(), k.ln()));
+            let points = tests.map(|(o, k): (Operation, f64)| (x(&o, 1e6).unwrap(), k.ln()));
             (name, line(&points, least).unwrap().0)
         };
         let of = |values: [f64; 4], at: &dyn Fn(f64) -> (Operation, f64)| values.map(at);
@@ -188,6 +195,13 @@ mod tests {
         assert!(
             warm.contains("rises with their bulk temperature (ln k by 0.25 ± 0.01 in 10 K)"),
             "{warm}"
+        );
+        // a load that rises where the tests are shorter
+        let shorter = in_words(&[("torque", 0.5, 0.01, 0.1), (CYCLES, -0.3, 0.02, 0.2)]).unwrap();
+        assert!(
+            shorter
+                .contains("and falls with their number of cycles (as cycles to the power of -0.30"),
+            "{shorter}"
         );
         // too few, or one condition for all
         assert_eq!(line(&five[..3], RANGE), None);

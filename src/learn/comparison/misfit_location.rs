@@ -12,8 +12,9 @@ use crate::learn::fitting::region::{FlankRegions, Stage, words};
 use crate::measure::{Quantity, Subject};
 use crate::numeric::written::{self, count};
 
-/// How far a cell's χ² must lie above its number of points, in standard deviations √(2n), to count as a failure.
-const SIGNIFICANT: f64 = 5.0;
+/// How far a cell's χ² must lie above its number of points, in standard deviations, to count as a failure: by chance 3 of 100 000 cells do, and
+/// measurements have some hundred of them.
+const SIGNIFICANT: f64 = 4.0;
 
 /// How many times the cycles of its first interval a test's last has to have for a wrong rate to show as an error that grows.
 const MUCH_LATER: f64 = 2.5;
@@ -188,9 +189,11 @@ fn either_sign(cell: &Cell) -> bool {
     cell.bias.abs() < 0.5 * cell.rms
 }
 
-/// How far a cell's χ² lies above its number of points, in standard deviations.
+/// How far a cell's χ² lies above its number of points, in standard deviations of a normal variable: its cube root is nearly one, also for few points
+/// (Wilson & Hilferty, Proc. Natl. Acad. Sci. 17, 1931).
 fn significance(cell: &Cell) -> f64 {
-    excess(cell) / (2.0 * cell.points as f64).sqrt()
+    let variance = 2.0 / (9.0 * cell.points as f64);
+    (cell.chi2_per_point.cbrt() - (1.0 - variance)) / variance.sqrt()
 }
 
 /// Whether the error at that place grows, falls or changes sign over the test's intervals.

@@ -78,7 +78,8 @@ pub fn prospects(study: &Study, data: &Dataset) -> Prospects {
     judge(
         speeds >= 2,
         &format!("laws of the speed (film thickness, flash temperature, dynamic load){alike}"),
-        "laws of the speed (film thickness, flash temperature, dynamic load) apart from k: a second speed",
+        "how laws of the speed (film thickness, flash temperature, dynamic load) go with the tests' speed: a second speed; at one they show only by the sliding and \
+         rolling speeds that differ along the flanks",
     );
     judge(
         temperatures >= 2,

@@ -13,6 +13,7 @@ mod copied_curves;
 mod copied_rows;
 mod cycle_units;
 mod depths_and_masses;
+mod exchanged_depths;
 mod exchanged_masses;
 mod exchanged_tests;
 mod falling;
@@ -104,6 +105,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         let k = fit.coefficient;
         // exchanged masses are at odds with the depths of both members
         said.extend(exchanged_masses::exchanged_masses(study, &rows));
+        if said.is_empty() {
+            said.extend(exchanged_depths::exchanged_depths(study, &rows));
+        }
         if said.is_empty() {
             said.extend(same_moments::increments(study, &rows));
         }

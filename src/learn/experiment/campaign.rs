@@ -243,5 +243,54 @@ fn sentence(study: &Study, made: &[ChosenTest], effects: &[String]) -> String {
         last.detectable,
         effects.len(),
         last.told_apart
-    )
+    ) + &without_the_last(made)
+}
+
+/// That the last tests bring no effect more, where that is so, with a space before it.
+fn without_the_last(made: &[ChosenTest]) -> String {
+    let (mut shown, mut brings) = (0, 0);
+    for (n, test) in made.iter().enumerate() {
+        if test.detectable > shown || !test.newly.is_empty() {
+            brings = n + 1;
+        }
+        shown = shown.max(test.detectable);
+    }
+    match made.len() - brings {
+        0 => String::new(),
+        1 => " The last test brings no effect more: leave it out where hours count.".to_owned(),
+        more => {
+            format!(
+                " The last {more} tests bring no effect more: leave them out where hours count."
+            )
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::candidate_tests::tests::plain;
+    use super::*;
+
+    #[test]
+    fn tests_that_bring_nothing_are_called_so() {
+        let test = |detectable: usize, newly: &[&str]| ChosenTest {
+            test: shown(&plain()),
+            detectable,
+            told_apart: 0,
+            newly: newly.iter().map(|name| (*name).to_owned()).collect(),
+            adds: String::new(),
+            why: String::new(),
+        };
+        let last = |made: &[ChosenTest]| without_the_last(made);
+        let (first, none) = (test(5, &[]), test(5, &[]));
+        assert_eq!(last(&[first.clone(), test(5, &["coating"])]), "");
+        assert_eq!(last(&[first.clone(), test(6, &[])]), "");
+        let one = last(&[first.clone(), test(6, &[]), test(6, &[])]);
+        assert!(
+            one.starts_with(" The last test brings no effect more"),
+            "{one}"
+        );
+        let two = last(&[first, none.clone(), none]);
+        assert!(two.starts_with(" The last 2 tests bring"), "{two}");
+    }
 }

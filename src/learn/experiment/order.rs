@@ -1,16 +1,19 @@
 //! In which order feasible tests are told, and which are not told at all.
 
-use super::candidate_tests::{ENOUGH, NextTest, ranked};
+use super::candidate_tests::{NextTest, ranked};
 use super::made_tests::MadeTest;
 use super::plan::RankedTest;
 use crate::measure::Quantity;
 
+/// Expected χ² from which a test settles what it is made for: with a standard deviation of 2√χ², it comes out below what favours one clearly (6) in
+/// one of 500 such tests.
+const SETTLES: f64 = 45.0;
 /// Relative difference of χ² up to which two tests show the same.
 const SAME: f64 = 1e-6;
 
 /// The rows in the order in which they are told.
 ///
-/// What was measured already (or nearly) is no new test. Of those that separate more than enough the cheapest stands first: without an instrument
+/// What was measured already (or nearly) is no new test. Of those that settle it the cheapest stands first: without an instrument
 /// that may not be there, then fewer hours on the rig, then fewer changes, then what takes less measuring. Then the others by what they separate, of near-equals those of fewer hours, then of fewer
 /// changes. What does not feel speed or temperature is told at one: of near-equals at the one that costs least.
 pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTest> {
@@ -27,8 +30,7 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
             .any(|other| shows_the_same(other, row))
     };
     new.retain(|row| !is_again(row));
-    let (mut enough, rest): (Vec<_>, Vec<_>) =
-        (new.into_iter()).partition(|row| row.expected_chi2 >= ENOUGH);
+    let (mut enough, rest): (Vec<_>, Vec<_>) = new.into_iter().partition(settles);
     enough.sort_by(|a, b| {
         let instrument = needs_another_instrument(a, made).cmp(&needs_another_instrument(b, made));
         let hours = a.test.hours().total_cmp(&b.test.hours());
@@ -45,6 +47,11 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
         }
     }
     told
+}
+
+/// Whether a test tells the leader from each of its rivals.
+fn settles(row: &RankedTest) -> bool {
+    row.expected_chi2 >= SETTLES && row.separates.iter().all(|pair| pair.chi2 >= SETTLES)
 }
 
 /// Whether the quantity takes more than a balance and was in no test so far.
@@ -155,6 +162,32 @@ mod tests {
         // nearly as much, and clearly less
         let rows = vec![at(600.0, 1, 20.0), at(6000.0, 1, 17.0), at(9000.0, 1, 10.0)];
         assert_eq!(order(rows), [6000.0, 600.0, 9000.0]);
+    }
+
+    /// A test that settles it in a quarter of the hours stands before one that settles it by more.
+    #[test]
+    fn more_than_what_settles_it_is_not_worth_hours() {
+        let rows = || {
+            vec![
+                row(100.0, 4e6, "wear_depth", 1, 60.0),
+                row(100.0, 1e6, "wear_depth", 1, 46.0),
+                row(100.0, 5e5, "wear_depth", 1, 20.0),
+            ]
+        };
+        let order = |rows| -> Vec<f64> {
+            let told = in_order(rows, &[]);
+            told.iter().map(|r| r.expected_chi2).collect()
+        };
+        assert_eq!(order(rows()), [46.0, 60.0, 20.0]);
+        // one rival stays
+        let mut other = rows();
+        other[1].separates = [60.0, 32.0]
+            .map(|chi2| crate::learn::experiment::plan::Separated {
+                pair: ["a".to_owned(), "b".to_owned()],
+                chi2,
+            })
+            .to_vec();
+        assert_eq!(order(other), [60.0, 46.0, 20.0]);
     }
 
     /// Another temperature is another test only where what is measured feels it.

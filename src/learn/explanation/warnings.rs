@@ -203,7 +203,13 @@ fn of_fits(base: &BaseFit, posterior: &JudgedCandidates) -> Vec<String> {
             _ => decision.probability(&leader.candidate.hypothesis()),
         };
         if probability > 0.5 {
-            warnings.extend(unheard_of(leader));
+            warnings.extend(unheard_of(leader, ""));
+        } else if decision.verdict == Verdict::Ambiguous {
+            let rivals = decision.group.iter();
+            let rivals = rivals.filter_map(|rival| Some((rival, posterior.fitted(base, rival)?)));
+            warnings.extend(
+                rivals.flat_map(|(rival, fitted)| unheard_of(fitted, &format!("{rival}: "))),
+            );
         }
     }
     warnings
@@ -310,24 +316,25 @@ fn together(fitted: &FittedCandidate) -> Vec<String> {
     act_together(&estimates, &own.iter().map(row).collect::<Vec<_>>())
 }
 
-/// Parameters of the added effects that lie outside nearly all of what the catalogue holds for possible.
-fn unheard_of(leader: &FittedCandidate) -> impl Iterator<Item = String> {
-    let candidate = &leader.candidate;
+/// Parameters of the added effects that lie outside nearly all of what the catalogue holds for possible; `whose`: with which words each begins.
+fn unheard_of(fitted: &FittedCandidate, whose: &str) -> Vec<String> {
+    let candidate = &fitted.candidate;
     let added =
-        (candidate.parameters.iter().zip(&leader.found.state.theta)).skip(candidate.inherited);
-    added.filter_map(|(parameter, &natural)| {
+        (candidate.parameters.iter().zip(&fitted.found.state.theta)).skip(candidate.inherited);
+    let outside = added.filter_map(|(parameter, &natural)| {
         let value = parameter.value(natural);
         let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
         (value < low || value > high).then(|| {
             format!(
-                "{} would be {}, known values run from {} to {}: the name holds only if such a size makes sense here",
+                "{whose}{} would be {}, known values run from {} to {}: the name holds only if such a size makes sense here",
                 parameter.name,
                 short(value),
                 short(low),
                 short(high)
             )
         })
-    })
+    });
+    outside.collect()
 }
 
 #[cfg(test)]

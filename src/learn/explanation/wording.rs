@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::ranked::parameters;
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::hypothesis::candidate::Candidate;
-use crate::numeric::written::{self, fixed, significant, uncertain};
+use crate::numeric::written::{self, fixed, rounded_down, significant, uncertain};
 
 /// The verdict in words.
 pub(super) struct Explanation {
@@ -58,7 +58,7 @@ pub(super) fn percent(p: f64) -> String {
         "under 0.1 %".to_owned()
     } else {
         let digits = usize::from(!(0.1..=0.9).contains(&p));
-        format!("{:.digits$} %", 100.0 * p)
+        format!("{} %", rounded_down(100.0 * p, digits))
     }
 }
 
