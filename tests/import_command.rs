@@ -29,6 +29,8 @@ mod losses;
 mod multiples;
 #[path = "import_command/nothing_measured.rs"]
 mod nothing_measured;
+#[path = "import_command/other_values.rs"]
+mod other_values;
 #[path = "import_command/several_tables.rs"]
 mod several_tables;
 #[path = "import_command/uncertainties.rs"]

@@ -192,18 +192,32 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
             curve
         })
         .collect();
-    // σ may be misjudged, by all curves of a quantity alike
-    let mut together: BTreeMap<Quantity, Vec<f64>> = BTreeMap::new();
+    // σ may be misjudged, by all curves of a quantity alike, or by those of a test: the middle one of tests knows nothing of one that is
+    let mut of_tests: BTreeMap<(Quantity, usize), Vec<f64>> = BTreeMap::new();
     for curve in &all {
-        let quantity = rows[curve.rows[0]].quantity;
+        let o = rows[curve.rows[0]];
         let apart = curve.all_apart().into_iter().map(|z| z * curve.scale);
-        together.entry(quantity).or_default().extend(apart);
+        of_tests
+            .entry((o.quantity, o.test))
+            .or_default()
+            .extend(apart);
+    }
+    let of_tests: BTreeMap<(Quantity, usize), f64> = (of_tests.into_iter())
+        .map(|(of, apart)| (of, scatter(apart)))
+        .collect();
+    let mut together: BTreeMap<Quantity, Vec<f64>> = BTreeMap::new();
+    for ((quantity, _), own) in &of_tests {
+        together.entry(*quantity).or_default().push(*own);
     }
     let together: BTreeMap<Quantity, f64> = (together.into_iter())
-        .map(|(quantity, apart)| (quantity, scatter(apart)))
+        .map(|(quantity, of_tests)| (quantity, median(of_tests).unwrap_or(1.0)))
+        .collect();
+    let common: BTreeMap<(Quantity, usize), f64> = (of_tests.iter())
+        .map(|(&(quantity, test), own)| ((quantity, test), own.max(together[&quantity])))
         .collect();
     for curve in &mut all {
-        let common = together[&rows[curve.rows[0]].quantity];
+        let o = rows[curve.rows[0]];
+        let common = common[&(o.quantity, o.test)];
         curve.scale = common.max(OWN * curve.scale).max(LEAST);
     }
     let mut found = Vec::new();

@@ -219,7 +219,7 @@ fn what_counts_no_revolutions_is_no_checkpoint() {
         options,
     );
     assert!(
-        stages.contains("B1: the header `stage 1` counts stages or measurements"),
+        stages.contains("B1: the header `stage 1` counts stages, teeth or measurements"),
         "{stages}"
     );
     for header in [

@@ -6,5 +6,6 @@ pub(in crate::learn) mod goodness_of_fit;
 pub(in crate::learn) mod identifiability;
 pub(in crate::learn) mod noise_level;
 pub(in crate::learn) mod outlying_curves;
+mod scatter_of_tests;
 mod second_differences;
 pub(in crate::learn) mod sufficiency;

@@ -13,6 +13,7 @@
 
 use super::common_scatter::{shared_of, without_shared};
 use super::fourth_differences::standardised_squares;
+use super::scatter_of_tests::unlike_test;
 use super::second_differences::{Difference, differences};
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::fitting::fitted::Fit;
@@ -25,7 +26,7 @@ use crate::study::{Role, Study};
 /// Differences needed for an estimate.
 const LEAST: usize = 100;
 /// Median of χ² with one degree of freedom.
-const MEDIAN: f64 = 0.454_936;
+pub(super) const MEDIAN: f64 = 0.454_936;
 /// Scatter over stated σ below which the stated σ stands: three standard errors of some hundred differences.
 const TOLERATED: f64 = 1.2;
 /// The same of traces with so few points each that what the model lacks may bend between three of them: by a relief of the tips on 15 points exact σ
@@ -118,6 +119,9 @@ pub fn stated_sigma(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> 
         Some(um) => without_shared(&own, &of_own, um),
         None => of_own,
     };
+    if let Some(test) = unlike_test(study, &own, &of_own) {
+        return Some(test);
+    }
     let scatter = scale(&differences(&own, &of_own), &SigmaModel::AS_STATED.of(&own));
     match scatter.filter(|found| *found < SMOOTH) {
         Some(smooth) => Some(smooth_in_words(smooth)),

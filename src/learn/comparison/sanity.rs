@@ -140,6 +140,9 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
         // the surer a question, the earlier
         if said.is_empty() {
+            said.extend(single_tests::rotation_of_some_tests(study, &rows));
+        }
+        if said.is_empty() {
             said.extend(exchanged_tests::exchanged_tests(study, data, fit));
         }
         if said.is_empty() {

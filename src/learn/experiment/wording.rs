@@ -1,6 +1,8 @@
 //! The table of feasible tests in sentences.
 
-use super::candidate_tests::{APART, CLEAR, NextTest, changes, duration, purpose, shown, strength};
+use super::candidate_tests::{
+    APART, CLEAR, NEARLY, NextTest, changes, duration, purpose, shown, strength,
+};
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
@@ -101,7 +103,9 @@ fn grade(chi2: f64) -> Grade {
 
 /// Says so where making a test once more is better than the best of the table.
 fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
-    let better = repetition.filter(|again| again.chi2 > best.expected_chi2);
+    // a few per cent are no reason, and neither is a test that tells nothing
+    let better =
+        repetition.filter(|again| again.chi2 >= CLEAR && NEARLY * again.chi2 > best.expected_chi2);
     better.map_or(String::new(), |again| {
         format!(
             " Repeating test {} with all its measurements does better (mean χ² {:.1} against {:.1}): make that first, where all of them can be made once \
@@ -154,7 +158,8 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             next_step(decided)
         ),
         Verdict::Unknown => format!(
-            "The diagnosis finds a cause that the catalogue does not hold ({}), of which this table cannot tell; next, by the diagnosis: {}. What follows              would separate effects that are less probable. ",
+            "The diagnosis finds a cause that the catalogue does not hold ({}), of which this table cannot tell; next, by the diagnosis: {}. What follows \
+             would separate effects that are less probable. ",
             probability(unknown),
             next_step(decided)
         ),
@@ -164,9 +169,18 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             100.0 * first.probability
         ),
         Verdict::Effect | Verdict::Effects => format!(
-            "The diagnosis has decided for {} already ({}): no test is needed for that, and what follows would only confirm it against its nearest rivals. ",
+            "The diagnosis has decided for {} already ({}): no test is needed for that{}. What follows would only confirm it \
+             against {}. ",
             first.effect,
-            probability(first.probability)
+            probability(first.probability),
+            match next_step(decided) {
+                step if step.is_empty() => step,
+                step => format!("; next, by the diagnosis: {step}"),
+            },
+            match holds_its_leaders {
+                true => "its nearest rivals",
+                false => "effects that the analytic model ranks next",
+            }
         ),
         Verdict::Partial if holds(decided, &first.effect) >= SETTLED => format!(
             "The diagnosis has settled already that {} is missing: no test is needed for that. What stands beside it this table cannot tell; next, by the \
@@ -435,9 +449,11 @@ mod tests {
             };
             sentence(&best, &plain(), Some(&again))
         };
-        assert!(again(57.7).ends_with(
-            "Repeating test B with all its measurements does better (mean χ² 57.7 against 50.0): make that first, where all of them can be made once more."
+        assert!(again(67.7).ends_with(
+            "Repeating test B with all its measurements does better (mean χ² 67.7 against 50.0): make that first, where all of them can be made once more."
         ));
         assert!(!again(49.0).contains("Repeating"));
+        // by a few per cent
+        assert!(!again(52.0).contains("Repeating"));
     }
 }

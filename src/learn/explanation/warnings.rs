@@ -39,7 +39,12 @@ pub(in crate::learn) fn warnings(
         );
     }
     warnings.extend(of_one_test(likelihood, base));
-    warnings.extend(of_sigma(likelihood, base, spoken_of(base, posterior)));
+    warnings.extend(of_sigma(
+        likelihood,
+        base,
+        spoken_of(base, posterior),
+        context.approximate,
+    ));
     warnings.extend(likelihood.measured.data.places_not_used());
     warnings.extend(of_scarcity(likelihood, base));
     warnings.extend(of_curves(likelihood, base, posterior));
@@ -78,7 +83,12 @@ fn of_one_test(likelihood: &Likelihood<'_>, base: &BaseFit) -> Option<String> {
 }
 
 /// Where the scatter is not as stated, or a few rows carry the misfit.
-fn of_sigma(likelihood: &Likelihood<'_>, base: &BaseFit, leading: &FittedCandidate) -> Vec<String> {
+fn of_sigma(
+    likelihood: &Likelihood<'_>,
+    base: &BaseFit,
+    leading: &FittedCandidate,
+    approximate: bool,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     let sigma = likelihood.noise.sigma;
     let estimated = likelihood.measured.data.estimates_sigmas();
@@ -101,7 +111,11 @@ fn of_sigma(likelihood: &Likelihood<'_>, base: &BaseFit, leading: &FittedCandida
         true => String::new(),
         false => format!(" with {}", leading.candidate.effects.in_words()),
     };
-    warnings.extend(carried_by(rows.zip(standardised), &with));
+    let or = match approximate {
+        true => ", or the analytic model is wrong there, which --fidelity middle would show",
+        false => "",
+    };
+    warnings.extend(carried_by(rows.zip(standardised), &with, or));
     // rows stand apart by so many stated sigmas
     if matches!(sigma, SigmaModel::Stated { .. }) {
         warnings.extend(likelihood.measured.data.outliers_counted());

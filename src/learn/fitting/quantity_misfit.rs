@@ -22,14 +22,15 @@ const MANY: usize = 50;
 pub fn misfit_of_one_quantity(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
     let rows = data.observations.iter().zip(&fit.rows);
     let rows = rows.filter(|(o, _)| study.tests[o.test].role == Role::Fit);
-    carried_by(rows.map(|(o, row)| (o, row.standardised)), "")
+    carried_by(rows.map(|(o, row)| (o, row.standardised)), "", "")
 }
 
 /// The quantity that carries the misfit of the fit tests' rows, each with its standardised residual, in words; None if none does. `with`: what
-/// stands in the model beside the study's own, in words.
+/// stands in the model beside the study's own, in words; `or`: another reason that there may be, in words.
 pub(in crate::learn) fn carried_by<'d>(
     rows: impl Iterator<Item = (&'d Observation, f64)>,
     with: &str,
+    or: &str,
 ) -> Option<String> {
     let observations: Vec<(&Observation, f64)> = rows.collect();
     let rows: Vec<(Quantity, f64)> = (observations.iter())
@@ -62,7 +63,7 @@ pub(in crate::learn) fn carried_by<'d>(
         (carried && scatter(quantity).is_none_or(by_sigma)).then(|| {
             format!(
                 "{:.0} % of the misfit beyond noise of the fit tests{with} is that of {count} rows of {} (χ² {own:.0} per point, the others {other:.1}): either \
-                 these values are wrong, or their sigma is too small, or the missing effect shows most in them. Look at the values and their sigma first; a sigma stated as a \
+                 these values are wrong, or their sigma is too small, or the missing effect shows most in them{or}. Look at the values and their sigma first; a sigma stated as a \
                  share of the value is too small where the value is small",
                 100.0 * share,
                 quantity.name()
@@ -125,6 +126,7 @@ mod tests {
             carried_by(
                 masses.chain((0..400).map(|_| (&depth, depth_off))),
                 " with tip_relief",
+                "",
             )
         };
         assert!(
@@ -140,13 +142,13 @@ mod tests {
         // one row makes it all
         let typo = (0..8).map(|i| (&mass, if i == 3 { 60.0 } else { 1.0 }));
         let depths = (0..400).map(|_| (&depth, 1.2));
-        assert_eq!(carried_by(typo.chain(depths), ""), None);
+        assert_eq!(carried_by(typo.chain(depths), "", ""), None);
         // or two of many
         let masses = || (0..8).map(|_| (&mass, 1.2));
         let off = |typos: usize| (0..400).map(move |i| if i < typos { 300.0 } else { 1.0 });
         let depths = |typos| off(typos).map(|z| (&depth, z));
-        assert_eq!(carried_by(masses().chain(depths(2)), ""), None);
-        assert!(carried_by(masses().chain(depths(20)), "").is_some());
+        assert_eq!(carried_by(masses().chain(depths(2)), "", ""), None);
+        assert!(carried_by(masses().chain(depths(20)), "", "").is_some());
         // transmission errors see what wears whole flanks more sharply than depths: that says nothing of their sigma
         let errors: Vec<Observation> = (0..72)
             .map(|i| Observation {
@@ -156,7 +158,7 @@ mod tests {
             .collect();
         let said = |off: &dyn Fn(usize) -> f64| {
             let errors = errors.iter().enumerate().map(|(i, error)| (error, off(i)));
-            carried_by(errors.chain((0..400).map(|_| (&depth, 2.0))), "")
+            carried_by(errors.chain((0..400).map(|_| (&depth, 2.0))), "", "")
         };
         assert_eq!(said(&|i| 6.0 + 0.02 * i as f64), None);
         // neighbours that scatter so do call for another sigma

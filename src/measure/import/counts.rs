@@ -9,7 +9,7 @@ type Result<T> = std::result::Result<T, ImportError>;
 const PLAIN: [&str; 5] = ["u", "load", "in", "total", "all"];
 
 /// Words before a small number that make it the place in a sequence, beside those for stops.
-const ORDINALS: [&str; 14] = [
+const ORDINALS: [&str; 28] = [
     "step",
     "block",
     "check",
@@ -24,6 +24,20 @@ const ORDINALS: [&str; 14] = [
     "messung",
     "prufung",
     "mesure",
+    "tooth",
+    "zahn",
+    "dent",
+    "dente",
+    "diente",
+    "profile",
+    "profil",
+    "profilo",
+    "perfil",
+    "position",
+    "trace",
+    "spur",
+    "curve",
+    "kurve",
 ];
 /// Numbers from which such a word does not make a place of a number: `stop 100000`.
 const NO_ORDINAL: f64 = 1000.0;
@@ -43,7 +57,9 @@ pub(super) fn refuse_others(
     let in_sequence = names::is_stop(&last) || is_ordinal(&last);
     if in_sequence && number.parse().is_ok_and(|n: f64| n < NO_ORDINAL) {
         return Err(ImportError(format!(
-            "{}: the header `{header}` counts stages or measurements: write the revolutions of the pinion there at which each was made",
+            "{}: the header `{header}` counts stages, teeth or measurements: write the revolutions of the pinion there at which each was made; of several \
+             curves from after as many revolutions make a row of each value, with a column `tooth` or `trace` (those of \
+             teeth are read as they are with --cycles)",
             cell_name(row, column)
         )));
     }

@@ -19,7 +19,7 @@ use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, counts, decimal_commas, deviations, multiples, nameless,
-    no_values, second_header,
+    no_values, second_header, teeth_across,
 };
 use crate::measure::{Quantity, names};
 use line::Line;
@@ -73,7 +73,12 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
             "{cell}: a formula without a stored result: open the table in the spreadsheet program and save it, then its results stand in the file"
         )));
     }
-    let (sheet, between) = &second_header::merged(sheet)?;
+    let (sheet, between) = second_header::merged(sheet)?;
+    let (sheet, teeth) = match teeth_across::as_rows(&sheet) {
+        Some((rows, said)) => (rows, Some(said)),
+        None => (sheet, None),
+    };
+    let sheet = &sheet;
     let Some(Arranged {
         head,
         sheets,
@@ -99,7 +104,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
-        arranged: [between.clone(), said, long.arranged].concat(),
+        arranged: [between, teeth.into_iter().collect(), said, long.arranged].concat(),
         left_out: [left_out, long.left_out].concat(),
         ..long
     }))

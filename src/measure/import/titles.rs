@@ -1,6 +1,6 @@
 //! Rows above a table's header: what they say of its values.
 
-use super::{ImportError, Sheet, units};
+use super::{ImportError, Sheet, other_values, units};
 use crate::measure::{Quantity, names};
 
 /// What the rows above a header say.
@@ -91,6 +91,7 @@ impl Titles {
             if text.is_empty() {
                 continue;
             }
+            other_values::refuse(&text, row, quantity)?;
             let (unit, sign) = (unit(&text, quantity), lost_is_negative(&text));
             if unit.is_none() && sign.is_none() {
                 titles.passed_over.push((row + 1, text.clone()));

@@ -152,14 +152,26 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     })
 }
 
-/// The quantity without places that a row above a header of members names: `Massenverlust [g]`.
+/// The quantity without places that a row above a header of members names, or one above or before checkpoints with members down the first column:
+/// `Massenverlust [g]`.
 pub(super) fn titled(sheet: &Sheet) -> Option<Quantity> {
-    let head = sheet
-        .rows
-        .iter()
-        .position(|row| is_header_of_members(row))?;
-    let titles = sheet.rows[..head].iter().flatten();
-    titles.filter_map(|title| names_quantity(title)).next()
+    let across = (sheet.rows.iter()).position(|row| is_header_of_members(row));
+    let named = |titles: &[Vec<String>], first: Option<&String>| {
+        let mut titles = titles.iter().flatten().chain(first);
+        titles.find_map(|title| names_quantity(title))
+    };
+    if let Some(head) = across {
+        return named(&sheet.rows[..head], None);
+    }
+    let head = header(sheet).ok()?;
+    let below = sheet.rows[head + 1..].iter();
+    let mut first = below.filter_map(|row| row.first().filter(|cell| !cell.is_empty()));
+    let is_of_member = first
+        .next()
+        .is_some_and(|name| names::one_member(name).is_some());
+    is_of_member
+        .then(|| named(&sheet.rows[..head], sheet.rows[head].first()))
+        .flatten()
 }
 
 /// The quantity without places that a part of a title names.

@@ -38,7 +38,8 @@ pub(super) fn far_from_stated(k: f64, stated: f64) -> Option<String> {
     };
     Some(format!(
         "k = {k:.1e} mm²/N comes out {by:.0} times {word} the wear.coefficient that the study states, {stated:.1e}: unless that is a mere guess, look \
-         at the units of the measured values ({hint}), of cycles (pinion revolutions) and of the torque"
+         at its own unit (a figure in mm³/(N m) is 1000 times that in mm²/N, one in m²/N a millionth), and at the units of the measured values ({hint}), of \
+         cycles (pinion revolutions) and of the torque"
     ))
 }
 

@@ -21,7 +21,7 @@ pub(super) fn copied_curves(study: &Study, data: &Dataset) -> Option<String> {
             continue;
         }
         match first.get(&values) {
-            Some(one) if may_be_alike(study, one, own[0]) => {}
+            Some(one) if !is_one_flank(one, own[0]) && may_be_alike(study, one, own[0]) => {}
             Some(one) => copies.push([one, own[0]]),
             None => {
                 first.insert(values, own[0]);
@@ -59,6 +59,12 @@ pub(super) fn depth_curves(data: &Dataset) -> Vec<Vec<&Observation>> {
         curves.entry(key).or_default().push(o);
     }
     curves.into_values().collect()
+}
+
+/// Whether two rows are of one flank of a test, which no two measurements find to be the same to the last digit.
+fn is_one_flank(a: &Observation, b: &Observation) -> bool {
+    let of = |o: &Observation| (o.test, o.member, o.face.map(FacePlace::key));
+    of(a) == of(b) && a.tooth == b.tooth
 }
 
 /// Whether two rows are of tests made alike, after the same cycles: these may be computed ones, without noise.

@@ -41,7 +41,7 @@ pub(super) fn moved_places(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String>
             "{whose} depth curves fit far better upside down: do their places run from tip to root where root to tip is stated?"
         ),
         Better::Moved(steps) => format!(
-            "{whose} depth curves fit far better at radii that are about {:.2} mm {}: look at the zero of the radii, at tip diameter and profile shift, and at centre distance and misalignment of the study; if \
+            "{whose} depth curves fit far better at radii that are about {:.2} mm {}: look at the zero of the radii, at tip diameter, pressure angle and profile shift, and at centre distance and misalignment of the study; if \
              all are right, gearwear diagnose tells what else moves the contact along a flank",
             STEP * f64::from(steps.abs()),
             if steps > 0 { "smaller" } else { "larger" }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::super::residual_statistics::FittedRow;
 use super::coefficient::FAR_FROM_STATED;
 use super::depths_and_masses::depths_and_masses;
-use super::{SAME_CYCLES, rounded, scale};
+use super::{CLEAR_RATIO, EXPLAINS, SAME_CYCLES, rounded, scale};
 use crate::learn::comparison::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::test_apart::test_apart;
@@ -16,6 +16,8 @@ use crate::study::Study;
 const SURE: f64 = 6.0;
 /// Share of a transmission error that the computed one turned round must explain, where wear that was fitted to it has spoiled the rest.
 const EXPLAINS_A_TURN: f64 = 0.2;
+/// The same of that of the pinion, in all tests.
+const NEARLY_ALL: f64 = 0.9;
 /// Mean square of what a trace from before the first cycle shows beyond its datum, in noise, from which it is no noise.
 const WORN: f64 = 4.0;
 /// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
@@ -65,6 +67,50 @@ pub(super) fn turned_rotation(study: &Study, rows: &[FittedRow<'_>]) -> Option<S
             turned.join(", ")
         )
     })
+}
+
+/// The same of some tests where those of the others run as computed; or tests of which it is larger by the ratio of the numbers of teeth, as the
+/// pinion's rotations are.
+pub(super) fn rotation_of_some_tests(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
+    let of = |(id, own): (&'_ str, Vec<FittedRow<'_>>)| {
+        let scale = scale(&own, Quantity::TransmissionError, None)?;
+        Some((id.to_owned(), scale))
+    };
+    let scales: Vec<_> = by_test(study, rows).filter_map(of).collect();
+    let named = |is: &dyn Fn(f64) -> bool| {
+        let found = (scales.iter())
+            .filter(|(_, s)| s.sigmas.abs() > SURE && s.explains > EXPLAINS && is(s.factor));
+        found.map(|(id, _)| id.as_str()).collect::<Vec<&str>>()
+    };
+    let turned = named(&|factor| factor < 0.0);
+    if !turned.is_empty() && turned.len() < scales.len() {
+        return Some(format!(
+            "transmission_error of {} runs against the computed one, that of the other tests does not: has it the other sign, or do its positions run the \
+             other way there?",
+            tests_in_words(&turned)
+        ));
+    }
+    let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
+    let ratio = f64::from(gear) / f64::from(pinion);
+    let of_pinion = named(&|factor| factor > 0.0 && (factor / ratio).ln().abs() < NEAR_RATIO);
+    // a flexibility that the model lacks makes it larger in all tests, and changes its shape
+    let in_all = of_pinion.len() == scales.len();
+    let is_shape = scales.iter().all(|(_, s)| s.explains > NEARLY_ALL);
+    (ratio > CLEAR_RATIO && !of_pinion.is_empty() && (!in_all || is_shape)).then(|| {
+        format!(
+            "transmission_error of {} is about {gear}/{pinion} times the computed one: is it that of the pinion? That of the gear is wanted: divide it by \
+             {gear}/{pinion}",
+            tests_in_words(&of_pinion)
+        )
+    })
+}
+
+fn tests_in_words(ids: &[&str]) -> String {
+    format!(
+        "test{} {}",
+        if ids.len() > 1 { "s" } else { "" },
+        ids.join(", ")
+    )
 }
 
 /// Depths and masses of some tests that call for different coefficients; None where that is so of none, or of all that have both.
@@ -296,8 +342,14 @@ pub(super) fn short_of_their_cycles(study: &Study, data: &Dataset) -> Option<Str
 mod tests {
     use super::*;
 
-    /// What is said of a transmission error that is `factor` times the computed one and has something else besides, in test B alone or in both.
-    fn said(factor: f64, both: bool) -> Option<String> {
+    /// What `question` says of a transmission error that is `factor` times the computed one and has something `else_besides` (12 as it usually is), in
+    /// test B alone or in both.
+    fn asked(
+        factor: f64,
+        both: bool,
+        else_besides: f64,
+        question: fn(&Study, &[FittedRow<'_>]) -> Option<String>,
+    ) -> Option<String> {
         let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
         let study = Study::parse(study, "study.toml").unwrap();
         let mut text = "test,member,cycles,quantity,position,value,sigma,trace\n".to_owned();
@@ -307,7 +359,7 @@ mod tests {
                 let place = f64::from(at) / 12.0;
                 let turn = 2.0 * std::f64::consts::PI * place;
                 let own = if both || test == "B" { factor } else { 1.0 };
-                let value = own * 10.0 * turn.sin() + 12.0 * (2.0 * turn).cos() - 5.0;
+                let value = own * 10.0 * turn.sin() + else_besides * (2.0 * turn).cos() - 5.0;
                 text +=
                     &format!("{test},pair,100000,transmission_error,{place},{value},0.5,{test}\n");
                 models.push(10.0 * turn.sin());
@@ -316,7 +368,34 @@ mod tests {
         let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
         let fits = super::super::fits_of(&models);
         let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
-        turned_rotation(&study, &rows)
+        question(&study, &rows)
+    }
+
+    fn said(factor: f64, both: bool) -> Option<String> {
+        asked(factor, both, 12.0, turned_rotation)
+    }
+
+    #[test]
+    fn a_transmission_error_of_some_tests_is_held_against_that_of_the_others() {
+        let said = |factor, both| asked(factor, both, 3.0, rotation_of_some_tests);
+        let turned = said(-0.9, false).unwrap();
+        assert!(
+            turned.starts_with("transmission_error of test B runs against"),
+            "{turned}"
+        );
+        // of all it is asked elsewhere
+        assert_eq!(said(-0.9, true), None);
+        // 27 and 53 teeth
+        let of_pinion = said(1.95, false).unwrap();
+        assert!(
+            of_pinion.starts_with("transmission_error of test B is about 53/27 times"),
+            "{of_pinion}"
+        );
+        assert!(said(1.95, true).unwrap().contains("of tests A, B is about"));
+        // with a shape that is not the computed one
+        assert_eq!(asked(1.95, true, 12.0, rotation_of_some_tests), None);
+        assert_eq!(said(1.3, false), None);
+        assert_eq!(said(1.0, false), None);
     }
 
     /// A third of it is the computed one turned round, which is too little where nothing else is wrong.

@@ -1,0 +1,253 @@
+//! Titles by which the values below are not what they would be read as: rates, shares, increments, both flanks together, units with a number.
+//!
+//! A header beside a column of such values is not known and so refused; a title above a table would be passed over.
+
+use super::{ImportError, units};
+use crate::measure::{Quantity, names};
+
+/// Words and what they make of the values.
+const OTHERS: [(&str, &[&str]); 3] = [
+    (
+        "rates",
+        &[
+            "rate",
+            "rates",
+            "verschleissrate",
+            "abtragsrate",
+            "abtragrate",
+            "taux",
+            "tasso",
+            "tasa",
+        ],
+    ),
+    (
+        "increments",
+        &[
+            "increment",
+            "increments",
+            "incremental",
+            "inkrement",
+            "zuwachs",
+        ],
+    ),
+    (
+        "shares",
+        &[
+            "normalised",
+            "normalized",
+            "normiert",
+            "normierte",
+            "normierter",
+            "normalise",
+            "normalizzata",
+            "percent",
+            "prozent",
+        ],
+    ),
+];
+/// Losses of thickness, which both flanks make.
+const THICKNESSES: [&str; 5] = [
+    "thickness",
+    "zahndickenabnahme",
+    "zahndickenverlust",
+    "epaisseur",
+    "spessore",
+];
+const BOTH: [&str; 7] = [
+    "both", "beide", "beider", "beiden", "deux", "entrambi", "ambos",
+];
+const FLANKS: [&str; 8] = [
+    "flank", "flanks", "flanke", "flanken", "flanc", "flancs", "fianchi", "flancos",
+];
+/// `per`, with what makes rates, increments or single teeth of values.
+const PER: [&str; 5] = ["per", "pro", "je", "par", "por"];
+const TIMES: [&str; 14] = [
+    "hour",
+    "h",
+    "stunde",
+    "heure",
+    "ora",
+    "hora",
+    "cycle",
+    "cycles",
+    "million",
+    "mio",
+    "umdrehung",
+    "revolution",
+    "rev",
+    "lastwechsel",
+];
+const INTERVALS: [&str; 6] = [
+    "interval",
+    "intervall",
+    "intervalle",
+    "intervallo",
+    "intervalo",
+    "stop",
+];
+const TEETH: [&str; 5] = ["tooth", "zahn", "dent", "dente", "diente"];
+const LAST: [&str; 6] = [
+    "last", "previous", "letzter", "letzten", "letztem", "derniere",
+];
+const SINCE: [&str; 4] = ["since", "seit", "depuis", "dalla"];
+/// Units that are not read.
+const FOREIGN: [&str; 14] = [
+    "%",
+    "mil",
+    "mils",
+    "thou",
+    "microinch",
+    "microinches",
+    "uin",
+    "inch",
+    "inches",
+    "zoll",
+    "cm",
+    "m",
+    "oz",
+    "lb",
+];
+
+/// Refuses a title row that speaks of the values of a quantity, or of nothing but a unit, and says that they are others.
+pub(super) fn refuse(text: &str, row: usize, quantity: Quantity) -> Result<(), ImportError> {
+    let words = names::words(text);
+    let speaks = words.iter().any(|word| {
+        names::quantity(word).is_some_and(|(named, _)| named == quantity)
+            || ["depth", "tiefe", "wear", "loss"].contains(&word.as_str())
+            || word.starts_with("verschleiss")
+            || word.starts_with("abtrag")
+            || THICKNESSES.contains(&word.as_str())
+    });
+    if !speaks {
+        return Ok(());
+    }
+    let Some(what) = others(text, &words, quantity) else {
+        return Ok(());
+    };
+    let wanted = match quantity {
+        Quantity::MassLoss => "losses of a whole member",
+        Quantity::WearDepth => "depths of one flank",
+        _ => "totals",
+    };
+    Err(ImportError(format!(
+        "row {}: `{text}`: {what}, and the table would be read as {wanted} since the start of the test: write these, in {}, or take the words out of the \
+         title if that is what they are",
+        row + 1,
+        quantity.unit()
+    )))
+}
+
+/// What the values are by a title, if it is something else.
+fn others(text: &str, words: &[String], quantity: Quantity) -> Option<String> {
+    let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
+    let per = |known: &[&str]| {
+        let mut pairs = words.windows(2);
+        pairs.any(|two| PER.contains(&two[0].as_str()) && known.contains(&two[1].as_str()))
+    };
+    if let Some((what, _)) = OTHERS.iter().find(|(_, known)| has(known)) {
+        return Some(format!("the title speaks of {what}"));
+    }
+    if per(&TIMES) {
+        return Some("the title speaks of rates".to_owned());
+    }
+    if per(&INTERVALS) || has(&SINCE) && has(&LAST) {
+        return Some("the title speaks of increments".to_owned());
+    }
+    if has(&BOTH) && has(&FLANKS) {
+        return Some("the title speaks of both flanks together".to_owned());
+    }
+    if quantity == Quantity::MassLoss && per(&TEETH) {
+        return Some("the title speaks of single teeth".to_owned());
+    }
+    if quantity == Quantity::WearDepth && has(&THICKNESSES) {
+        return Some("the title speaks of a thickness, which both flanks make".to_owned());
+    }
+    let share = quantity == Quantity::LoadShare;
+    if let Some(unit) = units::bracketed(text).filter(|_| !share) {
+        let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").to_lowercase();
+        let is_rate = plain.contains('/') && !plain.starts_with(|c: char| c.is_ascii_digit());
+        if is_rate || FOREIGN.contains(&plain.as_str()) {
+            return Some(format!("values in {unit} are not read"));
+        }
+    }
+    let unit = scaled_unit(text, quantity)?;
+    Some(format!(
+        "the title states a number with the unit ({unit}), and values in such steps are not read"
+    ))
+}
+
+/// A number right before a unit of the values: `0.1 um`, `1/1000 mm`, `1E-3 mm`.
+fn scaled_unit(text: &str, quantity: Quantity) -> Option<String> {
+    let parts = text.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
+    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    let is_number = |part: &str| {
+        let part = part.replace(',', ".");
+        let quotient = part.split_once('/');
+        let is = |part: &str| part.parse::<f64>().is_ok();
+        is(&part) || quotient.is_some_and(|(a, b)| is(a) && is(b))
+    };
+    let found = parts
+        .windows(2)
+        .find(|two| is_number(two[0]) && units::of_values(two[1], quantity).is_some())?;
+    Some(found.join(" "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_of_other_values_are_refused() {
+        let depth = |text| refuse(text, 0, Quantity::WearDepth);
+        for (title, what) in [
+            ("Depth [0.1 um]", "0.1 um"),
+            ("Depth [10 \u{b5}m]", "10 "),
+            ("Depth [1E-3 mm]", "1E-3 mm"),
+            ("Wear depth in 1/1000 mm", "1/1000 mm"),
+            ("Verschlei\u{df}rate [\u{b5}m/h]", "rates"),
+            ("Wear [um/h]", "um/h"),
+            ("Wear depth per million cycles [um]", "rates"),
+            ("Wear depth [%]", "in %"),
+            ("Normalised wear depth", "shares"),
+            ("Wear depth [mil]", "in mil"),
+            ("Wear depth [microinch]", "in microinch"),
+            ("Zahndickenabnahme", "thickness"),
+            ("Tooth thickness loss [um], both flanks worn", "both flanks"),
+            ("Verschlei\u{df} beider Flanken [\u{b5}m]", "both flanks"),
+            ("wear since last inspection [um]", "increments"),
+            ("Verschlei\u{df} je Intervall [\u{b5}m]", "increments"),
+        ] {
+            let error = depth(title).unwrap_err().0;
+            assert!(error.contains(what) && error.contains("row 1"), "{error}");
+        }
+        let mass = |text| refuse(text, 2, Quantity::MassLoss);
+        for title in [
+            "Massenverlust je Intervall [mg]",
+            "mass loss per tooth [mg]",
+        ] {
+            let error = mass(title).unwrap_err().0;
+            assert!(
+                error.starts_with("row 3") && !error.contains("flank"),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn titles_of_depths_are_not() {
+        for title in [
+            "Wear depth in mm",
+            "Verschlei\u{df}tiefe [\u{b5}m], linke Flanke, Versuch 12",
+            "Wear depth (pinion, left flank)",
+            "Wear measured after each stop [um]",
+            "Wear test 12, 1500 rpm",
+            "both flanks measured on 3 May",
+            "Wear depth at 140 Nm [um]",
+            "mean of 3 teeth, wear in um",
+        ] {
+            assert_eq!(refuse(title, 0, Quantity::WearDepth), Ok(()), "{title}");
+        }
+        assert_eq!(refuse("Load share [%]", 0, Quantity::LoadShare), Ok(()));
+        assert_eq!(refuse("mass loss [mg]", 0, Quantity::MassLoss), Ok(()));
+    }
+}
