@@ -141,7 +141,29 @@ impl Curve {
         );
         let [_, value, sigma] = self.points[at];
         let outside = (low - value).max(value - high).max(0.0);
-        outside < ALIKE * sigma * self.scale || self.is_led_up_to(at, (&before, &after))
+        let noise = ALIKE * sigma * self.scale;
+        outside < noise || self.is_led_up_to(at, (&before, &after)) || self.goes_on(at, noise)
+    }
+
+    /// Whether a point at an end of the curve, but for noise, lies among what goes on from its three nearest: level, straight or bending as they do. A
+    /// relief of a tip bends more than a parabola over several points follows.
+    fn goes_on(&self, at: usize, noise: f64) -> bool {
+        let asked = |i: &usize| !self.passed_over[*i];
+        let before: Vec<usize> = (0..at).rev().filter(asked).take(3).collect();
+        let after: Vec<usize> = (at + 1..self.points.len()).filter(asked).take(3).collect();
+        let near = match (&before[..], &after[..]) {
+            (&[a, b, c], []) | ([], &[a, b, c]) => [a, b, c],
+            _ => return false,
+        };
+        let [place, value, _] = self.points[at];
+        let [[x1, y1], [x2, y2], [x3, y3]] = near.map(|i| [self.points[i][0], self.points[i][1]]);
+        let slope = (y1 - y2) / (x1 - x2);
+        let bend = (slope - (y2 - y3) / (x2 - x3)) / (x1 - x3);
+        let straight = y1 + slope * (place - x1);
+        let bending = straight + bend * (place - x1) * (place - x2);
+        let low = y1.min(straight).min(bending);
+        let high = y1.max(straight).max(bending);
+        (low - noise..=high + noise).contains(&value)
     }
 
     /// Whether the points on either side lead up to a point's value, half of the way or more from what a smooth curve has there: the dip of the wear at
@@ -369,6 +391,9 @@ mod tests {
         // the dip at the pitch point is led up to from either side
         let dip = [(15, 6.5), (16, 4.0), (17, 1.2), (18, 4.1), (19, 6.6)];
         assert_eq!(found(&dip), [0; 0]);
+        // so is what bends at an end more than a parabola follows; a burr there is not
+        assert_eq!(found(&[(38, 2.1), (39, 3.0), (40, 5.6)]), [0; 0]);
+        assert_eq!(found(&[(40, 8.0)]), [40]);
         // apart from one another each is found by itself
         assert_eq!(found(&[(10, 99.0), (30, -99.0)]), [10, 30]);
     }

@@ -8,6 +8,8 @@
 use crate::measure::Observation;
 use crate::measure::neighbours::curves;
 
+/// Median of χ² with one degree of freedom.
+pub(super) const MEDIAN: f64 = 0.454_936;
 /// Neighbours of one difference.
 const POINTS: usize = 5;
 

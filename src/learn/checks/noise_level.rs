@@ -12,7 +12,7 @@
 //! of three, and the sizes of normal ones are correlated by 4/9, so that L/2 is what independent ones would have.
 
 use super::common_scatter::{shared_of, without_shared};
-use super::fourth_differences::standardised_squares;
+use super::fourth_differences::{MEDIAN, standardised_squares};
 use super::scatter_of_tests::unlike_test;
 use super::second_differences::{Difference, differences};
 use crate::learn::candidates::likelihood::Likelihood;
@@ -25,8 +25,6 @@ use crate::study::{Role, Study};
 
 /// Differences needed for an estimate.
 const LEAST: usize = 100;
-/// Median of χ² with one degree of freedom.
-pub(super) const MEDIAN: f64 = 0.454_936;
 /// Scatter over stated σ below which the stated σ stands: three standard errors of some hundred differences.
 const TOLERATED: f64 = 1.2;
 /// The same of traces with so few points each that what the model lacks may bend between three of them: by a relief of the tips on 15 points exact σ

@@ -5,8 +5,7 @@
 //! r_t three times the middle of the others', or a third of it, and these within a factor of 2
 //! ```
 
-use super::fourth_differences::standardised_squares;
-use super::noise_level::MEDIAN;
+use super::fourth_differences::{MEDIAN, standardised_squares};
 use crate::measure::{Observation, Quantity};
 use crate::numeric::median;
 use crate::numeric::written::significant;

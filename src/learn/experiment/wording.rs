@@ -76,7 +76,14 @@ pub(super) fn pairs(separates: &[Separated]) -> String {
 
 /// What a test does to two candidates that differ in it by some χ².
 fn outcome(separated: &Separated) -> String {
-    let ([one, other], chi2) = (&separated.pair, separated.chi2);
+    let in_words = |name: &str| match name {
+        "nothing_missing" => "nothing missing".to_owned(),
+        effect => effect.to_owned(),
+    };
+    let ([one, other], chi2) = (
+        separated.pair.each_ref().map(|name| in_words(name)),
+        separated.chi2,
+    );
     match grade(chi2) {
         Grade::Apart => format!("tells {one} from {other} (χ² {chi2:.0})"),
         Grade::Clear => format!("favours {one} or {other} clearly (χ² {chi2:.0})"),
