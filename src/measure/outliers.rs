@@ -1,8 +1,8 @@
 //! Rows that stand apart from their neighbours along a curve: dust, burrs, slipped decimal points.
 //!
 //! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). Two rows side by
-//! side hide each other, and make a right one beside them stand apart: where rows nearby still do once that one is passed over, and none does without
-//! two neighbours, it is these. A place where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value
+//! side hide each other, and make a right one beside them stand apart, and so does one at the end of a curve: where rows nearby still do once that one is
+//! passed over, and none does without another, or without two neighbours, it is these. A place where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value
 //! between those beside it, the edge of what is worn, or one that both sides lead up to.
 
 use std::collections::BTreeMap;
@@ -79,14 +79,26 @@ impl Curve {
         each.map(|(apart, _)| apart.abs()).collect()
     }
 
-    /// The two points side by side, near the one that stands farthest apart, without which nothing nearby stands apart, both of them far from what the
-    /// others lead one to expect; None where that point alone is enough, or no two are.
-    fn pair_instead_of(&mut self, at: usize, kept: &[bool]) -> Option<Vec<Standing>> {
+    /// The other point, or the two side by side, near the one that stands farthest apart, without which nothing nearby stands apart, far from what the
+    /// others lead one to expect; None where that point alone is enough, or none other and no two are.
+    fn others_instead_of(&mut self, at: usize, kept: &[bool]) -> Option<Vec<Standing>> {
         let near = at.saturating_sub(SIDE)..(at + SIDE + 1).min(self.points.len());
         if self.most_apart_without(&[at], &near, kept) <= APART {
             return None;
         }
         let asked: Vec<usize> = near.clone().filter(|&i| !self.passed_over[i]).collect();
+        // a burr at the end of a curve pulls those beside it, which stand farther apart than it does
+        let mut singles: Vec<(f64, usize)> = Vec::new();
+        for &one in asked.iter().filter(|one| **one != at) {
+            let left = self.most_apart_without(&[one], &near, kept);
+            let is_far = (self.apart(one)).is_some_and(|(z, _)| z.abs() > APART);
+            if is_far && left <= APART {
+                singles.push((left, one));
+            }
+        }
+        if let Some((_, one)) = singles.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) {
+            return Some(vec![self.standing(one)?]);
+        }
         let mut pairs: Vec<(f64, [usize; 2])> = Vec::new();
         for pair in asked
             .windows(2)
@@ -256,8 +268,8 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
                 break;
             };
             let at = worst.at;
-            let pair = all[number].pair_instead_of(at, &kept);
-            let standing = pair.unwrap_or_else(|| vec![worst]);
+            let others = all[number].others_instead_of(at, &kept);
+            let standing = others.unwrap_or_else(|| vec![worst]);
             let is_feature =
                 |one: &Standing| one.is_a_corner || is_shared(&all, &rows, number, one);
             if standing.iter().any(is_feature) {
