@@ -176,8 +176,16 @@ fn others(text: &str, words: &[String], quantity: Quantity) -> Option<String> {
     ))
 }
 
-/// A number right before a unit of the values: `0.1 um`, `1/1000 mm`, `1E-3 mm`.
+/// A number right before a unit of the values: `0.1 um`, `1/1000 mm`, `1E-3 mm`. Beside a unit alone in brackets it is a size: `Wear [um], module 4 mm`.
 fn scaled_unit(text: &str, quantity: Quantity) -> Option<String> {
+    let is_plain_unit = |part: &str| {
+        let has_number = part.contains(|c: char| c.is_ascii_digit());
+        !has_number && units::of_values(part, quantity).is_some()
+    };
+    let mut brackets = text.split(['[', '(']).skip(1);
+    if brackets.any(|part| part.split([']', ')']).next().is_some_and(is_plain_unit)) {
+        return None;
+    }
     let parts = text.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
     let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
     let is_number = |part: &str| {
@@ -204,6 +212,7 @@ mod tests {
             ("Depth [10 \u{b5}m]", "10 "),
             ("Depth [1E-3 mm]", "1E-3 mm"),
             ("Wear depth in 1/1000 mm", "1/1000 mm"),
+            ("Wear depth, module 4 mm", "4 mm"),
             ("Verschlei\u{df}rate [\u{b5}m/h]", "rates"),
             ("Wear [um/h]", "um/h"),
             ("Wear depth per million cycles [um]", "rates"),
@@ -244,6 +253,7 @@ mod tests {
             "both flanks measured on 3 May",
             "Wear depth at 140 Nm [um]",
             "mean of 3 teeth, wear in um",
+            "Verschlei\u{df} [\u{b5}m], Modul 3,5 mm (b = 20 mm)",
         ] {
             assert_eq!(refuse(title, 0, Quantity::WearDepth), Ok(()), "{title}");
         }
