@@ -33,14 +33,15 @@ use crate::study::{Study, WEAR_COEFFICIENT, rounded};
 )]
 pub struct AddArgs {
     /// Study file (TOML); it stays as it is
-    #[arg(value_name = "STUDY")]
+    #[arg(index = 1, value_name = "STUDY")]
     study: PathBuf,
     /// Name of the effect; `gearwear effects` lists them. Or a law to be learned as a curve, learned:DRIVER or learned:DRIVER:MEMBER, of any
     /// variable of formulas
-    #[arg(value_name = "EFFECT")]
+    // by number, since the completions replace it and would put it last
+    #[arg(index = 2, value_name = "EFFECT")]
     effect: String,
     /// More settings behind one --set
-    #[arg(value_name = "NAME=VALUE", value_parser = setting, requires = "set", hide = true)]
+    #[arg(index = 3, value_name = "NAME=VALUE", value_parser = setting, requires = "set", hide = true)]
     more: Vec<(String, f64)>,
     /// New study file [default: STEM+EFFECT.toml beside STUDY]
     #[arg(short, long, value_name = "NEWSTUDY")]

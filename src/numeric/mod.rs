@@ -1,6 +1,7 @@
 //! Floor 0: mathematics without a gear word in it.
 
 pub mod average;
+pub mod chi_squared;
 pub mod halton;
 pub mod latin_hypercube;
 pub mod logarithm;

@@ -44,6 +44,10 @@ fn numbers_of_teeth_are_no_checkpoints() {
     let titled = format!("Revolutions of pinion: 250000\n{table}");
     let (_, same) = rows(&home, &titled, options);
     assert_eq!(same, written);
+    // a message names a cell where it stands
+    let slipped = table.replace("1.5", "x");
+    let message = refused(&home, &slipped, &format!("{options} --cycles 250000"));
+    assert!(message.contains("C3"), "{message}");
     // and without
     let message = refused(&home, table, options);
     assert!(message.contains("with --cycles"), "{message}");

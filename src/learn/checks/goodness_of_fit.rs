@@ -18,6 +18,7 @@ use super::noise_level;
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::noise::SigmaModel;
 use crate::measure::Observation;
+use crate::numeric::chi_squared::upper_tail;
 
 /// Largest error of stated noise sizes that is taken for ordinary, as a factor.
 const ORDINARY: f64 = 1.1;
@@ -63,7 +64,7 @@ impl GoodnessOfFit {
 
     /// Of χ² per point of so many rows, and the scatter of neighbours over the stated σ.
     fn of(chi2_per_point: f64, points: usize, scatter: Option<f64>) -> Self {
-        let tail_probability = upper_tail(chi2_per_point, points);
+        let tail_probability = upper_tail(chi2_per_point, points as f64);
         let allowed = ORDINARY.max(scatter.unwrap_or(0.0)).powi(2);
         let too_much = tail_probability < NO_CHANCE && chi2_per_point > allowed;
         let neighbours = scatter.map_or(String::new(), |scatter| {
@@ -84,30 +85,9 @@ impl GoodnessOfFit {
     }
 }
 
-/// P(χ² ≥ `mean` · `count`) of `count` degrees of freedom.
-fn upper_tail(mean: f64, count: usize) -> f64 {
-    let variance = 2.0 / (9.0 * count as f64);
-    let z = (mean.cbrt() - (1.0 - variance)) / variance.sqrt();
-    0.5 * libm::erfc(z / std::f64::consts::SQRT_2)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{GoodnessOfFit, upper_tail};
-
-    #[test]
-    fn the_tail_is_that_of_tables() {
-        // quantiles of χ²: 18.307 (10, 0.05), 29.588 (10, 0.001), 124.342 (100, 0.05), 149.449 (100, 0.001)
-        for (chi2, count, tail) in [
-            (18.307, 10, 0.05),
-            (29.588, 10, 1e-3),
-            (124.342, 100, 0.05),
-            (149.449, 100, 1e-3),
-        ] {
-            let found = upper_tail(chi2 / count as f64, count);
-            assert!((found / tail - 1.0).abs() < 0.1, "{found} for {tail}");
-        }
-    }
+    use super::GoodnessOfFit;
 
     #[test]
     fn only_what_is_neither_chance_nor_a_common_error_of_sigma_is_said() {

@@ -1,48 +1,17 @@
-//! Where the model fails worst, and a sentence on what that looks like, made from the cells' figures.
-//!
-//! What counts is by how much a cell's χ² exceeds its number of points. Quantities come in the order of what all their cells carry
-//! together: a flank's trace is cut into many cells and a mass is one point, which would come first wherever both are off.
+//! A sentence on where the model fails worst and what that looks like, made from the cells' figures.
 
 use std::collections::BTreeMap;
 
 use super::lone_row::LoneRow;
+use super::misfit_ranking::{carried, excess, fails};
 use super::ratio::Ratio;
 use super::residual_statistics::{Cell, CellKey};
 use crate::learn::fitting::region::{FlankRegions, Stage, words};
 use crate::measure::{Quantity, Subject};
 use crate::numeric::written::{self, count};
 
-/// How far a cell's χ² must lie above its number of points, in standard deviations, to count as a failure: by chance 3 of 100 000 cells do, and
-/// measurements have some hundred of them.
-const SIGNIFICANT: f64 = 4.0;
-
 /// How many times the cycles of its first interval a test's last has to have for a wrong rate to show as an error that grows.
 const MUCH_LATER: f64 = 2.5;
-
-/// By how much the sum of the squared standardised residuals exceeds what noise alone gives.
-fn excess(cell: &Cell) -> f64 {
-    (cell.chi2_per_point - 1.0) * cell.points as f64
-}
-
-/// What the cells of each quantity that fail carry together.
-fn carried<'c>(cells: impl Iterator<Item = (&'c CellKey, &'c Cell)>) -> BTreeMap<Quantity, f64> {
-    let mut carried = BTreeMap::new();
-    for (key, cell) in cells {
-        *carried.entry(key.2).or_default() += excess(cell).max(0.0);
-    }
-    carried
-}
-
-/// The cells, worst first: by what all cells of their quantity carry, then by what they carry themselves.
-pub(in crate::learn) fn worst_first(cells: BTreeMap<CellKey, Cell>) -> Vec<Cell> {
-    let carried = carried(cells.iter());
-    let mut sorted: Vec<(CellKey, Cell)> = cells.into_iter().collect();
-    sorted.sort_by(|(a, first), (b, second)| {
-        let of_quantity = carried[&b.2].total_cmp(&carried[&a.2]);
-        of_quantity.then(excess(second).total_cmp(&excess(first)))
-    });
-    sorted.into_iter().map(|(_, cell)| cell).collect()
-}
 
 /// Where the model fails worst, in plain words.
 pub(in crate::learn) fn sentence(
@@ -52,7 +21,6 @@ pub(in crate::learn) fn sentence(
     lone: &BTreeMap<CellKey, LoneRow>,
     chi2: Option<f64>,
 ) -> String {
-    let fails = |cell: &Cell| significance(cell) > SIGNIFICANT;
     // what a fit is to mend comes first; a held-out test leads where it alone fails
     let held_out = !cells.values().any(|cell| fails(cell) && !is_held_out(cell));
     let failing =
@@ -189,13 +157,6 @@ fn either_sign(cell: &Cell) -> bool {
     cell.bias.abs() < 0.5 * cell.rms
 }
 
-/// How far a cell's χ² lies above its number of points, in standard deviations of a normal variable: its cube root is nearly one, also for few points
-/// (Wilson & Hilferty, Proc. Natl. Acad. Sci. 17, 1931).
-fn significance(cell: &Cell) -> f64 {
-    let variance = 2.0 / (9.0 * cell.points as f64);
-    (cell.chi2_per_point.cbrt() - (1.0 - variance)) / variance.sqrt()
-}
-
 /// Whether the error at that place grows, falls or changes sign over the test's intervals.
 fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     let same = cells
@@ -287,7 +248,7 @@ fn mate(
         return String::new();
     };
     let name = other.name();
-    if significance(found) > SIGNIFICANT && (either_sign(found) || either_sign(cell)) {
+    if fails(found) && (either_sign(found) || either_sign(cell)) {
         format!(
             "; the {name} there is {} too",
             size(found, lone.get(&there))
@@ -318,7 +279,7 @@ fn others(
             (k.1, k.2, k.3, stage(k)) == (key.1, key.2, key.3, stage(key)) && k.0 != key.0;
         let same_sign = found.bias * cell.bias > 0.0 && clear(found);
         let alike = if either_sign(cell) {
-            significance(found) > SIGNIFICANT && either_sign(found)
+            fails(found) && either_sign(found)
         } else {
             same_sign
         };
@@ -350,27 +311,9 @@ fn short(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::misfit_ranking::tests::cell;
     use super::*;
     use crate::gear::Region;
-
-    fn cell(quantity: Quantity, points: usize, chi2_per_point: f64) -> Cell {
-        Cell {
-            test: "A".to_owned(),
-            role: "fit".to_owned(),
-            member: "pinion".to_owned(),
-            quantity: quantity.name().to_owned(),
-            region: "all".to_owned(),
-            cycles: [0.0, 1e5],
-            points,
-            chi2_per_point,
-            bias: -1.0,
-            bias_sigma: 0.1,
-            rms: 1.0,
-            unit: quantity.unit().to_owned(),
-            bias_um: None,
-            rms_um: None,
-        }
-    }
 
     #[test]
     fn no_sentence_is_made_of_a_factor_that_no_wear_has() {
@@ -469,33 +412,5 @@ mod tests {
         // one end within its noise
         assert!(told([-0.13, 0.15], [0.06, 0.01]).contains("grows out of its noise"));
         assert!(told([-0.15, 0.13], [0.01, 0.06]).contains("falls into its noise"));
-    }
-
-    /// One mass 22 σ off carries 499, each of five cells of a trace 228, together 1140: the trace comes first, and its worst cell.
-    #[test]
-    fn a_single_mass_does_not_come_before_a_trace_that_carries_more() {
-        let mut cells = BTreeMap::new();
-        let mass = (0, Subject::Pinion, Quantity::MassLoss, None, 0);
-        cells.insert(mass, cell(Quantity::MassLoss, 1, 500.0));
-        for interval in 0..5 {
-            let trace = (
-                0,
-                Subject::Pinion,
-                Quantity::WearDepth,
-                Some(Region::LowerDouble),
-                interval,
-            );
-            let chi2 = if interval == 3 { 25.0 } else { 20.0 };
-            cells.insert(trace, cell(Quantity::WearDepth, 12, chi2));
-        }
-        let order: Vec<(String, f64)> = worst_first(cells.clone())
-            .into_iter()
-            .map(|cell| (cell.quantity, cell.chi2_per_point))
-            .collect();
-        assert_eq!(order[0], ("wear_depth".to_owned(), 25.0));
-        assert_eq!(order[5], ("mass_loss".to_owned(), 500.0));
-        // two of the weaker cells carry 456
-        cells.retain(|key, _| key.4 < 2);
-        assert_eq!(worst_first(cells)[0].quantity, "mass_loss");
     }
 }

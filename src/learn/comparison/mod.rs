@@ -16,6 +16,7 @@ mod ladder;
 mod left_out;
 mod lone_row;
 mod misfit_location;
+mod misfit_ranking;
 mod missed;
 mod own_coefficient;
 mod prospects;

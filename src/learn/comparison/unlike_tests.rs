@@ -14,6 +14,7 @@ use super::coefficients_in_order::in_order;
 use super::own_coefficient::{NO_CHANCE, OwnK};
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::Dataset;
+use crate::numeric::chi_squared::normal_deviate;
 use crate::numeric::written::significant;
 use crate::study::{Operation, Role, Study};
 
@@ -119,8 +120,7 @@ fn scatter_beyond_errors(own: &[&OwnK<'_>]) -> bool {
         .map(|one| weight(one) * (one.log - mean).powi(2))
         .sum();
     let free = (own.len() - 1) as f64;
-    let spread = 2.0 / (9.0 * free);
-    ((square / free).cbrt() - (1.0 - spread)) / spread.sqrt() > NO_CHANCE
+    normal_deviate(square / free, free) > NO_CHANCE
 }
 
 /// The test whose ln k, of tests in order, lies apart from that of all others, and the mean of theirs. Of two tests either might be the odd one.

@@ -6,7 +6,7 @@ use super::candidate_tests::{
 use super::decided::Decided;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
-use crate::numeric::written::probability;
+use crate::numeric::written::{probability, rounded_down};
 use crate::study::{Operation, Role, Test};
 
 /// Relative difference up to which two conditions are the same.
@@ -76,14 +76,11 @@ pub(super) fn pairs(separates: &[Separated]) -> String {
 
 /// What a test does to two candidates that differ in it by some χ².
 fn outcome(separated: &Separated) -> String {
-    let in_words = |name: &str| match name {
-        "nothing_missing" => "nothing missing".to_owned(),
-        effect => effect.to_owned(),
-    };
-    let ([one, other], chi2) = (
-        separated.pair.each_ref().map(|name| in_words(name)),
-        separated.chi2,
-    );
+    let [one, other] = separated.pair.each_ref().map(|name| match name.as_str() {
+        "nothing_missing" => "nothing missing",
+        effect => effect,
+    });
+    let chi2 = separated.chi2;
     match grade(chi2) {
         Grade::Apart => format!("tells {one} from {other} (χ² {chi2:.0})"),
         Grade::Clear => format!("favours {one} or {other} clearly (χ² {chi2:.0})"),
@@ -158,10 +155,10 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
     let unknown = unknown.copied().unwrap_or(0.0);
     match decided.verdict {
         Verdict::Ambiguous if unknown > OPEN => format!(
-            "The diagnosis leaves open whether it is {} or something that the catalogue does not hold ({:.0} %), of which this table cannot tell; next, by \
+            "The diagnosis leaves open whether it is {} or something that the catalogue does not hold ({} %), of which this table cannot tell; next, by \
              the diagnosis: {}. ",
             first.effect,
-            100.0 * unknown,
+            rounded_down(100.0 * unknown, 0),
             next_step(decided)
         ),
         Verdict::Unknown => format!(
@@ -171,9 +168,9 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             next_step(decided)
         ),
         Verdict::Effects if !holds_its_leaders => format!(
-            "The diagnosis has decided for {} ({:.0} %), which this table does not judge: add them (gearwear add), then plan from the study with them. ",
+            "The diagnosis has decided for {} ({} %), which this table does not judge: add them (gearwear add), then plan from the study with them. ",
             first.effect,
-            100.0 * first.probability
+            rounded_down(100.0 * first.probability, 0)
         ),
         Verdict::Effect | Verdict::Effects => format!(
             "The diagnosis has decided for {} already ({}): no test is needed for that{}. What follows would only confirm it \
@@ -196,8 +193,8 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             next_step(decided)
         ),
         Verdict::NothingMissing => format!(
-            "The diagnosis finds nothing missing ({:.0} %): what follows would show whether {} hides below the noise after all. ",
-            100.0 * first.probability,
+            "The diagnosis finds nothing missing ({} %): what follows would show whether {} hides below the noise after all. ",
+            rounded_down(100.0 * first.probability, 0),
             decided
                 .ranking
                 .get(1)

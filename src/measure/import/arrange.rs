@@ -209,7 +209,7 @@ fn is_curve(columns: &[Column]) -> bool {
 }
 
 /// Puts a column behind all others, with one text in all rows below the header that hold something.
-fn put_column(sheet: &mut Sheet, head: usize, name: &str, text: &str) {
+pub(super) fn put_column(sheet: &mut Sheet, head: usize, name: &str, text: &str) {
     let width = sheet.rows.iter().map(Vec::len).max().unwrap_or(0);
     for (row, cells) in sheet.rows.iter_mut().enumerate().skip(head) {
         if row == head || cells.iter().any(|cell| !cell.is_empty()) {

@@ -74,11 +74,21 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         )));
     }
     let (sheet, between) = second_header::merged(sheet)?;
-    let (sheet, teeth) = match teeth_across::as_rows(&sheet) {
-        Some((rows, said)) => (rows, Some(said)),
-        None => (sheet, None),
+    let (sheets, teeth) = match teeth_across::apart(&sheet) {
+        Some((sheets, said)) => (sheets, Some(said)),
+        None => (vec![sheet], None),
     };
-    let sheet = &sheet;
+    let tables = sheets.iter().map(|sheet| of_sheet(sheet, wanted));
+    let tables: Option<Vec<Long>> = tables.collect::<Result<_>>()?;
+    let joined = tables.and_then(|tables| tables.into_iter().reduce(Long::joined));
+    Ok(joined.map(|long| Long {
+        arranged: [between, teeth.into_iter().collect(), long.arranged].concat(),
+        ..long
+    }))
+}
+
+/// The mapping of a sheet with one header; none for other tables.
+fn of_sheet(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
     let Some(Arranged {
         head,
         sheets,
@@ -104,7 +114,7 @@ pub fn long(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Option<Long>> {
         .collect::<Result<_>>()?;
     let joined = tables.into_iter().reduce(Long::joined);
     Ok(joined.map(|long| Long {
-        arranged: [between, teeth.into_iter().collect(), said, long.arranged].concat(),
+        arranged: [said, long.arranged].concat(),
         left_out: [left_out, long.left_out].concat(),
         ..long
     }))

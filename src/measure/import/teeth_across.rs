@@ -1,39 +1,31 @@
 //! Curves of several teeth side by side: `Radius [mm]; Zahn 1; Zahn 7; Zahn 13`. Their numbers are no checkpoints.
 
+use super::arrange::put_column;
 use super::{Sheet, units};
 use crate::measure::{Quantity, names};
 
-/// The table with a row for each value and a column of teeth, and what was made of it, in words; none if it is no such table.
-pub(super) fn as_rows(sheet: &Sheet) -> Option<(Sheet, String)> {
+/// A table for each tooth, with its cells in their places and a column of the tooth behind them, and what was made of it, in words; none if it is no such
+/// table.
+pub(super) fn apart(sheet: &Sheet) -> Option<(Vec<Sheet>, String)> {
     let (head, teeth) =
         (sheet.rows.iter().enumerate()).find_map(|(row, cells)| Some((row, teeth_of(cells)?)))?;
-    let mut units = teeth.iter().map(|tooth| tooth.unit.as_deref());
-    let unit = units.next()?;
-    if units.any(|other| other != unit) {
-        return None;
-    }
-    let mut rows = sheet.rows[..head].to_vec();
-    let depth = match unit {
-        Some(unit) => format!("wear depth [{unit}]"),
-        None => "wear depth".to_owned(),
-    };
-    let place = sheet.rows[head][0].clone();
-    rows.push(vec![place, "tooth".to_owned(), depth]);
-    for tooth in &teeth {
-        for cells in &sheet.rows[head + 1..] {
-            let cell = |at: usize| cells.get(at).cloned().unwrap_or_default();
-            if !cell(0).is_empty() {
-                rows.push(vec![cell(0), tooth.number.clone(), cell(tooth.at)]);
-            }
+    let of_one = |tooth: &Tooth| {
+        let mut own = sheet.clone();
+        for cells in &mut own.rows[head..] {
+            let others = cells.iter_mut().enumerate().skip(1);
+            let others = others.filter(|(at, _)| *at != tooth.at);
+            others.for_each(|(_, cell)| cell.clear());
         }
-    }
+        own.rows[head][tooth.at] = match &tooth.unit {
+            Some(unit) => format!("wear depth [{unit}]"),
+            None => "wear depth".to_owned(),
+        };
+        put_column(&mut own, head, "tooth", &tooth.number);
+        own
+    };
     let numbers: Vec<&str> = teeth.iter().map(|tooth| tooth.number.as_str()).collect();
     let said = format!("a curve of each of the teeth {}", numbers.join(", "));
-    let sheet = Sheet {
-        rows,
-        ..sheet.clone()
-    };
-    Some((sheet, said))
+    Some((teeth.iter().map(of_one).collect(), said))
 }
 
 /// A column that is headed by a tooth.
@@ -84,18 +76,25 @@ mod tests {
     }
 
     #[test]
-    fn each_tooth_has_rows_of_its_own() {
+    fn each_tooth_has_a_table_of_its_own() {
         let table = sheet(&[
             &["Part: pinion"],
             &["Radius [mm]", "Zahn 1 [\u{b5}m]", "Zahn 7 [\u{b5}m]"],
             &["29.95", "4.8", "5.1"],
             &["30.1", "4.2", "4.5"],
         ]);
-        let (rows, said) = as_rows(&table).unwrap();
+        let (sheets, said) = apart(&table).unwrap();
         assert_eq!(said, "a curve of each of the teeth 1, 7");
-        assert_eq!(rows.rows[1], ["Radius [mm]", "tooth", "wear depth [um]"]);
-        assert_eq!(rows.rows[2], ["29.95", "1", "4.8"]);
-        assert_eq!(rows.rows[5], ["30.1", "7", "4.5"]);
+        let [first, second] = &sheets[..] else {
+            panic!("{sheets:?}")
+        };
+        assert_eq!(
+            first.rows[1],
+            ["Radius [mm]", "wear depth [um]", "", "tooth"]
+        );
+        assert_eq!(first.rows[2], ["29.95", "4.8", "", "1"]);
+        // in their places
+        assert_eq!(second.rows[3], ["30.1", "", "4.5", "7"]);
         // checkpoints, other numbers, no places
         for header in [
             ["Radius [mm]", "80000", "200000"],
@@ -103,7 +102,7 @@ mod tests {
             ["cycles", "tooth 1", "tooth 7"],
             ["Radius [mm]", "tooth 1", "200000"],
         ] {
-            assert!(as_rows(&sheet(&[&header, &["29.95", "4.8", "5.1"]])).is_none());
+            assert!(apart(&sheet(&[&header, &["29.95", "4.8", "5.1"]])).is_none());
         }
     }
 }

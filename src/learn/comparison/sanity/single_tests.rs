@@ -18,6 +18,8 @@ const SURE: f64 = 6.0;
 const EXPLAINS_A_TURN: f64 = 0.2;
 /// The same of that of the pinion, in all tests.
 const NEARLY_ALL: f64 = 0.9;
+/// How far from 1 the factor of the other tests may be, where that of some is the pinion's.
+const AS_COMPUTED: f64 = 0.3;
 /// Mean square of what a trace from before the first cycle shows beyond its datum, in noise, from which it is no noise.
 const WORN: f64 = 4.0;
 /// Prior standard deviations of the datum from which a trace before the first cycle is too far from zero.
@@ -95,8 +97,13 @@ pub(super) fn rotation_of_some_tests(study: &Study, rows: &[FittedRow<'_>]) -> O
     let of_pinion = named(&|factor| factor > 0.0 && (factor / ratio).ln().abs() < NEAR_RATIO);
     // a flexibility that the model lacks makes it larger in all tests, and changes its shape
     let in_all = of_pinion.len() == scales.len();
-    let is_shape = scales.iter().all(|(_, s)| s.explains > NEARLY_ALL);
-    (ratio > CLEAR_RATIO && !of_pinion.is_empty() && (!in_all || is_shape)).then(|| {
+    let is_sure = match in_all {
+        true => scales.iter().all(|(_, s)| s.explains > NEARLY_ALL),
+        false => (scales.iter())
+            .filter(|(id, _)| !of_pinion.contains(&id.as_str()))
+            .all(|(_, s)| (s.factor - 1.0).abs() < AS_COMPUTED),
+    };
+    (ratio > CLEAR_RATIO && !of_pinion.is_empty() && is_sure).then(|| {
         format!(
             "transmission_error of {} is about {gear}/{pinion} times the computed one: is it that of the pinion? That of the gear is wanted: divide it by \
              {gear}/{pinion}",
