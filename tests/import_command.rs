@@ -21,12 +21,16 @@ mod common;
 mod deviations;
 #[path = "import_command/doubtful.rs"]
 mod doubtful;
+#[path = "import_command/layouts.rs"]
+mod layouts;
 #[path = "import_command/long_tables.rs"]
 mod long_tables;
 #[path = "import_command/losses.rs"]
 mod losses;
 #[path = "import_command/multiples.rs"]
 mod multiples;
+#[path = "import_command/not_the_study.rs"]
+mod not_the_study;
 #[path = "import_command/nothing_measured.rs"]
 mod nothing_measured;
 #[path = "import_command/other_values.rs"]

@@ -42,14 +42,18 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
             taken.pass_over(&sheets, &chosen);
         }
         let mut take =
-            |sheet: &Sheet| taken.take(args, &study, &named(table, sheet), sheet, &wanted);
-        for (n, sheet) in chosen.iter().enumerate() {
-            if let Err(error) = take(sheet) {
-                let refused: Vec<&str> = (chosen[n + 1..].iter())
-                    .filter(|sheet| take(sheet).is_err())
-                    .map(|sheet| sheet.name.as_str())
+            |(name, sheet): &(String, Sheet)| taken.take(args, &study, name, sheet, &wanted);
+        let sheets = chosen.len();
+        let parts: Vec<(String, Sheet)> = (chosen.into_iter())
+            .flat_map(|sheet| parts(table, sheet))
+            .collect();
+        for (n, part) in parts.iter().enumerate() {
+            if let Err(error) = take(part) {
+                let refused: Vec<&str> = (parts[n + 1..].iter())
+                    .filter(|part| take(part).is_err())
+                    .map(|(_, sheet)| sheet.name.as_str())
                     .collect();
-                return Err(beside_others(error, chosen.len(), &refused));
+                return Err(beside_others(error, sheets, &refused));
             }
         }
     }
@@ -107,6 +111,17 @@ fn chosen<'s>(
             table.display(),
             names()
         ))),
+    }
+}
+
+/// The tables of a sheet, each with its name.
+fn parts(table: &Path, sheet: &Sheet) -> Vec<(String, Sheet)> {
+    let name = named(table, sheet);
+    match import::side_by_side(sheet) {
+        Some(parts) => (parts.into_iter())
+            .map(|(columns, part)| (format!("{name}, {columns}"), part))
+            .collect(),
+        None => vec![(name, sheet.clone())],
     }
 }
 

@@ -10,15 +10,17 @@ mod vocabulary;
 
 use super::quantity::{Quantity, Subject};
 
-pub(super) use conditions::{hours, hours_of_unit, is_time, newton_metres, speed, torque};
+pub(super) use conditions::{
+    hours, hours_of_unit, is_module, is_number_of_teeth, is_time, newton_metres, speed, torque,
+};
 use counting::{AROUND_POWER, CYCLES, MULTIPLES, POWERS};
 use measured::{
     CHORDS, DEVIATIONS, LOSSES, MASSES, PROFILE_DEVIATIONS, PROFILES, QUANTITIES, SPANS,
 };
 pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
-    AFTER, BEFORE, COLUMNS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEMBERS, REPEATS, STOPS, SUMMARIES,
-    TOTALS,
+    AFTER, BEFORE, COLUMNS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEANS, MEMBERS, REPEATS, STOPS,
+    SUMMARIES, TOTALS,
 };
 
 /// Which of two measurements of a part.
@@ -92,6 +94,11 @@ pub(super) fn is_for_people(name: &str) -> bool {
 pub(super) fn is_aside(name: &str) -> bool {
     let name = name.split(['[', '(']).next().unwrap_or_default();
     is_for_people(name) || SUMMARIES.contains(&folded(name).as_str())
+}
+
+/// Whether a word means the mean of several values.
+pub(super) fn is_mean(word: &str) -> bool {
+    MEANS.contains(&folded(word).as_str())
 }
 
 /// Whether a word says that a row sums others up.

@@ -909,7 +909,7 @@ fn titles_with_numbers_in_cells_of_their_own_are_no_header() {
     for titles in [
         "Messger\u{e4}t:;Klingelnberg P26\n",
         "\u{d6}l:;ISO VG 100\n",
-        "Modul [mm];3,5\nZ\u{e4}hnezahl;19\n\n",
+        "Modul [mm];2,0\nZ\u{e4}hnezahl;27\n\n",
         "Pr\u{fc}fstand 2;;gemessen auf P40\n;;\n",
     ] {
         let (shown, written) = rows(

@@ -252,7 +252,8 @@ fn cannot_be_read(
             if let Some(hint) = understood.unit_otherwise().filter(|_| of_value) {
                 return error.without_hints().with_hint(&hint).into();
             }
-            let hints = understood.reading().into_iter();
+            let unit = understood.unit_unstated().filter(|_| of_value);
+            let hints = understood.reading().into_iter().chain(unit);
             hints
                 .fold(error, |error, said| error.with_hint(&said))
                 .into()

@@ -110,6 +110,17 @@ impl Understood {
         said
     }
 
+    /// What is said of values of another size where nothing states their unit; none where something does.
+    pub(super) fn unit_unstated(&self) -> Option<String> {
+        let (_, from) = match self {
+            Understood::Wide(wide) => &wide.unit,
+            Understood::Long(long) => long.unit.as_ref()?,
+        };
+        (*from == UnitFrom::Quantity).then(|| {
+            "nothing in the table states the unit of its values: say it with --unit".to_owned()
+        })
+    }
+
     /// What is said of values that are too large for the unit that a title or a header states; none where it is another one's matter.
     pub(super) fn unit_otherwise(&self) -> Option<String> {
         const SMALLER: [(&str, &str); 3] = [("mm", "um"), ("g", "mg"), ("kg", "g")];

@@ -26,6 +26,7 @@ mod mass_balance;
 mod mass_over_depth;
 mod materials;
 mod moved_places;
+mod moved_rotation;
 mod negated;
 mod no_wear;
 mod other_units;
@@ -98,6 +99,10 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
     }
     if let Some(nothing) = no_wear::no_wear(study, &rows) {
         return vec![nothing];
+    }
+    // half a pitch off it may look turned
+    if let Some(moved) = moved_rotation::moved_rotation(study, &rows) {
+        return vec![moved];
     }
     let mut said = signs::signs(study, &rows);
     let mut values_asked = false;

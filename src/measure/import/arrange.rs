@@ -20,13 +20,14 @@ use std::collections::BTreeSet;
 
 use super::columns::{Column, What, columns};
 use super::numbers::{counts_without_blanks, pointed};
-use super::{ImportError, Sheet, Wanted, decimal_commas, multiples, nameless};
+use super::{ImportError, Sheet, Wanted, cell_sigmas, decimal_commas, multiples, nameless};
 use crate::measure::Quantity;
 
 pub(super) use durations::hint;
 pub(super) use labels::{flank_above, stated_above};
 pub(super) use sides::side;
-pub(super) use speeds::passed_over as speed_passed_over;
+pub(super) use speeds::{passed_over as speed_passed_over, refuse_another as refuse_another_speed};
+pub(super) use torques::refuse_another as refuse_another_torque;
 
 /// A table with a column for everything, or one for each member.
 #[derive(Debug)]
@@ -100,6 +101,7 @@ fn with_header(
     wanted: &Wanted<'_>,
 ) -> Result<Option<Arranged>, ImportError> {
     let mut sheet = sheet.clone();
+    let of_signs = cell_sigmas::as_column(&mut sheet, head);
     let left_out = totals::leave_out(&mut sheet, head, wanted);
     let filled = merged::fill(&mut sheet, head, wanted);
     let (sheet, named) = durations::named(&sheet, head, wanted);
@@ -109,7 +111,7 @@ fn with_header(
             counts_without_blanks(&mut sheet, head, column.at);
         }
     }
-    let named = [filled, named, of_one].concat();
+    let named = [of_signs.into_iter().collect(), filled, named, of_one].concat();
     let both = match sides::apart(&sheet, head) {
         Some(both) => completed(both, &sheet, head, wanted)?,
         None => None,

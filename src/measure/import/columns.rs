@@ -6,7 +6,7 @@ use super::arrange::side;
 use super::coverage::{coverage, without_level};
 use super::multiples;
 use super::wanted::Wanted;
-use super::{Sheet, cell_name, units};
+use super::{Sheet, cell_name, cell_sigmas, units};
 use crate::measure::names::When;
 use crate::measure::{Quantity, Subject, names};
 
@@ -108,6 +108,8 @@ impl Column {
             What::Nameless
         } else if names::is_for_people(&name) {
             What::ForPeople
+        } else if cell_sigmas::is_sign(&name) {
+            What::Own("sigma")
         } else if revolutions.is_some() || hours.is_some() {
             What::Own("cycles")
         } else if let Some(when) = weighed(&name, unit.as_deref()) {

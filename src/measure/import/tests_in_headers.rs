@@ -4,7 +4,7 @@ use super::arrange::stated_above;
 use super::columns::half_understood;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, is_aside, of_one_test};
-use super::{ImportError, Sheet, cell_name, multiples, second_header};
+use super::{ImportError, Sheet, cell_name, conditions_above, multiples, second_header};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -24,7 +24,8 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         ));
     }
     let above = stated_above(&sheet, wanted)?;
-    let mut sheet = sheet;
+    let whole = sheet;
+    let mut sheet = whole.clone();
     for &(row, _) in &above.obeyed {
         sheet.rows[row].clear();
     }
@@ -37,6 +38,8 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         tooth: above.tooth,
         ..wanted.clone()
     };
+    let test = wanted.one_test(&whole).ok().map(|(test, _)| test);
+    conditions_above::agree(&whole, above.head, test.as_deref(), wanted)?;
     let sheet = &sheet;
     let mut found = match tests_of_columns(sheet, wanted)? {
         Some((head, columns)) => of_several_tests(sheet, (head, &columns), wanted)?,

@@ -3,7 +3,7 @@
 use super::entry::Entry;
 use super::multiples::Multiple;
 use super::numbers::{number, plain_cycles, with_points, without_thousands};
-use super::row_sigmas::RowSigmas;
+use super::sigmas::Sigmas;
 use super::titles::Titles;
 use super::wanted::Wanted;
 use super::wide::{
@@ -65,7 +65,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
     if let Some(plain) = without_points.filter(|_| multiple.is_none()) {
         sheet = plain;
     }
-    let sigmas = RowSigmas::taken(&mut sheet, head, wanted)?;
+    let sigmas = Sigmas::taken(&mut sheet, head, wanted)?;
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;

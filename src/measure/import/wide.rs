@@ -16,12 +16,13 @@ use super::numbers::{
     without_thousands,
 };
 use super::place::{PositionKind, on_flank};
-use super::row_sigmas::{self, RowSigmas};
+use super::row_sigmas;
+use super::sigmas::Sigmas;
 use super::titles::Titles;
 use super::wanted::{UnitFrom, Wanted};
 use super::{
     ImportError, Sheet, cell_name, columns, counts, decimal_commas, deviations, footers,
-    header_points, nameless, no_values, units,
+    header_points, means, nameless, no_values, units,
 };
 use crate::measure::{Place, Quantity, Subject, names};
 
@@ -96,11 +97,12 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let is_place =
         |_, column, number| column == 0 && can_be_on_a_flank(number, &corner, quantity, wanted);
     let mut sheet = with_points(&sheet, wanted.decimal, |row, _| row > head, is_place)?;
+    let means = means::only(&mut sheet, head)?;
     let multiple = Multiple::taken(&sheet, head).map(|(without, multiple)| {
         sheet = without;
         multiple
     });
-    let sigmas = RowSigmas::taken(&mut sheet, head, wanted)?;
+    let sigmas = Sigmas::taken(&mut sheet, head, wanted)?;
     let passed_over = leave_out_what_is_for_people(&mut sheet, head);
     let below = footers::leave_out(&mut sheet, head);
     nameless::refuse_numbers(&sheet, head, 1)?;
@@ -164,7 +166,8 @@ pub(super) fn of_one_test(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         refuse_either_flank(&entries, places.kind, wanted, sheet, head)?;
     }
     let joined = wanted.there.join(&mut entries, true);
-    let mut arranged: Vec<String> = multiple.iter().map(Multiple::said).chain(times).collect();
+    let multiplied = multiple.iter().map(Multiple::said);
+    let mut arranged: Vec<String> = means.into_iter().chain(multiplied).chain(times).collect();
     arranged.extend(whose.said);
     if let Some(sigmas) = &sigmas {
         arranged.push(sigmas.state(&mut entries, (quantity, &unit.0), wanted)?);

@@ -1,6 +1,8 @@
 //! Names of the conditions of a test: running times, speeds, torques.
 
-use super::counting::{HOURS, NEWTON_METRES, PER_MINUTE, SPEEDS, TIMES, TORQUES};
+use super::counting::{
+    HOURS, MODULES, NEWTON_METRES, NUMBERS_OF_TEETH, PER_MINUTE, SPEEDS, TIMES, TORQUES,
+};
 use super::{folded, is_filler, member, one_member, telling, words};
 use crate::measure::quantity::Subject;
 
@@ -34,11 +36,11 @@ pub(in crate::measure) fn speed(name: &str, unit: Option<&str>) -> Option<Option
     let (of, mut rest): (Vec<String>, Vec<String>) = words(name)
         .into_iter()
         .partition(|word| member(word).is_some());
-    let count = rest.len();
+    let says_unit = rest.iter().any(|word| is_per_minute(word));
     rest.retain(|word| !is_per_minute(word) && (word == "n" || !is_filler(word)));
     let has_unit = match unit {
         Some(unit) => is_per_minute(unit),
-        None => count > rest.len() && rest.len() < 2,
+        None => says_unit && rest.len() < 2,
     };
     let rest = rest.concat();
     let is_named = SPEEDS.contains(&rest.as_str());
@@ -62,6 +64,18 @@ pub(in crate::measure) fn torque(name: &str, unit: Option<&str>) -> Option<Optio
     let (of, rest): (Vec<String>, Vec<String>) = telling(name).into_iter().partition(is_one);
     let is_named = TORQUES.contains(&rest.concat().as_str());
     is_named.then(|| one_member(&of.join(" ")))
+}
+
+/// Whether a name means the module of gears.
+pub(in crate::measure) fn is_module(name: &str) -> bool {
+    MODULES.contains(&telling(name).concat().as_str())
+}
+
+/// Whether a name means how many teeth a gear has.
+pub(in crate::measure) fn is_number_of_teeth(name: &str) -> bool {
+    let words = words(name).into_iter();
+    let words: Vec<String> = words.filter(|word| member(word).is_none()).collect();
+    NUMBERS_OF_TEETH.contains(&words.concat().as_str())
 }
 
 /// N m of a unit of torque.

@@ -130,6 +130,37 @@ pub(super) const NEWTON_METRES: [(&str, f64); 5] = [
     ("knm", 1e3),
 ];
 
+/// Names of the module of gears.
+pub(super) const MODULES: [&str; 10] = [
+    "module",
+    "normalmodule",
+    "modul",
+    "normalmodul",
+    "modulo",
+    "modulonormale",
+    "modulonormal",
+    "modulenormal",
+    "m",
+    "mn",
+];
+
+/// Names of how many teeth a gear has. Words for teeth alone may say which of them were measured.
+pub(super) const NUMBERS_OF_TEETH: [&str; 13] = [
+    "z",
+    "z1",
+    "z2",
+    "numberofteeth",
+    "noofteeth",
+    "zahnezahl",
+    "zahnezahlz",
+    "nombrededents",
+    "numerodidenti",
+    "numerodenti",
+    "numerodedientes",
+    "numerodientes",
+    "nodedents",
+];
+
 /// Multiples of counts.
 pub(super) const MULTIPLES: [&str; 17] = [
     "million",

@@ -203,6 +203,18 @@ pub(super) const SUMMARIES: [&str; 23] = [
     "promedio",
 ];
 
+/// Those of them that name the mean.
+pub(super) const MEANS: [&str; 8] = [
+    "mean",
+    "average",
+    "mittel",
+    "mittelwert",
+    "durchschnitt",
+    "media",
+    "moyenne",
+    "promedio",
+];
+
 /// Names of rows that add others up.
 pub(super) const TOTALS: [&str; 12] = [
     "sum",

@@ -116,7 +116,7 @@ pub(super) fn rotation_of_some_tests(study: &Study, rows: &[FittedRow<'_>]) -> O
     })
 }
 
-fn tests_in_words(ids: &[&str]) -> String {
+pub(super) fn tests_in_words(ids: &[&str]) -> String {
     format!(
         "test{} {}",
         if ids.len() > 1 { "s" } else { "" },

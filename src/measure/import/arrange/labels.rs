@@ -3,7 +3,9 @@
 use super::{has, is_curve, put_column, speeds, torques};
 use crate::measure::import::columns::{Column, columns};
 use crate::measure::import::numbers::{header_number, number_words, plain_count, without_blanks};
-use crate::measure::import::{ImportError, Sheet, Wanted, cell_name, counts, units};
+use crate::measure::import::{
+    ImportError, Sheet, Wanted, cell_name, conditions_above, counts, units,
+};
 use crate::measure::{Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
@@ -52,6 +54,12 @@ pub(super) fn as_columns(
         return Ok(());
     }
     let mut labels = labels(sheet, head, &KEYS, wanted)?;
+    if !has(&header, "test") {
+        let above = labels.iter().find(|label| label.key == "test");
+        let stated = wanted.one_test(sheet).ok().map(|(test, _)| test);
+        let test = above.map(|label| label.text.clone()).or(stated);
+        conditions_above::agree(sheet, head, test.as_deref(), wanted)?;
+    }
     let is_said = |key: &str| labels.iter().any(|label| label.key == key);
     if let Some(cycles) = wanted.cycles {
         if has_cycles || is_said("cycles") || is_said("time") {
@@ -110,6 +118,8 @@ pub(in crate::measure::import) struct Above<'w> {
     pub(in crate::measure::import) tooth: Option<String>,
     /// The rows that say it, counted from 0, and what they say in words.
     pub(in crate::measure::import) obeyed: Vec<(usize, String)>,
+    /// The first row that is not above the table.
+    pub(in crate::measure::import) head: usize,
 }
 
 /// The test, the member and the tooth that the rows above a wide table say, where nothing else does; refused where they contradict what is
@@ -142,6 +152,7 @@ pub(in crate::measure::import) fn stated_above<'w>(
         member,
         tooth,
         obeyed: labels.iter().map(Label::obeyed).collect(),
+        head: head.unwrap_or(0),
     })
 }
 

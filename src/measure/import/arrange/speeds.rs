@@ -18,6 +18,44 @@ pub(super) struct Stated {
     of_gear: bool,
 }
 
+/// Part of a speed by which that of a row above the header may differ from the study's where nothing becomes revolutions by it.
+const ABOUT_THE_SAME: f64 = 0.05;
+
+/// Refuses the speed that a row above a table of one test states, `of` a member if it says so, where it is neither member's in the test.
+pub(in crate::measure::import) fn refuse_another(
+    (number, of): (&str, Option<Subject>),
+    test: &str,
+    place: &str,
+    wanted: &Wanted<'_>,
+) -> Result<(), ImportError> {
+    let ratio = wanted.ratio();
+    let is_about = |own: f64| {
+        let is_it = |speed: f64| (speed - own).abs() <= ABOUT_THE_SAME * own;
+        readings(number).any(is_it)
+    };
+    let is_of = |rpm: f64| match of {
+        Some(Subject::Gear) => is_about(rpm / ratio),
+        Some(_) => is_about(rpm),
+        None => is_about(rpm) || is_about(rpm / ratio),
+    };
+    let Some([own, _]) = wanted.run(test).filter(|[rpm, _]| !is_of(*rpm)) else {
+        return Ok(());
+    };
+    let others = wanted.tests.iter().zip(&wanted.runs);
+    let mut others = others.filter(|(_, [rpm, _])| is_of(*rpm));
+    let hint = match others.next() {
+        Some((other, _)) => format!(". It is that of test {other}: are these values of that test?"),
+        None => String::new(),
+    };
+    let (own, whose) = match of {
+        Some(Subject::Gear) => (own / ratio, "gear"),
+        _ => (own, "pinion"),
+    };
+    Err(ImportError(format!(
+        "{place} is another speed than that of test {test} in the study, {own:.0} rpm of the {whose}: correct the one that is wrong, or take the row out{hint}"
+    )))
+}
+
 /// The speed in revolutions per minute that a line states, of its name and of what stands behind that; none for other lines.
 pub(super) fn stated(row: usize, name: &str, text: &str) -> Option<Stated> {
     let (number, behind) = leading_number(text);

@@ -1,0 +1,51 @@
+//! Rows above a header that state other gears or other conditions than the study: the table is of another test or of other gears.
+
+use super::*;
+
+const TABLE: &str = "radius [mm];100000;250000\n26;3.1;6.2\n27;1.2;2.5\n";
+
+#[test]
+fn other_gears_and_conditions_are_refused() {
+    let home = home();
+    for (title, says) in [
+        ("Test A;pinion\nDrehmoment;170 Nm", "It is that of test B"),
+        (
+            "Test A, pinion, torque 120 Nm",
+            "test A in the study, 100 N m",
+        ),
+        ("Run A\nTorque [Nm];120", "`Torque [Nm]: 120`"),
+        ("Run A\nModul;2,5", "the study's, 2 mm"),
+        ("Run A\nz = 29, m = 2", "27 and 53 teeth"),
+        ("Run A\nZ\u{e4}hnezahl Ritzel: 28", "27 and 53 teeth"),
+        ("Run A\nSpeed: 600 rpm", "2000 rpm of the pinion"),
+        ("Run A\nGear speed: 2000 rpm", "1019 rpm of the gear"),
+    ] {
+        let message = refused(
+            &home,
+            &format!("{title}\n{TABLE}"),
+            "--member pinion --sigma 0.1",
+        );
+        assert!(message.contains(says), "{title}: {message}");
+    }
+    let long = "Run: A\nDrehmoment;170 Nm\ncycles;radius [mm];depth [um]\n100000;26;3.1\n";
+    let message = refused(&home, long, "--member pinion --sigma 0.1");
+    assert!(message.contains("It is that of test B"), "{message}");
+}
+
+#[test]
+fn the_study_s_own_pass_and_so_does_what_states_neither() {
+    let home = home();
+    for title in [
+        "Run A, pinion\nDrehmoment;100 Nm\nDrehzahl;2000 1/min\nModul;2,0\nz\u{e4}hlt nicht: 5",
+        // the gear's
+        "Run A\nTorque: 196.3 Nm\nSpeed: 1019 rpm",
+        // by hand, about
+        "Run A\nDrehzahl [1/min];1985",
+        "Run A\nz1/z2 = 27/53\nTeeth;1;8;15",
+        "Run A\nT = 60 \u{b0}C, m = 412 g\nProbe 4711, 3 teeth measured",
+    ] {
+        let text = format!("{title}\n{TABLE}");
+        let (_, written) = rows(&home, &text, "--member pinion --sigma 0.1 --test A");
+        assert_eq!(written.lines().count(), 4, "{title}");
+    }
+}
