@@ -102,10 +102,12 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
             &format!(
                 "drawn:   {}\nnext:    {}gearwear compare {name}\n",
                 written.folder.join("report.html").display(),
-                if sanity.is_empty() {
-                    ""
-                } else {
-                    "look at what stands under `check first` and put right what is wrong there, then "
+                match (sanity.is_empty(), data.has_slips()) {
+                    (false, _) =>
+                        "look at what stands under `check first` and put right what is wrong there, then ",
+                    (true, true) =>
+                        "look at the rows that stand far apart from their neighbours and put right what is wrong there, then ",
+                    (true, false) => "",
                 }
             ),
         ),

@@ -35,7 +35,7 @@ pub(super) fn execute(args: &ImportArgs, _: &Context) -> Result<Outcome, CliErro
         let sheets = import::sheets(table).map_err(|error| unusable(error.to_string()))?;
         let chosen = chosen(&sheets, table, args)?;
         let wanted = Wanted {
-            sigma_of_others: args.all_sheets && chosen.len() > 1,
+            sigma_of_others: chosen.len() > 1,
             ..wanted.clone()
         };
         if args.all_sheets {
@@ -69,7 +69,7 @@ fn beside_others(error: CliError, sheets: usize, refused: &[&str]) -> CliError {
                 names => format!("of the others, {} cannot be read either", names.join(", ")),
             };
             CliError::Unusable(format!(
-                "{why}\nNothing is written; {others}. --sheet NAME takes one by itself"
+                "{why}\nNothing is written; {others}. --all-sheets --skip-sheet NAME leaves one out, --sheet NAME takes single ones"
             ))
         }
         other => other,
@@ -86,31 +86,38 @@ fn chosen<'s>(
         let names: Vec<&str> = sheets.iter().map(|sheet| sheet.name.as_str()).collect();
         names.join(", ")
     };
-    match (&args.sheet, sheets) {
-        (None, [one]) => Ok(vec![one]),
-        (None, all) if args.all_sheets => {
-            let tables: Vec<&Sheet> = all.iter().filter(|sheet| sheet.holds_numbers()).collect();
+    let stated = |name: &String| match sheets.iter().find(|sheet| sheet.name == *name) {
+        Some(sheet) => Ok(sheet),
+        None => Err(CliError::Unusable(format!(
+            "{} has no sheet {name}; its sheets: {}",
+            table.display(),
+            names()
+        ))),
+    };
+    for name in &args.skip_sheet {
+        stated(name)?;
+    }
+    match (&args.sheet[..], sheets) {
+        ([], [one]) => Ok(vec![one]),
+        ([], all) if args.all_sheets => {
+            let is_skipped = |sheet: &Sheet| args.skip_sheet.contains(&sheet.name);
+            let all: Vec<&Sheet> = all.iter().filter(|sheet| !is_skipped(sheet)).collect();
+            let tables = all.iter().copied().filter(|sheet| sheet.holds_numbers());
+            let tables: Vec<&Sheet> = tables.collect();
             // where none does, each says what is wrong with it
             let is_filled = |sheet: &&Sheet| sheet.rows.iter().flatten().any(|c| !c.is_empty());
             Ok(if tables.is_empty() {
-                all.iter().filter(is_filled).collect()
+                all.into_iter().filter(is_filled).collect()
             } else {
                 tables
             })
         }
-        (Some(name), _) => match sheets.iter().find(|sheet| sheet.name == *name) {
-            Some(sheet) => Ok(vec![sheet]),
-            None => Err(CliError::Unusable(format!(
-                "{} has no sheet {name}; its sheets: {}",
-                table.display(),
-                names()
-            ))),
-        },
-        (None, _) => Err(CliError::Unusable(format!(
+        ([], _) => Err(CliError::Unusable(format!(
             "{} has several sheets, name one with --sheet: {}; or take all, one after the other, by --all-sheets",
             table.display(),
             names()
         ))),
+        (chosen, _) => chosen.iter().map(stated).collect(),
     }
 }
 

@@ -117,6 +117,12 @@ fn measurements(study: &Study, synthetic: &Synthetic, args: &SynthesizeArgs) -> 
         study.contact.name(),
         study.wear.coefficient
     ));
+    if study.wear.members != [1.0, 1.0] {
+        let [pinion, gear] = study.wear.members.map(|of| of * study.wear.coefficient);
+        say(format!(
+            "truth: k of the pinion {pinion:e}, of the gear {gear:e} mm2/N"
+        ));
+    }
     for parameter in study.effect_model().parameters() {
         say(format!("truth: {} = {:?}", parameter.name, parameter.value));
     }

@@ -19,8 +19,8 @@ use measured::{
 };
 pub(super) use uncertainties::{is_confidence_interval, is_expanded_uncertainty, sigmas};
 use vocabulary::{
-    AFTER, BEFORE, COLUMNS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEANS, MEMBERS, REPEATS, STOPS,
-    SUMMARIES, TOTALS,
+    AFTER, BASE_PITCHES, BEFORE, COLUMNS, FILLERS, FLANKS, FOR_PEOPLE, HINTS, MEANS, MEMBERS,
+    REPEATS, STOPS, SUMMARIES, TOTALS,
 };
 
 /// Which of two measurements of a part.
@@ -94,6 +94,12 @@ pub(super) fn is_for_people(name: &str) -> bool {
 pub(super) fn is_aside(name: &str) -> bool {
     let name = name.split(['[', '(']).next().unwrap_or_default();
     is_for_people(name) || SUMMARIES.contains(&folded(name).as_str())
+}
+
+/// Whether a header says that its places are fractions of a base pitch: `Position [base pitches]`.
+pub(super) fn is_in_base_pitches(header: &str) -> bool {
+    let words = words(header).concat();
+    BASE_PITCHES.iter().any(|known| words.contains(known))
 }
 
 /// Whether a word means the mean of several values.

@@ -15,6 +15,8 @@ use crate::numeric::median;
 
 /// Standard deviations from what the neighbours say from which a row stands apart: one of 150 000 Gaussian ones.
 const APART: f64 = 4.5;
+/// The same of a slip in writing: a digit, a decimal place.
+const SLIP: f64 = 20.0;
 /// Standard deviations from which another curve does alike at the same place, and share of the curves there that must.
 const ALIKE: f64 = 2.5;
 const FEATURE: f64 = 0.3;
@@ -323,13 +325,28 @@ impl Dataset {
             n => format!("{n} rows stand"),
         };
         let counted = if self.observations[first.row].sigma > first.stated_sigma {
-            "counted with a sigma as large as they stand apart"
+            match self.outliers.len() {
+                1 => "counted with a sigma as large as it stands apart",
+                _ => "counted with a sigma as large as they stand apart",
+            }
+        } else if self.outliers.len() == 1 {
+            "counted as it is: correct it, or state [noise] outliers = \"robust\""
         } else {
             "counted as they are: correct them, or state [noise] outliers = \"robust\""
         };
         Some(format!(
             "{rows} apart from the neighbours along the trace, {counted}"
         ))
+    }
+
+    /// Whether rows stand so far apart from their neighbours that nothing should be made of them before they are put right: a slip in writing. None
+    /// does where they count with a σ that allows for it.
+    pub fn has_slips(&self) -> bool {
+        let is_slip = |outlier: &Outlier| {
+            let counts_fully = self.observations[outlier.row].sigma <= outlier.stated_sigma;
+            counts_fully && outlier.apart.abs() > SLIP
+        };
+        self.outliers.iter().any(is_slip)
     }
 
     /// All rows that stand apart from their neighbours, in a sentence; None where none does.

@@ -176,9 +176,10 @@ fn separator(header: &str) -> u8 {
     let known = |separator: &u8| {
         let cells = header.split(char::from(*separator));
         let key = |cell: &str| name_and_unit(cell.trim().trim_matches('"')).0;
-        cells
-            .filter(|cell| TEST_KEYS.contains(&key(cell).as_str()))
-            .count()
+        let keys = cells.clone();
+        let keys = keys.filter(|cell| TEST_KEYS.contains(&key(cell).as_str()));
+        // where no name is known, more columns
+        (keys.count(), cells.count())
     };
     // of equals the last
     [b'\t', b';', b',']
@@ -209,6 +210,9 @@ fn columns(
         }
         if !TEST_KEYS.contains(&key.as_str()) {
             let near = source_text::nearest(&key, TEST_KEYS.iter().copied());
+            let near = near.filter(|near| {
+                source_text::begins(&key, near) || source_text::is_misspelt(&key, near)
+            });
             let hint = near.map_or(String::new(), |near| format!("the nearest is `{near}`"));
             let unknown = refuse(format!("no test has a `{key}`"));
             return Err(unknown.with_hint(hint).into());

@@ -96,3 +96,17 @@ fn depths_in_millimetres_without_a_unit_say_which_option_reads_them() {
         "{message}"
     );
 }
+
+#[test]
+fn a_title_tells_what_was_measured_over_a_rotation() {
+    let home = home();
+    let table = "Errore di trasmissione [urad]\nRotazione [passi base];100000;250000\n0;105,7;161,9\n0,25;-10,2;-22,1\n0,5;-60,1;-70,3\n";
+    let (_, written) = rows(&home, table, "--test A --sigma 0.5");
+    assert!(
+        written.contains("A,pair,250000,transmission_error,0.25,-22.1,0.5,"),
+        "{written}"
+    );
+    let untitled = table.split_once('\n').unwrap().1;
+    let message = refused(&home, untitled, "--test A --sigma 0.5");
+    assert!(message.contains("--quantity"), "{message}");
+}

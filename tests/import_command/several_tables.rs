@@ -613,3 +613,39 @@ fn members_that_may_be_swapped_are_warned_of() {
     assert_eq!(shown.matches("warning").count(), 1, "{shown}");
     assert!(shown.contains(says), "{shown}");
 }
+
+#[test]
+fn some_sheets_are_taken_or_left_out_by_name() {
+    let home = home();
+    let options = "--study study.toml --test A --unit mm --turn-sign --sigma 0.2";
+    let message = {
+        let (code, _, message) = line(&home, &format!("import tables.xlsx --all-sheets {options}"));
+        assert_eq!(code, Some(2));
+        message
+    };
+    assert!(
+        message.contains("--all-sheets --skip-sheet NAME"),
+        "{message}"
+    );
+    let shown = succeed(
+        &home,
+        &format!("import tables.xlsx --all-sheets --skip-sheet rows --skip-sheet gear {options}"),
+    );
+    assert!(
+        shown.contains("sheet rows passed over: as asked") && shown.contains("sheet pinion\n"),
+        "{shown}"
+    );
+    let two = "import tables.xlsx --sheet pinion --sheet pinion --study study.toml --test A --unit mm --turn-sign --sigma 0.2";
+    let (code, _, message) = line(&home, two);
+    // the same twice is no second table
+    assert_eq!(code, Some(2), "{message}");
+    let (code, _, message) = line(
+        &home,
+        &format!("import tables.xlsx --all-sheets --skip-sheet lid {options}"),
+    );
+    assert_eq!(code, Some(2));
+    assert!(
+        message.contains("has no sheet lid; its sheets: pinion"),
+        "{message}"
+    );
+}

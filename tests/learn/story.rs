@@ -383,9 +383,7 @@ fn the_right_effect_is_worth_adding_and_a_wrong_one_is_not() {
     assert!(before.chi2_per_point > 3.0, "{}", before.chi2_per_point);
     // Datums hide the level of the early excess, not its size.
     assert!(
-        before
-            .worst
-            .contains("As a whole the measured wear of that member is 1."),
+        before.worst.contains("measured wear in test A is 1."),
         "{}",
         before.worst
     );

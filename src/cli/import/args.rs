@@ -20,12 +20,15 @@ pub struct ImportArgs {
     /// Study that the measurements belong to: its tests and gears
     #[arg(long, value_name = "STUDY")]
     pub(super) study: PathBuf,
-    /// Sheet of the spreadsheet [default: its only one]
+    /// Sheet of the spreadsheet, once or several times [default: its only one]
     #[arg(long, value_name = "NAME")]
-    pub(super) sheet: Option<String>,
+    pub(super) sheet: Vec<String>,
     /// Every sheet of the spreadsheets, one after the other
     #[arg(long, conflicts_with = "sheet")]
     pub(super) all_sheets: bool,
+    /// Sheet that --all-sheets leaves out, once or several times
+    #[arg(long, value_name = "NAME", requires = "all_sheets")]
+    pub(super) skip_sheet: Vec<String>,
     /// Id of the test [default: what the table or the sheet's name says, or the study's only one]
     #[arg(long, value_name = "ID")]
     pub(super) test: Option<String>,
@@ -59,7 +62,7 @@ pub struct ImportArgs {
     #[arg(long, value_enum, value_name = "WHAT", value_delimiter = ',')]
     pub(super) per_interval: Vec<PerInterval>,
     /// One standard deviation of every value, in the quantity's own unit (µm of depth); with --all-sheets of the sheets without a column of it
-    /// [default: left empty, and estimated from the scatter of neighbouring points wherever the file is read]
+    /// [default: left empty, and estimated from the scatter of the values wherever the file is read]
     #[arg(long, value_name = "SIGMA", allow_negative_numbers = true, value_parser = sigma)]
     pub(super) sigma: Option<f64>,
     /// A standard deviation as a share (0.03: three percent), beside --sigma or alone, for scatter that grows with the wear

@@ -15,7 +15,7 @@ const SHOWN: usize = 3;
 const NAMED: usize = 8;
 
 /// What is said of the standard deviation where nothing states it.
-const LEFT_EMPTY: &str = "left empty: estimated from the scatter of neighbouring points wherever the file is read (--sigma states it)";
+const LEFT_EMPTY: &str = "left empty: estimated from the scatter of the values wherever the file is read (--sigma states it)";
 
 /// A mapping where the standard deviation cannot be estimated either.
 pub(super) fn without_sigma(shown: &str) -> String {

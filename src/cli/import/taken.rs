@@ -51,11 +51,12 @@ impl Taken {
         for sheet in sheets {
             let is_chosen = chosen.iter().any(|one| one.name == sheet.name);
             let is_filled = sheet.rows.iter().flatten().any(|cell| !cell.is_empty());
+            let why = match sheet.holds_numbers() {
+                true => "as asked",
+                false => "none of its rows holds two numbers",
+            };
             if !is_chosen && is_filled {
-                self.text += &format!(
-                    "sheet {} passed over: none of its rows holds two numbers\n",
-                    sheet.name
-                );
+                self.text += &format!("sheet {} passed over: {why}\n", sheet.name);
             }
         }
     }

@@ -217,7 +217,9 @@ fn factor(ratios: &[Ratio]) -> String {
         format!("{times:.2} times the computed at {:.0} cycles", r.cycles)
     };
     let mut text = format!(
-        " As a whole the measured wear of that member is {} (that factor alone would remove {:.0} % of the misfit there)",
+        " As a whole the {}'s measured wear in test {} is {} (that factor alone would remove {:.0} % of the misfit there)",
+        first.member,
+        first.test,
         told(first),
         100.0 * first.explains().min(1.0)
     );

@@ -11,10 +11,10 @@ use crate::study::Study;
 /// Measured over computed wear of one member at one checkpoint.
 ///
 /// ```text
-/// least Σ ((y − d_trace − s f)/σ)² over s and each trace's d:
-/// s = Σ (f − f̄)(y − ȳ)/σ² / Σ (f − f̄)²/σ²,   sd = (Σ (f − f̄)²/σ²)^(−1/2)       means weighted by 1/σ² within each trace
+/// least Σ ((y − d_trace − s f)/σ)² + Σ (d_trace/D)² over s and each trace's d:
+/// s = <f, y>/<f, f>,   sd = <f, f>^(−1/2),   <a, b> = Σ a b/σ² − Σ_traces (Σ a/σ²)(Σ b/σ²)/(Σ 1/σ² + 1/D²)
 /// ```
-/// Rows without a trace have no d.
+/// D is the datum that the study states; rows without a trace have no d.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Ratio {
     /// Id of the test.
@@ -67,7 +67,7 @@ pub(in crate::learn) fn ratios(
     }
     let mut ratios: BTreeMap<(usize, Subject), Vec<Ratio>> = BTreeMap::new();
     for ((test, member, _), rows) in groups {
-        let Some((s, sigma, chi2_scaled)) = scaled(&rows) else {
+        let Some((s, sigma, chi2_scaled)) = scaled(&rows, study.noise.datum_um) else {
             continue;
         };
         let chi2: f64 = rows.iter().map(|(_, row)| row.standardised.powi(2)).sum();
@@ -86,30 +86,60 @@ pub(in crate::learn) fn ratios(
     ratios
 }
 
-/// s, its standard deviation and χ² per point with it.
-fn scaled(rows: &[FittedRow<'_>]) -> Option<(f64, f64, f64)> {
-    let mut means: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
+/// s, its standard deviation and χ² per point with it, where a trace's datum has the standard deviation `datum`, µm.
+fn scaled(rows: &[FittedRow<'_>], datum: f64) -> Option<(f64, f64, f64)> {
+    // Σ 1/σ² + 1/D², Σ f/σ², Σ y/σ²
+    let mut traces: BTreeMap<usize, [f64; 3]> = BTreeMap::new();
+    let (mut ff, mut fy) = (0.0, 0.0);
     for (o, row) in rows {
-        let Some(trace) = o.trace else { continue };
         let weight = o.sigma.powi(-2);
-        let sums = means.entry(trace).or_default();
+        ff += weight * row.model * row.model;
+        fy += weight * row.model * o.value;
+        let Some(trace) = o.trace else { continue };
+        let sums = traces.entry(trace).or_insert([datum.powi(-2), 0.0, 0.0]);
         for (sum, x) in sums.iter_mut().zip([1.0, row.model, o.value]) {
             *sum += weight * x;
         }
     }
-    let centred: Vec<(f64, f64)> = rows
-        .iter()
-        .map(|(o, row)| {
-            let [w, f, y] = o.trace.map_or([1.0, 0.0, 0.0], |trace| means[&trace]);
-            ((row.model - f / w) / o.sigma, (o.value - y / w) / o.sigma)
-        })
-        .collect();
-    let square: f64 = centred.iter().map(|(f, _)| f * f).sum();
-    let product: f64 = centred.iter().map(|(f, y)| f * y).sum();
-    if square <= 0.0 {
+    for [w, f, y] in traces.values() {
+        ff -= f * f / w;
+        fy -= f * y / w;
+    }
+    if ff <= 0.0 {
         return None;
     }
-    let s = product / square;
-    let rest: f64 = centred.iter().map(|(f, y)| (y - s * f).powi(2)).sum();
-    Some((s, square.sqrt().recip(), rest / rows.len() as f64))
+    let s = fy / ff;
+    let left = |(o, row): &FittedRow<'_>| {
+        let sums = o.trace.map(|trace| traces[&trace]);
+        let own = sums.map_or(0.0, |[w, f, y]| (y - s * f) / w);
+        ((o.value - own - s * row.model) / o.sigma).powi(2)
+    };
+    let rest: f64 = rows.iter().map(left).sum();
+    Some((s, ff.sqrt().recip(), rest / rows.len() as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Dataset;
+
+    #[test]
+    fn a_datum_takes_as_much_as_its_prior_allows() {
+        let study = include_str!("../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        // y = 2 f + 1 at f 1 and 3, σ 1
+        let text = "test,member,cycles,quantity,position,value,sigma,trace\n\
+                    A,pinion,200000,wear_depth,27.0,3,1,a\nA,pinion,200000,wear_depth,27.2,7,1,a\n";
+        let data = Dataset::parse(text, "m.csv", &study.known()).unwrap();
+        let fits = super::super::sanity::fits_of(&[1.0, 3.0]);
+        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+        let s = |datum: f64| scaled(&rows, datum).unwrap().0;
+        assert!((s(1e6) - 2.0).abs() < 1e-9);
+        // none: Σ f y/Σ f²
+        assert!((s(0.0) - 2.4).abs() < 1e-12);
+        // D = 1: (24 − 4·10/3)/(10 − 16/3)
+        assert!((s(1.0) - 32.0 / 14.0).abs() < 1e-12);
+        let (_, sigma, left) = scaled(&rows, 1e6).unwrap();
+        assert!((sigma - 0.5_f64.sqrt()).abs() < 1e-9 && left < 1e-9);
+    }
 }

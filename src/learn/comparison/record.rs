@@ -76,6 +76,9 @@ pub struct Comparison {
     /// Where the prior of the wear coefficient is from: a pair of materials; empty: the program's own, that of mild wear of metals.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub coefficient_prior: String,
+    /// k of pinion and gear, mm²/N, where the study states coefficients of their own: `wear.coefficient` times what each is of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub member_coefficients: Option<[f64; 2]>,
     /// Whether the fit converged.
     pub converged: bool,
     /// Logarithm of the marginal likelihood of the fit tests.
@@ -205,6 +208,8 @@ impl Comparison {
                 .collect(),
             tests: test_records(study, fit, &rows),
             coefficient_prior: coefficient_prior(study),
+            member_coefficients: (study.wear.members != [1.0, 1.0])
+                .then(|| study.wear.members.map(|of| of * fit.coefficient)),
             coefficient_scatter: fit.scatter,
             coefficient_scatter_interval: fit.scatter_interval,
             by_member: Group::by(&rows, |o| Some(o.member), |m| m.name().to_owned()),

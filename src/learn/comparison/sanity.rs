@@ -13,6 +13,7 @@ mod copied_curves;
 mod copied_rows;
 mod cycle_units;
 mod depths_and_masses;
+mod exchanged_curves;
 mod exchanged_depths;
 mod exchanged_masses;
 mod exchanged_tests;
@@ -112,6 +113,7 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         said.extend(exchanged_masses::exchanged_masses(study, &rows));
         if said.is_empty() {
             said.extend(exchanged_depths::exchanged_depths(study, &rows));
+            said.extend(exchanged_curves::exchanged_curves(study, &rows));
         }
         if said.is_empty() {
             said.extend(same_moments::increments(study, &rows));
@@ -267,7 +269,7 @@ fn rounded(value: f64) -> String {
 
 /// Fits with these model values, for the tests of single questions.
 #[cfg(test)]
-fn fits_of(models: &[f64]) -> Vec<RowFit> {
+pub(super) fn fits_of(models: &[f64]) -> Vec<RowFit> {
     let of = |&model: &f64| RowFit {
         model,
         datum: 0.0,

@@ -60,7 +60,7 @@ fn in_words(mut own: Vec<&OwnK<'_>>, order: Option<&str>) -> Option<String> {
     let k = |log: f64| significant(log.exp(), 3);
     let outstanding = one_apart(&own).map_or(String::new(), |(one, others)| {
         format!(
-            "; test {} stands out, at {} times the mean of the others, {} mm²/N",
+            "; test {} stands out, at {} times the mean of the others, {} mm²/N (are torque, speed and cycles of each test those that the study states?)",
             one.test,
             significant((one.log - others).exp(), 2),
             k(others)

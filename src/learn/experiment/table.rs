@@ -157,7 +157,7 @@ fn basis(decided: Option<&Decided>, from_diagnosis: bool) -> String {
             };
             format!("the leaders of the finished diagnosis{unknown}")
         }
-        Some(_) => "the leaders by the analytic model alone: it can fit fewer than two of those that the finished diagnosis names".to_owned(),
+        Some(_) => "the leaders by the analytic model alone, for of those that the finished diagnosis names it can fit one at most".to_owned(),
         None => "the leaders by the analytic model alone, which may be others than those of a diagnosis: gearwear diagnose STUDY decides, and plan then starts from its answer".to_owned(),
     }
 }

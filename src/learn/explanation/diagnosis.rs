@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::findings::Findings;
 use super::ranked::{Ranked, form, parameters, ranked};
 use super::remainder::{Remainder, established, remainder};
-use super::sentences::{SURE, undecided};
+use super::sentences::{SURE, is_within_analytic_error, undecided};
 use super::warnings::warnings;
 use super::wording::Explanation;
 use crate::learn::checks::goodness_of_fit::GoodnessOfFit;
@@ -140,6 +140,12 @@ impl Diagnosis {
 
     /// The same with questions about the measurements before all other warnings: no effect is to be trusted until they are answered.
     pub fn asking_first(mut self, questions: Vec<String>) -> Self {
+        if !questions.is_empty() {
+            self.next_step = format!(
+                "look at what stands under `check first` and put right what is wrong there, then gearwear diagnose STUDY; if nothing is wrong, {}",
+                self.next_step
+            );
+        }
         let asked = questions.into_iter();
         let asked = asked.map(|question| format!("{CHECK_FIRST}{question}"));
         self.warnings.splice(0..0, asked);
@@ -219,8 +225,10 @@ impl Diagnosis {
             warnings: warnings(context, base, posterior, &findings.not_fitted),
             sparse_regression: names(findings.sparse_regression),
             leaves_only_noise: {
-                let left = leader.map_or(base.fitted.square, |leader| leader.square);
-                context.approximate || is_within_noise(left, likelihood.len())
+                let fitted = leader.unwrap_or(&base.fitted);
+                let is_own_error =
+                    || context.approximate && is_within_analytic_error(likelihood, fitted);
+                is_within_noise(fitted.square, likelihood.len()) || is_own_error()
             },
             not_judged: findings.not_judged,
         }

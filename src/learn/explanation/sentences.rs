@@ -10,6 +10,7 @@ use super::wording::{
 };
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
+use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::checks::sufficiency::{few, measured_once};
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{Decision, Verdict};
@@ -145,25 +146,29 @@ pub(super) fn undecided(
     base: &BaseFit,
     posterior: &JudgedCandidates,
 ) -> bool {
-    let likelihood = &context.likelihood;
-    let within_error = || {
-        let model = &base.fitted.found.model;
-        // of the stiffness of teeth, and so of their transmission error, it knows less than of wear
-        let off: Vec<f64> = (likelihood.standardised(model).iter().zip(model).enumerate())
-            .filter(|(row, _)| likelihood.observation(*row).quantity.is_wear())
-            .map(|(row, (z, value))| {
-                let own = ANALYTIC_ERROR * value / likelihood.observation(row).sigma;
-                z * z / (1.0 + own * own)
-            })
-            .collect();
-        off.iter().sum::<f64>() < WITHIN_ERROR * off.len() as f64
-    };
     context.approximate
         && match posterior.decision.verdict {
             Verdict::Unknown => true,
             Verdict::NothingMissing => false,
-            _ => within_error(),
+            _ => is_within_analytic_error(&context.likelihood, &base.fitted),
         }
+}
+
+/// Whether a fit by the analytic model misses no more than that model's own error.
+pub(super) fn is_within_analytic_error(
+    likelihood: &Likelihood<'_>,
+    fitted: &FittedCandidate,
+) -> bool {
+    let model = &fitted.found.model;
+    // of the stiffness of teeth, and so of their transmission error, it knows less than of wear
+    let off: Vec<f64> = (likelihood.standardised(model).iter().zip(model).enumerate())
+        .filter(|(row, _)| likelihood.observation(*row).quantity.is_wear())
+        .map(|(row, (z, value))| {
+            let own = ANALYTIC_ERROR * value / likelihood.observation(row).sigma;
+            z * z / (1.0 + own * own)
+        })
+        .collect();
+    off.iter().sum::<f64>() < WITHIN_ERROR * off.len() as f64
 }
 
 /// The answer where the analytic model cannot decide: its leaders, and what would.
@@ -371,8 +376,23 @@ fn why_not_the_runner_up(findings: &Findings<'_>) -> Vec<String> {
         let alone = Hypothesis::Effects(fitted.candidate.effects.clone());
         posterior.decision.log_probabilities[&alone]
     });
+    let fitted = match other.converged {
+        true => "fitted as well as it can be",
+        false => "as far as it was fitted",
+    };
+    let base = findings.base.fitted.square;
+    let whole = match chi2(findings, other) > chi2(findings, leader) {
+        true => String::new(),
+        // per point, rows do not count with what they have in common
+        false => format!(
+            " (of all rows together, with their covariance, it takes {} off χ², {} takes {})",
+            significant(base - other.square, 4),
+            leader.candidate.effects,
+            significant(base - leader.square, 4)
+        ),
+    };
     let mut reasons = vec![format!(
-        "Why not {}: fitted as well as it can be it leaves χ² {:.2} per point, {}.",
+        "Why not {}: {fitted} it leaves χ² {:.2} per point{whole}, {}.",
         other.candidate.effects,
         chi2(findings, other),
         against(of_leader - of_other)

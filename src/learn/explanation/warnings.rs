@@ -35,7 +35,7 @@ pub(in crate::learn) fn warnings(
     if context.approximate {
         warnings.push(
             "decided by the analytic contact model, whose curves differ from finite elements (by 1 to 2 % for the reference pair, by more for others and at deep wear; `gearwear models STUDY` \
-             tells it for this one) and may hide or feign an effect: repeat with --fidelity middle before acting on this".to_owned(),
+             tells it for this one) and may mask or mimic an effect: repeat with --fidelity middle before acting on this".to_owned(),
         );
     }
     warnings.extend(of_one_test(likelihood, base));

@@ -1,7 +1,7 @@
 //! Units of tables: what headers say, and factors to the units of a measurement file.
 
 use super::ImportError;
-use crate::measure::Quantity;
+use crate::measure::{Quantity, names};
 
 /// Units of a quantity's values with their factors to its own, the first one.
 fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
@@ -58,8 +58,12 @@ pub(super) fn of_position(header: &str, angle: bool) -> Result<f64, ImportError>
     };
     find(known, &unit).ok_or_else(|| {
         let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
+        let hint = match names::is_in_base_pitches(header) {
+            true => "; what was measured over a rotation is told by --quantity (transmission_error, load_share, ...) or a title",
+            false => "",
+        };
         ImportError(format!(
-            "`{header}`: positions in {unit} are not read; their unit is one of {}",
+            "`{header}`: positions in {unit} are not read; their unit is one of {}{hint}",
             names.join(", ")
         ))
     })

@@ -153,7 +153,7 @@ pub(super) fn whole(sheet: &Sheet, quantity: Quantity, wanted: &Wanted<'_>) -> R
 }
 
 /// The quantity without places that a row above a header of members names, or one above or before checkpoints with members down the first column:
-/// `Massenverlust [g]`.
+/// `Massenverlust [g]`; or one over the rotation above places in base pitches.
 pub(super) fn titled(sheet: &Sheet) -> Option<Quantity> {
     let across = (sheet.rows.iter()).position(|row| is_header_of_members(row));
     let named = |titles: &[Vec<String>], first: Option<&String>| {
@@ -164,6 +164,12 @@ pub(super) fn titled(sheet: &Sheet) -> Option<Quantity> {
         return named(&sheet.rows[..head], None);
     }
     let head = header(sheet).ok()?;
+    // over a rotation, which its places tell from a flank's
+    let corner = sheet.rows[head].first();
+    if corner.is_some_and(|corner| names::is_in_base_pitches(corner)) {
+        let mut titles = sheet.rows[..head].iter().flatten();
+        return titles.find_map(|title| names_quantity_of(title, Place::Rotation));
+    }
     let below = sheet.rows[head + 1..].iter();
     let mut first = below.filter_map(|row| row.first().filter(|cell| !cell.is_empty()));
     let is_of_member = first
@@ -176,10 +182,14 @@ pub(super) fn titled(sheet: &Sheet) -> Option<Quantity> {
 
 /// The quantity without places that a part of a title names.
 fn names_quantity(title: &str) -> Option<Quantity> {
+    names_quantity_of(title, Place::Whole)
+}
+
+fn names_quantity_of(title: &str, place: Place) -> Option<Quantity> {
     let parts = title.split([',', ';', ':']);
     let mut named = parts.filter_map(|part| names::quantity(&units::name_and_unit(part).0));
     named
-        .find(|(quantity, _)| quantity.place() == Place::Whole)
+        .find(|(quantity, _)| quantity.place() == place)
         .map(|(quantity, _)| quantity)
 }
 

@@ -203,6 +203,17 @@ pub(super) const SUMMARIES: [&str; 23] = [
     "promedio",
 ];
 
+/// Words for base pitches.
+pub(super) const BASE_PITCHES: [&str; 7] = [
+    "basepitch",
+    "grundteilung",
+    "eingriffsteilung",
+    "passobase",
+    "passibase",
+    "pasdebase",
+    "pasosbase",
+];
+
 /// Those of them that name the mean.
 pub(super) const MEANS: [&str; 8] = [
     "mean",

@@ -135,6 +135,12 @@ fn figures(lines: &mut Vec<String>, c: &Comparison) {
         ));
     }
     lines.push(format!("  scatter of k      {}", scatter(c)));
+    if let Some(members) = c.member_coefficients {
+        let [pinion, gear] = members.map(|k| significant(k, 3));
+        lines.push(format!(
+            "  k of the members  pinion {pinion}, gear {gear} mm²/N: in proportion to wear.coefficient, which is a common factor here"
+        ));
+    }
     if !c.coefficient_prior.is_empty() {
         lines.push(format!("  prior of k        {}", c.coefficient_prior));
     }
@@ -266,6 +272,11 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
     if !result.comparison.sanity.is_empty() {
         format!(
             "look at what stands under `check first` and put right what is wrong there, then gearwear compare {name}"
+        )
+    } else if result.data.has_slips() {
+        format!(
+            "look at the rows that stand far apart from their neighbours (gearwear check {name} lists them) and put right what is wrong there, then \
+             gearwear compare {name}"
         )
     } else if lacks(result.comparison) {
         format!(

@@ -293,7 +293,7 @@ fn validation(c: &Comparison) -> Section {
     }
     let section = Section::new("Error against uncertainty")
         .paragraph(
-            "In the way of ASME V&V 20-2009: E, the mean of model minus measured, against the validation uncertainty of \
+            "Following ASME V&V 20-2009: E, the mean of model minus measured, against the validation uncertainty of \
              numerics, fitted inputs and data. Where |E| > 2 u val the model's own error is seen. For fit tests E shows \
              only what no parameter can mend.",
         )

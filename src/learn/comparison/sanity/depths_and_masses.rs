@@ -5,6 +5,8 @@ use super::{EXPLAINS, FACTOR, NEAR, mass_balance, rounded, same_moments, scale};
 use crate::measure::{Quantity, Subject};
 use crate::study::Study;
 
+/// Factor within which a ratio of a thousand or a million is one.
+const NEAR_UNIT: f64 = 2.0;
 /// Factor within which both members are off alike.
 const ALIKE: f64 = 2.0;
 /// How far from its number of teeth the factor of either member may be.
@@ -73,7 +75,10 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
     ];
     let hint = (known.iter())
         .find(|(factor, _)| {
-            (ratio / factor - 1.0).abs() < NEAR || *factor == teeth && of_one_tooth
+            // no other slip is near a thousand, whatever the model lacks
+            let is_power = *factor != teeth && (ratio / factor).ln().abs() < NEAR_UNIT.ln();
+            let is_near = (ratio / factor - 1.0).abs() < NEAR;
+            is_near || is_power || *factor == teeth && of_one_tooth
         })
         .map_or(
             "look at their units (µm and mg), at density and face_width, whether the mass is the whole member's and of no other, whether the traces \

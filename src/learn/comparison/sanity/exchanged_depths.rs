@@ -50,13 +50,15 @@ pub(super) fn exchanged_depths(study: &Study, rows: &[FittedRow<'_>]) -> Option<
     })
 }
 
+/// The rows of one test.
+pub(super) fn of_one_test<'d>(rows: &[FittedRow<'d>], test: usize) -> Vec<FittedRow<'d>> {
+    let own = rows.iter().filter(|(o, _)| o.test == test);
+    own.copied().collect()
+}
+
 /// ln of how much more the pinion's depths are the model's than the gear's; None without both.
-fn of_test(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
-    let own: Vec<FittedRow<'_>> = rows
-        .iter()
-        .filter(|(o, _)| o.test == test)
-        .copied()
-        .collect();
+pub(super) fn of_test(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
+    let own = of_one_test(rows, test);
     let of = |member| {
         let found = scale(&own, Quantity::WearDepth, Some(member))?;
         (found.factor > 0.0).then_some(found.factor)

@@ -1,0 +1,127 @@
+//! Depths of one member that stand under each other's names in two tests.
+//!
+//! ```text
+//! q = ln s_p/s_g of a test's depths, L = ln of the computed wear per revolution of test j over that of test i
+//! pinion's exchanged: q_i = q + L, q_j = q − L; gear's: q_i = q − L, q_j = q + L       q that of the other tests
+//! |L| > ln 1.3, both within a fifth of L, as the other tests are of each other; for one pair and one member alone
+//! ```
+
+use super::super::residual_statistics::FittedRow;
+use super::exchanged_depths::{of_one_test, of_test};
+use crate::measure::{Quantity, Subject};
+use crate::numeric::median;
+use crate::numeric::written::significant;
+use crate::study::Study;
+
+/// ln of the ratio of two tests' wear below which nothing is told.
+const APART: f64 = 0.26;
+/// How near to exchanged two tests must be, and how near each other the others, in parts of L.
+const NEAR: f64 = 0.2;
+
+/// A question about the two tests of which one member's depths fit once exchanged; none for fewer than three tests.
+pub(super) fn exchanged_curves(study: &Study, rows: &[FittedRow<'_>]) -> Option<String> {
+    let own = (0..study.tests.len()).filter_map(|test| Some((test, of_test(rows, test)?)));
+    let own: Vec<(usize, f64)> = own.collect();
+    let pairs = (0..own.len()).flat_map(|i| (i + 1..own.len()).map(move |j| (i, j)));
+    let members = [(Subject::Pinion, 1.0), (Subject::Gear, -1.0)];
+    let mut found = pairs
+        .flat_map(|pair| members.map(|of| (pair, of)))
+        .filter_map(|((i, j), (member, sign))| {
+            let [one, other] = [own[i], own[j]];
+            let by = sign * (level(rows, other.0, member)? / level(rows, one.0, member)?).ln();
+            let others = own.iter().filter(|q| q.0 != one.0 && q.0 != other.0);
+            let others: Vec<f64> = others.map(|q| q.1).collect();
+            let usual = median(others.clone())?;
+            let near = |x: f64| x.abs() < NEAR * by.abs();
+            let is_exchanged = by.abs() > APART
+                && others.iter().all(|q| near(q - usual))
+                && near(one.1 - usual - by)
+                && near(other.1 - usual + by);
+            is_exchanged.then_some((member, one, other, sign * by))
+        });
+    let (member, one, other, by) = found.next().filter(|_| found.next().is_none())?;
+    let mate = match member {
+        Subject::Pinion => Subject::Gear,
+        _ => Subject::Pinion,
+    };
+    let [first, second] = [one.0, other.0].map(|test| &study.tests[test].id);
+    Some(format!(
+        "are the {}'s depths of tests {first} and {second} exchanged? Against the {}'s of the same tests they are {} times what they should be in {first} and {} \
+         times in {second}, as they would be under each other's names: look at the files or sheets that they come from",
+        member.name(),
+        mate.name(),
+        significant(by.exp(), 2),
+        significant((-by).exp(), 2),
+    ))
+}
+
+/// Computed wear of a member's rows per revolution.
+fn level(rows: &[FittedRow<'_>], test: usize, member: Subject) -> Option<f64> {
+    let own = of_one_test(rows, test).into_iter();
+    let own = own.filter(|(o, _)| o.quantity == Quantity::WearDepth && o.member == member);
+    let [depths, cycles] = own.fold([0.0, 0.0], |[depths, cycles], (o, row)| {
+        [depths + row.model, cycles + o.cycles]
+    });
+    (depths > 0.0 && cycles > 0.0).then(|| depths / cycles)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::Dataset;
+
+    /// What is said of tests A, B and C whose computed depths are 1, `level` and 1.5 times some, with so many times these on pinion and gear.
+    fn said(level: f64, factors: [[f64; 2]; 3]) -> Option<String> {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        let mut models = Vec::new();
+        for ((test, level), factors) in ["A", "B", "C"]
+            .into_iter()
+            .zip([1.0, level, 1.5])
+            .zip(factors)
+        {
+            for ((member, radius), factor) in
+                [("pinion", 27.0), ("gear", 53.0)].into_iter().zip(factors)
+            {
+                for (place, model) in [3.0, 5.0, 8.0].into_iter().enumerate() {
+                    let place = radius + 0.2 * place as f64;
+                    let model = level * model;
+                    let value = factor * model;
+                    text += &format!("{test},{member},200000,wear_depth,{place},{value},0.1\n");
+                    models.push(model);
+                }
+            }
+        }
+        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        let fits = super::super::fits_of(&models);
+        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+        exchanged_curves(&study, &rows)
+    }
+
+    #[test]
+    fn two_tests_whose_curves_of_one_member_are_exchanged_are_asked_about() {
+        let pinion = said(2.0, [[2.05, 1.0], [0.49, 0.97], [1.02, 1.0]]).unwrap();
+        assert!(
+            pinion.starts_with("are the pinion's depths of tests A and B exchanged?")
+                && pinion.contains("2.0 times what they should be in A"),
+            "{pinion}"
+        );
+        let gear = said(2.0, [[1.0, 2.05], [1.0, 0.5], [1.0, 1.0]]).unwrap();
+        assert!(
+            gear.starts_with("are the gear's depths of tests A and B exchanged?"),
+            "{gear}"
+        );
+        // all right; both members of two tests; one test alone; another factor; tests that wear alike
+        let both = [[2.0, 2.0], [0.5, 0.5], [1.0, 1.0]];
+        for (level, factors) in [
+            (2.0, [[1.0; 2]; 3]),
+            (2.0, both),
+            (2.0, [[2.0, 1.0], [1.0, 1.0], [1.0, 1.0]]),
+            (2.0, [[3.0, 1.0], [0.33, 1.0], [1.0, 1.0]]),
+            (1.1, [[1.1, 1.0], [0.9, 1.0], [1.0, 1.0]]),
+        ] {
+            assert_eq!(said(level, factors), None, "{factors:?}");
+        }
+    }
+}
