@@ -217,7 +217,7 @@ fn factor(ratios: &[Ratio]) -> String {
         format!("{times:.2} times the computed at {:.0} cycles", r.cycles)
     };
     let mut text = format!(
-        " As a whole the {}'s measured wear in test {} is {} (that factor alone would remove {:.0} % of the misfit there)",
+        " With the zero of each trace left open the {}'s measured wear in test {} is {} (that factor alone would remove {:.0} % of the misfit there)",
         first.member,
         first.test,
         told(first),

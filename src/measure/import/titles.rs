@@ -75,6 +75,8 @@ const UNIT: [&str; 10] = [
     "values",
     "werte",
 ];
+/// Most words of a quantity's name.
+const NAME: usize = 3;
 const NOT: [&str; 6] = ["not", "no", "nicht", "kein", "non", "pas"];
 
 impl Titles {
@@ -135,15 +137,16 @@ impl Titles {
 /// The unit of the values that a title states beside their name; none if it speaks of positions too, or of several units.
 fn unit(text: &str, quantity: Quantity) -> Option<String> {
     let words = names::words(text);
-    let of_values =
-        |word: &String| names::quantity(word).is_some_and(|(named, _)| named == quantity);
+    let of_values = |name: &str| names::quantity(name).is_some_and(|(named, _)| named == quantity);
+    // `transmission error`, `errore di trasmissione`
+    let is_named = (1..=NAME).any(|n| words.windows(n).any(|words| of_values(&words.join(" "))));
     let of_places = |word: &String| {
         names::column(word) == Some("position")
             || ["roll", "angle", "length"].contains(&word.as_str())
     };
     let is_unit = |word: &String| UNIT.contains(&word.as_str());
     let is_deviation = quantity == Quantity::WearDepth && names::speaks_of_deviation(text);
-    let names_values = words.iter().any(of_values) || words.iter().any(is_unit) || is_deviation;
+    let names_values = is_named || words.iter().any(is_unit) || is_deviation;
     if !names_values || words.iter().any(of_places) {
         return None;
     }
@@ -198,6 +201,13 @@ mod tests {
         assert_eq!(unit("Units: mm, \u{b5}m"), None);
         assert_eq!(unit("Unit of mass: mg"), None);
         assert_eq!(unit("scale 50 mm"), None);
+        let of_rotation = |text| super::unit(text, Quantity::TransmissionError);
+        for title in [
+            "Transmission error [mrad]",
+            "Errore di trasmissione in mrad",
+        ] {
+            assert_eq!(of_rotation(title).as_deref(), Some("mrad"), "{title}");
+        }
         for (text, says) in [
             ("Wear depth, negative = material lost", Some(true)),
             ("positive = material lost", Some(false)),
