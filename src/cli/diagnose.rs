@@ -98,7 +98,10 @@ fn one(
     let progress = context.progress("diagnose");
     let diagnosis = diagnose(&measured, fidelity, &|done, what| progress.show(done, what))?;
     let questions = questions(&measured, diagnosis.leaves_only_noise);
-    let diagnosis = diagnosis.asking_first(questions);
+    let diagnosis = match questions.is_empty() && measured.data.has_slips() {
+        true => diagnosis.beside_slips(),
+        false => diagnosis.asking_first(questions),
+    };
     drop(progress);
     let mut document = json!(diagnosis);
     document[inputs::KEY] = json!(inputs::identity(&study)?);

@@ -17,6 +17,7 @@ fn other_gears_and_conditions_are_refused() {
         ("Run A\nModul;2,5", "the study's, 2 mm"),
         ("Run A\nz = 29, m = 2", "27 and 53 teeth"),
         ("Run A\nZ\u{e4}hnezahl Ritzel: 28", "27 and 53 teeth"),
+        ("Run A\nZ\u{e4}hnezahl: 53", "is it the other member's?"),
         ("Run A\nSpeed: 600 rpm", "2000 rpm of the pinion"),
         ("Run A\nGear speed: 2000 rpm", "1019 rpm of the gear"),
     ] {
@@ -35,6 +36,13 @@ fn other_gears_and_conditions_are_refused() {
 #[test]
 fn the_study_s_own_pass_and_so_does_what_states_neither() {
     let home = home();
+    let stated = format!("Run A\nModul: 2,0\nProbe: 4711\n{TABLE}");
+    let (shown, _) = rows(&home, &stated, "--member pinion --sigma 0.1");
+    assert!(
+        shown.contains("row 2, `Modul: 2,0`: as in the study")
+            && shown.contains("title row 3 passed over"),
+        "{shown}"
+    );
     for title in [
         "Run A, pinion\nDrehmoment;100 Nm\nDrehzahl;2000 1/min\nModul;2,0\nz\u{e4}hlt nicht: 5",
         // the gear's

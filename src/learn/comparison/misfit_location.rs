@@ -200,6 +200,9 @@ fn trend(key: &CellKey, cells: &BTreeMap<CellKey, Cell>) -> String {
     )
 }
 
+/// Part of an error that one in another test has at least if it is called the same.
+const ALIKE: f64 = 0.3;
+
 /// Sizes of the measured wear against the computed one that are worth telling: beyond them the values are not what they are taken for.
 const TELLING: std::ops::Range<f64> = 0.01..100.0;
 
@@ -214,7 +217,10 @@ fn factor(ratios: &[Ratio]) -> String {
     }
     let told = |r: &Ratio| {
         let times = r.measured_over_computed;
-        format!("{times:.2} times the computed at {:.0} cycles", r.cycles)
+        format!(
+            "{times:.2} times the computed at {} cycles",
+            count(r.cycles)
+        )
     };
     let mut text = format!(
         " With the zero of each trace left open the {}'s measured wear in test {} is {} (that factor alone would remove {:.0} % of the misfit there)",
@@ -279,9 +285,10 @@ fn others(
     for (k, found) in cells {
         let same_place =
             (k.1, k.2, k.3, stage(k)) == (key.1, key.2, key.3, stage(key)) && k.0 != key.0;
-        let same_sign = found.bias * cell.bias > 0.0 && clear(found);
+        let is_alike = found.bias.abs() > ALIKE * cell.bias.abs();
+        let same_sign = found.bias * cell.bias > 0.0 && clear(found) && is_alike;
         let alike = if either_sign(cell) {
-            fails(found) && either_sign(found)
+            fails(found) && either_sign(found) && found.rms > ALIKE * cell.rms
         } else {
             same_sign
         };

@@ -12,6 +12,7 @@ mod constants;
 mod copied_curves;
 mod copied_rows;
 mod cycle_units;
+mod decimal_slips;
 mod depths_and_masses;
 mod exchanged_curves;
 mod exchanged_depths;
@@ -79,6 +80,13 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     }
     if let Some(unit) = sigmas::values_of_another_unit(data) {
         return vec![unit];
+    }
+    if let Some(own) = gear_revolutions::gear_revolutions(study, data) {
+        return vec![own];
+    }
+    let slips = decimal_slips::decimal_slips(study, data);
+    if !slips.is_empty() {
+        return slips;
     }
     falling_shapes::falling_shapes(study, data)
 }
@@ -196,7 +204,6 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
     }
     said.extend(sigmas::of_another_unit(data, values_asked));
-    said.extend(gear_revolutions::gear_revolutions(study, data));
     said.extend(single_tests::short_of_their_cycles(study, data));
     said.extend(materials::materials(study));
     said

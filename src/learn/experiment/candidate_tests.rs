@@ -215,7 +215,11 @@ pub(in crate::learn) fn purpose(test: &NextTest, plain: &Operation) -> String {
         says.push("another pressure at the same sliding");
     }
     if differs(test.speed, plain.speed_rpm) {
-        says.push("another oil film and temperature at the same pressure");
+        says.push(if test.speed > plain.speed_rpm {
+            "another oil film and temperature at the same pressure, and fewer hours for as many revolutions"
+        } else {
+            "another oil film and temperature at the same pressure"
+        });
     }
     if differs(test.misalignment, plain.misalignment_mm) {
         says.push("the contact moved along both flanks");

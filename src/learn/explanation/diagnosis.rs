@@ -138,6 +138,16 @@ impl Diagnosis {
         self.verdict == Verdict::NothingMissing && nothing.is_some_and(|&p| p >= SURE)
     }
 
+    /// The same, to be made again once rows that are slips in writing are put right.
+    pub fn beside_slips(mut self) -> Self {
+        self.next_step = format!(
+            "look at the rows that stand far apart from their neighbours (gearwear check STUDY lists them), put right what is wrong there, or state \
+             [noise] outliers = \"robust\", then gearwear diagnose STUDY; if nothing is wrong, {}",
+            self.next_step
+        );
+        self
+    }
+
     /// The same with questions about the measurements before all other warnings: no effect is to be trusted until they are answered.
     pub fn asking_first(mut self, questions: Vec<String>) -> Self {
         if !questions.is_empty() {

@@ -5,6 +5,7 @@ use super::outlook::Outlook;
 use super::remainder::partial;
 use super::rivals::ambiguous;
 use super::scatter::{made_twice, of_scatter};
+use super::warnings::other_forms;
 use super::wording::{
     Explanation, added, before, change, chi2, in_other_forms, of_attainable, percent, values,
 };
@@ -310,7 +311,12 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
         format!("How {} shows: {signature}.", card.name)
     };
     let weaker = weaker_beside(findings, leader);
-    let mut next_step = added(candidate);
+    let is_settled = other_forms(findings.posterior, leader).1.is_empty();
+    let mut next_step = match (&candidate.effects.cards()[..], is_settled) {
+        // every form is fitted
+        ([card], false) => format!("gearwear add STUDY {}", card.name),
+        _ => added(candidate),
+    };
     if weaker.is_some() {
         next_step += ", then diagnose the new study: something weaker may be left";
     }

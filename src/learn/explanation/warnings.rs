@@ -238,14 +238,7 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
         return None;
     }
     let effects = &leader.candidate.effects;
-    let own = posterior.candidates.iter();
-    let others: Vec<&FittedCandidate> = own
-        .filter(|other| other.candidate.effects == *effects && form(other) != form(leader))
-        .collect();
-    let as_good = others
-        .iter()
-        .filter(|other| leader.log_evidence - other.log_evidence < SETTLED);
-    let as_good: Vec<&&FittedCandidate> = as_good.collect();
+    let (others, as_good) = other_forms(posterior, leader);
     // an effect that all of them have in one form has that for sure
     let cards = effects.cards().iter().copied();
     let differs = |n: usize| {
@@ -269,6 +262,21 @@ fn unsettled_form(posterior: &JudgedCandidates, leader: &FittedCandidate) -> Opt
     )
 }
 
+/// Fits of the leading effects in other forms, and those of them that explain as much.
+pub(super) fn other_forms<'p>(
+    posterior: &'p JudgedCandidates,
+    leader: &FittedCandidate,
+) -> (Vec<&'p FittedCandidate>, Vec<&'p FittedCandidate>) {
+    let effects = &leader.candidate.effects;
+    let own = posterior.candidates.iter();
+    let others: Vec<&FittedCandidate> = own
+        .filter(|other| other.candidate.effects == *effects && form(other) != form(leader))
+        .collect();
+    let is_as_good = |other: &&FittedCandidate| leader.log_evidence - other.log_evidence < SETTLED;
+    let as_good = others.iter().copied().filter(is_as_good).collect();
+    (others, as_good)
+}
+
 /// The forms of some of a fit's effects, told by their places in it, the cards' own ones too.
 fn form_in_words(fitted: &FittedCandidate, of: &[(usize, &'static Card)]) -> String {
     let names = of.iter().map(|&(n, card)| {
@@ -287,7 +295,7 @@ fn form_warning(effects: &str, form: &str, others: &[String], one_alone: bool) -
         [] if !one_alone => return None,
         [] => "no other was fitted, and one may explain the data as well".to_owned(),
         [one] => format!("{one} explains the data as well"),
-        others => format!("{} explain the data as well", others.join("; ")),
+        others => format!("{} explain the data as well", others.join(" and ")),
     };
     Some(format!(
         "the parameters of {effects} and their intervals hold for one form of the law ({form}): {why}, with other values. gearwear add fits every form"
@@ -384,7 +392,7 @@ mod tests {
         let said = form_warning("running_in", "\"steep hyperbolic\"", &two, false).unwrap();
         assert!(
             said.contains(
-                "one form of the law (\"steep hyperbolic\"): \"own\"; \"hyperbolic\" explain the data as well"
+                "one form of the law (\"steep hyperbolic\"): \"own\" and \"hyperbolic\" explain the data as well"
             ),
             "{said}"
         );

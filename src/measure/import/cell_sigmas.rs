@@ -167,36 +167,26 @@ pub(super) fn as_column(sheet: &mut Sheet, head: usize) -> Option<String> {
 mod tests {
     use super::*;
 
-    fn sheet(rows: &[&str]) -> Sheet {
-        let cells = |row: &&str| row.split('|').map(str::to_owned).collect();
-        Sheet {
-            name: String::new(),
-            rows: rows.iter().map(cells).collect(),
-            without_result: None,
-            plain_decimals: true,
-        }
-    }
-
     #[test]
     fn behind_a_sign_or_in_a_column_beside_each_value() {
-        let mut signs = sheet(&["r|1e5|2e5", "26|3,08 \u{b1} 0,11|4.1+/-0.2", "27|3|"]);
+        let mut signs = Sheet::of_rows(&["r|1e5|2e5", "26|3,08 \u{b1} 0,11|4.1+/-0.2", "27|3|"]);
         let found = in_cells(&mut signs, 0).unwrap();
         assert_eq!(signs.rows[1], ["26", "3,08", "4.1"]);
         assert_eq!(found.of[&(1, 1)].0, "0,11");
         assert_eq!(found.of[&(1, 2)].0, "0.2");
         assert_eq!(found.of.len(), 2);
-        let mut columns = sheet(&["r|1e5|\u{b1}|2e5|\u{b1}", "26|3|0.1|4|0.2"]);
+        let mut columns = Sheet::of_rows(&["r|1e5|\u{b1}|2e5|\u{b1}", "26|3|0.1|4|0.2"]);
         assert!(in_cells(&mut columns, 0).is_none());
         let found = in_columns(&mut columns, 0).unwrap();
         assert_eq!(columns.rows[0], ["r", "1e5", "", "2e5", ""]);
         assert_eq!(found.of[&(1, 3)].0, "0.2");
-        let mut long = sheet(&["radius|depth [um]|note", "26|3.1\u{b1}0.1|", "27|3|late"]);
+        let mut long = Sheet::of_rows(&["radius|depth [um]|note", "26|3.1\u{b1}0.1|", "27|3|late"]);
         assert!(as_column(&mut long, 0).is_some());
         assert_eq!(long.rows[0][3], "sigma [um]");
         assert_eq!(long.rows[1], ["26", "3.1", "", "0.1"]);
         // one for all values of a row; a range; a name
-        assert!(in_columns(&mut sheet(&["r|1e5|2e5|std", "26|3|4|0.2"]), 0).is_none());
-        assert!(in_cells(&mut sheet(&["r|1e5", "26|3 - 4"]), 0).is_none());
-        assert!(in_cells(&mut sheet(&["r|1e5", "26|a \u{b1} b"]), 0).is_none());
+        assert!(in_columns(&mut Sheet::of_rows(&["r|1e5|2e5|std", "26|3|4|0.2"]), 0).is_none());
+        assert!(in_cells(&mut Sheet::of_rows(&["r|1e5", "26|3 - 4"]), 0).is_none());
+        assert!(in_cells(&mut Sheet::of_rows(&["r|1e5", "26|a \u{b1} b"]), 0).is_none());
     }
 }

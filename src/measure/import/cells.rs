@@ -136,6 +136,20 @@ fn with_plain_marks(text: &str) -> String {
 }
 
 #[cfg(test)]
+impl Sheet {
+    /// Of rows with `|` between their cells.
+    pub(super) fn of_rows(rows: &[&str]) -> Self {
+        let cells = |row: &&str| row.split('|').map(str::to_owned).collect();
+        Self {
+            name: String::new(),
+            rows: rows.iter().map(cells).collect(),
+            without_result: None,
+            plain_decimals: true,
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -5,7 +5,7 @@ use super::arrange::{refuse_another_speed, refuse_another_torque};
 use super::numbers::pointed;
 use super::wanted::Wanted;
 use super::{ImportError, Sheet, units};
-use crate::measure::names;
+use crate::measure::{Subject, names};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -13,18 +13,19 @@ type Result<T> = std::result::Result<T, ImportError>;
 const SAME_MODULE: f64 = 0.005;
 
 /// Refuses rows above `head` that state another module or other numbers of teeth than the study's, or another torque or speed than those of the one
-/// `test` that the table is of.
+/// `test` that the table is of, or the teeth of the one `member`; the rows that state something so compared.
 pub(super) fn agree(
     sheet: &Sheet,
     head: usize,
-    test: Option<&str>,
+    (test, member): (Option<&str>, Option<Subject>),
     wanted: &Wanted<'_>,
-) -> Result<()> {
+) -> Result<Vec<usize>> {
+    let mut compared = Vec::new();
     for (row, cells) in sheet.rows.iter().enumerate().take(head) {
         for stated in statements(cells) {
             let place = format!("row {}: `{}`", row + 1, stated.written);
-            refuse_another_module(&stated, &place, wanted)?;
-            refuse_other_teeth(&stated, &place, wanted)?;
+            let mut is_known = refuse_another_module(&stated, &place, wanted)?;
+            is_known |= refuse_other_teeth(&stated, &place, member, wanted)?;
             if let Some(test) = test {
                 let unit = stated.unit.as_deref();
                 let number = stated.number.as_str();
@@ -33,14 +34,17 @@ pub(super) fn agree(
                 let torque = |name: &str| names::torque(name, unit.or_else(|| usual(name)));
                 if let Some(of) = stated.means(torque) {
                     refuse_another_torque((number, unit, of), test, &place, wanted)?;
+                    is_known = true;
                 }
                 if let Some(of) = stated.means(|name| names::speed(name, unit)) {
                     refuse_another_speed((number, of), test, &place, wanted)?;
+                    is_known = true;
                 }
             }
+            compared.extend(is_known.then_some(row));
         }
     }
-    Ok(())
+    Ok(compared)
 }
 
 /// A name with one number and its unit.
@@ -123,11 +127,11 @@ fn statement(name: &str, value: &str) -> Option<Statement> {
     })
 }
 
-fn refuse_another_module(stated: &Statement, place: &str, wanted: &Wanted<'_>) -> Result<()> {
+fn refuse_another_module(stated: &Statement, place: &str, wanted: &Wanted<'_>) -> Result<bool> {
     let is_in_mm = stated.unit.as_deref().is_none_or(|unit| unit == "mm");
     let means_it = |name: &str| names::is_module(name).then_some(());
     let (true, Some(()), Some(module)) = (is_in_mm, stated.means(means_it), stated.value()) else {
-        return Ok(());
+        return Ok(false);
     };
     let [pinion, _] = wanted.gears;
     let transverse = pinion.rack.module;
@@ -135,24 +139,40 @@ fn refuse_another_module(stated: &Statement, place: &str, wanted: &Wanted<'_>) -
     let normal = transverse * pinion.helix_angle.cos();
     let is = |own: f64| (module - own).abs() <= SAME_MODULE * own;
     if is(transverse) || is(normal) {
-        return Ok(());
+        return Ok(true);
     }
     Err(ImportError(format!(
         "{place} is another module than the study's, {normal} mm: is the table of other gears? Correct the one that is wrong, or take the row out"
     )))
 }
 
-fn refuse_other_teeth(stated: &Statement, place: &str, wanted: &Wanted<'_>) -> Result<()> {
+fn refuse_other_teeth(
+    stated: &Statement,
+    place: &str,
+    member: Option<Subject>,
+    wanted: &Wanted<'_>,
+) -> Result<bool> {
     let means_them = |name: &str| names::is_number_of_teeth(name).then_some(());
     let (None, Some(()), Some(teeth)) = (&stated.unit, stated.means(means_them), stated.value())
     else {
-        return Ok(());
+        return Ok(false);
     };
     let own = wanted.gears.map(|gear| gear.spec.teeth);
-    if own.iter().any(|own| f64::from(*own) == teeth) {
-        return Ok(());
+    // a line about the mate names it
+    let member = names::one_member(&stated.name).or(member);
+    let of_member = member.and_then(|member| Some(wanted.gear_of(member)?.spec.teeth));
+    let is = |own: u32| f64::from(own) == teeth;
+    if of_member.is_some_and(is) || own.into_iter().any(is) && of_member.is_none() {
+        return Ok(true);
     }
     let [pinion, gear] = own;
+    if let Some(member) = member.filter(|_| own.into_iter().any(is)) {
+        return Err(ImportError(format!(
+            "{place}: the study's pinion has {pinion} teeth, its gear {gear}, and the table is of the {}: is it the other member's? Correct what is wrong, or \
+             take the row out",
+            member.name()
+        )));
+    }
     Err(ImportError(format!(
         "{place}: the study's gears have {pinion} and {gear} teeth: is the table of other gears? Correct the one that is wrong, or take the row out"
     )))

@@ -72,13 +72,7 @@ mod tests {
     use super::*;
 
     fn sheet(header: &str) -> Sheet {
-        let row = |text: &str| text.split('|').map(str::to_owned).collect();
-        Sheet {
-            name: String::new(),
-            rows: vec![row(header), row("26|1|3|2|4")],
-            without_result: None,
-            plain_decimals: true,
-        }
+        Sheet::of_rows(&[header, "26|1|3|2|4"])
     }
 
     #[test]

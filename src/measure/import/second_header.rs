@@ -93,19 +93,9 @@ fn put_into_headers(sheet: &mut Sheet, head: usize, between: usize) -> Result<()
 mod tests {
     use super::*;
 
-    fn sheet(rows: &[&str]) -> Sheet {
-        let cells = |row: &&str| row.split('|').map(str::to_owned).collect();
-        Sheet {
-            name: String::new(),
-            rows: rows.iter().map(cells).collect(),
-            without_result: None,
-            plain_decimals: true,
-        }
-    }
-
     #[test]
     fn units_below_a_header_go_into_it_and_dates_are_passed_over() {
-        let merged = |rows: &[&str]| merged(&sheet(rows)).map(|(sheet, _)| sheet.rows);
+        let merged = |rows: &[&str]| merged(&Sheet::of_rows(rows)).map(|(sheet, _)| sheet.rows);
         let units = merged(&["Radius|80000|200000", "mm|\u{b5}m|\u{b5}m", "26.0|1.5|3.2"]).unwrap();
         assert_eq!(
             units[0],

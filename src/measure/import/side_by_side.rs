@@ -64,19 +64,9 @@ fn starts(cells: &[String]) -> Option<Vec<usize>> {
 mod tests {
     use super::*;
 
-    fn sheet(rows: &[&str]) -> Sheet {
-        let cells = |row: &&str| row.split('|').map(str::to_owned).collect();
-        Sheet {
-            name: String::new(),
-            rows: rows.iter().map(cells).collect(),
-            without_result: None,
-            plain_decimals: true,
-        }
-    }
-
     #[test]
     fn each_table_has_its_own_rows_and_what_is_said_of_all() {
-        let both = sheet(&[
+        let both = Sheet::of_rows(&[
             "Run A",
             "Pinion||||Gear",
             "Radius [mm]|1e5|2e5||Radius [mm]|1e5",
@@ -101,7 +91,7 @@ mod tests {
             "Radius [mm]|depth pinion|Radius [mm]|depth gear",
             "Radius [mm]|Roll angle|1e5",
         ] {
-            assert!(side_by_side(&sheet(&[other])).is_none(), "{other}");
+            assert!(side_by_side(&Sheet::of_rows(&[other])).is_none(), "{other}");
         }
     }
 }

@@ -39,12 +39,17 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
         ..wanted.clone()
     };
     let test = wanted.one_test(&whole).ok().map(|(test, _)| test);
-    conditions_above::agree(&whole, above.head, test.as_deref(), wanted)?;
+    let of = (test.as_deref(), wanted.member);
+    let compared = conditions_above::agree(&whole, above.head, of, wanted)?;
     let sheet = &sheet;
     let mut found = match tests_of_columns(sheet, wanted)? {
         Some((head, columns)) => of_several_tests(sheet, (head, &columns), wanted)?,
         None => of_one_test(sheet, wanted)?,
     };
+    let passed_over = &mut found.titles.passed_over;
+    for (row, words) in passed_over.extract_if(.., |(row, _)| compared.contains(&(*row - 1))) {
+        obeyed.push(format!("row {row}, `{words}`: as in the study"));
+    }
     obeyed.append(&mut found.arranged);
     found.arranged = obeyed;
     Ok(found)

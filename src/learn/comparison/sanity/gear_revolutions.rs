@@ -3,25 +3,32 @@
 use std::collections::BTreeSet;
 
 use super::SAME_CYCLES;
-use crate::measure::{Dataset, Subject};
+use crate::measure::{Dataset, Quantity, Subject};
 use crate::study::Study;
 
 /// Tests of which the gear's rows stand at the pinion's cycles over the gear ratio.
 pub(super) fn gear_revolutions(study: &Study, data: &Dataset) -> Option<String> {
     let [pinion, gear] = [&study.gears.pinion, &study.gears.gear].map(|g| g.spec.teeth);
     let ratio = f64::from(pinion) / f64::from(gear);
-    let cycles = |test: usize, member: Subject| {
+    // masses may have been weighed at other times
+    let cycles = |test: usize, member: Subject, quantity: Quantity| {
         let own = data.observations.iter();
-        let own = own.filter(|o| o.test == test && o.member == member && o.cycles > 0.0);
+        let own = own.filter(|o| o.test == test && o.member == member && o.quantity == quantity);
+        let own = own.filter(|o| o.cycles > 0.0);
         let bits: BTreeSet<u64> = own.map(|o| o.cycles.to_bits()).collect();
         bits.into_iter().map(f64::from_bits).collect::<Vec<f64>>()
     };
-    let turned = |test: &usize| {
-        let (of_pinion, of_gear) = (cycles(*test, Subject::Pinion), cycles(*test, Subject::Gear));
+    let turned_of = |test: usize, quantity: Quantity| {
+        let [of_pinion, of_gear] =
+            [Subject::Pinion, Subject::Gear].map(|member| cycles(test, member, quantity));
         let pairs = || of_pinion.iter().zip(&of_gear);
         !of_pinion.is_empty()
             && of_pinion.len() == of_gear.len()
             && pairs().all(|(p, g)| (g / (ratio * p) - 1.0).abs() < SAME_CYCLES)
+    };
+    let turned = |test: &usize| {
+        let kinds = [Quantity::WearDepth, Quantity::MassLoss];
+        kinds.into_iter().any(|quantity| turned_of(*test, quantity))
     };
     let tests: Vec<&str> = (0..data.tests.len())
         .filter(|test| (ratio - 1.0).abs() > 2.0 * SAME_CYCLES && turned(test))

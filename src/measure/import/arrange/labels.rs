@@ -58,7 +58,11 @@ pub(super) fn as_columns(
         let above = labels.iter().find(|label| label.key == "test");
         let stated = wanted.one_test(sheet).ok().map(|(test, _)| test);
         let test = above.map(|label| label.text.clone()).or(stated);
-        conditions_above::agree(sheet, head, test.as_deref(), wanted)?;
+        let member = labels.iter().find(|label| label.key == "member");
+        let member = member
+            .and_then(|label| names::member(&label.text))
+            .or(wanted.member);
+        conditions_above::agree(sheet, head, (test.as_deref(), member), wanted)?;
     }
     let is_said = |key: &str| labels.iter().any(|label| label.key == key);
     if let Some(cycles) = wanted.cycles {
