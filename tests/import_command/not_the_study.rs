@@ -40,7 +40,7 @@ fn the_study_s_own_pass_and_so_does_what_states_neither() {
     let (shown, _) = rows(&home, &stated, "--member pinion --sigma 0.1");
     assert!(
         shown.contains("row 2, `Modul: 2,0`: as in the study")
-            && shown.contains("title row 3 passed over"),
+            && shown.contains("row 3 passed over: Probe"),
         "{shown}"
     );
     for title in [

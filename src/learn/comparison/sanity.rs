@@ -88,7 +88,9 @@ pub(super) fn sanity_of_data(study: &Study, data: &Dataset) -> Vec<String> {
     if !slips.is_empty() {
         return slips;
     }
-    falling_shapes::falling_shapes(study, data)
+    let mut said = falling_shapes::falling_shapes(study, data);
+    said.extend(single_tests::short_of_their_cycles(study, data));
+    said
 }
 
 /// All that there is to say, the worst first.
@@ -204,7 +206,6 @@ pub(in crate::learn) fn sanity(study: &Study, data: &Dataset, fit: &Fit) -> Vec<
         }
     }
     said.extend(sigmas::of_another_unit(data, values_asked));
-    said.extend(single_tests::short_of_their_cycles(study, data));
     said.extend(materials::materials(study));
     said
 }

@@ -312,7 +312,7 @@ fn named(findings: &Findings<'_>, leader: &FittedCandidate) -> Explanation {
     };
     let weaker = weaker_beside(findings, leader);
     let is_settled = other_forms(findings.posterior, leader).1.is_empty();
-    let mut next_step = match (&candidate.effects.cards()[..], is_settled) {
+    let mut next_step = match (candidate.effects.cards(), is_settled) {
         // every form is fitted
         ([card], false) => format!("gearwear add STUDY {}", card.name),
         _ => added(candidate),
