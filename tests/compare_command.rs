@@ -1006,3 +1006,35 @@ fn a_fast_diagnosis_asks_about_the_sign_of_one_test() {
     let shown = succeed(&home, "diagnose base.toml --fast -o turned");
     assert!(asks(&shown), "{shown}");
 }
+
+/// Members whose own coefficients are 4e-10 and 1e-10 mm²/N: the common factor, 2e-10, is neither's, and a study that states it half as large finds all again.
+#[test]
+fn k_of_members_with_their_own_is_told() {
+    let home = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let with = |common: f64| {
+        let own = format!(
+            "coefficient = {common:e}\ncycles = 1e6\n[wear.pinion]\ncoefficient = {:e}\n[wear.gear]\ncoefficient = {:e}\n",
+            2.0 * common,
+            0.5 * common
+        );
+        BASE.replace("coefficient = 2e-10\ncycles = 1e6\n", &own)
+    };
+    write("truth.toml", with(2e-10));
+    succeed(&home, "synthesize truth.toml -o data --seed 8");
+    let data = fs::read_to_string(home.path().join("data/measurements.csv")).unwrap();
+    assert!(
+        data.contains("# truth: k of the pinion 4e-10, of the gear 1e-10 mm2/N"),
+        "{data}"
+    );
+    let file = FILE.replace("measurements.csv", "data/measurements.csv");
+    write("base.toml", format!("{}{file}", with(1e-10)));
+    let shown = succeed(&home, "compare base.toml -o compared");
+    assert!(shown.contains("k of the members  pinion "), "{shown}");
+    let found = document(&home.path().join("compared"), "comparison.json");
+    let members = found["member_coefficients"].as_array().unwrap();
+    for (k, truth) in members.iter().zip([4e-10, 1e-10]) {
+        let k = k.as_f64().unwrap();
+        assert!((k / truth - 1.0).abs() < 0.05, "{k:e} for {truth:e}");
+    }
+}

@@ -97,6 +97,15 @@ fn rows_that_stand_apart_are_found_and_count_little_if_wanted() {
     }
 }
 
+/// A digit or a decimal place too much is a slip, noise of 8 σ is none, nor is what counts little.
+#[test]
+fn slips_in_writing_are_told_from_rows_that_stand_apart() {
+    let has_slips = |noise, sigmas| with_outliers(noise, sigmas).0.has_slips();
+    assert!(!has_slips("", 8.0));
+    assert!(has_slips("", 60.0));
+    assert!(!has_slips("outliers = \"robust\"", 60.0));
+}
+
 /// Measurements of the exact base model, each trace of wear tilted and shifted by the machine: with the priors stated χ² is that of noise,
 /// without them far above.
 #[test]

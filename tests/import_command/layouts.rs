@@ -49,6 +49,15 @@ fn standard_deviations_stand_behind_a_sign_or_beside_each_value() {
         written.contains("A,pinion,250000,wear_depth,26,6.2,0.3,"),
         "{written}"
     );
+    // two standard deviations, in a unit of their own
+    let expanded = beside
+        .replace('\u{b1}', "U (k=2) [um]")
+        .replace("0.0003", "0.6");
+    let (shown, written) = rows(&home, &expanded, options);
+    assert!(
+        shown.contains("over k = 2") && written.contains(",26,6.2,0.3,"),
+        "{shown}{written}"
+    );
     let message = refused(&home, beside, &format!("{options} --sigma 0.1"));
     assert!(message.contains("C2: `\u{b1}`"), "{message}");
     let long = "cycles;radius [mm];depth [um]\n100000;26;3,1 +/- 0,2\n100000;27;1,2 +/- 0,2\n";

@@ -137,8 +137,8 @@ mod tests {
         assert!((s(1e6) - 2.0).abs() < 1e-9);
         // none: Σ f y/Σ f²
         assert!((s(0.0) - 2.4).abs() < 1e-12);
-        // D = 1: (24 − 4·10/3)/(10 − 16/3)
-        assert!((s(1.0) - 32.0 / 14.0).abs() < 1e-12);
+        // D = 2: (24 − 4·10/2.25)/(10 − 16/2.25)
+        assert!((s(2.0) - 28.0 / 13.0).abs() < 1e-12);
         let (_, sigma, left) = scaled(&rows, 1e6).unwrap();
         assert!((sigma - 0.5_f64.sqrt()).abs() < 1e-9 && left < 1e-9);
     }

@@ -2,10 +2,11 @@
 
 use std::collections::HashMap;
 
+use super::columns::Column;
 use super::entry::Entry;
 use super::numbers::{number, number_words, pointed, rounded};
 use super::wanted::Wanted;
-use super::{ImportError, Sheet, cell_name, row_sigmas, units};
+use super::{ImportError, Sheet, cell_name, row_sigmas, sigma_unit, units};
 use crate::measure::Quantity;
 use crate::numeric::written;
 
@@ -18,6 +19,10 @@ const SIGNS: [&str; 3] = ["\u{b1}", "+/-", "+-"];
 pub(super) struct CellSigmas {
     /// As written, with where they stand, by the cell of the value.
     of: HashMap<(usize, usize), (String, (usize, usize))>,
+    /// Row of the header.
+    head: usize,
+    /// The columns beside those of the values, if they stand there.
+    columns: Vec<Column>,
     said: String,
 }
 
@@ -62,15 +67,34 @@ impl CellSigmas {
         &self,
         entries: &mut [Entry],
         (quantity, unit): (Quantity, &str),
+        wanted: &Wanted<'_>,
     ) -> Result<String> {
-        let factor = units::factor(unit, quantity)?;
+        let of_values = units::factor(unit, quantity)?;
+        let factor = |at: usize| {
+            let column = self.columns.iter().find(|column| column.at == at);
+            match column.filter(|column| !is_sign(&column.written)) {
+                Some(column) => {
+                    sigma_unit::factor(column, Some(unit), (self.head, quantity), wanted)
+                }
+                None => Ok(of_values),
+            }
+        };
         for entry in entries {
             if let Some((text, (row, column))) = self.of.get(&entry.cell) {
-                entry.sigma = Some(rounded(factor * number(text, *row, *column)?));
+                entry.sigma = Some(rounded(factor(*column)? * number(text, *row, *column)?));
             }
         }
-        let unit = written::unit(unit);
-        Ok(format!("{}: one standard deviation, in {unit}", self.said))
+        let first = self.columns.first();
+        let own = first.and_then(|column| column.unit.as_deref());
+        let unit = written::unit(own.unwrap_or(unit));
+        let coverage = first.and_then(|column| column.coverage);
+        Ok(match coverage.filter(|k| *k != 1.0) {
+            Some(k) => format!(
+                "{}: an expanded uncertainty, over k = {k}, in {unit}",
+                self.said
+            ),
+            None => format!("{}: one standard deviation, in {unit}", self.said),
+        })
     }
 }
 
@@ -91,7 +115,12 @@ fn in_cells(sheet: &mut Sheet, head: usize) -> Option<CellSigmas> {
             *cell = value.to_owned();
         }
     }
-    said.map(|said| CellSigmas { of, said })
+    said.map(|said| CellSigmas {
+        of,
+        head,
+        columns: Vec::new(),
+        said,
+    })
 }
 
 /// Those of a column beside that of each checkpoint or place.
@@ -117,8 +146,11 @@ fn in_columns(sheet: &mut Sheet, head: usize) -> Option<CellSigmas> {
         }
     }
     let first = cell_name(head, values[0] + 1);
+    let beside = values.iter().map(|at| at + 1);
     Some(CellSigmas {
         of,
+        head,
+        columns: beside.map(|at| Column::of(at, &header[at])).collect(),
         said: format!("{first}: `{}`, a column beside each", header[values[0] + 1]),
     })
 }

@@ -29,8 +29,8 @@ pub(super) fn agree(
             if let Some(test) = test {
                 let unit = stated.unit.as_deref();
                 let number = stated.number.as_str();
-                // letters mean other things too
-                let usual = |name: &str| (name.len() > 2).then_some("Nm");
+                // letters and short words mean other things too
+                let usual = |name: &str| (name.len() > 3).then_some("Nm");
                 let torque = |name: &str| names::torque(name, unit.or_else(|| usual(name)));
                 if let Some(of) = stated.means(torque) {
                     refuse_another_torque((number, unit, of), test, &place, wanted)?;

@@ -37,7 +37,7 @@ impl Sigmas {
         wanted: &Wanted<'_>,
     ) -> Result<String, ImportError> {
         match self {
-            Self::OfCells(sigmas) => sigmas.state(entries, (quantity, unit)),
+            Self::OfCells(sigmas) => sigmas.state(entries, (quantity, unit), wanted),
             Self::OfRows(sigmas) => sigmas.state(entries, (quantity, unit), wanted),
         }
     }

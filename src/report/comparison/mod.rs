@@ -11,7 +11,7 @@ use crate::study::Study;
 
 pub(crate) use residuals::quoted;
 pub use residuals::residuals;
-pub(crate) use text::{NO_INTERVAL, estimate, interval, scatter, what, with_unit};
+pub(crate) use text::{NO_INTERVAL, estimate, interval, members, scatter, what, with_unit};
 pub use text::{conclusion, summary};
 
 /// All that `compare` shows.

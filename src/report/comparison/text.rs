@@ -135,15 +135,18 @@ fn figures(lines: &mut Vec<String>, c: &Comparison) {
         ));
     }
     lines.push(format!("  scatter of k      {}", scatter(c)));
-    if let Some(members) = c.member_coefficients {
-        let [pinion, gear] = members.map(|k| significant(k, 3));
-        lines.push(format!(
-            "  k of the members  pinion {pinion}, gear {gear} mm²/N: in proportion to wear.coefficient, which is a common factor here"
-        ));
-    }
+    lines.extend(members(c).map(|members| format!("  k of the members  {members}")));
     if !c.coefficient_prior.is_empty() {
         lines.push(format!("  prior of k        {}", c.coefficient_prior));
     }
+}
+
+/// k of pinion and gear where they have coefficients of their own.
+pub(crate) fn members(c: &Comparison) -> Option<String> {
+    let [pinion, gear] = c.member_coefficients?.map(|k| significant(k, 3));
+    Some(format!(
+        "pinion {pinion}, gear {gear} mm²/N: in proportion to wear.coefficient, which is a common factor here"
+    ))
 }
 
 /// The scatter of k between tests. From one test there is none: what a fit holds is its prior.

@@ -49,7 +49,8 @@ fn why(diagnosis: &Diagnosis) -> Section {
     for warning in &diagnosis.warnings {
         why = why.note(match warning.strip_prefix(CHECK_FIRST) {
             // a question, with its mark
-            Some(question) => format!("Check first: {question}"),
+            Some(question) if question.ends_with(['?', '.']) => format!("Check first: {question}"),
+            Some(request) => format!("Check first: {request}."),
             None => format!("Warning: {warning}."),
         });
     }

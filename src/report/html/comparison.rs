@@ -98,6 +98,9 @@ fn figures(result: &Result<'_>) -> Section {
         comparison::scatter(c),
         whole(c.evaluations)
     ));
+    if let Some(members) = comparison::members(c) {
+        section = section.note(format!("k of the members: {members}."));
+    }
     section.key_figures = key_figures(c);
     for warning in &c.warnings {
         section = section.paragraph(format!("Warning: {warning}."));

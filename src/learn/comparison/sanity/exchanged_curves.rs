@@ -67,36 +67,12 @@ fn level(rows: &[FittedRow<'_>], test: usize, member: Subject) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::exchanged_depths::tests::said_of;
     use super::*;
-    use crate::measure::Dataset;
 
-    /// What is said of tests A, B and C whose computed depths are 1, `level` and 1.5 times some, with so many times these on pinion and gear.
+    /// What is said where the second test wears so many times as much as the first.
     fn said(level: f64, factors: [[f64; 2]; 3]) -> Option<String> {
-        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
-        let study = Study::parse(study, "study.toml").unwrap();
-        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
-        let mut models = Vec::new();
-        for ((test, level), factors) in ["A", "B", "C"]
-            .into_iter()
-            .zip([1.0, level, 1.5])
-            .zip(factors)
-        {
-            for ((member, radius), factor) in
-                [("pinion", 27.0), ("gear", 53.0)].into_iter().zip(factors)
-            {
-                for (place, model) in [3.0, 5.0, 8.0].into_iter().enumerate() {
-                    let place = radius + 0.2 * place as f64;
-                    let model = level * model;
-                    let value = factor * model;
-                    text += &format!("{test},{member},200000,wear_depth,{place},{value},0.1\n");
-                    models.push(model);
-                }
-            }
-        }
-        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
-        let fits = super::super::fits_of(&models);
-        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
-        exchanged_curves(&study, &rows)
+        said_of(exchanged_curves, [1.0, level, 1.5], factors)
     }
 
     #[test]

@@ -67,22 +67,28 @@ pub(super) fn of_test(rows: &[FittedRow<'_>], test: usize) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::measure::Dataset;
 
-    /// What is said of three tests, with so many times the model's depths on pinion and gear.
-    fn said(factors: [[f64; 2]; 3]) -> Option<String> {
+    /// What a question says of three tests whose computed depths are so many times some, with so many times these on pinion and gear.
+    pub(in super::super) fn said_of(
+        question: fn(&Study, &[FittedRow<'_>]) -> Option<String>,
+        levels: [f64; 3],
+        factors: [[f64; 2]; 3],
+    ) -> Option<String> {
         let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
         let study = Study::parse(study, "study.toml").unwrap();
         let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
         let mut models = Vec::new();
-        for (test, factors) in ["A", "B", "C"].into_iter().zip(factors) {
+        let tests = ["A", "B", "C"].into_iter().zip(levels);
+        for ((test, level), factors) in tests.zip(factors) {
             for ((member, radius), factor) in
                 [("pinion", 27.0), ("gear", 53.0)].into_iter().zip(factors)
             {
-                for (place, model) in [3.0, 5.0, 8.0].into_iter().enumerate() {
+                for (place, depth) in [3.0, 5.0, 8.0].into_iter().enumerate() {
                     let place = radius + 0.2 * place as f64;
+                    let model = level * depth;
                     let value = factor * model;
                     text += &format!("{test},{member},200000,wear_depth,{place},{value},0.1\n");
                     models.push(model);
@@ -92,7 +98,11 @@ mod tests {
         let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
         let fits = super::super::fits_of(&models);
         let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
-        exchanged_depths(&study, &rows)
+        question(&study, &rows)
+    }
+
+    fn said(factors: [[f64; 2]; 3]) -> Option<String> {
+        said_of(exchanged_depths, [1.0; 3], factors)
     }
 
     #[test]

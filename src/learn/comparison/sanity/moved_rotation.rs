@@ -67,14 +67,13 @@ pub(super) fn moved_rotation(study: &Study, rows: &[FittedRow<'_>]) -> Option<St
         true => "transmission_error runs".to_owned(),
         false => format!("transmission_error of {} runs", tests_in_words(&ids)),
     };
-    let (by, turn) = match first > 0.0 {
-        true => (first, "add"),
-        false => (-first, "take off"),
+    let (by, turn, when) = match first > 0.0 {
+        true => (first, "add", "later"),
+        false => (-first, "take off", "earlier"),
     };
     Some(format!(
-        "{whose} as computed {by:.2} base pitches {}: do its positions count from another rotation? They are fractions of a base pitch, 0 where the \
-         contact is at the pitch point; {turn} {by:.2} (less 1 above 1) and check again",
-        if first > 0.0 { "later" } else { "earlier" }
+        "{whose} as computed {by:.2} base pitches {when}: do its positions count from another rotation? They are fractions of a base pitch, 0 where the \
+         contact is at the pitch point; {turn} {by:.2}, keep the part behind the point and check again"
     ))
 }
 
@@ -85,7 +84,7 @@ fn around(rotation: f64) -> f64 {
 
 /// By how much a curve's places have to grow to fit; None where it fits as it stands, or no better elsewhere.
 fn moved_by(curve: &Curve) -> Option<f64> {
-    let noise_free: f64 = squares(curve, |_| 0.0);
+    let whole: f64 = squares(curve, |_| 0.0);
     let stays = squares(curve, |place| computed(curve, place));
     let turned = squares(curve, |place| -computed(curve, place));
     let tried = (0..TRIED).map(|n| around(n as f64 / TRIED as f64));
@@ -94,7 +93,7 @@ fn moved_by(curve: &Curve) -> Option<f64> {
     let is_moved = by.abs() >= LEAST
         && stays > BEYOND_NOISE * curve.len() as f64
         && least < LEFT * stays
-        && least < LEFT_OF_ALL * noise_free
+        && least < LEFT_OF_ALL * whole
         && least < turned;
     is_moved.then_some(by)
 }
@@ -133,6 +132,7 @@ fn shifted([place, computed, measured, sigma]: [f64; 4], by: f64) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measure::Dataset;
 
     /// A rotation with two pairs in contact over the first part and one over the rest, `by` later, in µrad.
     fn curve(by: f64, scale: f64) -> Curve {
@@ -151,6 +151,31 @@ mod tests {
             ]
         };
         (0..24).map(of).collect()
+    }
+
+    /// y(p) = f(p + 0.25) in one test of two: 0.25 is to be added to its places.
+    #[test]
+    fn the_test_and_the_way_are_said() {
+        let study = include_str!("../../../../validation/challenges/none_L2/study.toml");
+        let study = Study::parse(study, "study.toml").unwrap();
+        let mut text = "test,member,cycles,quantity,position,value,sigma\n".to_owned();
+        let mut models = Vec::new();
+        for (test, by) in [("A", 0.0), ("B", 0.25)] {
+            for [place, model, value, sigma] in curve(by, 1.0) {
+                text += &format!("{test},pair,200000,transmission_error,{place},{value},{sigma}\n");
+                models.push(model);
+            }
+        }
+        let data = Dataset::parse(&text, "m.csv", &study.known()).unwrap();
+        let fits = super::super::fits_of(&models);
+        let rows: Vec<FittedRow<'_>> = data.observations.iter().zip(&fits).collect();
+        let said = moved_rotation(&study, &rows).unwrap();
+        assert!(
+            said.starts_with("transmission_error of test B runs as computed 0.2")
+                && said.contains("; add 0.2"),
+            "{said}"
+        );
+        assert_eq!(moved_rotation(&study, &rows[..24]), None);
     }
 
     #[test]
