@@ -57,3 +57,19 @@ fn the_study_s_own_pass_and_so_does_what_states_neither() {
         assert_eq!(written.lines().count(), 4, "{title}");
     }
 }
+
+/// A helical gear is told by the module of its normal section, 2 mm, or of the transverse one, 2/cos 12° = 2.0447 mm; 2·cos 12° = 1.956 is neither.
+#[test]
+fn a_helical_gear_has_two_modules() {
+    let home = home();
+    let helical = STUDY.replace("centre_distance = 80.0", "centre_distance = 82.0")
+        + "[face]\nslices = 5\nhelix_angle = 12.0\n";
+    fs::write(home.path().join("study.toml"), helical).unwrap();
+    for (module, is_own) in [("2", true), ("2.045", true), ("1.956", false)] {
+        let table = TABLE.replace("\n26;", "\n26.5;");
+        let table = format!("Run A\nModule: {module}\n{table}");
+        let (code, _, message) = import(&home, &table, "--member pinion --sigma 0.1");
+        assert_eq!(code == Some(0), is_own, "{module}: {message}");
+        assert!(is_own || message.contains("the study's, 2 mm"), "{message}");
+    }
+}
