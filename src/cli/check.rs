@@ -11,7 +11,7 @@ use self::summary::{Found, summary};
 use super::args::StudyAndOutput;
 use super::{CliError, Context, Outcome, fitting, folder};
 use crate::learn::{
-    ModelVersion, contact_of, data_warnings, misfit_of_one_quantity, prospects,
+    ModelVersion, contact_of, data_warnings, differing_tests, misfit_of_one_quantity, prospects,
     scatter_of_new_profile, stated_sigma,
 };
 use crate::measure::{Dataset, Observation, Place, Quantity};
@@ -80,6 +80,10 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
     // nothing looks right where one quantity carries the misfit, whatever the reason
     let looks_right = sanity.is_empty() && carried.is_none();
     warnings.extend(carried);
+    // of wrong values k says nothing
+    if sanity.is_empty() {
+        warnings.extend(differing_tests(&study, &data, &compared.fit));
+    }
     Ok(Outcome {
         json: json!({
             "reading": data.reading,

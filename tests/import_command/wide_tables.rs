@@ -288,6 +288,11 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             "neither the first column (40 to 40)",
         ),
         (
+            "radius;100000\n52;1\n53;2\n54;3\n",
+            "import table.csv --study study.toml --test A --member pinion --sigma 0.2",
+            "the first column lies on the gear's flank (radius 51.",
+        ),
+        (
             "radius;100000\n",
             table,
             "no row of numbers below the header",

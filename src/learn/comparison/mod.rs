@@ -46,4 +46,5 @@ pub use record::{Comparison, Outlier, ParameterRecord, TestRecord};
 pub use residual_statistics::{Cell, Group, Share};
 pub use sanity::cycles_in_another_unit;
 pub use uncertainty::Validation;
+pub use unlike_tests::differing_tests;
 pub use versions::{Item, compare_all, differences};

@@ -11,8 +11,7 @@ use super::ratio::{Ratio, ratios};
 use super::residual_statistics::{Cell, FittedRow, Group, Share, cells, fitted, role_name, wear};
 use super::sanity::sanity;
 use super::uncertainty::{Validation, validate};
-use super::unlike_tests::unlike_tests;
-use crate::learn::comparison::coefficient_trend::trend_of_coefficients;
+use super::unlike_tests::differing_tests;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::quantity_misfit::misfit_of_one_quantity;
 use crate::learn::fitting::region::FlankRegions;
@@ -201,8 +200,7 @@ impl Comparison {
             correlation: correlation(fit),
             sanity,
             warnings: (carried.into_iter())
-                .chain(unlike_tests(study, data, fit))
-                .chain(trend_of_coefficients(study, data, fit))
+                .chain(differing_tests(study, data, fit))
                 .chain(far_datums(study, data, fit))
                 .chain(fit_warnings(data, fit))
                 .collect(),

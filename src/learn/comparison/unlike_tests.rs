@@ -20,9 +20,16 @@ use crate::study::{Operation, Role, Study};
 
 /// Distance from the others, in ranges of theirs, from which a test stands out.
 const APART: f64 = 2.0;
+
+/// What the tests' own k say together: that they differ by more than their errors, and what they follow.
+pub fn differing_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+    let unlike = unlike_tests(study, data, fit).into_iter();
+    (unlike.chain(trend_of_coefficients(study, data, fit))).collect()
+}
+
 /// Sentences where the own k of fit tests differ by more than their errors, with the one that stands out, and where that of a held-out test differs
 /// from theirs; none where they share one k.
-pub(super) fn unlike_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
+fn unlike_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let measured = |test: usize| data.observations.iter().any(|o| o.test == test);
     let of = |role: Role| -> Vec<(&Operation, OwnK<'_>)> {
         let known = (fit.tests.iter())

@@ -83,11 +83,12 @@ impl<'g> Flank<'g> {
             Some(unit) => format!("{} in {unit}", self.kind.word()),
             None => self.kind.name().to_owned(),
         };
-        format!(
-            "places on the {}'s flank ({}), read as {read_as}",
-            self.member.name(),
-            self.reach()
-        )
+        format!("places on the {}, read as {read_as}", self.whose())
+    }
+
+    /// `gear's flank (radius 51.295 to 55.000 mm)`
+    pub(super) fn whose(&self) -> String {
+        format!("{}'s flank ({})", self.member.name(), self.reach())
     }
 
     /// From where to where it reaches: `diameter 49.182 to 58.000 mm`.

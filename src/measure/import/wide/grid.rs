@@ -20,6 +20,8 @@ pub(super) struct Places<'a> {
     pub(super) member: Subject,
     /// None where they are no places along it.
     flank: Option<Flank<'a>>,
+    /// The flank that the other member has in its place.
+    other: Option<Flank<'a>>,
 }
 
 impl<'a> Places<'a> {
@@ -35,16 +37,22 @@ impl<'a> Places<'a> {
             false => 1.0,
         };
         let gear = wanted.gear_of(member);
-        let flank = match gear.filter(|_| kind.has_unit()) {
-            Some(gear) => Some(Flank::new(gear, member, kind, corner)?),
-            None => None,
+        let flank_of = |member: Subject| match wanted.gear_of(member).filter(|_| kind.has_unit()) {
+            Some(gear) => Flank::new(gear, member, kind, corner).map(Some),
+            None => Ok(None),
+        };
+        let other = match member {
+            Subject::Pinion => Subject::Gear,
+            Subject::Gear => Subject::Pinion,
+            Subject::Pair => Subject::Pair,
         };
         Ok(Self {
             kind,
             scale,
             gear,
             member,
-            flank,
+            flank: flank_of(member)?,
+            other: flank_of(other)?,
         })
     }
 
@@ -67,6 +75,19 @@ impl<'a> Places<'a> {
             (None, Some(_)) => "numbers of teeth that a span goes over".to_owned(),
             (None, None) => "rotations (0 to 1 base pitch)".to_owned(),
         }
+    }
+
+    /// That the numbers of a line, called `what`, lie on the flank of the other member, if most of them do.
+    fn on_other_flank(&self, what: &str, line: &Line) -> Option<String> {
+        let other = self.other.as_ref()?;
+        let lies_there = |n: f64| other.is_close(other.radius(n));
+        let there = line.iter().filter(|(_, n)| lies_there(*n)).count();
+        (!line.is_empty() && there as f64 >= MOST * line.len() as f64).then(|| {
+            format!(
+                "the {what} lies on the {}: is the table of that member?",
+                other.whose()
+            )
+        })
     }
 }
 
@@ -143,9 +164,13 @@ impl<'s> Grid<'s> {
                 let [from, to] = self.ends(&self.across, |at| (self.head, at));
                 let [row_from, row_to] = self.ends(&self.down, |at| (at, 0));
                 let first = self.first_off(places, [good(&self.down), good(&self.across)]);
+                let of_other = places.on_other_flank("first column", &self.down);
+                let of_other = of_other.or_else(|| places.on_other_flank("header", &self.across));
+                let hint = of_other.unwrap_or_else(|| {
+                    "look at --member, at --position and at the unit in the header".to_owned()
+                });
                 Err(ImportError(format!(
-                    "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}{}: look at --member, at \
-                     --position and at the unit in the header",
+                    "neither the first column ({row_from} to {row_to}) nor the header ({from} to {to}) are {what}{}: {hint}",
                     first.unwrap_or_default()
                 )))
             }
