@@ -11,6 +11,9 @@ type Result<T> = std::result::Result<T, ImportError>;
 
 /// Part of a module by which a stated one may differ from the study's: a rounded number.
 const SAME_MODULE: f64 = 0.005;
+/// Names of what only its unit says.
+const SPEED: &str = "speed";
+const TORQUE: &str = "torque";
 
 /// Refuses rows above `head` that state another module or other numbers of teeth than the study's, or another torque or speed than those of the one
 /// `test` that the table is of, or the teeth of the one `member`; the rows that state something so compared.
@@ -64,6 +67,11 @@ impl Statement {
         (0..words.len()).find_map(|from| of(&words[from..].join(" ")))
     }
 
+    /// Whether it is named by more than its unit.
+    fn has_name(&self) -> bool {
+        self.written.contains(": ")
+    }
+
     fn value(&self) -> Option<f64> {
         pointed(&self.number).parse().ok()
     }
@@ -79,17 +87,36 @@ fn statements(cells: &[String]) -> Vec<Statement> {
         let parts: Vec<&str> = (cell.split([';', '|']))
             .flat_map(|part| part.split(", "))
             .collect();
-        stated.extend(parts.iter().filter_map(|part| in_one(part)));
+        // a number that stands alone in its cell belongs to what stands in others
+        let is_among_others = parts.len() > 1;
+        let all = parts.iter().filter_map(|part| in_one(part));
+        stated.extend(all.filter(|one| is_among_others || one.has_name()));
         let beside = filled.get(at + 1).filter(begins_with_digit);
         // several numbers behind a name are a list
         let is_list = filled
             .get(at + 2)
             .is_some_and(|next| begins_with_digit(&next));
         if let (Some(name), Some(value), false) = (parts.last(), beside, is_list) {
-            stated.extend(statement(name, value));
+            stated.extend(statement(name, value).filter(Statement::has_name));
+        }
+    }
+    // several without a name may be those of several tests
+    for name in [SPEED, TORQUE] {
+        if stated.iter().filter(|one| one.name == name).count() > 1 {
+            stated.retain(|one| one.name != name);
         }
     }
     stated
+}
+
+/// What a number without a name is by its unit: `2800 rpm`, `25 Nm`.
+fn named_by_unit(unit: &str) -> Option<&'static str> {
+    let is_speed = names::speed(SPEED, Some(unit)).is_some();
+    let is_torque = || names::newton_metres(unit).is_some();
+    if is_speed {
+        return Some(SPEED);
+    }
+    is_torque().then_some(TORQUE)
 }
 
 /// A name and a number with a colon or a sign of equality between them, or words before a number with a unit.
@@ -118,10 +145,15 @@ fn statement(name: &str, value: &str) -> Option<Statement> {
     let is_unit = behind.is_empty()
         || behind == "1/min"
         || !has_digit(behind) && behind.starts_with(char::is_alphabetic);
-    let is_named = plain.contains(char::is_alphabetic);
-    (is_named && has_digit(number) && is_unit).then(|| Statement {
-        written: format!("{}: {value}", name.trim()),
-        name: plain,
+    let own = plain.contains(char::is_alphabetic).then_some(plain);
+    let is_bare = name.is_empty();
+    let own = own.or_else(|| Some(named_by_unit(behind).filter(|_| is_bare)?.to_owned()))?;
+    (has_digit(number) && is_unit).then(|| Statement {
+        written: match is_bare {
+            true => value.to_owned(),
+            false => format!("{}: {value}", name.trim()),
+        },
+        name: own,
         number: number.to_owned(),
         unit: unit.or_else(|| Some(behind.to_owned()).filter(|unit| !unit.is_empty())),
     })
@@ -202,6 +234,14 @@ mod tests {
                 one("torque", "100", Some("Nm"))
             ]
         );
+        assert_eq!(
+            stated("Test V2, 2800 rpm, 25 Nm, 80 min"),
+            [
+                one("speed", "2800", Some("rpm")),
+                one("torque", "25", Some("Nm"))
+            ]
+        );
+        assert_eq!(stated("V1: 25 Nm, V2, 40 Nm, 50 Nm").len(), 1);
         assert_eq!(
             stated("Drehmoment [Nm]\t170\tDrehzahl\t2000 1/min"),
             [

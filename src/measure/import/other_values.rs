@@ -59,6 +59,17 @@ const BOTH: [&str; 7] = [
 const FLANKS: [&str; 8] = [
     "flank", "flanks", "flanke", "flanken", "flanc", "flancs", "fianchi", "flancos",
 ];
+/// Directions of depths that are not along the normal.
+const TANGENTIAL: [&str; 8] = [
+    "circumferential",
+    "umfangsrichtung",
+    "umfang",
+    "tangential",
+    "tangentiale",
+    "tangentiel",
+    "circonferentiel",
+    "circonferenziale",
+];
 /// `per`, with what makes rates, increments or single teeth of values.
 const PER: [&str; 5] = ["per", "pro", "je", "par", "por"];
 const TIMES: [&str; 14] = [
@@ -162,6 +173,12 @@ fn others(text: &str, words: &[String], quantity: Quantity) -> Option<String> {
     if quantity == Quantity::WearDepth && has(&THICKNESSES) {
         return Some("the title speaks of a thickness, which both flanks make".to_owned());
     }
+    if quantity == Quantity::WearDepth && has(&TANGENTIAL) {
+        return Some(
+            "the title speaks of depths along the circumference, not along the flank's normal"
+                .to_owned(),
+        );
+    }
     let share = quantity == Quantity::LoadShare;
     if let Some(unit) = units::bracketed(text).filter(|_| !share) {
         let plain = unit.replace(['\u{b5}', '\u{3bc}'], "u").to_lowercase();
@@ -221,6 +238,7 @@ mod tests {
             ("Wear depth [mil]", "in mil"),
             ("Wear depth [microinch]", "in microinch"),
             ("Zahndickenabnahme", "thickness"),
+            ("Verschlei\u{df} in Umfangsrichtung [\u{b5}m]", "normal"),
             ("Tooth thickness loss [um], both flanks worn", "both flanks"),
             ("Verschlei\u{df} beider Flanken [\u{b5}m]", "both flanks"),
             ("wear since last inspection [um]", "increments"),

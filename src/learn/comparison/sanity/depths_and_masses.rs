@@ -54,9 +54,9 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
         (
             1e3,
             if masses_first {
-                "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm)"
+                "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm, or their cycles count thousands)"
             } else {
-                "the depths look like nm: they are wanted in µm (or the masses like g, wanted in mg)"
+                "the depths look like nm: they are wanted in µm (or the masses like g, wanted in mg; or the depths' cycles count thousands)"
             },
         ),
         (

@@ -14,6 +14,8 @@ use crate::study::Study;
 
 /// Standard deviations by which a negative loss of mass is no noise.
 const GAIN_SIGMAS: f64 = 2.0;
+/// Share of the depths from which positive ones say that lost material counts positive.
+const POSITIVE: f64 = 0.7;
 /// The same where a model's law may turn a curve round: what stands over a rotation.
 pub(super) const EXPLAINS_OVER_A_ROTATION: f64 = 0.8;
 /// Standard deviations of s from 0 from which a single test's sign is sure.
@@ -22,7 +24,7 @@ const SURE: f64 = 6.0;
 /// What has the other sign: in all tests, or in some of them.
 pub(super) fn signs(study: &Study, rows: &[FittedRow<'_>]) -> Vec<String> {
     if all_depths_are_turned(study, rows) {
-        return vec![other_sign_of_depths("wear_depth")];
+        return vec![other_sign_of_depths("wear_depth", rows, None)];
     }
     of_some_tests(study, rows).unwrap_or_else(|| of_all(rows))
 }
@@ -41,11 +43,30 @@ fn all_depths_are_turned(study: &Study, rows: &[FittedRow<'_>]) -> bool {
         && 2 * scales.iter().filter(|s| s.sigmas < -SURE).count() > scales.len()
 }
 
-fn other_sign_of_depths(whose: &str) -> String {
+fn other_sign_of_depths(whose: &str, rows: &[FittedRow<'_>], member: Option<Subject>) -> String {
+    if are_positive(rows, member) {
+        return format!(
+            "{whose} runs against the computed depths along the flank, though its values are positive, as lost material is: are number of teeth, \
+             module and profile shift of the study those of the gears that were measured, and the places what the file says they are? Or are the values \
+             heights of the flank, and not depths? k and all that follows mean nothing until then"
+        );
+    }
     format!(
         "{whose} has the other sign: lost material counts positive, here it counts negative. Turn the sign of these values and compare again; k and all \
          that follows mean nothing until then"
     )
+}
+
+/// Whether most of the depths, of one member or of both, are positive by more than their noise.
+fn are_positive(rows: &[FittedRow<'_>], member: Option<Subject>) -> bool {
+    let depths = (rows.iter().map(|(o, _)| o))
+        .filter(|o| o.quantity == Quantity::WearDepth && member.is_none_or(|m| m == o.member));
+    let (mut all, mut positive) = (0, 0);
+    for o in depths {
+        all += 1;
+        positive += usize::from(o.value > GAIN_SIGMAS * o.sigma);
+    }
+    positive as f64 > POSITIVE * f64::from(all)
 }
 
 /// Quantities of some tests that run against the computed ones; None where that is so of none or of all.
@@ -109,13 +130,13 @@ fn of_all(rows: &[FittedRow<'_>]) -> Vec<String> {
     let [pinion, gear] = [Subject::Pinion, Subject::Gear]
         .map(|member| turned(Quantity::WearDepth, Some(member), EXPLAINS));
     let whose = match (pinion, gear) {
-        (true, true) => Some("wear_depth"),
-        (true, false) => Some("wear_depth of the pinion"),
-        (false, true) => Some("wear_depth of the gear"),
+        (true, true) => Some(("wear_depth", None)),
+        (true, false) => Some(("wear_depth of the pinion", Some(Subject::Pinion))),
+        (false, true) => Some(("wear_depth of the gear", Some(Subject::Gear))),
         _ => None,
     };
-    if let Some(whose) = whose {
-        said.push(other_sign_of_depths(whose));
+    if let Some((whose, member)) = whose {
+        said.push(other_sign_of_depths(whose, rows, member));
     }
     if turned(Quantity::MassLoss, None, EXPLAINS) || gains(rows) {
         said.push(

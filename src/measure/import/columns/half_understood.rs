@@ -6,7 +6,7 @@ use crate::measure::import::numbers::pointed;
 use crate::measure::import::wanted::Wanted;
 use crate::measure::import::{ImportError, Sheet};
 use crate::measure::names::When;
-use crate::measure::{Place, Quantity, names};
+use crate::measure::{Place, Quantity, Subject, names};
 
 /// What was understood of the row that looks most like a long table's header, and what is missing there; none if no row does.
 pub(in crate::measure::import) fn best_header(sheet: &Sheet) -> Option<String> {
@@ -167,6 +167,18 @@ fn nothing_missing(columns: &[Column]) -> String {
     let sided = columns
         .iter()
         .filter(|column| side(&column.written).is_some());
+    let of_both = |column: &&Column| {
+        let words = names::words(&column.written);
+        words
+            .iter()
+            .any(|word| names::member(word) == Some(Subject::Pair))
+    };
+    if let Some(column) = columns.iter().find(of_both) {
+        return format!(
+            "nothing, but `{}` is of both members together, and each member's own is wanted: weigh them apart",
+            column.written
+        );
+    }
     let sided: Vec<String> = sided
         .map(|column| format!("`{}`", column.written))
         .collect();
