@@ -27,6 +27,15 @@ impl Subject {
         }
     }
 
+    /// The other member; both together stay both.
+    pub fn other(self) -> Self {
+        match self {
+            Subject::Pinion => Subject::Gear,
+            Subject::Gear => Subject::Pinion,
+            Subject::Pair => Subject::Pair,
+        }
+    }
+
     /// The one member it is, if it is one.
     pub fn member(self) -> Option<Member> {
         match self {

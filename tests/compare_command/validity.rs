@@ -39,6 +39,9 @@ fn tests_that_do_not_share_one_k_are_told() {
     assert!(line.contains("test B stands out, at 2."), "{line}");
     let page = fs::read_to_string(home.path().join("try/one.out/compare/report.html")).unwrap();
     assert!(page.contains("the tests do not share one k"));
+    let told = succeed(&home, "check try/one.toml");
+    let line = "warning:     the tests do not share one k";
+    assert!(told.contains(line), "{told}");
 }
 
 #[test]

@@ -19,6 +19,9 @@ fn other_gears_and_conditions_are_refused() {
         ("Run A\nZ\u{e4}hnezahl Ritzel: 28", "27 and 53 teeth"),
         ("Run A\nZ\u{e4}hnezahl: 53", "is it the other member's?"),
         ("Run A\nSpeed: 600 rpm", "2000 rpm of the pinion"),
+        // by their units alone
+        ("Test A, 600 rpm", "`600 rpm` is another speed"),
+        ("Test A, z = 27, 170 Nm", "`170 Nm` is another torque"),
         ("Run A\nGear speed: 2000 rpm", "1019 rpm of the gear"),
     ] {
         let message = refused(

@@ -293,6 +293,11 @@ fn what_cannot_be_told_is_refused_with_its_cell() {
             "the first column lies on the gear's flank (radius 51.",
         ),
         (
+            "test;cycles;pair loss [mg]\nA;100000;3.1\n",
+            table,
+            "the loss of each by itself is wanted",
+        ),
+        (
             "radius;100000\n",
             table,
             "no row of numbers below the header",

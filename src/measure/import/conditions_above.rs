@@ -58,6 +58,8 @@ struct Statement {
     name: String,
     number: String,
     unit: Option<String>,
+    /// Whether the table names it; its unit alone may say what it is.
+    is_named: bool,
 }
 
 impl Statement {
@@ -65,11 +67,6 @@ impl Statement {
     fn means<T>(&self, of: impl Fn(&str) -> Option<T>) -> Option<T> {
         let words: Vec<&str> = self.name.split_whitespace().collect();
         (0..words.len()).find_map(|from| of(&words[from..].join(" ")))
-    }
-
-    /// Whether it is named by more than its unit.
-    fn has_name(&self) -> bool {
-        self.written.contains(": ")
     }
 
     fn value(&self) -> Option<f64> {
@@ -90,20 +87,21 @@ fn statements(cells: &[String]) -> Vec<Statement> {
         // a number that stands alone in its cell belongs to what stands in others
         let is_among_others = parts.len() > 1;
         let all = parts.iter().filter_map(|part| in_one(part));
-        stated.extend(all.filter(|one| is_among_others || one.has_name()));
+        stated.extend(all.filter(|one| is_among_others || one.is_named));
         let beside = filled.get(at + 1).filter(begins_with_digit);
         // several numbers behind a name are a list
         let is_list = filled
             .get(at + 2)
             .is_some_and(|next| begins_with_digit(&next));
         if let (Some(name), Some(value), false) = (parts.last(), beside, is_list) {
-            stated.extend(statement(name, value).filter(Statement::has_name));
+            stated.extend(statement(name, value).filter(|one| one.is_named));
         }
     }
     // several without a name may be those of several tests
     for name in [SPEED, TORQUE] {
-        if stated.iter().filter(|one| one.name == name).count() > 1 {
-            stated.retain(|one| one.name != name);
+        let is_it = |one: &Statement| !one.is_named && one.name == name;
+        if stated.iter().filter(|one| is_it(one)).count() > 1 {
+            stated.retain(|one| !is_it(one));
         }
     }
     stated
@@ -111,12 +109,11 @@ fn statements(cells: &[String]) -> Vec<Statement> {
 
 /// What a number without a name is by its unit: `2800 rpm`, `25 Nm`.
 fn named_by_unit(unit: &str) -> Option<&'static str> {
-    let is_speed = names::speed(SPEED, Some(unit)).is_some();
-    let is_torque = || names::newton_metres(unit).is_some();
-    if is_speed {
-        return Some(SPEED);
+    if names::speed(SPEED, Some(unit)).is_some() {
+        Some(SPEED)
+    } else {
+        names::newton_metres(unit).map(|_| TORQUE)
     }
-    is_torque().then_some(TORQUE)
 }
 
 /// A name and a number with a colon or a sign of equality between them, or words before a number with a unit.
@@ -145,13 +142,17 @@ fn statement(name: &str, value: &str) -> Option<Statement> {
     let is_unit = behind.is_empty()
         || behind == "1/min"
         || !has_digit(behind) && behind.starts_with(char::is_alphabetic);
-    let own = plain.contains(char::is_alphabetic).then_some(plain);
-    let is_bare = name.is_empty();
-    let own = own.or_else(|| Some(named_by_unit(behind).filter(|_| is_bare)?.to_owned()))?;
+    let is_named = plain.contains(char::is_alphabetic);
+    let own = match name {
+        "" => named_by_unit(behind)?.to_owned(),
+        _ if is_named => plain,
+        _ => return None,
+    };
     (has_digit(number) && is_unit).then(|| Statement {
-        written: match is_bare {
-            true => value.to_owned(),
-            false => format!("{}: {value}", name.trim()),
+        is_named,
+        written: match is_named {
+            true => format!("{}: {value}", name.trim()),
+            false => value.to_owned(),
         },
         name: own,
         number: number.to_owned(),

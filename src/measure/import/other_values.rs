@@ -60,10 +60,9 @@ const FLANKS: [&str; 8] = [
     "flank", "flanks", "flanke", "flanken", "flanc", "flancs", "fianchi", "flancos",
 ];
 /// Directions of depths that are not along the normal.
-const TANGENTIAL: [&str; 8] = [
+const TANGENTIAL: [&str; 7] = [
     "circumferential",
     "umfangsrichtung",
-    "umfang",
     "tangential",
     "tangentiale",
     "tangentiel",
@@ -269,6 +268,7 @@ mod tests {
             "Wear measured after each stop [um]",
             "Wear test 12, 1500 rpm",
             "both flanks measured on 3 May",
+            "Verschlei\u{df}messung, Umfang: 5 Versuche",
             "Wear depth at 140 Nm [um]",
             "mean of 3 teeth, wear in um",
             "Verschlei\u{df} [\u{b5}m], Modul 3,5 mm (b = 20 mm)",

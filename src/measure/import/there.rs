@@ -118,13 +118,9 @@ impl There {
             }
         }
         let meet = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[1] && b[0] <= a[1];
-        let other = |member: Subject| match member {
-            Subject::Pinion => Subject::Gear,
-            _ => Subject::Pinion,
-        };
         let is_swapped = |(member, own): (&Subject, &[f64; 2])| {
             let same = self.flanks.get(member)?;
-            let others = self.flanks.get(&other(*member))?;
+            let others = self.flanks.get(&member.other())?;
             (!meet(own, same) && meet(own, others)).then(|| {
                 format!(
                     "the radii of the {member}, {} to {} mm, lie apart from those of its rows that are there, {} to {} mm, and among the {other}'s, {} \
@@ -136,7 +132,7 @@ impl There {
                     others[0],
                     others[1],
                     member = member.name(),
-                    other = other(*member).name()
+                    other = member.other().name()
                 )
             })
         };

@@ -54,7 +54,7 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
         (
             1e3,
             if masses_first {
-                "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm, or their cycles count thousands)"
+                "the masses look like g: they are wanted in mg (or the depths like nm, wanted in µm; or the depths' cycles count thousands)"
             } else {
                 "the depths look like nm: they are wanted in µm (or the masses like g, wanted in mg; or the depths' cycles count thousands)"
             },
@@ -62,9 +62,9 @@ pub(super) fn depths_and_masses(study: &Study, rows: &[FittedRow<'_>], k: f64) -
         (
             1e-3,
             if masses_first {
-                "the masses look like µg, or like mg that were taken for g: they are wanted in mg (or the depths like mm, wanted in µm)"
+                "the masses look like µg, or like mg that were taken for g: they are wanted in mg (or the depths like mm, wanted in µm; or the masses' cycles count thousands)"
             } else {
-                "the depths look like mm: they are wanted in µm (or the masses like µg, or like mg that were taken for g; wanted in mg)"
+                "the depths look like mm: they are wanted in µm (or the masses like µg, or like mg that were taken for g, wanted in mg; or the masses' cycles count thousands)"
             },
         ),
         (1e6, "the masses look like kg: they are wanted in mg"),

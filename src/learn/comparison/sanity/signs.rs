@@ -4,7 +4,7 @@
 //! s of a quantity's values y ≈ s·f + c_trace, f: computed      the other sign: s < 0, and s·f explains more than half of what is measured
 //! ```
 //! Where something else is missing s·f explains less in some tests; their depths are turned too if s is surely below 0 there and nowhere surely
-//! above.
+//! above. Where most depths are positive they are not called turned: along another gear's flank, or at other places, right ones run against the computed.
 
 use super::super::residual_statistics::FittedRow;
 use super::single_tests::by_test;
@@ -14,10 +14,10 @@ use crate::study::Study;
 
 /// Standard deviations by which a negative loss of mass is no noise.
 const GAIN_SIGMAS: f64 = 2.0;
-/// Share of the depths from which positive ones say that lost material counts positive.
-const POSITIVE: f64 = 0.7;
 /// The same where a model's law may turn a curve round: what stands over a rotation.
 pub(super) const EXPLAINS_OVER_A_ROTATION: f64 = 0.8;
+/// Share of the depths from which positive ones say that lost material counts positive.
+const POSITIVE: f64 = 0.7;
 /// Standard deviations of s from 0 from which a single test's sign is sure.
 const SURE: f64 = 6.0;
 

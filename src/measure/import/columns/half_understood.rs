@@ -169,13 +169,12 @@ fn nothing_missing(columns: &[Column]) -> String {
         .filter(|column| side(&column.written).is_some());
     let of_both = |column: &&Column| {
         let words = names::words(&column.written);
-        words
-            .iter()
-            .any(|word| names::member(word) == Some(Subject::Pair))
+        let is_of_pair = |word: &String| names::member(word) == Some(Subject::Pair);
+        column.what == What::Values(Quantity::MassLoss) && words.iter().any(is_of_pair)
     };
     if let Some(column) = columns.iter().find(of_both) {
         return format!(
-            "nothing, but `{}` is of both members together, and each member's own is wanted: weigh them apart",
+            "nothing, but `{}` is of both members together, and the loss of each by itself is wanted",
             column.written
         );
     }

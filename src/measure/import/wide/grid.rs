@@ -41,18 +41,13 @@ impl<'a> Places<'a> {
             Some(gear) => Flank::new(gear, member, kind, corner).map(Some),
             None => Ok(None),
         };
-        let other = match member {
-            Subject::Pinion => Subject::Gear,
-            Subject::Gear => Subject::Pinion,
-            Subject::Pair => Subject::Pair,
-        };
         Ok(Self {
             kind,
             scale,
             gear,
             member,
             flank: flank_of(member)?,
-            other: flank_of(other)?,
+            other: flank_of(member.other())?,
         })
     }
 
