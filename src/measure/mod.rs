@@ -20,6 +20,7 @@ pub mod neighbours;
 mod observation;
 pub mod outliers;
 mod pooled_scatter;
+mod profiles;
 mod quantity;
 mod row_reader;
 mod short_series;

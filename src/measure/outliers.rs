@@ -2,13 +2,15 @@
 //!
 //! One row after the other, the one that stands farthest apart first, until none does (its own value would draw the others along). Two rows side by
 //! side hide each other, and make a right one beside them stand apart, and so does one at the end of a curve: where rows nearby still do once that one is
-//! passed over, and none does without another, or without two neighbours, it is these. A place where several curves of a member do alike is a feature of the flank and no outlier, and neither is a value
+//! passed over, and none does without another, or without two neighbours, it is these. A place where several curves of a member do alike, or that the other
+//! profiles of a coarse curve lead up to, is a feature of the flank and no outlier, and neither is a value
 //! between those beside it, the edge of what is worn, or one that both sides lead up to.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::neighbours::{SIDE, around, curves, points};
+use super::profiles::OtherProfiles;
 use super::quantity::Quantity;
 use super::{Dataset, Observation};
 use crate::numeric::median;
@@ -38,6 +40,8 @@ pub struct Outlier {
     pub apart: f64,
     /// σ as the file states it.
     pub stated_sigma: f64,
+    /// What the value reads with its decimal point put right, where it looks like a slip.
+    pub meant: Option<f64>,
 }
 
 /// A point of a curve with the standard deviations that it stands apart, with their sign, the value expected, and whether the curve bends there.
@@ -77,7 +81,8 @@ impl Curve {
 
     /// How far all points stand apart, without sign.
     fn all_apart(&self) -> Vec<f64> {
-        let each = (0..self.points.len()).filter_map(|at| self.apart(at));
+        let asked = (0..self.points.len()).filter(|at| !self.passed_over[*at]);
+        let each = asked.filter_map(|at| self.apart(at));
         each.map(|(apart, _)| apart.abs()).collect()
     }
 
@@ -214,11 +219,26 @@ fn scatter(magnitudes: Vec<f64>) -> f64 {
 /// All rows that stand apart from their neighbours.
 pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
     let rows: Vec<&Observation> = observations.iter().collect();
-    let mut all: Vec<Curve> = (curves(&rows).into_iter())
+    let curves = curves(&rows);
+    let profiles = OtherProfiles::new(&rows, &curves);
+    let slips: Vec<Outlier> = (rows.iter().enumerate())
+        .filter_map(|(row, o)| {
+            let slip = profiles.slip(row, o.value)?;
+            Some(Outlier {
+                row,
+                expected: slip.expected,
+                apart: slip.apart,
+                stated_sigma: o.sigma,
+                meant: Some(slip.meant),
+            })
+        })
+        .collect();
+    let has_slipped = |row: &usize| slips.iter().any(|slip| slip.row == *row);
+    let mut all: Vec<Curve> = (curves.into_iter())
         .map(|own| {
             let points = points(&rows, &own);
             let mut curve = Curve {
-                passed_over: vec![false; points.len()],
+                passed_over: own.iter().map(has_slipped).collect(),
                 rows: own,
                 points,
                 scale: 1.0,
@@ -272,8 +292,12 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
             let at = worst.at;
             let others = all[number].others_instead_of(at, &kept);
             let standing = others.unwrap_or_else(|| vec![worst]);
-            let is_feature =
-                |one: &Standing| one.is_a_corner || is_shared(&all, &rows, number, one);
+            let is_feature = |one: &Standing| {
+                let row = all[number].rows[one.at];
+                one.is_a_corner
+                    || profiles.lead_to(row, rows[row].value, one.expected)
+                    || is_shared(&all, &rows, number, one)
+            };
             if standing.iter().any(is_feature) {
                 kept[at] = true;
                 continue;
@@ -285,11 +309,13 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
                     expected: one.expected,
                     apart: one.apart.abs(),
                     stated_sigma: rows[row].sigma,
+                    meant: None,
                 });
                 all[number].passed_over[one.at] = true;
             }
         }
     }
+    found.extend(slips);
     found.sort_by_key(|outlier| outlier.row);
     found
 }
@@ -344,7 +370,7 @@ impl Dataset {
     pub fn has_slips(&self) -> bool {
         let is_slip = |outlier: &Outlier| {
             let counts_fully = self.observations[outlier.row].sigma <= outlier.stated_sigma;
-            counts_fully && outlier.apart.abs() > SLIP
+            counts_fully && (outlier.meant.is_some() || outlier.apart.abs() > SLIP)
         };
         self.outliers.iter().any(is_slip)
     }
@@ -356,11 +382,16 @@ impl Dataset {
             let o = &self.observations[outlier.row];
             let (value, expected) = (o.value, outlier.expected);
             let unit = o.quantity.shown_unit();
-            format!(
-                "{} ({value:.4} {unit} where {expected:.4} is expected by them, {:.0} times their scatter)",
-                self.place(o),
-                outlier.apart
-            )
+            let place = self.place(o);
+            match outlier.meant {
+                Some(meant) => format!(
+                    "{place} ({value:.4} {unit} where the other profiles lead one to expect {expected:.4}: {meant:.4} with a slipped decimal point?)"
+                ),
+                None => format!(
+                    "{place} ({value:.4} {unit} where {expected:.4} is expected by them, {:.0} times their scatter)",
+                    outlier.apart
+                ),
+            }
         };
         let all: Vec<String> = self.outliers.iter().map(one).collect();
         Some(format!("{rows}: {}", all.join(", ")))
@@ -425,5 +456,63 @@ mod tests {
         assert_eq!(found(&[(40, 8.0)]), [40]);
         // apart from one another each is found by itself
         assert_eq!(found(&[(10, 99.0), (30, -99.0)]), [10, 30]);
+    }
+
+    /// Outliers of so many profiles of ten radii at growing heights, alike but for 2 %, of which one row is multiplied.
+    fn of_coarse(profiles: usize, shape: [f64; 10], row: usize, times: f64) -> Vec<Outlier> {
+        let rows = (0..10 * profiles).map(|i| {
+            let (profile, at) = (i / 10, i % 10);
+            let height = 1.0 + 0.6 * profile as f64;
+            let noise = 1.0 + 0.02 * (2.4 * i as f64).sin();
+            let value = height * shape[at] * noise;
+            Observation {
+                test: profile / 3,
+                member: Subject::Gear,
+                cycles: 1e5 * (1 + profile % 3) as f64,
+                quantity: Quantity::WearDepth,
+                position: Some(40.0 + 0.4 * at as f64),
+                value: if i == row { times * value } else { value },
+                sigma: 0.4,
+                trace: None,
+                face: None,
+                tooth: None,
+                line: 2 + i,
+            }
+        });
+        let rows: Vec<Observation> = rows.collect();
+        outliers(&rows)
+    }
+
+    #[test]
+    fn a_slipped_decimal_point_in_a_coarse_curve_is_found_by_the_other_profiles() {
+        let shape = [3.0, 6.2, 5.9, 4.0, 1.5, 0.4, 1.6, 3.9, 5.0, 4.8];
+        assert_eq!(of_coarse(6, shape, 0, 1.0), []);
+        for (row, times) in [(8, 10.0), (13, 0.1), (20, 10.0), (37, 0.01), (59, 0.1)] {
+            let found = of_coarse(6, shape, row, times);
+            assert_eq!(found.len(), 1, "{row}: {found:?}");
+            assert_eq!(found[0].row, row);
+            let (meant, expected) = (found[0].meant.unwrap(), found[0].expected);
+            assert!((meant / expected - 1.0).abs() < 0.1, "{row}: {found:?}");
+        }
+        // twice as much is no slip, and of two profiles nobody knows which is right
+        assert!(
+            of_coarse(6, shape, 13, 2.0)
+                .iter()
+                .all(|o| o.meant.is_none())
+        );
+        assert!(
+            of_coarse(2, shape, 13, 0.1)
+                .iter()
+                .all(|o| o.meant.is_none())
+        );
+    }
+
+    #[test]
+    fn what_all_profiles_of_a_member_do_is_no_outlier() {
+        let steep = [9.0, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];
+        let bare = [1.3, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];
+        assert_eq!(of_coarse(6, steep, 0, 1.0), []);
+        // the same row in one of them is
+        assert_eq!(of_coarse(6, bare, 10, 7.0).first().unwrap().row, 10);
     }
 }
