@@ -86,7 +86,7 @@ refusals! {
     no_slices: format!("{SHORT}[face]\nslices = 0\n")
         => BadValue "face.slices" at 22:10, "0", "1 to 201", "out of range";
     half_a_slice: format!("{SHORT}[face]\nslices = 2.5\n")
-        => WrongType "face.slices" at 22:10, "2.5", "1 to 201", "whole number";
+        => WrongType "face.slices" at 22:10, "2.5", "1 to 201", "is the number 2.5, not a whole number";
     unknown_ends_of_the_face: format!("{SHORT}[face]\nslices = 3\nends = \"loose\"\n")
         => BadValue "face.ends" at 23:8, "\"loose\"", "\"held\"", "not known";
     an_unknown_coupling: format!("{SHORT}[face]\nslices = 3\ncoupling = \"springs\"\n")
@@ -113,6 +113,8 @@ refusals! {
         => Inconsistent "teeth.pinion.pitch_deviations" at 22:20, "[1.0, 2.0]", "27 numbers", "2 deviations for 27 teeth";
     a_pitch_chart_of_words: format!("{SHORT}[teeth.pinion]\npitch_deviations = [\"a\", \"b\"]\n")
         => WrongType "teeth.pinion.pitch_deviations" at 22:21, "\"a\"", "list of numbers", "not a list";
+    a_pitch_chart_with_a_hole: format!("{SHORT}[teeth.pinion]\npitch_pattern = [0.0, nan]\n")
+        => BadValue "teeth.pinion.pitch_pattern" at 22:17, "nan", "finite numbers", "holds NaN";
     a_pitch_chart_in_mm: format!("{SHORT}[teeth.pinion]\npitch_pattern = [0.0, 2000.0]\n")
         => BadValue "teeth.pinion.pitch_pattern" at 22:17, "2000", "-1000 to 1000 µm", "out of range";
     a_pattern_longer_than_the_teeth: format!("{SHORT}[teeth.pinion]\npitch_pattern = [1.0]\n")
@@ -137,6 +139,8 @@ refusals! {
         => UnknownKey "face.helix" at 22:1, "`helix`", "helix_angle", "the nearest valid key is `helix_angle`";
     the_beginning_of_a_key_of_another_table: with("module = 2.0", "module = 2.0\nhelix = 18")
         => UnknownKey "gears.helix" at 3:1, "`helix`", "module", "`helix_angle` stands in [face]";
+    end_relief_that_no_slice_has: format!("{SHORT}[face]\nslices = 3\n[face.gear]\nend_relief_amount = 10.0\nend_relief_length = 0.5\n")
+        => Inconsistent "face.gear.end_relief_length" at 25:21, "0.5", "with 3 slices", "less than half a slice";
     end_relief_longer_than_the_face: format!("{SHORT}[face]\nslices = 3\n[face.gear]\nend_relief_amount = 10.0\nend_relief_length = 20\n")
         => Inconsistent "face.gear.end_relief_length" at 25:21, "20", "up to 16.5 mm: half of the face", "end_relief_length = 20 mm is too long for a face of 33 mm";
     end_relief_of_no_length: format!("{SHORT}[face]\nslices = 3\n[face.gear]\nend_relief_amount = 10.0\nend_relief_length = 0\n")

@@ -11,7 +11,7 @@ use gearwear::simulate::forward::{Conditions, Forward, GearSet};
 use gearwear::simulate::history::Progress;
 use gearwear::simulate::members::Members;
 use gearwear::simulate::numerics::Numerics;
-use gearwear::simulate::wear_state::{ToothState, WearState};
+use gearwear::simulate::wear_state::{ToothState, WearState, worn_area};
 use gearwear::study::Study;
 use gearwear::verify::contact_and_wear::Effort;
 use gearwear::verify::teeth_in_turn;
@@ -161,26 +161,64 @@ fn the_mean_torque_over_all_teeth_is_the_pinions() {
     }
 }
 
-/// Where the teeth of one member are all alike, and every tooth meets every other, its mean is each of its teeth: nothing is left out.
+/// Where the teeth of one member are all alike its mean, over those that a tooth meets, is each of them: nothing is left out, with a common factor or
+/// without one, whichever member has the chart.
 #[test]
 fn a_mate_whose_teeth_are_alike_is_its_mean() {
-    let run = |hunting: &str| {
-        let table = format!(
-            "[teeth]\nhunting = \"{hunting}\"\n[teeth.pinion]\npitch_pattern = [0, 3, -2, 5]\nclasses = 12\n"
-        );
-        let set = set(Some([12, 13]), &table);
-        let mut forward = Forward::new(&set, None, conditions(), numerics()).unwrap();
-        worn(&mut forward).0
-    };
-    let (full, average) = (run("full"), run("average"));
-    // one of each place in the pattern and the gear's teeth, against all teeth
-    assert_eq!((full.teeth.len(), average.teeth.len()), (25, 5));
-    for class in &full.teeth {
-        let same = |c: &&ToothState| c.side == class.side && c.teeth.contains(&class.teeth[0]);
-        let alike = average.teeth.iter().find(same).unwrap();
-        let off = largest_difference(&class.depth, &alike.depth);
-        assert!(off < 1e-6, "{:?}: {off:e}", class.teeth);
+    let pattern = "pitch_pattern = [0, 3, -2, 5]";
+    let chart = "pitch_deviations = [0, 3, -2, 5, 1, -3, 4, 0, 2, -4, 0, 1]";
+    // of 12 and 13 one of each place in the pattern and the gear's teeth; of 12 and 15 each tooth and the three remainders
+    for (teeth, member, stated, classes) in [
+        ([12, 13], "pinion", pattern, [25, 5]),
+        ([12, 15], "pinion", chart, [27, 15]),
+        ([15, 12], "gear", chart, [27, 15]),
+    ] {
+        let run = |hunting: &str| {
+            let table = format!(
+                "[teeth]\nhunting = \"{hunting}\"\n[teeth.{member}]\n{stated}\nclasses = 12\n"
+            );
+            let set = set(Some(teeth), &table);
+            let mut forward = Forward::new(&set, None, conditions(), numerics()).unwrap();
+            worn(&mut forward).0
+        };
+        let (full, average) = (run("full"), run("average"));
+        assert_eq!([full.teeth.len(), average.teeth.len()], classes);
+        for class in &full.teeth {
+            let same = |c: &&ToothState| c.side == class.side && c.teeth.contains(&class.teeth[0]);
+            let alike = average.teeth.iter().find(same).unwrap();
+            let off = largest_difference(&class.depth, &alike.depth);
+            assert!(off < 1e-6, "{teeth:?} {:?}: {off:e}", class.teeth);
+        }
     }
+}
+
+/// What one member loses the other one does, with k and profiles alike, also where the mates' chart and an effect's wave tell teeth apart together.
+#[test]
+fn both_members_lose_the_same_where_a_chart_meets_a_wave() {
+    for on_gear in [0.0, 1.0] {
+        let set = set(Some([12, 18]), "[teeth.pinion]\npitch_pattern = [-5, 0]\n");
+        let acting = acting("run_out", &[("amplitude", 5.0), ("on_gear", on_gear)]);
+        let mut forward =
+            Forward::with_effects(&set, None, conditions(), numerics(), Some(&acting)).unwrap();
+        let stations = forward.cycle().stations.arc.clone();
+        let (state, _) = worn(&mut forward);
+        let lost = [0, 1].map(|m| [12.0, 18.0][m] * worn_area(&stations[m], &state.depth[m]));
+        assert!(
+            (lost[1] / lost[0] - 1.0).abs() < 0.02,
+            "{on_gear}: {lost:?}"
+        );
+    }
+}
+
+/// With a chart effects across the face act as in the analytic model, on one section.
+#[test]
+fn a_chart_leaves_one_section_to_effects_across_the_face() {
+    let set = set(None, "[teeth.pinion]\npitch_pattern = [-5, 0]\n");
+    let acting = acting("lead_misalignment", &[("slope", 10.0)]);
+    let mut forward =
+        Forward::with_effects(&set, None, conditions(), numerics(), Some(&acting)).unwrap();
+    let (state, _) = worn(&mut forward);
+    assert!(state.slices.is_empty() && state.teeth.len() > 2);
 }
 
 /// Which tooth is called the first says nothing: with the chart moved on by some teeth each wears as it did before.

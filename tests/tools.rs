@@ -358,6 +358,25 @@ fn each_member_wears_by_its_own_coefficient() {
     assert!(message.contains("wear.gear.coefficient"), "{message}");
 }
 
+/// What stands in the table of one member can be varied for the other.
+#[test]
+fn a_sweep_varies_keys_of_either_member() {
+    let home = Home::with(&format!(
+        "{STUDY}[face]\nslices = 3\ncoupling = \"none\"\n[face.gear]\ncrowning = 1.0\n"
+    ));
+    let text = home.ok(&[
+        "sweep",
+        "study.toml",
+        "--vary",
+        "face.gear.crowning=0,4",
+        "-o",
+        "out",
+    ]);
+    assert!(text.contains("crowning, µm"), "{text}");
+    let table = home.read("out/sweep.csv");
+    assert_eq!(table.lines().count(), 3, "{table}");
+}
+
 /// Points whose values are right one by one and no pair that runs together are rows with their reason.
 #[test]
 fn a_sweep_tells_the_points_that_are_no_pair() {

@@ -21,7 +21,7 @@ use crate::study::{self, Study};
 pub struct DiagnoseArgs {
     #[command(flatten)]
     paths: StudyAndOutput,
-    /// Decide by the analytic contact model alone: seconds instead of a minute, and a model error (1 to 2 % for the reference pair, more for others) that may look like an effect
+    /// Decide by the analytic contact model alone: seconds instead of a minute, and a model error (some per cent: `gearwear models` says how much) that may look like an effect
     #[arg(long, conflicts_with = "fidelity")]
     fast: bool,
     /// By which model candidates are compared at last; --fast is --fidelity screening. A study with `contact = "hertz"` is always

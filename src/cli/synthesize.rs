@@ -73,7 +73,7 @@ pub(super) fn execute(args: &SynthesizeArgs, context: &Context) -> Result<Outcom
     let written = [COPY, DATA].map(|name| args.output.join(name).display().to_string());
     Ok(Outcome {
         text: format!(
-            "wrote {} and {}: {} made-up values of {} {}, seed {}\nnext: gearwear compare {}\n",
+            "wrote {} and {}: {} made-up values of {} {}, seed {}\n{}next: gearwear compare {}\n",
             written[0],
             written[1],
             synthetic.data.observations.len(),
@@ -84,6 +84,11 @@ pub(super) fn execute(args: &SynthesizeArgs, context: &Context) -> Result<Outcom
                 "tests"
             },
             args.seed,
+            if copy.effect_model().is_empty() {
+                ""
+            } else {
+                "the study keeps the effects that made the values: take its [[effect]] out to try gearwear diagnose on them\n"
+            },
             written[0]
         ),
         json: json!({ "written": written }),

@@ -10,7 +10,8 @@
 //! ```
 //! Teeth i and k meet where i − k is a multiple of the common factor of both numbers of teeth. By [`Hunting::Average`] a tooth of a class
 //! passes a mate that is the mean of all that it meets: their mean place and their mean wear. What depends on the wear of two teeth in a
-//! straight line is right so; what is left out is the part of the load sharing that is crooked over the differences between mates.
+//! straight line is right so; what is left out is the part of the load sharing that is crooked over the differences between mates. Teeth of a member that
+//! differ by their mates alone have no passages of their own: each wears by those of its mates, and nothing is left out.
 //!
 //! Where teeth stand along a wave over the turn, those of a few places around the member are classes, and the others wear as a wave through these
 //! ([`Groups`]).
@@ -131,7 +132,12 @@ impl Sequence {
             }
             Hunting::Average => {
                 for m in 0..2 {
-                    if !several[m] && (several[1 - m] || m == 1) {
+                    let follows = if several[m] {
+                        several[1 - m] && follows_mates(kinds, &groups, m, common)
+                    } else {
+                        several[1 - m] || m == 1
+                    };
+                    if follows {
                         continue;
                     }
                     for centre in &groups[m].centres {
@@ -219,16 +225,30 @@ impl Sequence {
                 .map(|(i, _)| i)
                 .collect();
             if passing.is_empty() {
-                // one class, whose teeth pass those of every class of the other member
-                let shares = self.groups[1 - m].shares();
+                // teeth that are worn by the other member's, in the passages of these
+                let shares = match classes {
+                    1 => self.groups[1 - m].shares(),
+                    _ => self.shares_of_mates(m, c),
+                };
                 let mate = |p: &Passage| p.tooth[1 - m].and_then(|k| self.groups[1 - m].class(k));
                 let weighted = passages.filter_map(|(i, p)| Some((i, shares[mate(p)?])));
-                return weighted.collect();
+                return weighted.filter(|(_, share)| *share != 0.0).collect();
             }
             let each = 1.0 / passing.len() as f64;
             passing.into_iter().map(|i| (i, each)).collect()
         };
         (0..classes).map(of_class).collect()
+    }
+
+    /// Share of each class of the other member in the teeth that those of a class of member `m` meet.
+    fn shares_of_mates(&self, m: usize, class: usize) -> Vec<f64> {
+        let own = (0..self.teeth[m]).filter(|k| self.groups[m].class(*k) == Some(class));
+        let mates = own.flat_map(|k| (k % self.common..self.teeth[1 - m]).step_by(self.common));
+        let mut shares = vec![0.0; self.groups[1 - m].centres.len()];
+        for (of, share) in self.groups[1 - m].mean_wear(mates) {
+            shares[of] = share;
+        }
+        shares
     }
 
     /// Number of passages: a state holds the depths of both members for each.
@@ -291,6 +311,19 @@ impl Sequence {
         };
         (0..self.count()).map(mean).collect()
     }
+}
+
+/// Whether the teeth of member `m` differ by their mates alone, so that their wear is that of the passages of these: the mean of several mates is then
+/// taken of their wear and not of their places.
+fn follows_mates(kinds: &Kinds, groups: &[Groups; 2], m: usize, common: usize) -> bool {
+    let alike = kinds.of[m].iter().all(|own| close(own, &kinds.of[m][0]));
+    let met_alone = |class: usize| {
+        groups[1 - m].centres.iter().any(|mate| {
+            let met = (mate % common..kinds.of[m].len()).step_by(common);
+            matches!(groups[m].mean_wear(met)[..], [(of, _)] if of == class)
+        })
+    };
+    alike && (0..groups[m].centres.len()).all(met_alone)
 }
 
 /// The tooth `d` after `i` of `count`.

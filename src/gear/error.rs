@@ -224,6 +224,10 @@ fn too_far_apart(ratio: f64, found: f64, allowed: f64, misalignment: f64) -> Str
     } else {
         "the teeth do not reach each other".to_owned()
     };
+    // far from usual proportions it is not the distance that is wrong
+    if found <= allowed {
+        return format!("{what}, at a centre distance of {found:.4} mm");
+    }
     let shift = if misalignment > 0.0 {
         format!(", a misalignment of at most {misalignment:.4} mm")
     } else {

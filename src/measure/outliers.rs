@@ -229,7 +229,7 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
                 expected: slip.expected,
                 apart: slip.apart,
                 stated_sigma: o.sigma,
-                meant: Some(slip.meant),
+                meant: slip.meant,
             })
         })
         .collect();

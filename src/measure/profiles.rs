@@ -20,23 +20,29 @@ const AGREE: f64 = 0.6;
 const LEAST: f64 = 0.01;
 /// Scatters about the lines by which a value is off at least before it counts as a slip.
 const OFF: f64 = 8.0;
+/// How far from what the others expect a value may lie once the slip is undone, over itself, beside so many scatters.
+const NEAR: f64 = 0.3;
+const ALIKE: f64 = 2.5;
+/// Ranges of a curve by which a value is off that no curve has, whatever it was meant to be.
+const OUTSIDE: f64 = 4.0;
 /// What is left of a difference once it is explained, at most.
 const LEFT: f64 = 0.25;
 /// Median of |x| of a standard normal number.
 const MEDIAN: f64 = 0.674_490;
 
-/// What one other profile says of a row: the value expected, and the scatter about its line.
+/// What one other profile says of a row: the value expected, the scatter about its line, and how far all values on the line range.
 #[derive(Debug, Clone, Copy)]
 struct Expected {
     value: f64,
     scatter: f64,
+    range: f64,
 }
 
-/// A decimal point in the wrong place.
+/// A slip of the pen or the keyboard.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slip {
-    /// The value with the point put right.
-    pub meant: f64,
+    /// The value with the decimal point put right, where that makes it one of the curve.
+    pub meant: Option<f64>,
     /// The value that the other profiles lead one to expect, and the scatters about their lines by which the row is off.
     pub expected: f64,
     pub apart: f64,
@@ -88,16 +94,25 @@ impl OtherProfiles {
         self.agree(row, |by| (value - by.value).abs() < most)
     }
 
-    /// The slip by one or two places, either way, that the other profiles agree on.
+    /// The slip of the decimal point by up to three places, either way, that the other profiles agree on; or any by which a value stands far outside all
+    /// that the curve ranges over.
     pub(super) fn slip(&self, row: usize, value: f64) -> Option<Slip> {
         let undone = |meant: f64| {
             self.agree(row, |by| {
-                let off = (value - by.value).abs();
-                off > OFF * by.scatter && (meant - by.value).abs() < LEFT * off
+                let (off, left) = ((value - by.value).abs(), (meant - by.value).abs());
+                let near = NEAR * meant.abs() + ALIKE * by.scatter;
+                off > OFF * by.scatter && left < LEFT * off && left < near
             })
         };
-        let meant = [10.0, 0.1, 100.0, 0.01].map(|times| times * value);
-        let meant = meant.into_iter().find(|meant| undone(*meant))?;
+        let meant = [10.0, 0.1, 100.0, 0.01, 1000.0, 0.001].map(|times| times * value);
+        let meant = meant.into_iter().find(|meant| undone(*meant));
+        let is_gross = |by: &Expected| {
+            let off = (value - by.value).abs();
+            off > OFF * by.scatter && off > OUTSIDE * by.range
+        };
+        if meant.is_none() && !self.agree(row, is_gross) {
+            return None;
+        }
         let said = &self.said[row];
         let apart = said.iter().map(|by| (value - by.value).abs() / by.scatter);
         Some(Slip {
@@ -143,6 +158,7 @@ fn laid_on(
     let expected = |x: f64| Expected {
         value: zero + slope * x,
         scatter,
+        range: high - low,
     };
     (scatter > 0.0).then(|| (theirs.iter()).map(|theirs| theirs.map(expected)).collect())
 }

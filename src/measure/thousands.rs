@@ -21,6 +21,12 @@ pub(crate) fn in_thousands(text: &str) -> bool {
         && rest.all(|group| group.len() == 3 && digits(group))
 }
 
+/// Whether a number's one mark stands before decimals whatever else is written: `0,15`, `2.5`. Three digits behind it, as in `0,250`, leave a doubt.
+pub(crate) fn has_certain_decimals(number: &str) -> bool {
+    let decimals = number.rsplit_once(MARKS).map_or(0, |(_, part)| part.len());
+    lone(number).is_some() && decimals != 3
+}
+
 /// A number without the marks between its thousands where they can be nothing else: two or more of one kind.
 pub(crate) fn without_certain(text: &str) -> Option<String> {
     certain(text).map(|mark| text.replace(MARKS[mark], ""))

@@ -151,6 +151,22 @@ fn wear(run: &Run) -> Vec<String> {
             "These are means over the face: across it wear has lowered {pinion} and {gear}."
         ));
     }
+    let worst = |member: Member| {
+        let worst = last.worst_tooth(member)?;
+        let depth = significant(worst.deepest(), 3);
+        Some(format!(
+            "{} tooth {} by up to {depth} µm",
+            member.name(),
+            worst.teeth[0]
+        ))
+    };
+    let worst: Vec<String> = Member::BOTH.into_iter().filter_map(worst).collect();
+    if !worst.is_empty() {
+        sentences.push(format!(
+            "These are mean teeth: of the single ones wear has lowered {} most.",
+            worst.join(" and ")
+        ));
+    }
     sentences
 }
 

@@ -90,6 +90,7 @@ pub(super) fn read(
             continue;
         };
         (face.lead[side], files[side]) = lead(&member, folder, width)?;
+        check_end_relief_is_seen(&member, &face, side, width)?;
         let states = !face.lead[side].is_none() || files[side].is_some();
         let key = MEMBER_KEYS.iter().find(|key| states && member.has(key));
         if let (0 | 1, Some(key)) = (face.slices, key) {
@@ -106,6 +107,32 @@ pub(super) fn read(
 fn slices_for(overlap: f64) -> usize {
     let count = (SLICES_PER_BASE_PITCH * overlap).ceil() as usize;
     count.clamp(11, MOST_SLICES)
+}
+
+/// Refuses an end relief that no slice sees: the outermost one stands for the face half its width from the end.
+fn check_end_relief_is_seen(table: &Table<'_>, face: &Face, side: usize, width: f64) -> Result<()> {
+    let lead = &face.lead[side];
+    let half_slice = 0.5 * width / face.slices.max(1) as f64;
+    if face.slices < 2 || lead.end_relief == 0.0 || lead.end_relief_length > half_slice {
+        return Ok(());
+    }
+    let says = format!(
+        "mm is less than half a slice ({} slices), so that no slice has any of it",
+        face.slices
+    );
+    let allowed = format!(
+        "above {} mm with {} slices",
+        q::Short((1e4 * half_slice).round() * 1e-4),
+        face.slices
+    );
+    let mut refusal = table.refuse("end_relief_length", &says, allowed);
+    refusal.fault = Fault::Inconsistent;
+    let slices = (width / lead.end_relief_length).ceil() as usize + 1;
+    let hint = match slices <= MOST_SLICES {
+        true => format!("slices = {slices} in [face] has a slice within the relief"),
+        false => "a relief as short as that is the edge of a face".to_owned(),
+    };
+    Err(Box::new(refusal.with_hint(hint)))
 }
 
 fn lead(table: &Table<'_>, folder: &Path, width: f64) -> Result<(Lead, Option<PathBuf>)> {

@@ -13,6 +13,14 @@ pub(super) const WANTED: Wanted = Wanted {
 
 const ANY_VALUE: &str = "a number, a text in quotes, true or false";
 
+/// Whether a comma between two digits stands at a place of the text.
+fn has_decimal_comma(text: &str, at: usize) -> bool {
+    let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
+    let after = after.strip_prefix(',');
+    before.ends_with(|c: char| c.is_ascii_digit())
+        && after.is_some_and(|after| after.starts_with(|c: char| c.is_ascii_digit()))
+}
+
 /// What the TOML reader found, with the name of a key that stands twice.
 pub(super) fn syntax(source: &Source, error: &toml::de::Error) -> Box<Diagnostic> {
     let span = error.span().unwrap_or(0..0);
@@ -57,6 +65,11 @@ pub(super) fn syntax(source: &Source, error: &toml::de::Error) -> Box<Diagnostic
     } else {
         Diagnostic::new(Fault::Syntax, key, format!("not valid TOML: {what}"))
             .with_values(found, expected)
+            .with_hint(if has_decimal_comma(&source.text, span.start) {
+                "decimals take a point here: 4.0; commas separate the values of a list"
+            } else {
+                ""
+            })
     };
     Box::new(diagnostic.with_span(span))
 }

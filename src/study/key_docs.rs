@@ -61,15 +61,13 @@ pub fn unit_of(key: &str) -> Option<&'static str> {
         return Some(parameter.unit);
     }
     // what is said of one member can be said of the other, or of both
-    let of_gear = table
-        .replace("gears.gear", "gears.pinion")
-        .replace("wear.gear", "wear.pinion");
-    let plain = of_gear
+    let of_pinion = table.replace(".gear", ".pinion");
+    let plain = of_pinion
         .trim_end_matches(".pinion")
         .trim_end_matches(".gear");
     let doc = KEY_DOCS
         .iter()
-        .find(|doc| doc.key == name && [table, &of_gear, plain].contains(&doc.table))?;
+        .find(|doc| doc.key == name && [table, &of_pinion, plain].contains(&doc.table))?;
     match doc.value {
         Value::Number(quantity) | Value::WordOr(_, quantity) => Some(quantity.unit),
         _ => None,
@@ -232,7 +230,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("measurements", "file", Value::Text, Refused, "the CSV file, relative to the study"),
     doc("measurements", "tests", Value::Text, Words("`[[test]]` alone"), "a CSV file with a row for each test and the keys of `[[test]]` as columns, relative to the study; its tests come after those of `[[test]]`"),
 
-    doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face"), "sections across the face that turn together, each with its own wear; 1: one section represents the whole face, and effects across it are a factor on the load there"),
+    doc("face", "slices", Value::Count(1, 201), Words("1, or 7 where an effect acts across the face (11 where it bends)"), "sections across the face that turn together, each with its own wear; 1: one section represents the whole face, and effects across it are a factor on the load there"),
     doc("face", "coupling", Value::Word(super::face::COUPLINGS), Words("`\"teeth\"` for stated slices by finite elements, else `\"none\"`"), "what couples slices besides the common rotation: the teeth that they are cut from, or nothing"),
     doc("face", "ends", Value::Word(super::face::ENDS), Default("\"free\""), "the ends of a face whose slices are coupled by the teeth: free, or held along the axis as if the gear went on behind them"),
     number("face", "helix_angle", &q::HELIX_ANGLE, Default("0.0"), "of helical gears at the reference circle, positive: the pinion is right-handed, and its end +face_width/2 comes into mesh first; needs slices. `[gears]` then states the normal section"),
@@ -240,7 +238,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     number("face.pinion", "crowning", &q::LEAD, Default("0.0"), "material missing at both ends, a parabola from mid-face"),
     number("face.pinion", "end_relief_amount", &q::LEAD, Default("0.0"), "material missing at both ends, straight"),
     number("face.pinion", "end_relief_length", &q::END_RELIEF_LENGTH, Default("0.0"), "from each end inwards; needed with an amount"),
-    doc("face.pinion", "lead_file", Value::Text, Words("straight"), "a CSV file (face,deviation in mm from mid-face and µm) of the measured lead, relative to the study"),
+    doc("face.pinion", "lead_file", Value::Text, Words("straight"), "a CSV file (face,deviation in mm from mid-face and µm) of the measured lead, relative to the study; beyond its rows as at its ends"),
 
     doc("teeth", "hunting", Value::Word(super::teeth::HUNTING), Default("\"average\""), "average: a tooth meets the mean of its mates; full: each of them in turn, up to 256 different meetings"),
     doc("teeth.pinion", "pitch_file", Value::Text, Words("all in their places"), "a CSV file (tooth,deviation: a row for each tooth from 1 on, µm) of the measured pitch deviations, relative to the study"),
@@ -248,7 +246,7 @@ pub static KEY_DOCS: &[KeyDoc] = &[
     doc("teeth.pinion", "pitch_pattern", Value::Numbers, Words("all in their places"), "the same for the first teeth, repeated around the member: [-5, 0] for every second tooth proud; cut short where it does not fit into the number of teeth"),
     number("teeth.pinion", "eccentricity", &q::ECCENTRICITY, Default("0.0"), "of the member's axis: all pairs in mesh stand back by its cosine over the turn, so the lag varies; load sharing is unchanged"),
     number("teeth.pinion", "eccentricity_phase", &q::ECCENTRICITY_PHASE, Default("0.0"), "0: the pairs stand back most as tooth 1 passes the pitch point"),
-    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("64"), "largest number of classes of teeth, each with wear of its own; teeth with equal deviation, equal neighbours and equal mates form a class, and beyond this number the most similar classes are merged: faster, and wrong by as much as they differ"),
+    doc("teeth.pinion", "classes", Value::Count(1, 64), Default("64"), "largest number of classes of teeth, each with wear of its own; teeth with equal deviation, equal neighbours and equal mates form a class, and beyond this number the most similar classes are merged: faster, and wrong by as much as they differ; by hunting = \"full\" none are"),
 
     number("rig", "torque_min", &q::TORQUE, ANY, "least on the pinion"),
     number("rig", "torque_max", &q::TORQUE, ANY, "largest on the pinion"),

@@ -332,7 +332,7 @@ impl<'a> Table<'a> {
         let mut diagnostic = Diagnostic::new(
             Fault::WrongType,
             path.clone(),
-            format!("{path} is {kind}, not {wanted}"),
+            format!("{path} is {found}, not {wanted}"),
         )
         .with_values(found, wanted)
         .with_span(span);

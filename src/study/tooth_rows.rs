@@ -1,7 +1,11 @@
 //! Whether the teeth that rows name are teeth of the gears.
 
+use std::collections::BTreeSet;
+
+use super::effect_model::EffectModel;
 use super::{Study, StudyError};
-use crate::gear::Member;
+use crate::effects::Effect;
+use crate::gear::{Member, ToothClasses};
 use crate::measure::{Dataset, Observation};
 
 impl Study {
@@ -35,6 +39,28 @@ impl Study {
             ),
             &format!("1 to {teeth} in the column tooth"),
             "teeth are numbered from 1 in the order in which they come into mesh; a label that is no whole number names none",
+        ))
+    }
+
+    /// What to say where rows name several teeth of a member and the model, with `effects`, has all of them alike.
+    pub fn warning_on_teeth(&self, data: &Dataset, effects: &EffectModel) -> Option<String> {
+        let moves_none = effects.stated().tooth_classes() == ToothClasses::Alike(1);
+        if !self.teeth.are_alike() || !moves_none {
+            return None;
+        }
+        let named = |member| -> BTreeSet<i64> {
+            let own = data.observations.iter();
+            let own = own.filter(|row| row.member.member() == Some(member));
+            own.filter_map(|row| row.tooth.as_deref()?.trim().parse().ok())
+                .collect()
+        };
+        let (member, count) = (Member::BOTH.into_iter())
+            .map(|member| (member, named(member).len()))
+            .find(|(_, count)| *count > 1)?;
+        Some(format!(
+            "rows name {count} teeth of the {}, and in the model all teeth are alike: what differs between them counts as misfit; a pitch chart in [teeth], \
+             pitch_error or run_out would differ too",
+            member.name()
         ))
     }
 }

@@ -264,7 +264,11 @@ impl<'a> Table<'a> {
         };
         let read = |item: &toml::Spanned<DeValue<'_>>| match plain_number(item.get_ref()) {
             Some(number) if number.is_finite() => Ok(number),
-            _ => Err(Box::from(self.wrong_type(
+            Some(number) => {
+                let says = format!("holds {number}");
+                Err(Box::from(self.refuse(key, &says, "finite numbers")))
+            }
+            None => Err(Box::from(self.wrong_type(
                 key,
                 item.get_ref(),
                 item.span(),

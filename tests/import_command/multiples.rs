@@ -231,6 +231,28 @@ fn points_between_thousands_of_counts_beside_decimal_commas() {
     let both = table("40.000", "0,278") + "A;Ritzel;1000.000;26,5;1,278\n";
     let message = refused(&home, &both, "--sigma 0.1");
     assert!(message.contains("C2"), "{message}");
+    // beside `0,15` millions have decimals, in a column and above one; `check` says what they look like
+    let millions = table("0,15", "0,278") + "A;Ritzel;1,125;26,5;1,278\n";
+    let (_, written) = rows(&home, &millions, "--sigma 0.1");
+    assert!(written.contains("A,pinion,1.125,wear_depth,"), "{written}");
+    let wide = "radius [mm],0.15,1.125\n26.5,1.25,3.5\n27.5,0.75,2.5\n";
+    let (_, written) = rows(&home, wide, "--test A --member pinion --sigma 0.1");
+    assert!(written.contains("A,pinion,1.125,wear_depth,"), "{written}");
+}
+
+/// Cells that hold no number say what to do about them.
+#[test]
+fn cells_that_hold_no_number_are_told_from_each_other() {
+    let home = home();
+    let message = |value: &str| {
+        let table = format!(
+            "Versuch;Teil;Umdrehungen;Radius [mm];Verschlei\u{df} [\u{b5}m]\nA;Ritzel;40000;26,5;0,278\nA;Ritzel;40000;27;{value}\n"
+        );
+        refused(&home, &table, "--sigma 0.1")
+    };
+    assert!(message("0,630 \u{b5}m").contains("write the unit into the header"));
+    assert!(message("03.Dez").contains("made a date of it"));
+    assert!(message("Verschlei\u{df} [\u{b5}m]").contains("delete that row"));
 }
 
 #[test]

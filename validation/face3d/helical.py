@@ -3,7 +3,7 @@
     cargo build --release --example face_loads
     python3 validation/face3d/helical.py target/release/gearwear WORKFOLDER [CASE ...]
 
-Writes helical.json and helical.svg beside this file. What CalculiX has solved stays in WORKFOLDER and is not solved again; without `ccx` the figures of
+Writes helical.json and helical.svg beside this file; of cases that are not asked for they keep what they have. What CalculiX has solved stays in WORKFOLDER and is not solved again; without `ccx` the figures of
 bricks are those that helical.json has. Needs numpy."""
 
 import dataclasses
@@ -23,6 +23,11 @@ FINER_FACE = (0.08, 1.8, 40, 1)
 FINEST_FACE = (0.08, 1.8, 80, 1)
 # layers of 0.16 mm within 2.5 mm of mid-face, where contact lines end between two pairs, and ten of 0.75 mm on either side
 FINE_MIDDLE = (0.08, 1.8, (10, 32, 2.5), 1)
+# layers of 0.25 mm within 3 mm of either end, where the next tooth comes in at the pitch point, and 1 mm between
+FINE_ENDS = (0.08, 1.8, (12, 14, 7.0), 1)
+# the same layers on finer sections
+FINER_MIDDLE = (*COARSE[:2], *FINE_MIDDLE[2:])
+FINER_ENDS = (*COARSE[:2], *FINE_ENDS[2:])
 # lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
 CASES = {
     "even, between two pairs": ("even", 0.5, ROUGH, "free"),
@@ -42,9 +47,14 @@ CASES = {
     "crown, fine middle": ("crown", 0.5, FINE_MIDDLE, "free"),
     "even, fine middle, rims held": ("even", 0.5, FINE_MIDDLE, "rim"),
     "crown, fine middle, rims held": ("crown", 0.5, FINE_MIDDLE, "rim"),
+    "even, fine middle, stiff contact": ("even", 0.5, FINE_MIDDLE, "free"),
+    "even, fine middle, finer mesh": ("even", 0.5, FINER_MIDDLE, "free"),
+    "even, at the pitch point, fine ends, finer mesh": ("even", 0.0, FINER_ENDS, "free"),
+    "even, at the pitch point, fine ends": ("even", 0.0, FINE_ENDS, "free"),
+    "even, at the pitch point, fine ends, square": ("even", 0.0, FINE_ENDS, "free"),
 }
 # ten minutes of processor time each and more, or not needed for the others: solved only where they are asked for, and not drawn
-BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, FINE_MIDDLE, COARSE) or "finer face, " in name} | {
+BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, FINE_MIDDLE, FINER_MIDDLE, FINE_ENDS, FINER_ENDS, COARSE) or "finer face, " in name} | {
     "even, at the pitch point, rims held",
     "crown, between two pairs, rims held",
 }
@@ -116,7 +126,8 @@ def of_bricks(folder, name, pair):
         missing = lambda at: LEADS[lead][1](at, pair.width)
         base = pair.gears()[0].base
         guess = (max(map(missing, z)) + 0.003) / base  # at first the flanks overlap by 3 µm where they do least
-        mesh = Mesh(size=size, half=5 * size + 0.04, layers=z, body=body, stiffness=STIFFNESS, steps=2)
+        stiffness = 1e8 if "stiff contact" in name else STIFFNESS
+        mesh = Mesh(size=size, half=5 * size + 0.04, layers=z, body=body, stiffness=stiffness, steps=2, square=name.endswith("square"))
         spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
         started = spent()
         found = solve(pair, mesh, rotation, TEETH[rotation], missing, guess, ends, folder, kept.stem)
@@ -211,7 +222,7 @@ def main():
     program, folder, wanted = asked_for(__doc__, ("plane", *CASES), BY_NAME, needs_ccx=False)
     pair = pair_of(study())
     torque_of = lambda strips: float(strips.mean() * pair.width * pair.gears()[0].base / pair.torque)
-    results, stiff = {}, None
+    results, stiff = {name: entry for name, entry in solved().items() if name in ("plane", *CASES)}, None
     if "plane" in wanted:
         results["plane"] = {**mesh_error(folder, pair), "section": straight(program, folder, pair)}
         stiff = results["plane"]["finest"] / results["plane"]["rough"]

@@ -84,6 +84,7 @@ class Mesh:
     body: float = 1.0  # edges elsewhere, over the usual ones
     stiffness: float = 1e8  # MPa/mm, pressure over overlap
     steps: int = 1
+    square: bool = False  # ends of helical teeth at right angles to the flank that carries, not in the transverse plane
 
 
 def layers(width, strips, end):
@@ -93,6 +94,20 @@ def layers(width, strips, end):
         return even
     cut = lambda a, b: list(np.linspace(a, b, end + 1))
     return np.array(cut(even[0], even[1])[:-1] + list(even[1:-2]) + cut(even[-2], even[-1]))
+
+
+def squared(gear, nodes, slope):
+    """Nodes of a section and how far each moves along the axis so that teeth end at right angles to the helix of the flank that carries.
+
+    Flanks that carry stay where they are, and so does all below the root circle; between the two the shift fades. `slope`: of the base helix, with the gear's hand."""
+    radius, angle = np.hypot(*nodes.T), np.arctan2(nodes[:, 1], nodes[:, 0])
+    pitch = 2 * np.pi / gear.teeth
+    tooth = np.clip(np.round(angle / pitch), -1, 1)
+    inside = radius * (gear.flank(np.maximum(radius, gear.form())) - (angle - tooth * pitch))
+    along = inside * slope * radius / gear.base * np.clip((radius - gear.root) / (gear.form() - gear.root), 0.0, 1.0)
+    turn = along * slope / gear.base
+    c, s = np.cos(turn), np.sin(turn)
+    return np.column_stack([c * nodes[:, 0] - s * nodes[:, 1], s * nodes[:, 0] + c * nodes[:, 1]]), along
 
 
 def solve(pair, mesh, rotation, teeth, lead, closing, ends, folder, name):
@@ -137,9 +152,12 @@ def solve(pair, mesh, rotation, teeth, lead, closing, ends, folder, name):
             if side == 0:
                 turn += closing - lead(height) / gears[0].base
             c, s = np.cos(turn), np.sin(turn)
-            x = across[k].nodes @ np.array([[c, s], [-s, c]]) + [centres[side], 0.0]
+            nodes, along = across[k].nodes, np.zeros(n)
+            if mesh.square:
+                nodes, along = squared(gears[side], nodes, (1 - 2 * side) * np.tan(pair.base_helix()))
+            x = nodes @ np.array([[c, s], [-s, c]]) + [centres[side], 0.0]
             for i, (px, py) in enumerate(x):
-                lines.append(f"{node + k * n + i + 1}, {px:.12e}, {py:.12e}, {height:.9e}")
+                lines.append(f"{node + k * n + i + 1}, {px:.12e}, {py:.12e}, {height + along[i]:.9e}")
             for i in section.bore_nodes:
                 placed[node + k * n + i + 1] = x[i]
                 bore[side].append(node + k * n + i + 1)

@@ -108,6 +108,8 @@ fn check_key(study: &Study, key: &str, said: &str) -> std::result::Result<(), Cl
         let homes: &[&str] = match *table {
             "gears.pinion" => &["gears.pinion", "gears.gear"],
             "wear.pinion" => &["wear.pinion", "wear.gear"],
+            "face.pinion" => &["face.pinion", "face.gear"],
+            "teeth.pinion" => &["teeth.pinion", "teeth.gear"],
             "material" => &["material", "material.pinion", "material.gear"],
             table => &[table],
         };

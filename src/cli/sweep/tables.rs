@@ -150,7 +150,7 @@ pub(super) fn with_unit(key: &str) -> String {
     let name = key.rsplit('.').next().unwrap_or(key);
     match crate::study::unit_of(key) {
         None | Some("" | "-" | "1") => name.to_owned(),
-        Some(unit) => format!("{name}, {unit}"),
+        Some(unit) => format!("{name}, {}", unit.replacen("um", "µm", 1)),
     }
 }
 

@@ -81,14 +81,23 @@ pub(in crate::learn) fn trend_of_coefficients(
     in_words(&found)
 }
 
+/// A slope with its error in two decimals, three where the error has none in two.
+fn with_error(slope: f64, error: f64) -> String {
+    if error < 0.005 {
+        format!("{slope:.3} ± {error:.3}")
+    } else {
+        format!("{slope:.2} ± {error:.2}")
+    }
+}
+
 /// The sentence on what k follows; None without any.
 fn in_words(found: &[Trend]) -> Option<String> {
     let each = found.iter().map(|(name, slope, error, _)| {
         let turn = if *slope > 0.0 { "rises" } else { "falls" };
         let how = match *name {
-            TEMPERATURE => format!("ln k by {slope:.2} ± {error:.2} in 10 K"),
-            CYCLES => format!("as cycles to the power of {slope:.2} ± {error:.2}"),
-            _ => format!("as {name} to the power of {slope:.2} ± {error:.2}"),
+            TEMPERATURE => format!("ln k by {} in 10 K", with_error(*slope, *error)),
+            CYCLES => format!("as cycles to the power of {}", with_error(*slope, *error)),
+            _ => format!("as {name} to the power of {}", with_error(*slope, *error)),
         };
         format!("{turn} with their {name} ({how})")
     });

@@ -273,6 +273,8 @@ impl Measured<'_> {
         let study = self.study();
         let face = study.warnings_on_places_across_the_face(&self.data, &version.effects);
         comparison.warnings.extend(face);
+        let teeth = study.warning_on_teeth(&self.data, &version.effects);
+        comparison.warnings.extend(teeth);
         Compared {
             fit,
             comparison,

@@ -2,7 +2,9 @@
 
 use super::{ImportError, Sheet, cell_name, counts};
 use crate::measure::names;
-use crate::measure::thousands::{CountMarks, both_readings, in_thousands, without_certain};
+use crate::measure::thousands::{
+    CountMarks, both_readings, has_certain_decimals, in_thousands, without_certain,
+};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -245,6 +247,16 @@ pub(super) fn plain_cycles(text: &str, row: usize, column: usize) -> Result<()> 
 
 /// The same of one cell or line of cycles. Where a point can only be a decimal one (`plain_decimals`) it is still none before a last zero: a
 /// spreadsheet's own numbers have none there, and nobody counts 18 revolutions as `18.000`.
+/// Beside a count whose decimals are certain (`0,15`) all have decimals.
+pub(super) fn plain_count_of(sheet: &Sheet, text: &str, row: usize, column: usize) -> Result<()> {
+    let below = sheet.rows.iter().filter_map(|cells| cells.get(column));
+    if in_thousands(text) && below.map(String::as_str).any(has_certain_decimals) {
+        return Ok(());
+    }
+    plain_count(text, row, column, sheet.plain_decimals)
+}
+
+/// The same of a cell by itself.
 pub(super) fn plain_count(
     text: &str,
     row: usize,
@@ -342,10 +354,36 @@ pub(super) fn number(text: &str, row: usize, column: usize) -> Result<f64> {
             ));
         }
         ImportError(format!(
-            "{}: `{text}` is not a number; leave cells without a value empty",
-            cell_name(row, column)
+            "{}: `{text}` is not a number; {}",
+            cell_name(row, column),
+            not_a_number(text)
         ))
     })
+}
+
+/// What to do about a cell that should hold a number.
+fn not_a_number(text: &str) -> &'static str {
+    let is_number = |part: &str| pointed(part).parse::<f64>().is_ok();
+    let has_unit = text.split_once(' ').is_some_and(|(number, unit)| {
+        is_number(number) && unit.trim_start().starts_with(char::is_alphabetic)
+    });
+    let parts: Vec<&str> = text.split(['.', '/', '-']).collect();
+    let is_full_day = parts.len() == 3 && parts.iter().all(|part| is_number(part));
+    // 03.Dez, 3-Dec, 03.12.2025: days and months of spreadsheet programs
+    let is_day = text
+        .split_once(['.', '-', ' ', '/'])
+        .is_some_and(|(day, month)| {
+            (1..=2).contains(&day.len())
+                && is_number(day)
+                && month.trim_start().starts_with(char::is_alphabetic)
+        });
+    if has_unit {
+        "write the unit into the header and the number alone into the cell"
+    } else if is_day || is_full_day {
+        "if the spreadsheet program made a date of it, format the column as numbers and enter the value again"
+    } else {
+        "leave cells without a value empty; where the header stands again within the table, delete that row"
+    }
 }
 
 /// Whether a text is a date as those of spreadsheets are read (`2024-04-03`), or a time of a day.

@@ -12,8 +12,7 @@ use super::entry::{Entry, name_repeats, refuse_twice, state_face, state_sigma};
 use super::flank::can_be_on_a_flank;
 use super::multiples::{self, Multiple};
 use super::numbers::{
-    header_number, is_date, number, number_words, plain_cycles, pointed, with_points,
-    without_thousands,
+    header_number, is_date, number, number_words, pointed, with_points, without_thousands,
 };
 use super::place::{PositionKind, on_flank};
 use super::row_sigmas;
@@ -282,9 +281,8 @@ pub(super) fn across_numbers(sheet: &Sheet, head: usize) -> Result<Vec<(usize, f
         .collect()
 }
 
-/// Refuses the header of a checkpoint that is not a plain number of revolutions.
+/// Refuses the header of a checkpoint that has other numbers than that of revolutions.
 pub(super) fn checkpoint(text: &str, quantity: Quantity, row: usize, column: usize) -> Result<()> {
-    plain_cycles(text, row, column)?;
     match number_words(text)[..] {
         [number] => counts::refuse_others(text, number, Some(quantity), row, column),
         _ => Ok(()),

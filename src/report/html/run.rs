@@ -59,9 +59,10 @@ fn key_figures(run: &Run) -> Section {
         let flank = run.last().profile(member);
         let value = format!("{} µm", significant(flank.max_depth(), 4));
         let across = run.last().deepest_on_the_face(member);
-        let of = match across {
-            Some(_) => ", mean over the face",
-            None => "",
+        let of = match (across, run.last().worst_tooth(member)) {
+            (Some(_), _) => ", mean over the face",
+            (None, Some(_)) => ", mean tooth",
+            (None, None) => "",
         };
         say(format!("largest depth, {}{of}", member.name()), value);
         if let Some((depth, _)) = across {

@@ -10,6 +10,8 @@ const MOST_PRESSURE: f64 = 3000.0;
 const MOST_STRAIN: f64 = 0.06;
 /// Depth of wear over the module from which a tooth has lost a third of its thickness (π/2 modules at the reference circle, both flanks alike).
 const MOST_WEAR: f64 = 0.25;
+/// Share of the whole load in one slice from which the slices are too wide for what carries.
+const MOST_IN_ONE_SLICE: f64 = 0.75;
 
 /// One sentence for each.
 pub(super) fn implausible(run: &Run) -> Vec<String> {
@@ -27,6 +29,15 @@ pub(super) fn implausible(run: &Run) -> Vec<String> {
             "a contact pressure of {} MPa on new flanks is more than such teeth carry elastically (about {} MPa), and the model knows no yielding: look at torque and face width, and their units",
             significant(peak, 4),
             significant(most, 2)
+        ));
+    }
+    let slices = run.first().slices.len();
+    let carried = run.first().face_load_factor();
+    if slices > 1 && carried > MOST_IN_ONE_SLICE * slices as f64 {
+        sentences.push(format!(
+            "one of the {slices} slices carries {} % of the load on new flanks: the contact is narrower than a slice, and what it bears is that of the slices' number; take more of them, and look at \
+             lead_slope and crowning and their units",
+            significant(100.0 * carried / slices as f64, 2)
         ));
     }
     for member in Member::BOTH {

@@ -191,7 +191,8 @@ fn next(run: &Run, study: &Path) -> Option<String> {
     if failed_checks(run).is_some() {
         return Some("Next: read Checks in report.html before using the figures".to_owned());
     }
-    let can_be_compared = last.cycles > 0.0 && last.slices.is_empty();
+    let teeth_are_alike = last.teeth.is_empty() && last.te_over_a_turn_urad().is_none();
+    let can_be_compared = last.cycles > 0.0 && last.slices.is_empty() && teeth_are_alike;
     if !can_be_compared {
         return None;
     }

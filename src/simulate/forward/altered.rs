@@ -11,7 +11,7 @@ use crate::contact::fem::CycleCompliance;
 use crate::contact::sequence::{Kinds, Sequence};
 use crate::contact::slices::Slices;
 use crate::effects::{Effect, Hook};
-use crate::gear::{Coupling, Member, Teeth, ToothClasses};
+use crate::gear::{Coupling, Member, Teeth, ToothClasses, common_factor};
 use crate::wear::acting::Acting;
 
 /// Slices of a face that only an effect makes uneven: a wedge that opens most of the face wears its loaded end within 1.3 % of what 23 slices
@@ -45,7 +45,9 @@ impl Forward<'_> {
         let (face, width) = (&self.set.face, self.set.face_width);
         // teeth that differ are one section each: there the lead acts as in the analytic model
         let wanted = (self.acting).is_some_and(|acting| {
-            acting.acts_across_the_face(&self.cycle.pair) && !acting.acts(Hook::ToothOffset)
+            acting.acts_across_the_face(&self.cycle.pair)
+                && !acting.acts(Hook::ToothOffset)
+                && self.set.teeth.are_alike()
         });
         let bends = || (self.acting).is_some_and(|a| a.bends_across_the_face(&self.cycle.pair));
         let count = match face.slices {
@@ -106,9 +108,12 @@ impl Forward<'_> {
         }
         let stand_apart = |m: usize| teeth.back[m].windows(2).any(|two| two[0] != two[1]);
         let usual = |m: usize| teeth.classes[m].unwrap_or(Teeth::USUAL_CLASSES);
+        // with a common factor the mates' chart tells teeth apart too
+        let meet_some = common_factor(counts) > 1;
+        let told_apart = |m: usize| stand_apart(m) || meet_some && stand_apart(1 - m);
         let classes = |m: usize| match acting {
             // what an effect's own pattern takes is enough where nothing else tells teeth apart
-            Some(acting) if !stand_apart(m) => acting.effects.tooth_classes(),
+            Some(acting) if !told_apart(m) => acting.effects.tooth_classes(),
             _ => ToothClasses::Alike(usize::MAX),
         };
         let at_most_usual = |m: usize| match classes(m) {

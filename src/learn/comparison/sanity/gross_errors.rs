@@ -13,19 +13,25 @@ const NAMED: usize = 5;
 /// A question about the rows that stand apart and are many times all others.
 pub(super) fn gross_errors(data: &Dataset) -> Option<String> {
     let of = |o: &Observation| (o.member, o.quantity);
+    let curve = |o: &Observation| (o.test, o.member, o.quantity, o.cycles.to_bits(), o.trace);
     let apart: BTreeSet<usize> = data.outliers.iter().map(|outlier| outlier.row).collect();
     let mut largest: BTreeMap<_, f64> = BTreeMap::new();
+    let mut of_curves: BTreeMap<_, f64> = BTreeMap::new();
     for (row, o) in data.observations.iter().enumerate() {
         if !apart.contains(&row) {
             let most = largest.entry(of(o)).or_default();
+            *most = most.max(o.value.abs());
+            let most = of_curves.entry(curve(o)).or_default();
             *most = most.max(o.value.abs());
         }
     }
     // those that a robust likelihood takes the weight from do no harm
     let counts = |outlier: &&Outlier| data.observations[outlier.row].sigma <= outlier.stated_sigma;
+    let is_beyond = |o: &Observation, most: Option<&f64>| {
+        most.is_some_and(|most| *most > 0.0 && o.value.abs() > TIMES * most)
+    };
     let is_gross = |o: &&Observation| {
-        let most = largest.get(&of(o)).copied().unwrap_or(0.0);
-        most > 0.0 && o.value.abs() > TIMES * most
+        is_beyond(o, largest.get(&of(o))) || is_beyond(o, of_curves.get(&curve(o)))
     };
     let all = data.outliers.iter().filter(counts);
     let all = all.map(|outlier| &data.observations[outlier.row]);
@@ -42,15 +48,26 @@ pub(super) fn gross_errors(data: &Dataset) -> Option<String> {
             )
         })
         .collect();
+    let beyond_all = gross.iter().all(|o| is_beyond(o, largest.get(&of(o))));
+    let others = match beyond_all {
+        true => format!(
+            "all other values of {} of the {}",
+            first.1.name(),
+            first.0.name()
+        ),
+        false => format!(
+            "all others of the same {} profile of the {}",
+            first.1.name(),
+            first.0.name()
+        ),
+    };
     let more = match gross.len() {
         n if n > NAMED => format!(" and {} more", n - NAMED),
         _ => String::new(),
     };
     Some(format!(
-        "more than {TIMES} times all other values of {} of the {}: {}{more}. If that is what the machine writes for no value, leave these rows out; nothing can be \
+        "more than {TIMES} times {others}: {}{more}. If that is what the machine writes for no value, or a slip, leave these rows out or put them right; nothing can be \
          said of the others before",
-        first.1.name(),
-        first.0.name(),
         places.join(", ")
     ))
 }

@@ -62,7 +62,8 @@ pub(super) fn since_the_last(study: &Study, rows: &[FittedRow<'_>]) -> Option<St
 
 /// Whether the losses of a test, by rising cycles for each member and quantity, follow the intervals.
 fn follow_intervals(parts: &[Vec<Loss>]) -> bool {
-    let freedom: usize = parts.iter().map(|part| part.len() - 1).sum();
+    let known = |part: &Vec<Loss>| part.iter().filter(|loss| loss.sigma.is_finite()).count();
+    let freedom: usize = parts.iter().map(|part| known(part) - 1).sum();
     let chi2 = |part: &Vec<Loss>| {
         let totals: Vec<f64> = part.iter().map(|loss| loss.model).collect();
         let before = std::iter::once(0.0).chain(totals.iter().copied());
@@ -93,7 +94,8 @@ fn misfit(part: &[Loss], expected: &[f64]) -> f64 {
         .sum()
 }
 
-/// A member's losses by one quantity, by rising cycles; none where any of them is not sure.
+/// A member's losses by one quantity, by rising cycles; none where fewer than [`SEVERAL`] of them are sure. What a trace does not show counts with an
+/// infinite σ: the interval after it begins there all the same.
 fn losses(rows: &[FittedRow<'_>], member: Subject, quantity: Quantity) -> Vec<Loss> {
     let own = rows
         .iter()
@@ -103,11 +105,12 @@ fn losses(rows: &[FittedRow<'_>], member: Subject, quantity: Quantity) -> Vec<Lo
     let moments = own.chunk_by(|a, b| b.0.cycles - a.0.cycles < SAME_CYCLES * b.0.cycles);
     let loss = |moment: &[FittedRow<'_>]| match quantity {
         Quantity::WearDepth => {
-            let scale = scale(moment, quantity, Some(member))
-                .filter(|s| s.sigmas > SURE && s.explains > EXPLAINS)?;
             let model = moment.iter().map(|(_, row)| row.model).fold(0.0, f64::max);
-            let measured = scale.factor * model;
-            let sigma = measured / scale.sigmas;
+            let shown = scale(moment, quantity, Some(member)).filter(|s| s.explains > EXPLAINS);
+            let [measured, sigma] = shown.map_or([0.0, f64::INFINITY], |s| {
+                let measured = s.factor * model;
+                [measured, measured / s.sigmas]
+            });
             Some(Loss {
                 measured,
                 sigma,
@@ -124,7 +127,9 @@ fn losses(rows: &[FittedRow<'_>], member: Subject, quantity: Quantity) -> Vec<Lo
         }
     };
     let all = moments.map(loss).collect::<Option<Vec<Loss>>>();
-    all.unwrap_or_default()
+    let is_sure = |loss: &&Loss| loss.measured > SURE * loss.sigma;
+    all.filter(|all| all.iter().filter(is_sure).count() >= SEVERAL)
+        .unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::measure::import::columns::Column;
 use crate::measure::import::entry::Entry;
 use crate::measure::import::flank::Flank;
 use crate::measure::import::multiples::Multiple;
-use crate::measure::import::numbers::{number, plain_count, rounded};
+use crate::measure::import::numbers::{number, plain_count_of, rounded};
 use crate::measure::import::place::{PositionKind, on_flank};
 use crate::measure::import::titles::Titles;
 use crate::measure::import::wanted::Wanted;
@@ -216,7 +216,7 @@ impl Line<'_> {
             );
         }
         if self.wanted.decimal.is_none() && column.hours.is_none() && multiple.is_none() {
-            plain_count(text, self.row, column.at, self.sheet.plain_decimals)?;
+            plain_count_of(self.sheet, text, self.row, column.at)?;
         }
         let cycles = number(text, self.row, column.at)?;
         let cycles = match multiple {

@@ -7,7 +7,7 @@ use crate::measure::import::numbers::{number_words, plain_cycles};
 use crate::measure::import::place::PositionKind;
 use crate::measure::import::wanted::Wanted;
 use crate::measure::import::{ImportError, Sheet, cell_name, units};
-use crate::measure::thousands::in_thousands;
+use crate::measure::thousands::{has_certain_decimals, in_thousands};
 use crate::measure::{Quantity, Subject};
 
 /// How places on a flank are told.
@@ -231,9 +231,17 @@ impl<'s> Grid<'s> {
         let head = self.head;
         refuse_twice_in_a_line(&self.across, |column| cell_name(head, column))?;
         refuse_twice_in_a_line(&self.down, |row| cell_name(row, 0))?;
+        let headers = self
+            .across
+            .iter()
+            .map(|(column, _)| self.cell(head, *column));
+        let have_decimals = headers.flat_map(number_words).any(has_certain_decimals);
         match across {
             _ if in_multiples => Ok(()),
             Across::Checkpoints => (self.across.iter()).try_for_each(|&(column, _)| {
+                if !have_decimals {
+                    plain_cycles(self.cell(head, column), head, column)?;
+                }
                 checkpoint(self.cell(head, column), quantity, head, column)
             }),
             Across::Positions => {
