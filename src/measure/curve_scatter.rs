@@ -16,14 +16,12 @@ use std::collections::BTreeMap;
 use super::neighbours::{SIDE, around, around_within};
 use super::pooled_scatter::{CurveScatter, ScatterLaw};
 use super::{FacePlace, Observation, Quantity, Subject};
-use crate::numeric::median;
+use crate::numeric::{MEDIAN_OF_NORMAL, median};
 
 /// Points of a curve of which it can be told whether it has been filtered.
 pub(super) const ENOUGH: usize = 15;
 /// Least σ over a curve's largest value: smoother ones have been filtered.
 pub(super) const LEAST: f64 = 1e-3;
-/// Median of |x| of a standard normal number.
-const MEDIAN: f64 = 0.674_490;
 /// Of so many points of a curve one may be left out, where it stands so many times the scatter of the others from what they lead one to expect.
 const MOST_APART: usize = 12;
 const FAR_APART: f64 = 8.0;
@@ -271,7 +269,7 @@ fn apart(even: &[[f64; 3]], left_out: &[bool]) -> Vec<Option<f64>> {
 /// The standard deviation that the middle one of so many says.
 fn middle(apart: &[Option<f64>]) -> Option<f64> {
     let all = apart.iter().flatten().map(|apart| apart.abs()).collect();
-    Some(median(all)? / MEDIAN)
+    Some(median(all)? / MEDIAN_OF_NORMAL)
 }
 
 fn furthest(apart: &[Option<f64>]) -> Option<usize> {

@@ -13,7 +13,7 @@ use super::neighbours::{SIDE, around, curves, points};
 use super::profiles::OtherProfiles;
 use super::quantity::Quantity;
 use super::{Dataset, Observation};
-use crate::numeric::median;
+use crate::numeric::{MEDIAN_OF_NORMAL, median};
 
 /// Standard deviations from what the neighbours say from which a row stands apart: one of 150 000 Gaussian ones.
 const APART: f64 = 4.5;
@@ -26,8 +26,6 @@ const FEATURE: f64 = 0.3;
 const OWN: f64 = 0.8;
 /// Least scatter over the stated one that is believed: values without noise have corners that no sigma stands for.
 const LEAST: f64 = 0.5;
-/// Median of |x| of a standard normal number.
-const MEDIAN: f64 = 0.674_490;
 
 /// A row that stands apart from its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -213,7 +211,9 @@ impl Curve {
 
 /// Standard deviation of numbers about 0 by the median of their magnitudes, in which a few large ones do not show.
 fn scatter(magnitudes: Vec<f64>) -> f64 {
-    median(magnitudes).map_or(1.0, |middle| (middle / MEDIAN).max(f64::MIN_POSITIVE))
+    median(magnitudes).map_or(1.0, |middle| {
+        (middle / MEDIAN_OF_NORMAL).max(f64::MIN_POSITIVE)
+    })
 }
 
 /// All rows that stand apart from their neighbours.

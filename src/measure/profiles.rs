@@ -5,7 +5,7 @@
 //! three points in ten may be wrong.
 
 use super::{FacePlace, Observation};
-use crate::numeric::median;
+use crate::numeric::{MEDIAN_OF_NORMAL, median};
 
 /// Points of a curve: fewer are too few for a line and its scatter, denser curves show what is wrong by their neighbours.
 const POINTS: std::ops::RangeInclusive<usize> = 6..=24;
@@ -27,8 +27,6 @@ const ALIKE: f64 = 2.5;
 const OUTSIDE: f64 = 4.0;
 /// What is left of a difference once it is explained, at most.
 const LEFT: f64 = 0.25;
-/// Median of |x| of a standard normal number.
-const MEDIAN: f64 = 0.674_490;
 
 /// What one other profile says of a row: the value expected, the scatter about its line, and how far all values on the line range.
 #[derive(Debug, Clone, Copy)]
@@ -146,7 +144,8 @@ fn laid_on(
     }
     let slopes = (both.iter().enumerate()).flat_map(|(i, a)| {
         let beyond = both[i + 1..].iter();
-        beyond.filter_map(move |b| (a[0] != b[0]).then(|| (a[1] - b[1]) / (a[0] - b[0])))
+        let beyond = beyond.filter(move |b| a[0] != b[0]);
+        beyond.map(move |b| (a[1] - b[1]) / (a[0] - b[0]))
     });
     let slope = median(slopes.collect())?;
     let zero = median(both.iter().map(|[x, y]| y - slope * x).collect())?;
@@ -154,7 +153,7 @@ fn laid_on(
     let values = both.iter().map(|[x, _]| zero + slope * x);
     let low = values.clone().fold(f64::INFINITY, f64::min);
     let high = values.fold(f64::NEG_INFINITY, f64::max);
-    let scatter = (median(off.collect())? / MEDIAN).max(LEAST * (high - low));
+    let scatter = (median(off.collect())? / MEDIAN_OF_NORMAL).max(LEAST * (high - low));
     let expected = |x: f64| Expected {
         value: zero + slope * x,
         scatter,

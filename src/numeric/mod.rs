@@ -33,6 +33,9 @@ pub fn chebyshev(degree: usize, x: f64) -> f64 {
     (degree as f64 * x.acos()).cos()
 }
 
+/// Median of |x| of a standard normal number: a median of magnitudes over it is a standard deviation.
+pub const MEDIAN_OF_NORMAL: f64 = 0.674_490;
+
 /// The middle one of some numbers, of an even count the upper of the two; None of none.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     let middle = values.len() / 2;
