@@ -28,9 +28,9 @@ pub(super) fn slices_are_tied(run: &Run) -> bool {
 }
 
 const UNTIED: &str = "slices of helical gears that are not tied to their neighbours carry too little where contact lines end: the largest load across the face came out \
-     4 to 32 % low at single positions of a pair solved in three dimensions (guide/face.md)";
+     11 to 27 % low at single positions of a pair solved in three dimensions (guide/face.md)";
 const TIED: &str = "where contact lines end, slices tied by the teeth carry more than a pair solved in three dimensions does: the largest load across the face came out \
-     up to 7 % high at single positions (guide/face.md)";
+     3 to 5 % high at single positions (guide/face.md)";
 
 /// What to say of gears whose axes effects have moved closer than teeth of full thickness allow.
 pub(super) fn jammed(run: &Run) -> Option<String> {
@@ -163,8 +163,8 @@ fn wear(run: &Run) -> Vec<String> {
     let worst: Vec<String> = Member::BOTH.into_iter().filter_map(worst).collect();
     if !worst.is_empty() {
         sentences.push(format!(
-            "These are mean teeth: of the single ones wear has lowered {} most.",
-            worst.join(" and ")
+            "These are mean teeth; the most worn single ones: {}.",
+            worst.join(", ")
         ));
     }
     sentences

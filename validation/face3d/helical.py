@@ -25,9 +25,8 @@ FINEST_FACE = (0.08, 1.8, 80, 1)
 FINE_MIDDLE = (0.08, 1.8, (10, 32, 2.5), 1)
 # layers of 0.25 mm within 3 mm of either end, where the next tooth comes in at the pitch point, and 1 mm between
 FINE_ENDS = (0.08, 1.8, (12, 14, 7.0), 1)
-# the same layers on finer sections
+# the layers of FINE_MIDDLE on finer sections
 FINER_MIDDLE = (*COARSE[:2], *FINE_MIDDLE[2:])
-FINER_ENDS = (*COARSE[:2], *FINE_ENDS[2:])
 # lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
 CASES = {
     "even, between two pairs": ("even", 0.5, ROUGH, "free"),
@@ -49,12 +48,12 @@ CASES = {
     "crown, fine middle, rims held": ("crown", 0.5, FINE_MIDDLE, "rim"),
     "even, fine middle, stiff contact": ("even", 0.5, FINE_MIDDLE, "free"),
     "even, fine middle, finer mesh": ("even", 0.5, FINER_MIDDLE, "free"),
-    "even, at the pitch point, fine ends, finer mesh": ("even", 0.0, FINER_ENDS, "free"),
+    "even, at the pitch point, finer mesh": ("even", 0.0, COARSE, "free"),
     "even, at the pitch point, fine ends": ("even", 0.0, FINE_ENDS, "free"),
     "even, at the pitch point, fine ends, square": ("even", 0.0, FINE_ENDS, "free"),
 }
 # ten minutes of processor time each and more, or not needed for the others: solved only where they are asked for, and not drawn
-BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, FINE_MIDDLE, FINER_MIDDLE, FINE_ENDS, FINER_ENDS, COARSE) or "finer face, " in name} | {
+BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, FINE_MIDDLE, FINER_MIDDLE, FINE_ENDS, COARSE) or "finer face, " in name} | {
     "even, at the pitch point, rims held",
     "crown, between two pairs, rims held",
 }
