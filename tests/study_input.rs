@@ -293,6 +293,8 @@ refusals! {
         => Syntax "wear" at 21:2, "`wear`", "each key once", "stands twice";
     syntax_value: with("module = 2.0", "module = two")
         => Syntax "module" at 2:10, "`two`", "a number, a text in quotes", "not valid TOML";
+    a_decimal_comma: with("module = 2.0", "module = 2,0")
+        => Syntax "module" at 2:11, "`,`", "newline", "decimals take a point here";
     syntax_header: with("[wear]", "[wear")
         => Syntax "" at 18:6, "the end of the line", "`]`", "unclosed table";
     syntax_decimal_comma: with("module = 2.0", "module = 2,0")

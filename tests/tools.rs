@@ -358,6 +358,19 @@ fn each_member_wears_by_its_own_coefficient() {
     assert!(message.contains("wear.gear.coefficient"), "{message}");
 }
 
+/// A crown so high that one slice carries all is computed, and said to be too much for the slices.
+#[test]
+fn a_contact_narrower_than_a_slice_is_warned_of() {
+    let warned = |crowning: f64| {
+        let face = format!("[face]\nslices = 5\n[face.gear]\ncrowning = {crowning}\n");
+        let home = Home::with(&format!("{STUDY}{face}"));
+        home.ok(&["run", "study.toml", "-o", "out"])
+            .contains("one of the 5 slices carries 100 % of the load")
+    };
+    assert!(warned(500.0));
+    assert!(!warned(5.0));
+}
+
 /// What stands in the table of one member can be varied for the other.
 #[test]
 fn a_sweep_varies_keys_of_either_member() {

@@ -235,3 +235,23 @@ fn too_far_apart(ratio: f64, found: f64, allowed: f64, misalignment: f64) -> Str
     };
     format!("{what}: centre distance {found:.4} mm found, at most {allowed:.4} mm allowed{shift}")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of teeth that are too short at any distance the distance is not called too large.
+    #[test]
+    fn a_contact_ratio_below_1_blames_the_distance_only_where_it_is_too_large() {
+        let far = too_far_apart(0.6168, 82.4, 81.4996, 1.4996);
+        assert!(
+            far.contains("82.4000 mm found, at most 81.4996 mm allowed"),
+            "{far}"
+        );
+        let short = too_far_apart(0.9689, 28.5245, 28.5567, 0.0);
+        assert!(
+            short.ends_with("at a centre distance of 28.5245 mm"),
+            "{short}"
+        );
+    }
+}

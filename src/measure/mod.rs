@@ -20,7 +20,6 @@ pub mod neighbours;
 mod observation;
 pub mod outliers;
 mod pooled_scatter;
-mod profiles;
 mod quantity;
 mod row_reader;
 mod short_series;

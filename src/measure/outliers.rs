@@ -6,11 +6,15 @@
 //! profiles of a coarse curve lead up to, is a feature of the flank and no outlier, and neither is a value
 //! between those beside it, the edge of what is worn, or one that both sides lead up to.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
+mod curve;
+mod in_words;
+mod profiles;
 
-use super::neighbours::{SIDE, around, curves, points};
-use super::profiles::OtherProfiles;
+use std::collections::BTreeMap;
+
+use self::curve::{Curve, Standing};
+use self::profiles::OtherProfiles;
+use super::neighbours::{curves, points};
 use super::quantity::Quantity;
 use super::{Dataset, Observation};
 use crate::numeric::{MEDIAN_OF_NORMAL, median};
@@ -40,173 +44,6 @@ pub struct Outlier {
     pub stated_sigma: f64,
     /// What the value reads with its decimal point put right, where it looks like a slip.
     pub meant: Option<f64>,
-}
-
-/// A point of a curve with the standard deviations that it stands apart, with their sign, the value expected, and whether the curve bends there.
-struct Standing {
-    at: usize,
-    apart: f64,
-    expected: f64,
-    is_a_corner: bool,
-}
-
-/// What is known of one curve.
-struct Curve {
-    rows: Vec<usize>,
-    points: Vec<[f64; 3]>,
-    passed_over: Vec<bool>,
-    /// Scatter of the points about their neighbours over the stated one.
-    scale: f64,
-}
-
-impl Curve {
-    /// Standard deviations that a point stands apart, and the value expected.
-    fn apart(&self, at: usize) -> Option<(f64, f64)> {
-        let found = around(&self.points, at, &self.passed_over)?;
-        let apart = (self.points[at][1] - found.expected) / (found.sigma * self.scale);
-        Some((apart, found.expected))
-    }
-
-    fn standing(&self, at: usize) -> Option<Standing> {
-        let (apart, expected) = self.apart(at)?;
-        Some(Standing {
-            at,
-            apart,
-            expected,
-            is_a_corner: self.is_a_corner(at),
-        })
-    }
-
-    /// How far all points stand apart, without sign.
-    fn all_apart(&self) -> Vec<f64> {
-        let asked = (0..self.points.len()).filter(|at| !self.passed_over[*at]);
-        let each = asked.filter_map(|at| self.apart(at));
-        each.map(|(apart, _)| apart.abs()).collect()
-    }
-
-    /// The other point, or the two side by side, near the one that stands farthest apart, without which nothing nearby stands apart, far from what the
-    /// others lead one to expect; None where that point alone is enough, or none other and no two are.
-    fn others_instead_of(&mut self, at: usize, kept: &[bool]) -> Option<Vec<Standing>> {
-        let near = at.saturating_sub(SIDE)..(at + SIDE + 1).min(self.points.len());
-        if self.most_apart_without(&[at], &near, kept) <= APART {
-            return None;
-        }
-        let asked: Vec<usize> = near.clone().filter(|&i| !self.passed_over[i]).collect();
-        // a burr at the end of a curve pulls those beside it, which stand farther apart than it does
-        let mut singles: Vec<(f64, usize)> = Vec::new();
-        for &one in asked.iter().filter(|one| **one != at) {
-            let left = self.most_apart_without(&[one], &near, kept);
-            let is_far = (self.apart(one)).is_some_and(|(z, _)| z.abs() > APART);
-            if is_far && left <= APART {
-                singles.push((left, one));
-            }
-        }
-        if let Some((_, one)) = singles.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) {
-            return Some(vec![self.standing(one)?]);
-        }
-        let mut pairs: Vec<(f64, [usize; 2])> = Vec::new();
-        for pair in asked
-            .windows(2)
-            .filter_map(|two| <[usize; 2]>::try_from(two).ok())
-        {
-            let left = self.most_apart_without(&pair, &near, kept);
-            let both = self.without(&pair, |curve| {
-                let far = |i: &usize| curve.apart(*i).is_some_and(|(z, _)| z.abs() > APART);
-                pair.iter().all(far)
-            });
-            if both && left <= APART {
-                pairs.push((left, pair));
-            }
-        }
-        let (_, pair) = pairs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-        self.without(&pair, |curve| {
-            pair.iter().map(|&at| curve.standing(at)).collect()
-        })
-    }
-
-    /// The farthest that a point of a range stands apart once some are passed over, without sign.
-    fn most_apart_without(&mut self, some: &[usize], near: &Range<usize>, kept: &[bool]) -> f64 {
-        self.without(some, |curve| {
-            let asked = near.clone().filter(|&i| !curve.passed_over[i] && !kept[i]);
-            let apart = asked.filter_map(|i| curve.apart(i));
-            apart.map(|(z, _)| z.abs()).fold(0.0, f64::max)
-        })
-    }
-
-    /// What something is while some points are passed over.
-    fn without<T>(&mut self, some: &[usize], what: impl FnOnce(&Self) -> T) -> T {
-        some.iter().for_each(|&i| self.passed_over[i] = true);
-        let found = what(self);
-        some.iter().for_each(|&i| self.passed_over[i] = false);
-        found
-    }
-
-    /// Whether a point's value lies between those of its neighbours, one on each side or two at an end, or outside by no more than noise: then the
-    /// curve bends there, as at the edge of what is worn, and what its neighbours lead one to expect is not to be expected.
-    fn is_a_corner(&self, at: usize) -> bool {
-        let asked = |i: &usize| !self.passed_over[*i];
-        let before: Vec<usize> = (0..at).rev().filter(asked).take(2).collect();
-        let after: Vec<usize> = (at + 1..self.points.len()).filter(asked).take(2).collect();
-        let near = match (&before[..], &after[..]) {
-            ([left, ..], [right, ..]) => vec![*left, *right],
-            (one, []) | ([], one) => one.to_vec(),
-        };
-        let values = near.iter().map(|&i| self.points[i][1]);
-        let (low, high) = (
-            values.clone().fold(f64::INFINITY, f64::min),
-            values.fold(f64::NEG_INFINITY, f64::max),
-        );
-        let [_, value, sigma] = self.points[at];
-        let outside = (low - value).max(value - high).max(0.0);
-        let noise = ALIKE * sigma * self.scale;
-        outside < noise || self.is_led_up_to(at, (&before, &after)) || self.goes_on(at, noise)
-    }
-
-    /// Whether a point at an end of the curve, but for noise, lies among what goes on from its three nearest: level, straight or bending as they do. A
-    /// relief of a tip bends more than a parabola over several points follows.
-    fn goes_on(&self, at: usize, noise: f64) -> bool {
-        let asked = |i: &usize| !self.passed_over[*i];
-        let before: Vec<usize> = (0..at).rev().filter(asked).take(3).collect();
-        let after: Vec<usize> = (at + 1..self.points.len()).filter(asked).take(3).collect();
-        let near = match (&before[..], &after[..]) {
-            (&[a, b, c], []) | ([], &[a, b, c]) => [a, b, c],
-            _ => return false,
-        };
-        let [place, value, _] = self.points[at];
-        let [[x1, y1], [x2, y2], [x3, y3]] = near.map(|i| [self.points[i][0], self.points[i][1]]);
-        let slope = (y1 - y2) / (x1 - x2);
-        let bend = (slope - (y2 - y3) / (x2 - x3)) / (x1 - x3);
-        let straight = y1 + slope * (place - x1);
-        let bending = straight + bend * (place - x1) * (place - x2);
-        let low = y1.min(straight).min(bending);
-        let high = y1.max(straight).max(bending);
-        (low - noise..=high + noise).contains(&value)
-    }
-
-    /// Whether the points on either side lead up to a point's value, half of the way or more from what a smooth curve has there: the dip of the wear at
-    /// the pitch point, where flanks roll and do not slide.
-    fn is_led_up_to(&self, at: usize, (before, after): (&[usize], &[usize])) -> bool {
-        let Some((apart, expected)) = self.apart(at) else {
-            return false;
-        };
-        let [place, value, _] = self.points[at];
-        let leads = |side: &[usize]| {
-            let &[near, far] = side else { return false };
-            let ([x, y, _], [x_far, y_far, _]) = (self.points[near], self.points[far]);
-            let led = y + (y - y_far) / (x - x_far) * (place - x);
-            (led - expected) * apart.signum() > 0.5 * (value - expected).abs()
-        };
-        leads(before) && leads(after)
-    }
-
-    /// Standard deviations at the point nearest to a place, if the curve has one within half the distance of its points.
-    fn near(&self, place: f64) -> Option<f64> {
-        let distance = |at: &usize| (self.points[*at][0] - place).abs();
-        let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        let [first, last] = [self.points.first()?[0], self.points.last()?[0]];
-        let reach = 0.75 * (last - first) / (self.points.len() - 1) as f64;
-        (distance(&nearest) <= reach).then(|| self.apart(nearest).map(|found| found.0))?
-    }
 }
 
 /// Standard deviation of numbers about 0 by the median of their magnitudes, in which a few large ones do not show.
@@ -337,34 +174,6 @@ fn is_shared(all: &[Curve], rows: &[&Observation], number: usize, one: &Standing
 }
 
 impl Dataset {
-    /// How many rows stand apart from their neighbours, and where they are listed, in a sentence; None where none does.
-    pub fn outliers_counted(&self) -> Option<String> {
-        let rows = self.rows_apart()?;
-        Some(format!("{rows}; gearwear check lists them"))
-    }
-
-    /// How many rows stand apart from their neighbours, and how they count.
-    fn rows_apart(&self) -> Option<String> {
-        let first = self.outliers.first()?;
-        let rows = match self.outliers.len() {
-            1 => "1 row stands".to_owned(),
-            n => format!("{n} rows stand"),
-        };
-        let counted = if self.observations[first.row].sigma > first.stated_sigma {
-            match self.outliers.len() {
-                1 => "counted with a sigma as large as it stands apart",
-                _ => "counted with a sigma as large as they stand apart",
-            }
-        } else if self.outliers.len() == 1 {
-            "counted as it is: correct it, or state [noise] outliers = \"robust\""
-        } else {
-            "counted as they are: correct them, or state [noise] outliers = \"robust\""
-        };
-        Some(format!(
-            "{rows} apart from the neighbours along the trace, {counted}"
-        ))
-    }
-
     /// Whether rows stand so far apart from their neighbours that nothing should be made of them before they are put right: a slip in writing. None
     /// does where they count with a σ that allows for it.
     pub fn has_slips(&self) -> bool {
@@ -373,28 +182,6 @@ impl Dataset {
             counts_fully && (outlier.meant.is_some() || outlier.apart.abs() > SLIP)
         };
         self.outliers.iter().any(is_slip)
-    }
-
-    /// All rows that stand apart from their neighbours, in a sentence; None where none does.
-    pub fn outliers_in_words(&self) -> Option<String> {
-        let rows = self.rows_apart()?;
-        let one = |outlier: &Outlier| {
-            let o = &self.observations[outlier.row];
-            let (value, expected) = (o.value, outlier.expected);
-            let unit = o.quantity.shown_unit();
-            let place = self.place(o);
-            match outlier.meant {
-                Some(meant) => format!(
-                    "{place} ({value:.4} {unit} where the other profiles lead one to expect {expected:.4}: {meant:.4} with a slipped decimal point?)"
-                ),
-                None => format!(
-                    "{place} ({value:.4} {unit} where {expected:.4} is expected by them, {:.0} times their scatter)",
-                    outlier.apart
-                ),
-            }
-        };
-        let all: Vec<String> = self.outliers.iter().map(one).collect();
-        Some(format!("{rows}: {}", all.join(", ")))
     }
 
     /// Finds the rows that stand apart from their neighbours; if `robust`, they count with a σ as large as they stand apart.

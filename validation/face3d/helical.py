@@ -14,6 +14,7 @@ import shutil
 import subprocess
 import tomllib
 from pathlib import Path
+from typing import NamedTuple
 
 from face3d import COARSE, LEADS, STIFFNESS, STRIPS, asked_for, picture, rows
 
@@ -27,33 +28,45 @@ FINE_MIDDLE = (0.08, 1.8, (10, 32, 2.5), 1)
 FINE_ENDS = (0.08, 1.8, (12, 14, 7.0), 1)
 # the layers of FINE_MIDDLE on finer sections
 FINER_MIDDLE = (*COARSE[:2], *FINE_MIDDLE[2:])
-# lead, position in base pitches from the pitch point (tooth 0, mid-face), mesh, what does not move along the axis
+
+
+class Case(NamedTuple):
+    """A pair in contact: `position` in base pitches from the pitch point (tooth 0, mid-face), `ends` and `square` as in model.py."""
+
+    lead: str
+    position: float
+    mesh: tuple
+    ends: str = "free"
+    stiffness: float = STIFFNESS
+    square: bool = False
+
+
 CASES = {
-    "even, between two pairs": ("even", 0.5, ROUGH, "free"),
-    "even, between two pairs, rims held": ("even", 0.5, ROUGH, "rim"),
-    "even, at the pitch point": ("even", 0.0, ROUGH, "free"),
-    "even, at the pitch point, rims held": ("even", 0.0, ROUGH, "rim"),
-    "crown, between two pairs": ("crown", 0.5, ROUGH, "free"),
-    "crown, between two pairs, rims held": ("crown", 0.5, ROUGH, "rim"),
-    "even, finer mesh": ("even", 0.5, COARSE, "free"),
-    "even, finer face": ("even", 0.5, FINER_FACE, "free"),
-    "even, finest face": ("even", 0.5, FINEST_FACE, "free"),
-    "even, finer face, rims held": ("even", 0.5, FINER_FACE, "rim"),
-    "even, at the pitch point, finer face, rims held": ("even", 0.0, FINER_FACE, "rim"),
-    "even, at the pitch point, finer face, mirrors": ("even", 0.0, FINER_FACE, "mirror"),
-    "crown, finer face, rims held": ("crown", 0.5, FINER_FACE, "rim"),
-    "even, fine middle": ("even", 0.5, FINE_MIDDLE, "free"),
-    "crown, fine middle": ("crown", 0.5, FINE_MIDDLE, "free"),
-    "even, fine middle, rims held": ("even", 0.5, FINE_MIDDLE, "rim"),
-    "crown, fine middle, rims held": ("crown", 0.5, FINE_MIDDLE, "rim"),
-    "even, fine middle, stiff contact": ("even", 0.5, FINE_MIDDLE, "free"),
-    "even, fine middle, finer mesh": ("even", 0.5, FINER_MIDDLE, "free"),
-    "even, at the pitch point, finer mesh": ("even", 0.0, COARSE, "free"),
-    "even, at the pitch point, fine ends": ("even", 0.0, FINE_ENDS, "free"),
-    "even, at the pitch point, fine ends, square": ("even", 0.0, FINE_ENDS, "free"),
+    "even, between two pairs": Case("even", 0.5, ROUGH),
+    "even, between two pairs, rims held": Case("even", 0.5, ROUGH, "rim"),
+    "even, at the pitch point": Case("even", 0.0, ROUGH),
+    "even, at the pitch point, rims held": Case("even", 0.0, ROUGH, "rim"),
+    "crown, between two pairs": Case("crown", 0.5, ROUGH),
+    "crown, between two pairs, rims held": Case("crown", 0.5, ROUGH, "rim"),
+    "even, finer mesh": Case("even", 0.5, COARSE),
+    "even, finer face": Case("even", 0.5, FINER_FACE),
+    "even, finest face": Case("even", 0.5, FINEST_FACE),
+    "even, finer face, rims held": Case("even", 0.5, FINER_FACE, "rim"),
+    "even, at the pitch point, finer face, rims held": Case("even", 0.0, FINER_FACE, "rim"),
+    "even, at the pitch point, finer face, mirrors": Case("even", 0.0, FINER_FACE, "mirror"),
+    "crown, finer face, rims held": Case("crown", 0.5, FINER_FACE, "rim"),
+    "even, fine middle": Case("even", 0.5, FINE_MIDDLE),
+    "crown, fine middle": Case("crown", 0.5, FINE_MIDDLE),
+    "even, fine middle, rims held": Case("even", 0.5, FINE_MIDDLE, "rim"),
+    "crown, fine middle, rims held": Case("crown", 0.5, FINE_MIDDLE, "rim"),
+    "even, fine middle, stiff contact": Case("even", 0.5, FINE_MIDDLE, stiffness=1e8),
+    "even, fine middle, finer mesh": Case("even", 0.5, FINER_MIDDLE),
+    "even, at the pitch point, finer mesh": Case("even", 0.0, COARSE),
+    "even, at the pitch point, fine ends": Case("even", 0.0, FINE_ENDS),
+    "even, at the pitch point, fine ends, square": Case("even", 0.0, FINE_ENDS, square=True),
 }
 # ten minutes of processor time each and more, or not needed for the others: solved only where they are asked for, and not drawn
-BY_NAME = {name for name, case in CASES.items() if case[2] in (FINEST_FACE, FINE_MIDDLE, FINER_MIDDLE, FINE_ENDS, COARSE) or "finer face, " in name} | {
+BY_NAME = {name for name, case in CASES.items() if case.mesh in (FINEST_FACE, FINE_MIDDLE, FINER_MIDDLE, FINE_ENDS, COARSE) or "finer face, " in name} | {
     "even, at the pitch point, rims held",
     "crown, between two pairs, rims held",
 }
@@ -116,7 +129,8 @@ def of_bricks(folder, name, pair):
 
     from model import Mesh, solve
 
-    lead, rotation, (size, body, count, end), ends = CASES[name]
+    case = CASES[name]
+    lead, rotation, (size, body, count, end) = case.lead, case.position, case.mesh
     kept = folder / f"helical_{name.replace(', ', '_').replace(' ', '_')}.json"
     if not kept.exists() and not shutil.which("ccx"):
         return solved()[name]["bricks"]
@@ -125,11 +139,10 @@ def of_bricks(folder, name, pair):
         missing = lambda at: LEADS[lead][1](at, pair.width)
         base = pair.gears()[0].base
         guess = (max(map(missing, z)) + 0.003) / base  # at first the flanks overlap by 3 µm where they do least
-        stiffness = 1e8 if "stiff contact" in name else STIFFNESS
-        mesh = Mesh(size=size, half=5 * size + 0.04, layers=z, body=body, stiffness=stiffness, steps=2, square=name.endswith("square"))
+        mesh = Mesh(size=size, half=5 * size + 0.04, layers=z, body=body, stiffness=case.stiffness, steps=2, square=case.square)
         spent = lambda: sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
         started = spent()
-        found = solve(pair, mesh, rotation, TEETH[rotation], missing, guess, ends, folder, kept.stem)
+        found = solve(pair, mesh, rotation, TEETH[rotation], missing, guess, case.ends, folder, kept.stem)
         edges, loads = np.linspace(z[0], z[-1], STRIPS + 1), {}
         for tooth, force in found["forces"].items():
             total = np.concatenate([[0.0], np.cumsum(force)]) * np.cos(pair.base_helix())
@@ -229,12 +242,13 @@ def main():
     for name in wanted:
         if name == "plane":
             continue
-        lead, rotation, mesh, ends = CASES[name]
+        case = CASES[name]
+        lead, rotation = case.lead, case.position
         bricks = of_bricks(folder, name, pair)
-        freed = stiff and mesh[:2] == ROUGH[:2]  # of other sections the error is not known
+        freed = stiff and case.mesh[:2] == ROUGH[:2]  # of other sections the error is not known
         if freed:
             bricks["turn_mesh_error_removed_urad"] = rigid(lead, pair) + (bricks["turn_urad"] - rigid(lead, pair)) * stiff
-        results[name] = {"lead": lead, "position": rotation, "ends": ends, "bricks": bricks}
+        results[name] = {"lead": lead, "position": rotation, "ends": case.ends, "bricks": bricks}
         print(f"{name}: {bricks['nodes']} nodes, {bricks['processor_seconds']} s")
         for coupling in COUPLINGS:
             found = compare(bricks, *of_program(program, folder, lead, coupling, rotation), torque_of)

@@ -35,7 +35,7 @@ pub(super) fn implausible(run: &Run) -> Vec<String> {
     let carried = run.first().face_load_factor();
     if slices > 1 && carried > MOST_IN_ONE_SLICE * slices as f64 {
         sentences.push(format!(
-            "one of the {slices} slices carries {} % of the load on new flanks: the contact is narrower than a slice, and what it bears is that of the slices' number; take more of them, and look at \
+            "one of the {slices} slices carries {} % of the load on new flanks: the contact is narrower than a slice, so that pressure and wear depend on how many slices there are; take more of them, and look at \
              lead_slope and crowning and their units",
             significant(100.0 * carried / slices as f64, 2)
         ));

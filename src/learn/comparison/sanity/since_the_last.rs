@@ -158,4 +158,33 @@ mod tests {
         // a layer that is gone after the first 80 000
         assert!(!of([4.0, 7.2, 11.2]));
     }
+
+    /// A moment whose traces show nothing counts nothing, but ends an interval: what is lost after it is that of the last 160 thousand cycles.
+    #[test]
+    fn a_moment_that_is_not_seen_still_ends_an_interval() {
+        let of = |worn: [f64; 3]| {
+            let part = || {
+                let seen = |model: f64, measured: f64| Loss {
+                    measured,
+                    sigma: 0.02 * measured,
+                    model,
+                };
+                let unseen = Loss {
+                    measured: 0.0,
+                    sigma: f64::INFINITY,
+                    model: 2.4,
+                };
+                vec![
+                    seen(0.8, worn[0]),
+                    unseen,
+                    seen(4.0, worn[1]),
+                    seen(8.0, worn[2]),
+                ]
+            };
+            follow_intervals(&[part(), part()])
+        };
+        assert!(of([0.82, 1.58, 4.05]));
+        assert!(!of([0.82, 3.15, 4.05]));
+        assert!(!of([0.82, 3.95, 8.1]));
+    }
 }

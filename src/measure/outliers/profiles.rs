@@ -4,7 +4,7 @@
 //! their zero, though: each other profile is laid on the curve by a straight line through the median of all slopes (Theil 1950, Sen 1968), in which
 //! three points in ten may be wrong.
 
-use super::{FacePlace, Observation};
+use crate::measure::{FacePlace, Observation};
 use crate::numeric::{MEDIAN_OF_NORMAL, median};
 
 /// Points of a curve: fewer are too few for a line and its scatter, denser curves show what is wrong by their neighbours.
