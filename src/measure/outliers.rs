@@ -245,11 +245,13 @@ mod tests {
         assert_eq!(found(&[(10, 99.0), (30, -99.0)]), [10, 30]);
     }
 
-    /// Outliers of so many profiles of ten radii at growing heights, alike but for 2 %, of which one row is multiplied.
-    fn of_coarse(profiles: usize, shape: [f64; 10], row: usize, times: f64) -> Vec<Outlier> {
-        let rows = (0..10 * profiles).map(|i| {
+    const HEIGHTS: [f64; 6] = [1.0, 1.6, 2.2, 2.8, 3.4, 4.0];
+
+    /// Profiles of ten radii at these heights, alike but for 2 %, of which one row is multiplied.
+    fn coarse(heights: &[f64], shape: [f64; 10], row: usize, times: f64) -> Vec<Observation> {
+        let rows = (0..10 * heights.len()).map(|i| {
             let (profile, at) = (i / 10, i % 10);
-            let height = 1.0 + 0.6 * profile as f64;
+            let height = heights[profile];
             let noise = 1.0 + 0.02 * (2.4 * i as f64).sin();
             let value = height * shape[at] * noise;
             Observation {
@@ -266,16 +268,19 @@ mod tests {
                 line: 2 + i,
             }
         });
-        let rows: Vec<Observation> = rows.collect();
-        outliers(&rows)
+        rows.collect()
+    }
+
+    fn of_coarse(heights: &[f64], shape: [f64; 10], row: usize, times: f64) -> Vec<Outlier> {
+        outliers(&coarse(heights, shape, row, times))
     }
 
     #[test]
     fn a_slipped_decimal_point_in_a_coarse_curve_is_found_by_the_other_profiles() {
         let shape = [3.0, 6.2, 5.9, 4.0, 1.5, 0.4, 1.6, 3.9, 5.0, 4.8];
-        assert_eq!(of_coarse(6, shape, 0, 1.0), []);
+        assert_eq!(of_coarse(&HEIGHTS, shape, 0, 1.0), []);
         for (row, times) in [(8, 10.0), (13, 0.1), (20, 10.0), (37, 0.01), (59, 0.1)] {
-            let found = of_coarse(6, shape, row, times);
+            let found = of_coarse(&HEIGHTS, shape, row, times);
             assert_eq!(found.len(), 1, "{row}: {found:?}");
             assert_eq!(found[0].row, row);
             let (meant, expected) = (found[0].meant.unwrap(), found[0].expected);
@@ -283,12 +288,12 @@ mod tests {
         }
         // twice as much is no slip, and of two profiles nobody knows which is right
         assert!(
-            of_coarse(6, shape, 13, 2.0)
+            of_coarse(&HEIGHTS, shape, 13, 2.0)
                 .iter()
                 .all(|o| o.meant.is_none())
         );
         assert!(
-            of_coarse(2, shape, 13, 0.1)
+            of_coarse(&HEIGHTS[..2], shape, 13, 0.1)
                 .iter()
                 .all(|o| o.meant.is_none())
         );
@@ -298,8 +303,21 @@ mod tests {
     fn what_all_profiles_of_a_member_do_is_no_outlier() {
         let steep = [9.0, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];
         let bare = [1.3, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];
-        assert_eq!(of_coarse(6, steep, 0, 1.0), []);
+        assert_eq!(of_coarse(&HEIGHTS, steep, 0, 1.0), []);
         // the same row in one of them is
-        assert_eq!(of_coarse(6, bare, 10, 7.0).first().unwrap().row, 10);
+        assert_eq!(of_coarse(&HEIGHTS, bare, 10, 7.0).first().unwrap().row, 10);
+    }
+
+    /// What neighbours do not expect, a value of 9 where they have about 1, is right where the other profiles are as steep, and wrong where they are not.
+    #[test]
+    fn other_profiles_lead_to_what_they_have_themselves() {
+        let steep = [9.0, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];
+        let bare = [1.3, 1.2, 1.1, 1.0, 0.9, 0.8, 0.9, 1.0, 1.1, 1.2];
+        for (shape, leads) in [(steep, true), (bare, false)] {
+            let own = coarse(&HEIGHTS, shape, usize::MAX, 1.0);
+            let rows: Vec<&Observation> = own.iter().collect();
+            let profiles = OtherProfiles::new(&rows, &curves(&rows));
+            assert_eq!(profiles.lead_to(0, 9.0, 1.3), leads);
+        }
     }
 }
