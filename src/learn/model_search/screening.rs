@@ -42,6 +42,9 @@ const AMPLITUDES: [f64; 2] = [0.0, 4.0];
 const NEAR_AMPLITUDES: [f64; 2] = [2.0 / 3.0, 1.5];
 /// Difference of two gains, relative, below which the starts are mirror images.
 const MIRRORED: f64 = 1e-6;
+/// How far apart in their priors' standard deviations two starts must be in some parameter for both to be followed: nearer ones, brought to the
+/// amplitude that gains most, end in one place.
+const APART: f64 = 0.25;
 /// Change of ln k from which wear is worn anew with it.
 const SCALED: f64 = 0.1;
 
@@ -187,12 +190,13 @@ impl Context<'_> {
         starts: Vec<(f64, State)>,
         effort: &Effort,
     ) -> Option<SearchEnd> {
-        let best = starts.first()?.0;
+        let (best, first) = starts.first()?;
+        let parameters = &candidate.parameters;
         let near = |gain: f64| gain > SECOND_START * best && gain > 3.0;
         let differs = |gain: f64| (best - gain).abs() > MIRRORED * best.abs();
-        let second = (starts.iter()).position(|s| near(s.0) && differs(s.0));
+        let apart = |state: &State| self.likelihood.distance(parameters, first, state) > APART;
+        let second = (starts.iter()).position(|s| near(s.0) && differs(s.0) && apart(&s.1));
         let second = second.filter(|_| effort.iterations > 0);
-        let parameters = &candidate.parameters;
         let followed = starts.into_iter().enumerate();
         let followed = followed.filter(|(i, _)| *i == 0 || Some(*i) == second);
         (followed.map(|(_, start)| start))

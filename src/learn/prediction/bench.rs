@@ -1,7 +1,10 @@
 //! The measured gears, prepared once for many fits: members, and for each test its mesh cycle and compliance.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
+use super::mountings::Mountings;
 use crate::effects::{Combined, Hook, Surroundings};
 use crate::material::Elastic;
 use crate::measure::Observation;
@@ -177,11 +180,13 @@ impl Workshop {
                 Forward::new(set, members, test.conditions, numerics)
             })
             .collect::<Result<_, ForwardError>>()?;
+        let mountings = tests.iter().map(|_| Mountings::default()).collect();
         Ok(Bench {
             shop: self,
             step_tolerance,
             tests,
             templates,
+            mountings,
         })
     }
 }
@@ -193,6 +198,8 @@ pub struct Bench<'a> {
     /// The tests.
     pub tests: Vec<MeasuredTest>,
     pub(in crate::learn) templates: Vec<Forward<'a>>,
+    /// Where effects have moved the axes of each test; the same for all wear steps.
+    mountings: Arc<[Mountings]>,
 }
 
 impl<'a> Bench<'a> {
@@ -204,6 +211,25 @@ impl<'a> Bench<'a> {
     /// The gears.
     pub fn set(&self) -> &'a GearSet {
         self.shop.set()
+    }
+
+    /// A fresh run of a test with this wear coefficient, mm²/N, and with these effects.
+    ///
+    /// # Errors
+    /// As [`Forward::again`].
+    pub(in crate::learn) fn forward<'b>(
+        &'b self,
+        test: usize,
+        coefficient: f64,
+        acting: Option<&'b Acting>,
+    ) -> Result<Forward<'b>, ForwardError> {
+        let template = &self.templates[test];
+        let (_, members) = self.tests[test].wear;
+        let coefficients = members.map(|factor| factor * coefficient);
+        match acting.filter(|acting| acting.acts(Hook::Operation)) {
+            Some(acting) => self.mountings[test].run(template, coefficients, acting),
+            None => template.again(coefficients, acting),
+        }
     }
 
     /// Effects at the conditions of a test.
@@ -260,6 +286,7 @@ impl<'a> Bench<'a> {
             templates: templates
                 .map(|template| template.stepping(tolerance))
                 .collect::<Result<_, ForwardError>>()?,
+            mountings: Arc::clone(&self.mountings),
         })
     }
 }

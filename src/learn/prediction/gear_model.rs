@@ -10,14 +10,14 @@ mod derivatives;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::effects::{Combined, Hook, Local, ParamRole};
+use crate::effects::{Combined, Local, ParamRole};
 use crate::gear::Member;
 use crate::learn::prediction::bench::Bench;
 use crate::learn::prediction::observe::{Reading, measured_tooth};
 use crate::learn::prediction::predictor::{Linearised, Move, PredictError, Predictor};
 use crate::learn::prediction::trajectory::Trajectory;
 use crate::measure::{Observation, Quantity};
-use crate::simulate::forward::{Forward, ForwardError, Mounting, Variation};
+use crate::simulate::forward::{Forward, ForwardError, Variation};
 use crate::study::EffectModel;
 use crate::wear::acting::Acting;
 
@@ -39,18 +39,10 @@ pub struct GearModel<'a> {
     given_up: Mutex<HashMap<Key, f64>>,
     /// The largest depth of each test's first history, mm.
     first: Mutex<HashMap<usize, f64>>,
-    mountings: Mutex<HashMap<usize, Vec<Mounted>>>,
 }
 
 /// What a history belongs to: test, bits of the parameters, bits of the wear coefficient it was worn with.
 type Key = (usize, Vec<u64>, u64);
-
-/// A mounting that effects make, and the bits of the parameters it belongs to.
-type Mounted = (Vec<u64>, Mounting);
-
-/// Mountings kept of each test, those used last: a derivative with respect to k comes after those with respect to parameters, and each
-/// mounting holds a mesh cycle and its compliance.
-const MOUNTINGS: usize = 3;
 
 /// How many times as deep as measured, or as its first history, a test is worn before that is given up.
 const TOO_DEEP: f64 = 4.0;
@@ -71,7 +63,6 @@ impl<'a> GearModel<'a> {
             gives_up: false,
             given_up: Mutex::default(),
             first: Mutex::default(),
-            mountings: Mutex::default(),
         }
     }
 
@@ -168,39 +159,6 @@ impl<'a> GearModel<'a> {
         all.retain(|known| !same(known));
         all.push(Arc::clone(&longer));
         Ok(longer)
-    }
-
-    /// A fresh run of a test, on the mounting that one with the same parameters (by their bits) has made if effects change it.
-    pub(in crate::learn) fn forward<'b>(
-        &'b self,
-        test: usize,
-        coefficient: f64,
-        bits: &[u64],
-        acting: Option<&'b Acting>,
-    ) -> Result<Forward<'b>, ForwardError> {
-        let template = &self.bench.templates[test];
-        let (_, members) = self.bench.tests[test].wear;
-        let coefficients = members.map(|factor| factor * coefficient);
-        if !acting.is_some_and(|acting| acting.acts(Hook::Operation)) {
-            return template.again(coefficients, acting);
-        }
-        let kept = || locked(&self.mountings);
-        let known = kept().get_mut(&test).and_then(|mountings| {
-            let at = mountings.iter().position(|(own, _)| own == bits)?;
-            mountings[at..].rotate_left(1);
-            mountings.last().map(|(_, mounting)| mounting.clone())
-        });
-        if let Some(mounting) = known {
-            return template.again_at(&mounting, coefficients, acting);
-        }
-        let forward = template.again(coefficients, acting)?;
-        let mut all = kept();
-        let mountings = all.entry(test).or_default();
-        if mountings.len() == MOUNTINGS {
-            mountings.remove(0);
-        }
-        mountings.push((bits.to_vec(), forward.mounting()));
-        Ok(forward)
     }
 
     /// The runs that a test at some parameters takes, each with observations of its own; none without any.
@@ -317,7 +275,7 @@ impl<'a> GearModel<'a> {
         run: &Run,
         of: &dyn Fn(&mut Reading<'_, '_>, &Observation) -> Result<T, ForwardError>,
     ) -> Result<Vec<T>, ForwardError> {
-        let mut forward = self.forward(run.test, run.worn_with, &run.bits, run.acting.as_ref())?;
+        let mut forward = (self.bench).forward(run.test, run.worn_with, run.acting.as_ref())?;
         let history = self.history(&mut forward, run.key(), self.last(run), &[])?;
         self.read_off(run, &mut forward, &history, &[], of)
     }

@@ -9,6 +9,7 @@ pub(super) mod bench;
 pub(super) mod evaluate;
 pub(super) mod fidelity;
 pub(super) mod gear_model;
+mod mountings;
 pub(super) mod observe;
 pub(super) mod predictor;
 pub(super) mod standard_test;

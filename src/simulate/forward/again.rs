@@ -82,7 +82,12 @@ impl<'a> Forward<'a> {
         Ok(out)
     }
 
-    /// As [`Forward::again`], at a mounting where effects with the same parameters have been before.
+    /// How much farther apart (mm) effects put the axes of this run, whose own effects do not move them.
+    pub fn axes_moved_by(&self, acting: &Acting) -> f64 {
+        acting.added_centre_distance(&self.cycle.pair)
+    }
+
+    /// As [`Forward::again`], at a mounting to which effects have moved the axes before.
     ///
     /// # Errors
     /// As [`Forward::with_effects`].

@@ -97,7 +97,7 @@ impl GearModel<'_> {
             step: STEP_K,
         });
         let carried = variations.len() - usize::from(self.stretches);
-        let mut forward = self.forward(test, run.worn_with, &run.bits, acting)?;
+        let mut forward = self.bench.forward(test, run.worn_with, acting)?;
         // teeth that are all alike have no derivatives by what would tell them apart
         if on_teeth && forward.sequence().is_none() {
             return Ok(None);
@@ -206,10 +206,10 @@ impl GearModel<'_> {
                 return self.read_run(run, &|reading, o| reading.of(o));
             };
             let (last, acting) = (self.last(before), before.acting.as_ref());
-            let mut forward = self.forward(test, before.worn_with, &before.bits, acting)?;
+            let mut forward = self.bench.forward(test, before.worn_with, acting)?;
             let history = self.history(&mut forward, before.key(), last, &[])?;
             let acting = run.acting.as_ref();
-            let mut forward = self.forward(test, run.worn_with, &run.bits, acting)?;
+            let mut forward = self.bench.forward(test, run.worn_with, acting)?;
             let mut moved = history.along(&mut forward)?;
             // in stretched time the last row may lie beyond the other's steps
             let last = self.last(run);
