@@ -37,6 +37,8 @@ mod nothing_measured;
 mod other_values;
 #[path = "import_command/several_tables.rs"]
 mod several_tables;
+#[path = "import_command/titles.rs"]
+mod titles;
 #[path = "import_command/uncertainties.rs"]
 mod uncertainties;
 #[path = "import_command/wide_tables.rs"]

@@ -50,10 +50,14 @@ pub(super) fn wide(args: &ImportArgs, table: &str, wide: &Wide) -> String {
         Across::Checkpoints => (places, times),
         Across::Positions => (times, places),
     };
-    let unit = match &wide.unit {
-        (unit, UnitFrom::Header) => format!("{} (the header says so)", written::unit(unit)),
-        (unit, UnitFrom::Title) => format!("{} (the title says so)", written::unit(unit)),
-        (unit, _) => written::unit(unit),
+    let shown = match wide.unit.0.as_str() {
+        "in" => "inches".to_owned(),
+        unit => written::unit(unit),
+    };
+    let unit = match wide.unit.1 {
+        UnitFrom::Header => format!("{shown} (the header says so)"),
+        UnitFrom::Title => format!("{shown} (the title says so)"),
+        _ => shown,
     };
     let tests = of_tests(&wide.entries);
     let tests = match wide.test.1 {

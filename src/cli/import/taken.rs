@@ -85,16 +85,21 @@ impl Taken {
         warnings.extend(import::doubtful(understood.entries()));
         self.show(args, name, &understood, (&header, &rows));
         // what cannot be read back is not written
-        let read = Dataset::parse(&whole, &source, &study.known());
+        let own = format!("{header}\n{}\n", rows.join("\n"));
+        let alone = || Dataset::parse(&own, &source, &study.known());
+        // a unit that does not fit shows in the table alone, not behind rows of others
+        let read = Dataset::parse(&whole, &source, &study.known()).and_then(|all| {
+            let of_unit = alone().err().filter(is_of_a_value);
+            of_unit.map_or(Ok(all), Err)
+        });
         if let Ok(data) = &read {
             warnings.extend(cycles_in_another_unit(study, data));
         }
         self.text += &summary::of_others(understood.joined(), &warnings);
         if let Err(error) = read {
             // the place within the table's own rows, where these alone are wrong
-            let own = format!("{header}\n{}\n", rows.join("\n"));
-            let own = Dataset::parse(&own, &source, &study.known()).err();
-            let error = own.filter(|_| !args.append).unwrap_or(error);
+            let own = alone().err().filter(|_| !args.append);
+            let error = own.unwrap_or(error);
             return Err(cannot_be_read(error, (name, &understood), &self.text));
         }
         self.count += rows.len();
@@ -226,6 +231,12 @@ fn read_from(study: &Study, file: &Path, written: &Path) -> String {
     )
 }
 
+/// Whether an error is one of the values, of each or of all.
+fn is_of_a_value(error: &StudyError) -> bool {
+    let fault = error.diagnostic();
+    fault.fault == Fault::BadValue && fault.key == "value"
+}
+
 /// Why the rows of a table cannot be read back; where it lacks uncertainties, after what was `shown` of it.
 fn cannot_be_read(
     error: StudyError,
@@ -249,7 +260,7 @@ fn cannot_be_read(
             ),
         },
         None => {
-            let of_value = fault.fault == Fault::BadValue && fault.key == "value";
+            let of_value = is_of_a_value(&error);
             if let Some(hint) = understood.unit_otherwise().filter(|_| of_value) {
                 return error.without_hints().with_hint(&hint).into();
             }

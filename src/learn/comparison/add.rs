@@ -22,6 +22,10 @@ const BETTER: f64 = 3.0;
 /// Fall of χ² up to which an effect's parameters may have followed noise: 1 % of χ² with three degrees of freedom.
 const CHANCE: f64 = 11.3;
 
+/// Gain of log evidence with which parameters have a hold on the measurements although χ² does not fall: where each test has a k of its own, that
+/// takes up what they explain, and they bring the k of the tests together instead.
+const STEADIER: f64 = 3.0;
+
 /// Share of the least misfit beyond noise, of the forms so far or without the effect, that a cheaper model may leave of another form where that
 /// misfit is large: fine elements are not asked about forms that leave more.
 const PROMISING: f64 = 0.8;
@@ -47,6 +51,8 @@ pub struct Addition {
     pub without_chi2_per_point: Option<f64>,
     /// The same of the held-out tests.
     pub without_holdout_chi2_per_point: Option<f64>,
+    /// Log evidence without the effect.
+    pub without_log_evidence: Option<f64>,
     /// Fits of the forms in their order; None for those not tried, or that could not be fitted.
     pub tried: Vec<Option<FormFit>>,
     /// Forms not tried for a cheaper model promises little of them, and all that were tried leave far more than noise.
@@ -56,14 +62,22 @@ pub struct Addition {
 impl Addition {
     /// Whether the effect betters nothing that noise would not.
     pub fn betters_nothing(&self) -> bool {
-        betters_nothing(self.without_chi2_per_point, &self.compared.comparison.fit)
+        let gain =
+            (self.without_log_evidence).map(|without| self.compared.fit.log_evidence - without);
+        betters_nothing(
+            self.without_chi2_per_point,
+            gain,
+            &self.compared.comparison.fit,
+        )
     }
 }
 
-/// Whether a fit betters nothing over one of this χ² per point that noise would not: its new parameters have no hold on the measurements then.
-pub(super) fn betters_nothing(without: Option<f64>, fit: &Share) -> bool {
+/// Whether a fit betters nothing over one of this χ² per point that noise would not, over which it gains so much log evidence: its new parameters
+/// have no hold on the measurements then.
+pub(super) fn betters_nothing(without: Option<f64>, gain: Option<f64>, fit: &Share) -> bool {
     let fall = without.zip(fit.chi2_per_point);
-    fall.is_some_and(|(without, with)| with > without - CHANCE / fit.points.max(1) as f64)
+    gain.is_none_or(|gain| gain < STEADIER)
+        && fall.is_some_and(|(without, with)| with > without - CHANCE / fit.points.max(1) as f64)
 }
 
 /// One form's fit in short.
@@ -146,6 +160,7 @@ pub fn add(
     }
     let (form, compared) = best;
     let held_out = (without.as_ref()).and_then(|without| without.held_out(&measured));
+    let log_evidence = (without.as_ref()).and_then(|without| without.log_evidence(&measured));
     let without = (without.as_ref()).and_then(|without| without.base(&measured));
     let points = measured.fitted_points() as f64;
     let mut addition = Addition {
@@ -153,6 +168,7 @@ pub fn add(
         compared,
         without_chi2_per_point: without.map(|without| without.square / points),
         without_holdout_chi2_per_point: held_out,
+        without_log_evidence: log_evidence,
         tried,
         passed_over,
     };

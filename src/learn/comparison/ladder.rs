@@ -95,12 +95,19 @@ fn parameters(now: &Comparison, before: Option<&Comparison>) -> Vec<ParameterRec
     };
     let is_known =
         |own: &ParameterRecord| before.parameters.iter().any(|known| known.name == own.name);
-    if betters_nothing(before.fit.chi2_per_point, &now.fit) {
+    let gain = evidence_gained(before, now);
+    if betters_nothing(before.fit.chi2_per_point, gain, &now.fit) {
         for own in parameters.iter_mut().filter(|own| !is_known(own)) {
             own.interval_95 = None;
         }
     }
     parameters
+}
+
+/// Log evidence that a version gains over another of the same points; None of others.
+fn evidence_gained(before: &Comparison, after: &Comparison) -> Option<f64> {
+    let same = before.fit.points == after.fit.points;
+    same.then_some(after.log_evidence - before.log_evidence)
 }
 
 impl Improvement {
@@ -110,8 +117,7 @@ impl Improvement {
             fit_factor: factor(before.fit.chi2_per_point, after.fit.chi2_per_point),
             holdout_factor: factor(before.holdout.chi2_per_point, after.holdout.chi2_per_point),
             rms_factor: factor(before.rms_um, after.rms_um),
-            log_evidence: (before.fit.points == after.fit.points)
-                .then_some(after.log_evidence - before.log_evidence),
+            log_evidence: evidence_gained(before, after),
         }
     }
 }

@@ -29,6 +29,7 @@ struct Base {
     scaled: ScaledPrediction,
     /// Of the held-out tests; None where it cannot be computed.
     held_out: Option<Misfit>,
+    log_evidence: f64,
 }
 
 impl<'m> BaselineMisfit<'m> {
@@ -53,24 +54,30 @@ impl<'m> BaselineMisfit<'m> {
         (points > 0.0).then(|| square / points)
     }
 
+    /// Its log evidence; None where it cannot be computed.
+    pub(super) fn log_evidence(&self, measured: &Measured<'_>) -> Option<f64> {
+        self.fitted(measured).map(|base| base.log_evidence)
+    }
+
     fn fitted(&self, measured: &Measured<'_>) -> Option<&Base> {
         let base = self.base.get_or_init(|| {
             let noise = NoiseModel::of(&measured.study().noise);
             let version = measured.with_teeth_left(self.version);
             let own = version.own_values();
             let effort = Effort {
-                iterations: 2 + 2 * own.len(),
                 settle: 0,
                 ..Effort::for_simulations()
             };
             measured.with_problem(self.bench, &version, noise, &|_| {}, |problem| {
                 let fit = problem.fit_from(std::slice::from_ref(&own), &effort).ok()?;
+                let log_evidence = fit.log_evidence;
                 let judged = problem.judged(fit.clone(), &effort).ok();
                 Some(Base {
                     scaled: ScaledPrediction {
                         square: measured.misfit(&fit).square,
                         ..problem.scaled(&own)?
                     },
+                    log_evidence,
                     held_out: judged.map(|fit| measured.misfit_of(Role::Holdout, &fit)),
                 })
             })

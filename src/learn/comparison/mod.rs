@@ -6,7 +6,6 @@
 
 mod add;
 mod add_learned;
-pub(in crate::learn) mod coefficient_trend;
 mod coefficients_in_order;
 mod compare;
 mod curves;

@@ -9,9 +9,9 @@
 //! Of the fit tests, of which the common k is. The tail of χ² is by Wilson and Hilferty (Proc. Natl. Acad. Sci. 17, 1931). The s_i hold what all
 //! tests have in common too, the errors of the effects' parameters, so that Q is rather too small: what is said is said on the safe side.
 
-use super::coefficient_trend::trend_of_coefficients;
 use super::coefficients_in_order::in_order;
 use super::own_coefficient::{NO_CHANCE, OwnK};
+use crate::learn::fitting::coefficient_trend::{own_coefficients, trend_of_coefficients};
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::Dataset;
 use crate::numeric::chi_squared::normal_deviate;
@@ -24,7 +24,12 @@ const APART: f64 = 2.0;
 /// What the tests' own k say together: that they differ by more than their errors, and what they follow.
 pub fn differing_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let unlike = unlike_tests(study, data, fit).into_iter();
-    (unlike.chain(trend_of_coefficients(study, data, fit))).collect()
+    unlike.chain(trend(study, data, fit)).collect()
+}
+
+/// What the tests' own k follow, in words.
+fn trend(study: &Study, data: &Dataset, fit: &Fit) -> Option<String> {
+    trend_of_coefficients(study, data, &own_coefficients(data, fit))
 }
 
 /// Sentences where the own k of fit tests differ by more than their errors, with the one that stands out, and where that of a held-out test differs
@@ -43,7 +48,7 @@ fn unlike_tests(study: &Study, data: &Dataset, fit: &Fit) -> Vec<String> {
     let fitted = of(Role::Fit);
     let tests: Vec<(&Operation, &OwnK<'_>)> = fitted.iter().map(|(o, own)| (*o, own)).collect();
     // a line through them says more than their order
-    let order = match trend_of_coefficients(study, data, fit) {
+    let order = match trend(study, data, fit) {
         None => in_order(&tests),
         Some(_) => None,
     };

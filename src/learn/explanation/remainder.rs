@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::findings::Findings;
 use super::ranked::form;
 use super::wording::{Explanation, added, before, change, chi2, of_attainable, percent, values};
+use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::decision::Verdict;
 use crate::learn::discrepancy::dependence::{self, Driver};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
@@ -87,6 +88,11 @@ fn missing(effects: &EffectSet, probability: f64, converged: bool) -> String {
     }
 }
 
+/// Whether a fit says how far χ² falls with it: not one that did not converge and ended no better than it began.
+fn has_ended(findings: &Findings<'_>, fitted: &FittedCandidate) -> bool {
+    fitted.converged || chi2(findings, fitted) < before(findings)
+}
+
 /// The verdict `partial` in words.
 pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let posterior = findings.posterior;
@@ -109,10 +115,16 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
                         own if own.is_empty() => " (in its own form)".to_owned(),
                         other => format!(" (in the form {other})"),
                     };
+                    let by_itself = match has_ended(findings, alone) {
+                        true => format!(
+                            "With it alone{} χ² per point {}",
+                            of_form(alone),
+                            change(before(findings), chi2(findings, alone))
+                        ),
+                        false => "Its fit without what is left did not converge".to_owned(),
+                    };
                     format!(
-                        " With it alone{} χ² per point {}; beside what is left{}, {}.",
-                        of_form(alone),
-                        change(before(findings), chi2(findings, alone)),
+                        " {by_itself}; beside what is left{}, {}.",
                         of_form(beside),
                         values(beside)
                     )
@@ -138,7 +150,12 @@ pub(super) fn partial(findings: &Findings<'_>) -> Explanation {
     let leading = group.first();
     let second = leading.and_then(|effects| second_cause(findings, effects));
     let mut reasons: Vec<String> = second.into_iter().collect();
-    let left = leading.and_then(|effects| falls(findings, effects));
+    // of a fit that came to no end the rest is not known
+    let ended = |effects: &&EffectSet| {
+        let alone = posterior.best_form(effects);
+        alone.is_none_or(|alone| has_ended(findings, alone))
+    };
+    let left = (leading.filter(ended)).and_then(|effects| falls(findings, effects));
     if let Some((remainder, falls)) = remainder(findings).zip(left) {
         reasons.push(format!(
             "What remains beside {} is {}; χ² {:.2} per point is left.",

@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::outlook::Outlook;
 use super::remainder::partial;
 use super::rivals::ambiguous;
-use super::scatter::{made_twice, of_scatter};
+use super::scatter::{made_twice, of_scatter, trend_of_scatter};
 use super::warnings::other_forms;
 use super::wording::{
     Explanation, added, before, change, chi2, in_other_forms, of_attainable, percent, values,
@@ -124,7 +124,14 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
         let other_question = next.is_some_and(|next| next.repeats.is_none());
         of_scatter(scatter, twice.as_ref(), other_question)
     });
-    let next_step = if too_few {
+    // where they follow a condition it is hardly chance
+    let trend = trend_of_scatter(likelihood, &findings.base.fitted.found.state);
+    let followed = trend.is_some();
+    let scatters = trend.or(scatters);
+    let next_step = if followed {
+        "look at what the tests' k follow before adding an effect: a law of it is written as kind = \"formula\" under [[effects]] (guide/effects.md), fitted by \
+         gearwear compare and held against this study by gearwear ladder"
+    } else if too_few {
         "measure more before concluding anything: gearwear plan STUDY proposes tests"
     } else if measured_once(likelihood).len() == likelihood.tests.len() {
         "no effect need be added for what these data show; what changes over life they cannot show: measure at several numbers of cycles"

@@ -1,6 +1,7 @@
 //! Fits of what is free in a study to its measurements.
 
 pub(super) mod cheaper;
+pub(super) mod coefficient_trend;
 pub(super) mod collinear;
 pub(super) mod fit;
 pub(super) mod fitted;

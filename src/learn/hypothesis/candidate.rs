@@ -199,6 +199,12 @@ impl Candidate {
         turned
     }
 
+    /// All values of the added parameters at which its change is looked at for a start.
+    pub(in crate::learn) fn looked_at(&self) -> impl Iterator<Item = &Vec<f64>> {
+        let quarters = self.quarters.iter().flatten();
+        self.starts.iter().chain(quarters).chain(&self.without_wave)
+    }
+
     /// Whether its rate is sharp in the local pressure, which the analytic model knows least.
     pub(in crate::learn) fn sharp(&self) -> bool {
         let sharp = |card: &&Card| card.has(ParamRole::PressureSharpness);

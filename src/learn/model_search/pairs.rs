@@ -11,7 +11,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::context::Context;
-use super::pair_exchange;
+use super::pair_exchange::{self, ChangesAlone};
 use super::pair_fit::{self, PROMISE, PairStart};
 use super::second_effects;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
@@ -46,17 +46,21 @@ pub(in crate::learn) fn pairs(
     let mut fitted = pair_fit::fit(context, base, starts.collect());
     if fitted.is_empty() && left > promise(base, best) {
         // What a law with a threshold was fitted to alone says little of what it would be beside another effect.
-        fitted = pair_exchange::fit(context, base, singles, &[], best, best);
+        let alone = ChangesAlone::new(context, base, singles);
+        fitted = pair_exchange::fit(context, base, (singles, &alone), &[], best, best);
         fitted.retain(|pair| pair.log_evidence > best.log_evidence + promise(base, best));
     }
     fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
     if let Some(pair) = fitted.first() {
-        let more: Vec<FittedCandidate> = (pair_exchange::kept(context, singles, pair, best)
-            .into_iter())
-        .flat_map(|kept| pair_exchange::fit(context, base, singles, &fitted, pair, kept))
-        .collect();
-        fitted.extend(more);
-        fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let kept = pair_exchange::kept(context, singles, pair, best);
+        if !kept.is_empty() {
+            let alone = ChangesAlone::new(context, base, singles);
+            let with_others =
+                |kept| pair_exchange::fit(context, base, (singles, &alone), &fitted, pair, kept);
+            let more: Vec<FittedCandidate> = kept.into_iter().flat_map(with_others).collect();
+            fitted.extend(more);
+            fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        }
     }
     if let Some(leader) = fitted.first_mut().filter(|pair| !pair.converged) {
         let start = PairStart {

@@ -101,7 +101,7 @@ const LAST: [&str; 6] = [
 ];
 const SINCE: [&str; 4] = ["since", "seit", "depuis", "dalla"];
 /// Units that are not read.
-const FOREIGN: [&str; 14] = [
+const FOREIGN: [&str; 11] = [
     "%",
     "mil",
     "mils",
@@ -109,9 +109,6 @@ const FOREIGN: [&str; 14] = [
     "microinch",
     "microinches",
     "uin",
-    "inch",
-    "inches",
-    "zoll",
     "cm",
     "m",
     "oz",

@@ -4,7 +4,7 @@ use super::arrange::stated_above;
 use super::columns::half_understood;
 use super::wanted::Wanted;
 use super::wide::{Wide, header, is_aside, of_one_test};
-use super::{ImportError, Sheet, cell_name, conditions_above, multiples, second_header};
+use super::{ImportError, Sheet, Titles, cell_name, conditions_above, multiples, second_header};
 
 type Result<T> = std::result::Result<T, ImportError>;
 
@@ -27,7 +27,9 @@ pub fn wide(sheet: &Sheet, wanted: &Wanted<'_>) -> Result<Wide> {
     let whole = sheet;
     let mut sheet = whole.clone();
     for &(row, _) in &above.obeyed {
-        sheet.rows[row].clear();
+        if !Titles::speak_of_values(&sheet.rows[row]) {
+            sheet.rows[row].clear();
+        }
     }
     let mut obeyed: Vec<String> = above.obeyed.into_iter().map(|(_, words)| words).collect();
     obeyed.extend(between);

@@ -114,6 +114,17 @@ impl Titles {
         Ok(titles)
     }
 
+    /// Whether the words of a row say something of values, or that they are not what would be read: a title that names its test may do so too.
+    pub(super) fn speak_of_values(row: &[String]) -> bool {
+        let cells = row.iter().map(String::as_str);
+        let cells: Vec<&str> = cells.filter(|cell| !cell.is_empty()).collect();
+        let text = cells.join(" ");
+        let of = |quantity: Quantity| {
+            unit(&text, quantity).is_some() || other_values::refuse(&text, 0, quantity).is_err()
+        };
+        lost_is_negative(&text).is_some() || Quantity::ALL.into_iter().any(of)
+    }
+
     /// Without the rows that are used otherwise among those passed over; `is_used` is asked with the words of each.
     pub(super) fn without(mut self, is_used: impl Fn(&str) -> bool) -> Self {
         self.passed_over.retain(|(_, words)| !is_used(words));
@@ -151,7 +162,9 @@ fn unit(text: &str, quantity: Quantity) -> Option<String> {
         return None;
     }
     let stated = text.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
-    let mut stated: Vec<&str> = stated
+    // in brackets `in` is no word of English
+    let in_brackets = units::bracketed(text).map(|unit| format!("[{unit}]"));
+    let mut stated: Vec<&str> = (in_brackets.iter().map(String::as_str).chain(stated))
         .filter_map(|word| units::of_values(word, quantity))
         .collect();
     stated.dedup();
@@ -196,6 +209,9 @@ mod tests {
             Some("um")
         );
         assert_eq!(unit("Wear in um, roll length in mm"), None);
+        assert_eq!(unit("Wear depth (in)").as_deref(), Some("in"));
+        assert_eq!(unit("Wear depth in inches, pinion").as_deref(), Some("in"));
+        assert_eq!(unit("Wear in test A"), None);
         assert_eq!(unit("Unit: mm").as_deref(), Some("mm"));
         assert_eq!(unit("Alle Werte in mm").as_deref(), Some("mm"));
         assert_eq!(unit("Units: mm, \u{b5}m"), None);

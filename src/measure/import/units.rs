@@ -19,6 +19,9 @@ fn units(quantity: Quantity) -> &'static [(&'static str, f64)] {
     }
 }
 
+/// Words for inches.
+const INCHES: [&str; 3] = ["inch", "inches", "zoll"];
+
 /// Units of positions with their factors to mm and degrees.
 const LENGTHS: [(&str, f64); 5] = [
     ("mm", 1.0),
@@ -74,7 +77,7 @@ pub(super) fn of_values(header: &str, quantity: Quantity) -> Option<&'static str
     let known = units(quantity).iter().filter(|(name, _)| *name != "1");
     // `in` is a word of English too
     let words = header.split(|c: char| c.is_whitespace() || "[](),;:".contains(c));
-    let words = words.map(plain).filter(|word| word != "in");
+    let words = words.filter(|word| *word != "in").map(plain);
     let stated = bracketed(header).map(plain).into_iter().chain(words);
     // nor is a torque a length
     let mut stated = stated.filter(|word| word != "Nm");
@@ -148,10 +151,13 @@ pub(super) fn are_same(one: &str, other: &str) -> bool {
     plain(one).eq_ignore_ascii_case(&plain(other))
 }
 
-/// With the letter u for micro.
+/// With the letter u for micro, and `in` for inches however they are written.
 fn plain(unit: &str) -> String {
-    unit.trim()
-        .replace(['\u{b5}', '\u{3bc}'], "u")
+    let unit = unit.trim();
+    if INCHES.contains(&unit.to_lowercase().as_str()) {
+        return "in".to_owned();
+    }
+    unit.replace(['\u{b5}', '\u{3bc}'], "u")
         .replace("mm\u{b2}", "mm2")
 }
 
@@ -174,6 +180,7 @@ mod tests {
         assert_eq!(depth("250000 (\u{b5}m)"), Some("um"));
         assert_eq!(depth("250000 in total"), None);
         assert_eq!(depth("250000 [in]"), Some("in"));
+        assert_eq!(depth("Verschlei\u{df} in Zoll"), Some("in"));
         assert_eq!(depth("250000 cycles"), None);
         assert_eq!(of_values("1e5 [%]", Quantity::LoadShare), Some("%"));
         assert_eq!(of_values("1", Quantity::LoadShare), None);

@@ -187,9 +187,19 @@ fn names_quantity(title: &str) -> Option<Quantity> {
 
 fn names_quantity_of(title: &str, place: Place) -> Option<Quantity> {
     let parts = title.split([',', ';', ':']);
-    let mut named = parts.filter_map(|part| names::quantity(&units::name_and_unit(part).0));
+    let mut named = parts.flat_map(|part| {
+        // `Massenverlust [g] seit Versuchsbeginn`
+        let before = part.split(['[', '(']).next().unwrap_or_default().trim();
+        let (name, _) = units::name_and_unit(part);
+        let names = [
+            name.as_str(),
+            before,
+            before.split(' ').next().unwrap_or_default(),
+        ];
+        names.map(names::quantity)
+    });
     named
-        .find(|(quantity, _)| quantity.place() == place)
+        .find_map(|named| named.filter(|(quantity, _)| quantity.place() == place))
         .map(|(quantity, _)| quantity)
 }
 

@@ -20,6 +20,8 @@ const NEAR_NOISE: f64 = 1.25;
 
 /// Gain of ln evidence from which the fit tests speak for an effect.
 const CLEAR: f64 = 5.0;
+/// The same from which a step whose scatter of k is smaller is not called needless.
+const SOME: f64 = 1.0;
 
 /// Share of the scatter of k between tests to which a step must bring it down to have accounted for it.
 const STEADIER: f64 = 0.5;
@@ -163,10 +165,17 @@ fn steadier_in_words(
     evidence: f64,
     [was, is]: [f64; 2],
 ) -> Option<String> {
-    (evidence > CLEAR && is < STEADIER * was).then(|| {
+    (evidence > SOME && is < STEADIER * was).then(|| {
+        let so = if evidence > CLEAR {
+            "the step accounts for what made them differ".to_owned()
+        } else {
+            format!(
+                "that speaks for the step (ln evidence +{}), but so few tests may agree by chance: one more, in which the effect is stronger or weaker, would confirm it",
+                significant(evidence, 2)
+            )
+        };
         format!(
-            "From {before} to {after} the error hardly falls, since each test has a k of its own; the scatter of k between the tests falls, from {} % to {} %: \
-             the step accounts for what made them differ.",
+            "From {before} to {after} the error hardly falls, since each test has a k of its own; the scatter of k between the tests falls, from {} % to {} %: {so}.",
             significant(100.0 * was, 2),
             significant(100.0 * is, 2)
         )
@@ -331,6 +340,11 @@ mod tests {
         let words = said(9.0, [0.35, 0.012]).unwrap();
         assert!(words.contains("from 35 % to 1.2 %"), "{words}");
         assert_eq!(said(9.0, [0.35, 0.3]), None);
+        let few = said(3.4, [0.34, 0.056]).unwrap();
+        assert!(
+            few.contains("from 34 % to 5.6 %") && few.contains("by chance"),
+            "{few}"
+        );
         assert_eq!(said(1.0, [0.35, 0.012]), None);
     }
 

@@ -16,6 +16,8 @@ const SURE: f64 = 5.0;
 /// Factor by which masses as they stand must be off, and within which they must fit once exchanged.
 const OFF: f64 = 1.5;
 const FITS: f64 = 1.2;
+/// Factor within which masses are those of one tooth.
+const ONE_TOOTH: f64 = 1.5;
 /// By how much, in ln, masses must be nearer once exchanged where those of another test are for sure.
 const NEARER: f64 = 0.1;
 /// Fewest pairs of masses in all.
@@ -41,6 +43,14 @@ impl Weighed {
         standing > OFF.ln() && exchanged < FITS.ln()
     }
 
+    /// Whether both masses are near the share of one tooth in what the depths, which are so many times the model's, make up.
+    fn is_of_one_tooth(&self, teeth: [f64; 2], depths: [f64; 2]) -> bool {
+        (0..2).all(|i| {
+            let share = self.measured[i] / (self.model[i] * depths[i]);
+            (share * teeth[i]).ln().abs() < ONE_TOOTH.ln()
+        })
+    }
+
     fn is_nearer_exchanged(&self, depths: f64) -> bool {
         let [standing, exchanged] = self.off(depths);
         exchanged < standing - NEARER
@@ -60,6 +70,18 @@ pub(super) fn exchanged_masses(study: &Study, rows: &[FittedRow<'_>]) -> Option<
         .filter(|(_, pairs)| !pairs.is_empty())
         .collect();
     let is_sure = |pairs: &[Weighed]| pairs.iter().all(|p| p.is_exchanged(of_depths));
+    let teeth = [&study.gears.pinion, &study.gears.gear].map(|gear| f64::from(gear.spec.teeth));
+    // masses of one tooth each have another ratio too, and are as small as that
+    let scales = depths(Subject::Pinion).zip(depths(Subject::Gear));
+    let of_one_tooth = |pair: &Weighed| {
+        scales.is_some_and(|(pinion, gear)| pair.is_of_one_tooth(teeth, [pinion, gear]))
+    };
+    if exchanged
+        .iter()
+        .all(|(_, pairs)| pairs.iter().all(of_one_tooth))
+    {
+        return None;
+    }
     let sure = exchanged.iter().filter(|(_, pairs)| is_sure(pairs));
     if sure.map(|(_, pairs)| pairs.len()).sum::<usize>() < FEWEST {
         return None;
@@ -173,6 +195,14 @@ mod tests {
         // by its depths the pinion wears twice as fast as by the model
         assert!(said([[2.0, 12.0], [4.0, 24.0]], Some([2.0, 1.0])).is_some());
         assert_eq!(said([[12.0, 2.0], [24.0, 4.0]], Some([2.0, 1.0])), None);
+    }
+
+    #[test]
+    fn masses_of_one_tooth_are_not() {
+        // 27 and 53 teeth, so that the ratio of the shares is near the other way round
+        let of_one_tooth = [[5.29, 3.77], [10.58, 7.55]];
+        assert!(said(of_one_tooth, Some([0.238, 1.0])).is_some());
+        assert_eq!(said(of_one_tooth, Some([23.8, 100.0])), None);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! Tests of one torque show nothing. A law of the load, k ∝ T^p, does the same for p about −2 (−3.1 to −1.5 where the middle of three torques is the
 //! geometric mean): no known one falls so steeply. Where a power of the speed brings all together as well nothing is asked.
 
-use super::super::coefficient_trend::own_coefficients;
+use crate::learn::fitting::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::measure::Dataset;
 use crate::numeric::written::significant;

@@ -5,7 +5,8 @@
 //! r_t − median r near ln f in some tests, 0 in the others      f: 2, 10, 1000, a number of teeth, or over these
 //! r_a − median = −(r_b − median), gone once a and b are exchanged
 //! ```
-//! To blame is whichever of s_mass and s_depth stands out against the other tests'. A factor of 2 in all tests is asked about by itself.
+//! To blame is whichever of s_mass and s_depth stands out against the other tests'. A factor of 2 in all tests is asked about by itself; any other one that
+//! both members have in all tests alike is that of the face width, or of the density.
 
 use super::super::residual_statistics::FittedRow;
 use super::same_moments::ratio_at_same_moments;
@@ -29,6 +30,9 @@ const NEAR_A_UNIT: f64 = 0.3;
 const EXCHANGED: f64 = 0.25;
 /// Share of one member's depths that the model must explain for a factor of two in a test of it alone.
 const SHAPE: f64 = 0.85;
+/// How far both members' factors in all tests may be apart, in ln, to be one, and from which it is no law's.
+const ONE_FACTOR: f64 = 0.05;
+const NO_LAW: f64 = 0.15;
 /// Fewest tests that tell what is usual; of fewer the model does.
 const SEVERAL: usize = 3;
 
@@ -98,6 +102,7 @@ pub(super) fn mass_over_depth(study: &Study, rows: &[FittedRow<'_>]) -> Option<S
         .or_else(|| of_some(study, &parts, &off))
         .or_else(|| of_all(&parts))
         .or_else(|| of_one_member(&parts))
+        .or_else(|| of_the_study(study, &parts))
 }
 
 /// Each test and member where both were measured beyond doubt.
@@ -303,6 +308,29 @@ fn of_one_member(parts: &[Part]) -> Option<String> {
     ))
 }
 
+/// Masses of both members that are one factor off what the depths make up in all tests: no law does that, a number of the study does.
+fn of_the_study(study: &Study, parts: &[Part]) -> Option<String> {
+    let both = [Subject::Pinion, Subject::Gear].map(|member| {
+        let own = parts.iter().filter(|p| p.member == member);
+        own.count() >= SEVERAL
+    });
+    let middle = median(parts.iter().map(|p| p.ratio).collect())?;
+    let ratios = || parts.iter().map(|p| p.ratio);
+    let spread = ratios().fold(f64::MIN, f64::max) - ratios().fold(f64::MAX, f64::min);
+    let is_one = spread < ONE_FACTOR && parts.iter().all(|p| p.explains > SHAPE);
+    if both.contains(&false) || middle.abs() < NO_LAW || !is_one {
+        return None;
+    }
+    let width = study.gears.face_width;
+    Some(format!(
+        "the masses of both members are {} times what their depths make up, in all tests alike: is the study's face_width right? With {} mm in place of {} \
+         mm they would agree; else look at the densities, and whether the traces stand for the whole face",
+        significant(middle.exp(), 3),
+        significant(width * middle.exp(), 3),
+        significant(width, 3)
+    ))
+}
+
 /// Whether the masses of those that are `far` off stand out against the others' rather than the depths; and whether the other quantity does not.
 fn to_blame(parts: &[Part], far: &dyn Fn(&Part) -> bool) -> (bool, bool) {
     let stands_out = |of: &dyn Fn(&Part) -> f64| {
@@ -467,6 +495,21 @@ mod tests {
         // no shape makes a thousand of it
         assert!(
             of(1e-3, [0.86, 0.86, 4.14, 4.14]).is_some_and(|said| said.contains("wanted in mg"))
+        );
+    }
+
+    #[test]
+    fn one_factor_of_both_members_in_all_tests_is_the_study_s() {
+        told(
+            [[1.25, 1.25], [1.26, 1.24], [1.25, 1.26]],
+            [1.0; 3],
+            &["1.25 times", "face_width"],
+        );
+        // k of each test is its own
+        told(
+            [[0.8, 0.8], [1.6, 1.6], [0.4, 0.4]],
+            [1.0, 2.0, 0.5],
+            &["0.800 times"],
         );
     }
 

@@ -6,7 +6,7 @@ use super::super::residual_statistics::FittedRow;
 use super::coefficient::FAR_FROM_STATED;
 use super::depths_and_masses::depths_and_masses;
 use super::{CLEAR_RATIO, EXPLAINS, SAME_CYCLES, rounded, scale};
-use crate::learn::comparison::coefficient_trend::own_coefficients;
+use crate::learn::fitting::coefficient_trend::own_coefficients;
 use crate::learn::fitting::fitted::Fit;
 use crate::learn::fitting::test_apart::test_apart;
 use crate::measure::{Dataset, Quantity};

@@ -284,8 +284,7 @@ fn an_even_loss_is_a_lag_of_its_depth_over_the_base_radius() {
     for kind in [ContactKind::Fem, ContactKind::Hertz] {
         let workshop = measured.workshop(kind).unwrap();
         let bench = measured.bench(&workshop).unwrap();
-        let model = GearModel::new(&bench, Box::new(|_| Combined::default()));
-        let mut forward = model.forward(0, study.wear.coefficient, &[], None).unwrap();
+        let mut forward = bench.forward(0, study.wear.coefficient, None).unwrap();
         let [pinion, gear] = forward.cycle().stations.arc.each_ref().map(Vec::len);
         let mut u = vec![1e-3; pinion];
         u.extend(vec![2e-3; gear]);
@@ -315,8 +314,7 @@ fn an_even_loss_is_felt_by_span_and_chord() {
     for kind in [ContactKind::Fem, ContactKind::Hertz] {
         let workshop = measured.workshop(kind).unwrap();
         let bench = measured.bench(&workshop).unwrap();
-        let model = GearModel::new(&bench, Box::new(|_| Combined::default()));
-        let mut forward = model.forward(0, study.wear.coefficient, &[], None).unwrap();
+        let mut forward = bench.forward(0, study.wear.coefficient, None).unwrap();
         let stations = &forward.cycle().stations.arc;
         let (pinion, gear) = (5e-3, 8e-3);
         let mut u = vec![pinion; stations[0].len()];

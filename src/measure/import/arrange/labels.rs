@@ -4,7 +4,7 @@ use super::{has, is_curve, put_column, speeds, torques};
 use crate::measure::import::columns::{Column, columns};
 use crate::measure::import::numbers::{header_number, number_words, plain_count, without_blanks};
 use crate::measure::import::{
-    ImportError, Sheet, Wanted, cell_name, conditions_above, counts, units,
+    ImportError, Sheet, Titles, Wanted, cell_name, conditions_above, counts, units,
 };
 use crate::measure::{Subject, names};
 
@@ -94,7 +94,9 @@ pub(super) fn as_columns(
                 let (row, words) = label.obeyed();
                 said.push(words);
                 put_column(sheet, head, &label.column, &label.text);
-                sheet.rows[row].clear();
+                if !Titles::speak_of_values(&sheet.rows[row]) {
+                    sheet.rows[row].clear();
+                }
             }
         }
     }

@@ -53,18 +53,18 @@ pub(in crate::learn) fn own_coefficients(data: &Dataset, fit: &Fit) -> Vec<(usiz
         .collect()
 }
 
-/// The conditions that the tests' own k follow, the surest first, in words; None if they follow none.
+/// The conditions that the `own` ln k of tests follow, the surest first, in words; None if they follow none.
 pub(in crate::learn) fn trend_of_coefficients(
     study: &Study,
     data: &Dataset,
-    fit: &Fit,
+    own: &[(usize, f64)],
 ) -> Option<String> {
     let last_cycles = |test: usize| {
         let rows = data.observations.iter().filter(|o| o.test == test);
         rows.map(|o| o.cycles).fold(0.0, f64::max)
     };
-    let tests: Vec<(&Operation, f64, f64)> = (own_coefficients(data, fit).into_iter())
-        .map(|(test, k)| (&study.tests[test].conditions, last_cycles(test), k))
+    let tests: Vec<(&Operation, f64, f64)> = (own.iter())
+        .map(|&(test, k)| (&study.tests[test].conditions, last_cycles(test), k))
         .collect();
     let mut found: Vec<Trend> = CONDITIONS
         .iter()
