@@ -76,9 +76,9 @@ fn a_table_in_millimetres_is_refused_behind_others_too() {
     );
     assert_eq!(first.0, Some(0), "{}", first.2);
     // places enough for the scatter of the values
-    let depth = |i: u32| 1e-3 * (3.0 + f64::from(i % 3) + 0.1 * f64::from(i));
+    let depth = |i: u32| 1e-3 * (3.0 + 0.2 * f64::from(i % 3) + 0.1 * f64::from(i));
     let of = |i: u32| {
-        let place = 40.3 + 0.1 * f64::from(i);
+        let place = 51.5 + 0.1 * f64::from(i);
         format!("{place:.2};{:.4};{:.4}\n", depth(i), 2.0 * depth(i))
     };
     let lines: String = (0..15).map(of).collect();
