@@ -6,6 +6,7 @@
 
 mod base_fit;
 pub(in crate::learn) mod beside_unknown;
+mod changes_alone;
 pub(in crate::learn) mod context;
 pub(in crate::learn) mod high_fidelity;
 pub(in crate::learn) mod learned_drivers;

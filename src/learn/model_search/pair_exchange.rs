@@ -1,8 +1,8 @@
 //! Other partners for an effect of a fitted pair.
 
-use nalgebra::DVector;
 use rayon::prelude::*;
 
+use super::changes_alone::ChangesAlone;
 use super::context::Context;
 use super::pair_fit::PROMISE;
 use super::pair_fit::{self, PairStart};
@@ -10,7 +10,6 @@ use super::screening::scaled_starts;
 use crate::effects::{Card, Form};
 use crate::learn::candidates::candidate_model::{Anchored, model, offset, predictions};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
-use crate::learn::hypothesis::EffectSet;
 use crate::learn::hypothesis::candidate::Candidate;
 use crate::learn::inference::quadratic::State;
 use crate::learn::inference::search::Effort;
@@ -21,10 +20,6 @@ const PARTNERS: usize = 6;
 const LEFT: f64 = 1.0;
 /// Of these, the best after a fit by the analytic model are fitted by the middle fidelity.
 const FOLLOWED: usize = 2;
-/// Partners whose starts are looked at beside the kept effect, which may cost ten times a look without it: those that gain most if what they change
-/// alone is added to it, and the gain of ln likelihood from which one is.
-const LOOKED_AT: usize = 2 * PARTNERS;
-const ADDED: f64 = 0.5 * PROMISE;
 const LOOK: Effort = Effort {
     iterations: 4,
     ..pair_fit::LOOK
@@ -56,73 +51,6 @@ fn is_part(single: &FittedCandidate, pair: &FittedCandidate) -> bool {
     let own = single.candidate.added_forms().map(name);
     let mut joint = pair.candidate.added_forms().map(name);
     own.take(1).all(|own| joint.any(|effect| effect == own))
-}
-
-/// What the starts of single effects change of the fitted base model by the analytic one, as far as k cannot.
-pub(in crate::learn) struct ChangesAlone(Vec<Vec<(Vec<f64>, DVector<f64>)>>);
-
-impl ChangesAlone {
-    pub(in crate::learn) fn new(
-        context: &Context<'_>,
-        base: &BaseFit,
-        singles: &[FittedCandidate],
-    ) -> Self {
-        let changes = |single: &FittedCandidate| {
-            let candidate = &single.candidate;
-            let predictor =
-                Anchored::new(model(context.hertz, candidate), base.hertz_offset.clone());
-            let change = |values: &Vec<f64>| {
-                let seen = context.seen(base, candidate, &predictor, values)?;
-                Some((values.clone(), seen))
-            };
-            candidate.looked_at().filter_map(change).collect()
-        };
-        Self(singles.par_iter().map(changes).collect())
-    }
-
-    /// The largest gain on `left` of a start of the single effect at this place, if it acted beside others as it does alone.
-    fn gain(
-        &self,
-        context: &Context<'_>,
-        candidate: &Candidate,
-        place: usize,
-        left: &DVector<f64>,
-    ) -> f64 {
-        let of = |values: &[f64]| {
-            let known = self.0[place].iter().find(|(own, _)| own == values);
-            known.map(|(_, change)| change.clone())
-        };
-        let starts = scaled_starts(candidate, context.amplitudes(candidate), of, left);
-        starts.iter().map(|(gain, _)| *gain).fold(0.0, f64::max)
-    }
-
-    /// Whether each of the single effects is to be looked at beside one that leaves `left`: all forms of those `wanted` that gain most.
-    fn promising(
-        &self,
-        context: &Context<'_>,
-        singles: &[FittedCandidate],
-        wanted: impl Fn(&FittedCandidate) -> bool,
-        left: &DVector<f64>,
-    ) -> Vec<bool> {
-        let mut gains: Vec<(f64, &EffectSet)> = (singles.iter().enumerate())
-            .filter(|(_, single)| wanted(single))
-            .map(|(place, single)| {
-                let gain = self.gain(context, &single.candidate, place, left);
-                (gain, &single.candidate.effects)
-            })
-            .filter(|(gain, _)| *gain > ADDED)
-            .collect();
-        gains.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut first: Vec<&EffectSet> = Vec::new();
-        for (_, effects) in gains {
-            if first.len() < LOOKED_AT && !first.contains(&effects) {
-                first.push(effects);
-            }
-        }
-        let is_first =
-            |single: &FittedCandidate| wanted(single) && first.contains(&&single.candidate.effects);
-        singles.iter().map(is_first).collect()
-    }
 }
 
 /// One effect of a fitted pair (or a single one, in place of that) with other partners, or the same in another form: those whose

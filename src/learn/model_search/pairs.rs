@@ -10,8 +10,9 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
+use super::changes_alone::ChangesAlone;
 use super::context::Context;
-use super::pair_exchange::{self, ChangesAlone};
+use super::pair_exchange;
 use super::pair_fit::{self, PROMISE, PairStart};
 use super::second_effects;
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};

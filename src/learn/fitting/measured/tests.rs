@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::Measured;
 use crate::effects::{CATALOGUE, Combined, Hook, find};
+use crate::learn::prediction::bench::Bench;
 use crate::learn::prediction::gear_model::GearModel;
 use crate::learn::prediction::observe::Reading;
 use crate::learn::prediction::predictor::{Move, Predictor};
@@ -190,6 +191,31 @@ fn what_is_measured_is_differentiated_by_finite_elements() {
 fn what_is_measured_is_differentiated_by_the_analytic_model() {
     let all: Vec<&str> = CATALOGUE.iter().map(|card| card.name).collect();
     check(ContactKind::Hertz, &all);
+}
+
+/// However many distances of the axes were looked at before, by whichever model: each is worn at its own, to the last bit.
+#[test]
+fn kept_mountings_are_those_of_the_own_distance() {
+    let study = study();
+    let data = Dataset::parse(ROWS, "m.csv", &study.known()).unwrap();
+    let measured = Measured::new(&study, data);
+    let card = find("radial_misalignment").unwrap();
+    let moved = EffectModel::new(vec![EffectSpec::of_card(card, &[]).unwrap()]);
+    let at = |bench: &Bench<'_>, amount: f64| {
+        let model = GearModel::of_effects(bench, &moved, vec!["radial_misalignment.amount"]);
+        model.predict(0, study.wear.coefficient, &[amount]).unwrap()
+    };
+    let workshop = measured.workshop(ContactKind::Hertz).unwrap();
+    let fresh = |amount: f64| at(&measured.bench(&workshop).unwrap(), amount);
+    let amounts: Vec<f64> = (1..=10).map(|i| 0.004 * f64::from(i)).collect();
+    let own: Vec<Vec<f64>> = amounts.iter().map(|amount| fresh(*amount)).collect();
+    assert!(own.windows(2).all(|two| two[0] != two[1]));
+    let bench = measured.bench(&workshop).unwrap();
+    for _ in 0..2 {
+        for (amount, own) in amounts.iter().zip(&own).rev() {
+            assert_eq!(at(&bench, *amount), *own, "{amount}");
+        }
+    }
 }
 
 /// Of a member whose axis lies off, what is measured on its flank and what its gauges feel are those of the pair at the shifted distance of the axes, all
