@@ -642,3 +642,58 @@ proptest! {
         prop_assert_eq!(added(&text), expected);
     }
 }
+
+/// k of four tests goes with their torque, by a factor of 20: far from the study's, in steps. χ² without the effect is that of `compare` all the same.
+#[test]
+fn without_the_effect_the_fit_comes_to_its_end() {
+    let home = TempDir::new().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let tests = [("A", 50.0), ("B", 100.0), ("C", 150.0), ("D", 200.0)]
+        .map(|(id, torque)| format!("[[test]]\nid = \"{id}\"\ntorque = {torque}\ncycles = 8e5\n"));
+    let study = |end: &str| {
+        let rest = "[model]\ncontact = \"hertz\"\n[numerics]\npositions = 40\n";
+        format!("{GEARS}{WEAR}{rest}{}{end}", tests.concat())
+    };
+    let hidden = "[[effect]]\nkind = \"formula\"\nname = \"law\"\nwear_factor = \"exp(0.02*(torque - 50))\"\n";
+    write("true.toml", study(hidden));
+    let made = [
+        "synthesize",
+        "true.toml",
+        "-o",
+        "made",
+        "--noise",
+        "0.02",
+        "--seed",
+        "1",
+    ];
+    let (code, _, err) = gearwear(&home, &made);
+    assert_eq!(code, Some(0), "{err}");
+    let text = fs::read_to_string(home.path().join("made/measurements.csv")).unwrap();
+    let is_header = |line: &&str| line.starts_with("test,");
+    let masses = text
+        .lines()
+        .filter(|line| is_header(line) || line.contains(",mass_loss,"));
+    let masses: Vec<&str> = masses.collect();
+    assert!(masses.len() > 8, "{text}");
+    write("made/measurements.csv", masses.join("\n") + "\n");
+    write(
+        "made/start.toml",
+        study("[measurements]\nfile = \"measurements.csv\"\n"),
+    );
+    let document = |arguments: &[&str]| -> serde_json::Value {
+        let (code, out, err) = gearwear(&home, arguments);
+        assert_eq!(code, Some(0), "{err}");
+        serde_json::from_str(&out).unwrap()
+    };
+    let added = document(&["add", "made/start.toml", "running_in", "--json"]);
+    let compared = document(&["compare", "made/start.toml", "--json", "--quiet"]);
+    let [without, compared] = [
+        &added["fit"]["without_chi2_per_point"],
+        &compared["fit"]["chi2_per_point"],
+    ]
+    .map(|chi2| chi2.as_f64().unwrap());
+    assert!(
+        (without / compared - 1.0).abs() < 0.02,
+        "{without} {compared}"
+    );
+}

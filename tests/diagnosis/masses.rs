@@ -125,6 +125,41 @@ fn what_acts_on_whole_tests_is_seen_against_their_scatter() {
     assert!(flash.evidence_gain > best - 1.0, "{flash:?}, best {best}");
 }
 
+/// Four tests of which k rises by 3 % per kelvin exactly, too few to name an effect: what their k follow is said.
+#[test]
+fn a_condition_that_k_follows_is_not_taken_for_chance() {
+    let base = warmed("");
+    let mut data = crate::layout(&crate::study(""));
+    let of_masses = |o: &&Observation| o.quantity == Quantity::MassLoss;
+    let row = data.observations.iter().find(of_masses).unwrap().clone();
+    data.tests = base.tests.iter().map(|test| test.id.clone()).collect();
+    data.traces.clear();
+    data.observations = [0, 3, 6, 9]
+        .map(|test| Observation {
+            test,
+            member: Subject::Pinion,
+            cycles: 1e6,
+            ..row.clone()
+        })
+        .to_vec();
+    let k = |i: usize| 5e-10 * (0.15 * i as f64).exp();
+    let k: Vec<f64> = (0..base.tests.len()).map(k).collect();
+    let mut data = crate::exact(&base, data, &k);
+    for o in &mut data.observations {
+        o.sigma = 0.02 * o.value;
+    }
+    let found = crate::diagnosed_by(&base, data);
+    let said = crate::says(&found);
+    let named = [Verdict::Effect, Verdict::Effects].contains(&found.verdict);
+    assert!(!named, "{said}");
+    let (_, slope) = said
+        .split_once("rises with their bulk temperature (ln k by ")
+        .unwrap_or_else(|| panic!("{said}"));
+    let slope: f64 = slope.split(' ').next().unwrap().parse().unwrap();
+    // the prior of the scatter holds the tests together a little
+    assert!((slope / 0.3 - 1.0).abs() < 0.02, "{said}");
+}
+
 /// A pinion of soft plastic, which finite elements let wear otherwise than the analytic model does, weighed in four tests whose k differ.
 const PLASTIC: &str = r#"
 [gears]

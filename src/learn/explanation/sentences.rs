@@ -76,6 +76,12 @@ impl Explanation {
         if matches!(decision.verdict, Verdict::Effect | Verdict::Effects) {
             all.reasons.extend(why_not_the_runner_up(findings));
         }
+        // what the tests' own k follow is a law of some cause, which no name explains yet; where nothing is missing it is said in place of their scatter
+        if matches!(decision.verdict, Verdict::Ambiguous | Verdict::Unknown) {
+            let state = &findings.base.fitted.found.state;
+            let trend = trend_of_scatter(&findings.context.likelihood, state);
+            all.reasons.extend(trend);
+        }
         for missing in &findings.not_judged {
             all.reasons.push(format!(
                 "Not judged: {}, which needs {} in the study.",
@@ -129,7 +135,7 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
     let followed = trend.is_some();
     let scatters = trend.or(scatters);
     let next_step = if followed {
-        "look at what the tests' k follow before adding an effect: a law of it is written as kind = \"formula\" under [[effects]] (guide/effects.md), fitted by \
+        "look at what the tests' k follow before adding an effect: a law of it is an [[effect]] with kind = \"formula\" (guide/effects.md), fitted by \
          gearwear compare and held against this study by gearwear ladder"
     } else if too_few {
         "measure more before concluding anything: gearwear plan STUDY proposes tests"
