@@ -431,7 +431,11 @@ mod tests {
         told(
             [[1.25, 1.25], [1.26, 1.24], [1.25, 1.26]],
             [1.0; 3],
-            &["1.25 times", "face_width"],
+            &[
+                "1.25 times",
+                "face_width",
+                "With 41.2 mm in place of 33.0 mm",
+            ],
         );
         // k of each test is its own
         told(
