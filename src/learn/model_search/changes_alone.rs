@@ -62,23 +62,42 @@ impl ChangesAlone {
         wanted: impl Fn(&FittedCandidate) -> bool,
         left: &DVector<f64>,
     ) -> Vec<bool> {
-        let mut gains: Vec<(f64, &EffectSet)> = (singles.iter().enumerate())
+        let gains: Vec<(f64, &EffectSet)> = (singles.iter().enumerate())
             .filter(|(_, single)| wanted(single))
             .map(|(place, single)| {
                 let gain = self.gain(context, &single.candidate, place, left);
                 (gain, &single.candidate.effects)
             })
-            .filter(|(gain, _)| *gain > GAIN)
             .collect();
-        gains.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut first: Vec<&EffectSet> = Vec::new();
-        for (_, effects) in gains {
-            if first.len() < LOOKED_AT && !first.contains(&effects) {
-                first.push(effects);
-            }
-        }
+        let first = first_of(gains);
         let is_first =
             |single: &FittedCandidate| wanted(single) && first.contains(&&single.candidate.effects);
         singles.iter().map(is_first).collect()
+    }
+}
+
+/// What gains most, each once however many forms it has; nothing that gains too little.
+fn first_of<T: PartialEq>(mut gains: Vec<(f64, T)>) -> Vec<T> {
+    gains.retain(|(gain, _)| *gain > GAIN);
+    gains.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut first = Vec::new();
+    for (_, effect) in gains {
+        if first.len() < LOOKED_AT && !first.contains(&effect) {
+            first.push(effect);
+        }
+    }
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn effects_are_looked_at_once_by_their_best_form() {
+        let forms = vec![(4.0, "b"), (2.9, "c"), (9.0, "a"), (3.1, "d"), (8.0, "a")];
+        assert_eq!(first_of(forms), ["a", "b", "d"]);
+        let many: Vec<(f64, u32)> = (0..40).map(|i| (10.0 + f64::from(i), i)).collect();
+        assert_eq!(first_of(many), (28..40).rev().collect::<Vec<u32>>());
     }
 }
