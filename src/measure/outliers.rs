@@ -26,6 +26,8 @@ const SLIP: f64 = 20.0;
 /// Standard deviations from which another curve does alike at the same place, and share of the curves there that must.
 const ALIKE: f64 = 2.5;
 const FEATURE: f64 = 0.3;
+/// Standard deviations from which all curves together do alike.
+const SURE: f64 = 3.0;
 /// A curve's own scatter counts for so much of it beside that of all curves: of few points it is uncertain.
 const OWN: f64 = 0.8;
 /// Least scatter over the stated one that is believed: values without noise have corners that no sigma stands for.
@@ -157,20 +159,32 @@ pub fn outliers(observations: &[Observation]) -> Vec<Outlier> {
     found
 }
 
-/// Whether a share of the other curves of the member does alike at the place of a point.
+/// Whether a share of the other curves of the member does alike at the place of a point, or all of them together do in proportion to their depths, as wear
+/// bends:
+///
+/// ```text
+/// z_c: standard deviations that curve c stands apart there;  p_c = |z| d_c/d: what it would in proportion
+/// b = Σ z p/Σ p² ≥ 0.3,  b √Σ p² ≥ 3             z counts up to p: one bad row is no feature
+/// ```
 fn is_shared(all: &[Curve], rows: &[&Observation], number: usize, one: &Standing) -> bool {
     let curve = &all[number];
     let of = |curve: &Curve| {
         let o = rows[curve.rows[0]];
         (o.member, o.quantity)
     };
-    let others: Vec<f64> = (all.iter().enumerate())
+    let others: Vec<(f64, f64)> = (all.iter().enumerate())
         .filter(|(i, other)| *i != number && of(other) == of(curve))
-        .filter_map(|(_, other)| other.near(curve.points[one.at][0]))
+        .filter_map(|(_, other)| {
+            let apart = other.near(curve.points[one.at][0])?;
+            let in_proportion = one.apart.abs() * other.depth() / curve.depth();
+            Some((apart * one.apart.signum(), in_proportion))
+        })
         .collect();
-    let alike = others.iter().filter(|z| **z * one.apart.signum() > ALIKE);
-    let same = alike.count();
-    same > 0 && same as f64 >= FEATURE * others.len() as f64
+    let same = others.iter().filter(|other| other.0 > ALIKE).count();
+    let along: f64 = (others.iter()).map(|(z, p)| z.min(*p) * p).sum();
+    let square: f64 = others.iter().map(|(_, p)| p * p).sum();
+    let in_proportion = along >= FEATURE * square && along >= SURE * square.sqrt();
+    same > 0 && (same as f64 >= FEATURE * others.len() as f64 || in_proportion)
 }
 
 impl Dataset {
@@ -243,6 +257,54 @@ mod tests {
         assert_eq!(found(&[(40, 8.0)]), [40]);
         // apart from one another each is found by itself
         assert_eq!(found(&[(10, 99.0), (30, -99.0)]), [10, 30]);
+    }
+
+    /// Curves of 24 points below the tip of a gear, these deep in the end, with noise of 0.15 µm: below the tip a dip of 35 % at one point, and a rise behind it.
+    fn dipped(depths: &[f64]) -> Vec<Observation> {
+        let rows = (0..24 * depths.len()).map(|i| {
+            let (curve, at) = (i / 24, i % 24);
+            let shape = match at {
+                22 => 0.5,
+                23 => 1.0,
+                at => 0.2 + 0.55 * (at as f64 / 21.0),
+            };
+            let noise = 0.15 * (1.7 * i as f64).sin() * 1.4;
+            Observation {
+                test: curve / 3,
+                member: Subject::Gear,
+                cycles: 1e5 * (1 + curve % 3) as f64,
+                quantity: Quantity::WearDepth,
+                position: Some(104.0 + 0.27 * at as f64),
+                value: depths[curve] * shape + noise,
+                sigma: 0.15,
+                trace: None,
+                face: None,
+                tooth: None,
+                line: 2 + i,
+            }
+        });
+        rows.collect()
+    }
+
+    /// Shallow curves cannot show what a deep one does: the deep ones say whether it is the flank's.
+    #[test]
+    fn what_the_deep_curves_share_is_the_flank_s() {
+        let depths = [0.7, 1.2, 3.0, 1.0, 2.8, 7.5, 1.1, 1.9, 5.2, 0.4, 1.7, 5.6];
+        let rows = dipped(&depths);
+        assert_eq!(outliers(&rows).len(), 0);
+        // in one curve alone it is a bad row
+        let mut alone = rows.clone();
+        for (i, row) in alone.iter_mut().enumerate() {
+            if i % 24 == 22 && i / 24 != 5 {
+                row.value += 0.36 * depths[i / 24];
+            }
+        }
+        let found: Vec<usize> = outliers(&alone).iter().map(|o| o.row).collect();
+        assert_eq!(found, [5 * 24 + 22]);
+        // a second one at the same place does not make it right
+        alone[8 * 24 + 22].value = 0.5;
+        let found: Vec<usize> = outliers(&alone).iter().map(|o| o.row).collect();
+        assert_eq!(found, [5 * 24 + 22, 8 * 24 + 22]);
     }
 
     const HEIGHTS: [f64; 6] = [1.0, 1.6, 2.2, 2.8, 3.4, 4.0];

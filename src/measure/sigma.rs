@@ -10,8 +10,8 @@ use super::Observation;
 use super::curve_scatter::{Along, ENOUGH, LEAST, of_alike, of_one};
 use super::neighbours::{curves, points};
 use super::pooled_scatter::{CurveScatter, ScatterLaw};
-use super::quantity::Quantity;
-use super::short_series;
+use super::quantity::{Quantity, Subject};
+use super::short_series::{self, Series};
 use crate::numeric::median;
 
 /// Values measured again that give a scatter.
@@ -165,34 +165,37 @@ fn largest(points: &[[f64; 3]]) -> f64 {
     points.iter().map(|p| p[1].abs()).fold(0.0, f64::max)
 }
 
-/// Of rows without a position by the scatter of their test's few, and of the others of their quantity; none where all together tell little.
+/// Of rows without a position by the scatter of the few in each test, all of their quantity together, since each test's own tells next to nothing; none where
+/// all together tell little.
 fn of_short_series(observations: &[Observation]) -> Vec<Option<f64>> {
     let rows: Vec<&Observation> = observations.iter().collect();
-    let mut quantities: BTreeMap<Quantity, Vec<Vec<usize>>> = BTreeMap::new();
+    let mut quantities: BTreeMap<Quantity, BTreeMap<Subject, Vec<Vec<usize>>>> = BTreeMap::new();
     for own in series(&rows) {
-        let all = quantities.entry(rows[own[0]].quantity).or_default();
-        all.push(own);
+        let first = rows[own[0]];
+        let members = quantities.entry(first.quantity).or_default();
+        members.entry(first.member).or_default().push(own);
     }
+    let point = |&i: &usize| [rows[i].cycles, rows[i].value];
     let mut found = vec![None; rows.len()];
-    for all in quantities.values() {
-        let of = |own: &Vec<usize>| {
-            let points: Vec<[f64; 2]> = (own.iter())
-                .map(|&i| [rows[i].cycles, rows[i].value])
-                .collect();
-            short_series::scatter(&points, LEAST)
-        };
-        let scatters: Vec<Option<CurveScatter>> = all.iter().map(of).collect();
-        let known: Vec<CurveScatter> = scatters.iter().flatten().copied().collect();
+    for members in quantities.values() {
+        let scatters: Vec<(&Vec<usize>, Option<CurveScatter>)> = (members.values())
+            .flat_map(|all| {
+                let points = all.iter().map(|own| own.iter().map(point).collect());
+                let points: Vec<Series> = points.collect();
+                all.iter().zip(short_series::scatters(&points, LEAST))
+            })
+            .collect();
+        let known: Vec<CurveScatter> = scatters.iter().filter_map(|s| s.1).collect();
         let freedom: usize = known.iter().map(|series| series.points - 2).sum();
         let Some(law) = ScatterLaw::through(&known).filter(|_| freedom >= FREEDOM) else {
             continue;
         };
-        for (own, scatter) in all.iter().zip(&scatters) {
+        // noise of a scatter that so few values tell has the tails of Student's t: its standard deviation
+        let freedom = freedom as f64;
+        let wider = (freedom / (freedom - 2.0)).sqrt();
+        for (own, _) in scatters {
             let largest = own.iter().map(|&i| rows[i].value.abs()).fold(0.0, f64::max);
-            let sigma = match scatter {
-                Some(scatter) => law.of(scatter),
-                None => law.at(largest),
-            };
+            let sigma = wider * law.at(largest);
             own.iter().for_each(|&row| found[row] = Some(sigma));
         }
     }

@@ -35,6 +35,22 @@ fn weighings_of_one_member_may_name_it() {
     }
 }
 
+/// A loss whose header names its member, of the one member that was weighed.
+#[test]
+fn a_loss_of_one_member_may_name_it() {
+    let home = home();
+    let text = "Run,Revolutions,pinion loss mg\nA,150000,3.5\nA,375000,6.4\n";
+    for options in ["--sigma 1", "--sigma 1 --member pinion"] {
+        let (shown, written) = rows(&home, text, options);
+        assert!(
+            written.starts_with("A,pinion,150000,mass_loss,,3.5,1,"),
+            "{written}"
+        );
+        assert!(shown.contains("the columns of the pinion alone"), "{shown}");
+    }
+    assert!(refused(&home, text, "--sigma 1 --member gear").contains("--member says gear"));
+}
+
 /// What was lost is the difference of two weighings, never the mass that is left.
 #[test]
 fn two_weighings_are_a_loss() {

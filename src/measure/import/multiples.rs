@@ -177,9 +177,12 @@ fn counted(header: &str) -> Option<(f64, [&str; 3])> {
 
 /// The multiple in the last brackets of a header, and what stands before and behind it: `0,25 [1E6]`.
 fn multiple_in_brackets(header: &str) -> Option<(f64, &str, &str)> {
-    let unit: String = units::bracketed(header)?.split_whitespace().collect();
     let (front, rest) = header.split_at(header.rfind(['[', '('])?);
-    Some((of_unit(&unit)?, front, &rest[rest.find([']', ')'])? + 1..]))
+    Some((
+        of_brackets(header)?,
+        front,
+        &rest[rest.find([']', ')'])? + 1..],
+    ))
 }
 
 /// The same of a word behind the first number: `40 Tsd.`, `40k`.
@@ -202,20 +205,37 @@ fn multiple_word(header: &str) -> Option<(f64, &str, &str)> {
 pub(super) fn factor(header: &str) -> Option<f64> {
     let plain = in_brackets(header);
     let header = plain.as_deref().unwrap_or(header);
-    let unit: String = units::bracketed(header)?.split_whitespace().collect();
     let (name, _) = units::name_and_unit(header);
     let names_cycles = names::words(&name)
         .iter()
         .any(|word| names::revolutions(word).is_some());
-    names_cycles.then(|| of_unit(&unit)).flatten()
+    names_cycles.then(|| of_brackets(header)).flatten()
 }
 
-/// The factor of `1E6`, `10^6`, `x10^6`, `10⁶`, `Mio.`
+/// The factor in the last brackets of a header, before a word for revolutions too: `[1E6]`, `(x1000 rev)`.
+fn of_brackets(header: &str) -> Option<f64> {
+    let written = units::bracketed(header)?;
+    let counts = |word: &&str| names::revolutions(word).is_some();
+    let unit: String = match written.trim().rsplit_once(' ') {
+        Some((multiple, word)) if counts(&word) => multiple.split_whitespace().collect(),
+        _ => written.split_whitespace().collect(),
+    };
+    of_unit(&unit)
+}
+
+/// The factor of `1E6`, `10^6`, `x10^6`, `10⁶`, `x1000`, `Mio.`
 fn of_unit(unit: &str) -> Option<f64> {
     let unit = unit.to_lowercase();
-    let unit = unit
-        .trim_start_matches(['x', '*', '\u{d7}', '\u{b7}'])
-        .trim_end_matches('.');
+    let times = unit.trim_start_matches(['x', '*', '\u{d7}', '\u{b7}']);
+    if times != unit {
+        // without a sign it may be a count itself
+        match times {
+            "1000" | "1,000" | "1.000" => return Some(1e3),
+            "1000000" | "1,000,000" | "1.000.000" => return Some(1e6),
+            _ => {}
+        }
+    }
+    let unit = times.trim_end_matches('.');
     if let "mio" | "mill" | "million" | "millions" | "millionen" | "milioni" | "millones" = unit {
         return Some(1e6);
     }
@@ -274,6 +294,9 @@ mod tests {
             ("Lastwechsel [1E6]", Some(1e6)),
             ("Lastwechsel [10^6]", Some(1e6)),
             ("load cycles (x 10^3)", Some(1e3)),
+            ("Pinion revs (x1000)", Some(1e3)),
+            ("revolutions [\u{d7} 1,000,000]", Some(1e6)),
+            ("cycles [1000]", None),
             ("cycles [10\u{2076}]", Some(1e6)),
             ("Lastspiele [Mio.]", Some(1e6)),
             ("cycles [thousand]", Some(1e3)),
@@ -302,6 +325,7 @@ mod tests {
             counted("0.5 (10^6) gear rev"),
             Some((1e6, ["", "0.5", " gear rev"]))
         );
+        assert_eq!(counted("180 (x1000 rev)"), Some((1e3, ["", "180", ""])));
         assert_eq!(counted("40 Tsd."), Some((1e3, ["", "40", ""])));
         assert_eq!(counted("40k"), Some((1e3, ["", "40", ""])));
         assert_eq!(

@@ -1,5 +1,6 @@
 //! Several wide tables side by side on one sheet, `Radius [mm]; 1e5; 2e5; ; Radius [mm]; 1e5; 2e5`: of the pinion and the gear, or of several tests.
 
+use super::arrange::side;
 use super::numbers::number_words;
 use super::{Sheet, cell_name, units};
 use crate::measure::names;
@@ -44,8 +45,12 @@ fn last_filled(cells: &[String]) -> Option<usize> {
 
 /// The columns of a header that name places, from the first on, where there are several with one number or more behind each.
 fn starts(cells: &[String]) -> Option<Vec<usize>> {
-    let names_places =
+    let is_of_places =
         |cell: &str| names::column(&units::name_and_unit(cell).0) == Some("position");
+    // `Radius pinion [mm]` too
+    let names_places = |cell: &String| {
+        is_of_places(cell) || side(cell).is_some_and(|(_, rest)| is_of_places(&rest))
+    };
     if !names_places(cells.first()?) {
         return None;
     }
@@ -86,6 +91,9 @@ mod tests {
         assert_eq!(gear.rows[1], ["Gear"]);
         assert_eq!(gear.rows[2], ["Radius [mm]", "1e5"]);
         assert!(gear.rows[4].is_empty());
+        let named = "Diametro pignone [mm]|1e5|2e5||Radius gear [mm]|1e5";
+        let parts = side_by_side(&Sheet::of_rows(&[named])).unwrap();
+        assert_eq!(parts[1].1.rows[0], ["Radius gear [mm]", "1e5"]);
         for other in [
             "Radius [mm]|1e5|2e5",
             "Radius [mm]|depth pinion|Radius [mm]|depth gear",

@@ -30,6 +30,13 @@ impl Curve {
         Some((apart, found.expected))
     }
 
+    /// Its largest value, of those that are not passed over, in its σ.
+    pub(super) fn depth(&self) -> f64 {
+        let asked = (self.points.iter().zip(&self.passed_over)).filter(|(_, out)| !**out);
+        let largest = asked.map(|([_, value, sigma], _)| value.abs() / sigma);
+        largest.fold(0.0, f64::max) / self.scale
+    }
+
     pub(super) fn standing(&self, at: usize) -> Option<Standing> {
         let (apart, expected) = self.apart(at)?;
         Some(Standing {

@@ -35,8 +35,8 @@ pub(super) fn apart(sheet: &Sheet, head: usize) -> Option<Vec<Sheet>> {
     Some(members.map(of).into())
 }
 
-/// The table in which one member alone has columns of two measurements, without its name in them and with a column of members; as it is where
-/// there is one already. Also what was made of it, in words.
+/// The table in which one member alone has columns, of two measurements or of what makes a table without its name only, without its name in them and
+/// with a column of members; as it is where there is one already. Also what was made of it, in words.
 pub(super) fn of_one(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> (Sheet, Vec<String>) {
     let as_it_is = || (sheet.clone(), Vec::new());
     let header = &sheet.rows[head];
@@ -45,15 +45,18 @@ pub(super) fn of_one(sheet: &Sheet, head: usize, wanted: &Wanted<'_>) -> (Sheet,
     let Some(member) = members.next() else {
         return as_it_is();
     };
-    let is_alone = members.all(|other| other == member);
-    if !is_alone || super::has(&columns(header), "member") || !has_pair(&with_sides(header)) {
+    let is_alone = member != Subject::Pair && members.all(|other| other == member);
+    if !is_alone || super::has(&columns(header), "member") {
         return as_it_is();
     }
     let mut own = sheet.clone();
-    for (cell, side) in own.rows[head].iter_mut().zip(sides) {
+    for (cell, side) in own.rows[head].iter_mut().zip(&sides) {
         if let Some((_, name)) = side {
-            *cell = name;
+            cell.clone_from(name);
         }
+    }
+    if !has_pair(&with_sides(header)) && !is_table(&own, sheet, head) {
+        return as_it_is();
     }
     if wanted.member != Some(member) {
         put_column(&mut own, head, "member", member.name());

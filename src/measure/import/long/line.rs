@@ -205,7 +205,7 @@ impl Line<'_> {
             && multiple.is_none()
         {
             return Err(ImportError(format!(
-                "{}: cycles in {unit} are not read; write plain pinion revolutions",
+                "{}: cycles in {unit} are not read; write plain pinion revolutions, or the power of ten that they are counted in behind their name: `cycles [1e3]`",
                 column.cell(self.read.head)
             )));
         }
