@@ -41,6 +41,18 @@ pub(in crate::learn) fn predictions(
         .collect()
 }
 
+/// The same of one test, by its place in the likelihood.
+pub(in crate::learn) fn prediction_of_test(
+    likelihood: &Likelihood<'_>,
+    predictor: &dyn Predictor,
+    candidate: &Candidate,
+    state: &State,
+    test: usize,
+) -> Result<Vec<f64>, PredictError> {
+    let (k, theta) = likelihood.arguments(&candidate.parameters, state);
+    predictor.predict(likelihood.tests[test], k[test], &theta)
+}
+
 /// a − b per test of the data set, from values per test of the likelihood.
 pub(in crate::learn) fn offset(
     likelihood: &Likelihood<'_>,

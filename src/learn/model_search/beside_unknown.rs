@@ -31,8 +31,9 @@ const OTHER_VALLEY: f64 = 1.0;
 
 /// Pairs that are fitted beside a discrepancy, of those that come first without one.
 const PAIRS: usize = 2;
-/// Pairs that are looked at for that.
+/// Pairs that are looked at for that, and the single effects that they are held against: the first beside the most probable discrepancy.
 const PAIRS_LOOKED_AT: usize = 6;
+const SINGLES_LOOKED_AT: usize = 12;
 
 /// An effect, or a pair, fitted beside a smooth discrepancy.
 pub(in crate::learn) struct BesideUnknown {
@@ -111,8 +112,8 @@ impl Context<'_> {
             all.extend(context.where_it_stood_better(plain, &base, &all, alone));
             all
         };
-        let pairs = context.pairs_ahead(plain, &base, &fitted, alone);
         fitted.sort_by(|a, b| b.log_evidence.total_cmp(&a.log_evidence));
+        let pairs = context.pairs_ahead(plain, &base, &fitted, alone);
         let mut chosen: Vec<FittedCandidate> = Vec::new();
         for candidate in fitted {
             let effects = &candidate.candidate.effects;
@@ -188,7 +189,7 @@ impl Context<'_> {
     }
 
     /// The pairs of which, once a discrepancy is added, more comes than of every single effect fitted beside one: where an effect and the unknown act
-    /// alike, a second effect that follows the unknown shows the first one more clearly than the discrepancy does.
+    /// alike, a second effect that follows the unknown shows the first one more clearly than the discrepancy does. `singles`: by falling evidence.
     fn pairs_ahead(
         &self,
         plain: &Likelihood<'_>,
@@ -196,8 +197,9 @@ impl Context<'_> {
         singles: &[FittedCandidate],
         alone: &[FittedCandidate],
     ) -> Vec<FittedCandidate> {
-        let of_singles = singles.par_iter().map(|own| with_discrepancy(plain, own));
-        let best = of_singles.reduce(|| f64::NEG_INFINITY, f64::max);
+        let first = singles.par_iter().take(SINGLES_LOOKED_AT);
+        let first = first.map(|own| with_discrepancy(plain, own));
+        let best = first.reduce(|| f64::NEG_INFINITY, f64::max);
         let pairs = best_forms(alone, 2).into_iter().take(PAIRS_LOOKED_AT);
         let mut ahead: Vec<(f64, &FittedCandidate)> = (pairs.collect::<Vec<_>>().into_par_iter())
             .map(|pair| (with_discrepancy(plain, pair), pair))

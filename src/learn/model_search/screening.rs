@@ -182,7 +182,8 @@ impl Context<'_> {
         Some((state, model))
     }
 
-    /// A fit from the first of the starts, and from a near second that is not its mirror image.
+    /// A fit from the first of the starts, and from a near second that is not its mirror image; where the model has no answer there (axes that jam), from
+    /// the first of the others at which it has one.
     pub(in crate::learn) fn look(
         &self,
         candidate: &Candidate,
@@ -197,22 +198,23 @@ impl Context<'_> {
         let apart = |state: &State| self.likelihood.distance(parameters, first, state) > APART;
         let second = (starts.iter()).position(|s| near(s.0) && differs(s.0) && apart(&s.1));
         let second = second.filter(|_| effort.iterations > 0);
-        let followed = starts.into_iter().enumerate();
-        let followed = followed.filter(|(i, _)| *i == 0 || Some(*i) == second);
-        (followed.map(|(_, start)| start))
-            .filter_map(|(_, state)| {
-                let state = match effort.iterations {
-                    // not fitted on: k stays where the base model is best
-                    0 => state,
-                    _ => self
-                        .at_measured_wear(state.clone(), candidate, predictor)
-                        .map_or(state, |(at, _)| at),
-                };
-                self.likelihood
-                    .fit(predictor, parameters, state, effort)
-                    .ok()
-            })
-            .min_by(|a, b| a.objective.total_cmp(&b.objective))
+        let is_followed = |i: usize| i == 0 || Some(i) == second;
+        let fit = |state: &State| {
+            let state = match effort.iterations {
+                // not fitted on: k stays where the base model is best
+                0 => state.clone(),
+                _ => self
+                    .at_measured_wear(state.clone(), candidate, predictor)
+                    .map_or_else(|| state.clone(), |(at, _)| at),
+            };
+            let found = self.likelihood.fit(predictor, parameters, state, effort);
+            found.ok()
+        };
+        let (followed, others): (Vec<_>, Vec<_>) =
+            (starts.iter().enumerate()).partition(|(i, _)| is_followed(*i));
+        let fits = followed.iter().filter_map(|(_, (_, state))| fit(state));
+        fits.min_by(|a, b| a.objective.total_cmp(&b.objective))
+            .or_else(|| others.iter().find_map(|(_, (_, state))| fit(state)))
     }
 }
 
