@@ -8,6 +8,7 @@
 
 use std::fs;
 
+use gearwear::learn::{AddedForm, ModelVersion};
 use gearwear::study::{Study, rounded};
 use proptest::prelude::*;
 use tempfile::TempDir;
@@ -696,4 +697,40 @@ fn without_the_effect_the_fit_comes_to_its_end() {
         (without / compared - 1.0).abs() < 0.02,
         "{without} {compared}"
     );
+}
+
+/// Measurements of running-in by the analytic model itself: the effect's own form leaves noise, so that another form is fitted only where a diagnosis
+/// names it.
+#[test]
+fn a_form_that_a_diagnosis_names_is_fitted_whatever_the_own_one_leaves() {
+    let home = TempDir::new().unwrap();
+    let write = |name: &str, text: String| fs::write(home.path().join(name), text).unwrap();
+    let test = "[[test]]\nid = \"A\"\ntorque = 100.0\ncycles = 8e5\n";
+    let study = |end: &str| {
+        let rest = "[model]\ncontact = \"hertz\"\n[numerics]\npositions = 40\n";
+        format!("{GEARS}{WEAR}{rest}{test}{end}")
+    };
+    let effect = "[[effect]]\nkind = \"running_in\"\namplitude = 1.5\ndecay_cycles = 8e4\n";
+    write("true.toml", study(effect));
+    let (code, _, err) = gearwear(
+        &home,
+        &["synthesize", "true.toml", "-o", "made", "--seed", "1"],
+    );
+    assert_eq!(code, Some(0), "{err}");
+    let measured = "[measurements]\nfile = \"measurements.csv\"\n[fit]\nfree = [\"running_in.amplitude\", \"running_in.decay_cycles\"]\n";
+    write("made/study.toml", study(&format!("{effect}{measured}")));
+    let study = Study::load(&home.path().join("made/study.toml")).unwrap();
+    let data = study.dataset().unwrap();
+    for named in [false, true] {
+        let form = |named| AddedForm {
+            version: ModelVersion::of(&study),
+            grown: &[],
+            named,
+        };
+        let forms = [form(false), form(named)];
+        let addition = gearwear::learn::add(&study, &data, &forms, &|_, _| {}).unwrap();
+        let chi2 = addition.tried[0].unwrap().chi2_per_point.unwrap();
+        assert!(chi2 < 1.3, "{chi2}");
+        assert_eq!(addition.tried[1].is_some(), named);
+    }
 }

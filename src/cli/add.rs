@@ -49,8 +49,8 @@ pub struct AddArgs {
     /// Give a parameter of the effect, or wear.coefficient, this value instead of fitting it; may be repeated
     #[arg(long, value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, f64)>,
-    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists; of a learned law `wear_factor` or `profile` [default: its own, and the others too if that
-    /// leaves more than noise and no parameter of the effect is set]
+    /// Fit this form of the effect, `own` or one that `gearwear effects EFFECT` lists; of a learned law `wear_factor` or `profile` [default: its own and the one that a
+    /// finished diagnosis names, and the others too if its own leaves more than noise; its own alone where a parameter of the effect is set]
     #[arg(long, value_name = "FORM")]
     form: Option<String>,
     /// Overwrite the new study file
@@ -78,22 +78,21 @@ fn fit(
     context: &Context,
 ) -> Result<Fitted, CliError> {
     context.tell_reading(data);
-    let version = |draft: &Draft| {
+    let added = |draft: &Draft| {
         let version = ModelVersion {
             effects: draft.study.effect_model().clone(),
             free: draft.free.clone(),
         };
         let form = draft.form.map_or("", |form| form.name);
         let found = decided.map(|decided| decided.values_of(effect, form));
-        version.beginning_at(effect, found.unwrap_or_default())
-    };
-    let forms: Vec<AddedForm> = drafts
-        .iter()
-        .map(|draft| AddedForm {
-            version: version(draft),
+        let found = found.unwrap_or_default();
+        AddedForm {
+            named: !found.is_empty(),
+            version: version.beginning_at(effect, found),
             grown: draft.form.map_or(&[], |form| form.grown),
-        })
-        .collect();
+        }
+    };
+    let forms: Vec<AddedForm> = drafts.iter().map(added).collect();
     let progress = context.progress("add");
     let addition = crate::learn::add(&drafts[0].study, data, &forms, &|doing, form| {
         super::fitting::show_form(&progress, doing, drafts[form].form());

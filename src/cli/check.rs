@@ -104,8 +104,13 @@ pub(super) fn execute(args: &CheckArgs, context: &Context) -> Result<Outcome, Cl
                 prospects: &prospects,
             },
             &format!(
-                "drawn:   {}\nnext:    {}gearwear compare {name}\n",
+                "drawn:   {}\n{}next:    {}gearwear compare {name}\n",
                 written.folder.join("report.html").display(),
+                match judged.contact == study.contact {
+                    true => "",
+                    false =>
+                        "model:   analytic contact; gearwear compare fits by finite elements, and may find less amiss\n",
+                },
                 match (sanity.is_empty(), data.has_slips()) {
                     (false, _) =>
                         "look at what stands under `check first` and put right what is wrong there, then ",

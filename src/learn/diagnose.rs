@@ -24,7 +24,8 @@ pub use crate::learn::discrepancy::{
 };
 pub use crate::learn::experiment::{
     AloneTest, Campaign, ChosenTest, Decided, ENOUGH, EffectVisibility, Leader, NextExperiment,
-    NextTest, NextTests, Plan, RankedTest, Separated, made_up_chi2, plan_after, plan_first,
+    NextTest, NextTests, Plan, RankedTest, SETTLES, Separated, made_up_chi2, plan_after,
+    plan_first,
 };
 pub use crate::learn::explanation::{
     CHECK_FIRST, Diagnosis, Named, ParameterValue, Ranked, Remainder, Screened,

@@ -221,7 +221,7 @@ fn conclusion(result: &Result<'_>) -> String {
     });
     if chose {
         found
-            + " The held-out tests chose between effects that look alike, so their error is no independent proof: a further test is."
+            + " The held-out tests chose between effects that look alike, so their error is no independent proof: a further test is, and gearwear plan ranks such tests for the study without the effect."
     } else {
         found
     }

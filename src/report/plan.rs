@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::html::{Cell, Page, Section, Table};
 use crate::learn::diagnose::{
-    Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest, made_up_chi2,
+    Campaign, ENOUGH, NextTest, NextTests, Plan, RankedTest, SETTLES, made_up_chi2,
 };
 use crate::numeric::written::{count, plain, probability, significant};
 
@@ -47,7 +47,12 @@ pub fn summary(title: &str, plan: &Plan, study: &str, folder: &Path) -> String {
                     }
                 );
             }
-            text += "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to 60, which is more than\nenough; of tests that reach that the cheapest stands first (fewer hours on the rig, fewer changes, less to measure), of others\nthat do nearly as well (within a fifth) too. What was measured already, or nearly, is left out.\n";
+            let _ = writeln!(
+                text,
+                "\nχ² least: of the pair hardest to tell apart; χ² mean: of all pairs, by how probable the rival is. Both count up to {ENOUGH}. From {SETTLES} on\n\
+                 a test settles it: of these the cheapest stands first (fewer hours on the rig, fewer changes, less to measure), of others\n\
+                 that do nearly as well (within a fifth) too. What was measured already, or nearly, is left out."
+            );
             let _ = writeln!(
                 text,
                 "repetition of the best test made already, with all that was measured: χ² mean {}",
@@ -299,7 +304,6 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
         "measure",
         "χ² mean",
         "χ² least",
-        "why",
     ];
     let mut table = Table::new("Feasible tests, best first", head);
     for row in &next.tests {
@@ -308,14 +312,13 @@ fn next_tests(next: &NextTests, study: &str) -> Vec<Section> {
             Cell::text(row.quantity.clone()),
             Cell::number(capped(row.expected_chi2, 3)),
             Cell::number(capped(least(row), 3)),
-            Cell::text(row.why.clone()),
         ]);
-        table = table.row(cells);
+        table = table.row(cells).row([Cell::Remark(row.why.clone())]);
     }
     vec![
         Section::new("What is to be separated").paragraph(separated(next, study)),
         Section::new("Feasible tests")
-            .paragraph("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to 60, which is more than enough; mean: by how probable the rivals are. Of tests that reach that the cheapest stands first: fewer hours on the rig, fewer changes, less to measure; among other near-equals (within a fifth) too. What was measured already, or nearly, is left out.")
+            .paragraph(format!("Expected difference of χ² between the first candidate and the others after refitting, by the analytic model. Figures count up to {ENOUGH}; mean: by how probable the rivals are. From {SETTLES} on a test settles it: of these the cheapest stands first (fewer hours on the rig, fewer changes, less to measure), among other near-equals (within a fifth) too. What was measured already, or nearly, is left out."))
             .table(table),
     ]
 }
@@ -332,7 +335,6 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
         "shown",
         "told apart",
         "newly told apart",
-        "why",
     ];
     let mut chosen = Table::new("Chosen tests, each with those before", head);
     for test in &campaign.tests {
@@ -341,9 +343,9 @@ fn of_campaign(campaign: &Campaign) -> Vec<Section> {
             Cell::number(test.detectable.to_string()),
             Cell::number(test.told_apart.to_string()),
             Cell::text(test.newly.join(", ")),
-            Cell::text(format!("{}; {}", test.why, test.adds)),
         ]);
-        chosen = chosen.row(cells);
+        let why = format!("{}; {}", test.why, test.adds);
+        chosen = chosen.row(cells).row([Cell::Remark(why)]);
     }
     let head = ["effect", "χ² shown", "χ² apart", "nearest look-alike"];
     let mut effects = Table::new("Effects at their median strength", head);
@@ -455,11 +457,9 @@ mod tests {
             "1,50,2000,0,1000000,false,wear_depth,1,12,9,\"say \"\"so\"\", plainly\",,8.33\n"
         ));
         assert!(summary("", &plan, "s.toml", Path::new("out")).contains("wear_depth"));
-        assert!(
-            page("", &plan, "s.toml")
-                .html()
-                .unwrap()
-                .contains("plainly")
-        );
+        // the reason stands below its test, across the ten columns
+        let page = page("", &plan, "s.toml").html().unwrap();
+        let reason = "<td class=\"remark\" colspan=\"10\">say ";
+        assert_eq!(page.matches(reason).count(), 1, "{page}");
     }
 }

@@ -137,6 +137,7 @@ impl Fitter<'_> {
             .map(|(draft, form)| {
                 let found = answer.values_of(effect, form.map_or("", |form| form.name));
                 AddedForm {
+                    named: !found.is_empty(),
                     version: ModelVersion::of(draft).beginning_at(effect, found),
                     grown: form.map_or(&[], |form| form.grown),
                 }

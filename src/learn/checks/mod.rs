@@ -7,5 +7,6 @@ pub(in crate::learn) mod identifiability;
 pub(in crate::learn) mod noise_level;
 pub(in crate::learn) mod outlying_curves;
 mod scatter_of_tests;
+pub(in crate::learn) mod scatter_trend;
 mod second_differences;
 pub(in crate::learn) mod sufficiency;

@@ -38,6 +38,8 @@ pub struct AddedForm {
     /// Values of its last parameters, each a place to begin from beside what the own form was fitted to; none: it begins from its own
     /// values, or from what the own form was fitted to where that is nearer.
     pub grown: &'static [&'static [f64]],
+    /// Whether a diagnosis of the same measurements has the effect in this form: it is fitted whatever the own one leaves.
+    pub named: bool,
 }
 
 /// What fitting an added effect found.
@@ -89,7 +91,7 @@ pub struct FormFit {
     pub chi2_per_point: Option<f64>,
 }
 
-/// Fits a study's measurements with an effect in its own form (the first one), and in the others if that leaves more than noise.
+/// Fits a study's measurements with an effect in its own form (the first one), in those that are named, and in the others if that leaves more than noise.
 /// `watch` is told the number of the form.
 ///
 /// # Errors
@@ -130,11 +132,11 @@ pub fn add(
     for (i, form) in others.iter().enumerate() {
         let places = places(form, &own.fit);
         let left = measured.misfit(&best.1.fit);
-        if !leaves_something(&own) {
+        if !form.named && !leaves_something(&own) {
             tried.push(None);
             continue;
         }
-        if left.is_far() && !promising.is(&form.version, left, places.clone()) {
+        if !form.named && left.is_far() && !promising.is(&form.version, left, places.clone()) {
             tried.push(None);
             passed_over.push(i + 1);
             continue;

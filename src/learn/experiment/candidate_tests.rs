@@ -216,9 +216,9 @@ pub(in crate::learn) fn purpose(test: &NextTest, plain: &Operation) -> String {
     }
     if differs(test.speed, plain.speed_rpm) {
         says.push(if test.speed > plain.speed_rpm {
-            "another oil film and temperature at the same pressure, and fewer hours for as many revolutions"
+            "another sliding speed, and with it temperature and any oil film, at the same pressure, and fewer hours for as many revolutions"
         } else {
-            "another oil film and temperature at the same pressure"
+            "another sliding speed, and with it temperature and any oil film, at the same pressure"
         });
     }
     if differs(test.misalignment, plain.misalignment_mm) {

@@ -16,6 +16,7 @@ pub use campaign::plan_first;
 pub use candidate_tests::{ENOUGH, NextTest, made_up_chi2};
 pub use decided::Decided;
 pub use next::NextExperiment;
+pub use order::SETTLES;
 pub use plan::{
     AloneTest, Campaign, ChosenTest, EffectVisibility, Leader, NextTests, Plan, RankedTest,
     Separated,

@@ -7,7 +7,7 @@ use crate::measure::Quantity;
 
 /// Expected χ² from which a test settles what it is made for: with a standard deviation of 2√χ², it comes out below what favours one clearly (6) in
 /// one of 500 such tests.
-const SETTLES: f64 = 45.0;
+pub const SETTLES: f64 = 45.0;
 /// Relative difference of χ² up to which two tests show the same.
 const SAME: f64 = 1e-6;
 
@@ -50,7 +50,7 @@ pub(super) fn in_order(rows: Vec<RankedTest>, made: &[MadeTest]) -> Vec<RankedTe
 }
 
 /// Whether a test tells the leader from each of its rivals.
-fn settles(row: &RankedTest) -> bool {
+pub(super) fn settles(row: &RankedTest) -> bool {
     row.expected_chi2 >= SETTLES && row.separates.iter().all(|pair| pair.chi2 >= SETTLES)
 }
 

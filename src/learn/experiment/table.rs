@@ -14,6 +14,8 @@ use super::plan::{LEADERS, LEADING, Leader, NextTests, Plan, RankedTest, Separat
 use super::wording::{self, Repetition};
 use crate::learn::candidates::fitted_candidate::FittedCandidate;
 use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::scatter_trend::trend_of_scatter;
+use crate::learn::checks::sufficiency::few;
 use crate::learn::decision::{DecisionRule, Verdict};
 use crate::learn::fitting::measured::Measured;
 use crate::learn::hypothesis::candidate::Candidate;
@@ -101,15 +103,24 @@ pub fn plan_after(
         );
     }
     let tests = in_order(rows, &made(&study.tests, &measured.data));
+    let trend = trend_of_scatter(&context.likelihood, &base.fitted.found.state);
+    let too_few = few(&context.likelihood, &base);
     Ok(Plan::NextTests(NextTests {
         sentence: tests.first().map_or_else(
             || "No feasible test that is new could be computed.".to_owned(),
             |best| {
-                wording::left_open(decided, from_diagnosis)
-                    + &wording::sentence(best, &plainest, repetition.as_ref())
-                    + &wording::made_already(best, &study.tests)
-                    + &wording::proposed(decided, best, &plainest)
-                    + wording::held_out(decided, &study.tests)
+                let told = match wording::measure_more(decided, best) {
+                    Some(more) => more.to_owned(),
+                    None => {
+                        wording::sentence(best, &plainest, repetition.as_ref())
+                            + &wording::made_already(best, &study.tests)
+                            + &wording::proposed(decided, best, &plainest)
+                            + wording::held_out(decided, &study.tests)
+                    }
+                };
+                wording::with_trend(trend.as_deref())
+                    + &wording::left_open(decided, best, from_diagnosis, too_few)
+                    + &told
             },
         ),
         basis: basis(decided, from_diagnosis),
@@ -157,7 +168,7 @@ fn basis(decided: Option<&Decided>, from_diagnosis: bool) -> String {
             };
             format!("the leaders of the finished diagnosis{unknown}")
         }
-        Some(_) => "the leaders by the analytic model alone, for of those that the finished diagnosis names it can fit one at most".to_owned(),
+        Some(_) => "the leaders by the analytic model alone: it can fit at most one of those that the finished diagnosis names".to_owned(),
         None => "the leaders by the analytic model alone, which may be others than those of a diagnosis: gearwear diagnose STUDY decides, and plan then starts from its answer".to_owned(),
     }
 }

@@ -1,9 +1,10 @@
 //! The table of feasible tests in sentences.
 
 use super::candidate_tests::{
-    APART, CLEAR, NEARLY, NextTest, changes, duration, purpose, shown, strength,
+    APART, CLEAR, ENOUGH, NEARLY, NextTest, changes, duration, purpose, shown, strength,
 };
 use super::decided::Decided;
+use super::order::settles;
 use super::plan::{RankedTest, Separated};
 use crate::learn::decision::Verdict;
 use crate::numeric::written::{probability, rounded_down};
@@ -31,8 +32,7 @@ pub(super) fn sentence(
         _ => format!(": {}", purpose(&best.test, plain)),
     };
     // what tells nothing is no advice
-    let telling = |separated: &Separated| grade(separated.chi2) != Grade::Little;
-    let begin = match best.separates.iter().any(telling) {
+    let begin = match tells_something(best) {
         true => "Next: measure",
         false => "No test in reach tells apart what is left; the best would be to measure",
     };
@@ -44,6 +44,34 @@ pub(super) fn sentence(
         pairs(&best.separates),
         repeated(best, repetition)
     )
+}
+
+/// Whether a test tells the leader from any of its rivals.
+fn tells_something(test: &RankedTest) -> bool {
+    test.separates.iter().any(is_telling)
+}
+
+fn is_telling(separated: &Separated) -> bool {
+    grade(separated.chi2) != Grade::Little
+}
+
+/// What to do where nothing is found missing and no test tells what comes next from that: it has hardly any strength in these measurements.
+pub(super) fn measure_more(decided: Option<&Decided>, best: &RankedTest) -> Option<&'static str> {
+    let found_nothing = decided.is_some_and(|decided| decided.verdict == Verdict::NothingMissing);
+    (found_nothing && !tells_something(best)).then_some(
+        "What comes next has hardly any strength in these measurements, so that no test of the table tells it from nothing: more measurements would show \
+         more. A copy of the study without [measurements] lets gearwear plan choose the tests, and what to measure in them, that show most effects of the \
+         catalogue.",
+    )
+}
+
+/// What follows from it that k of the tests follows a condition, `trend` in words.
+pub(super) fn with_trend(trend: Option<&str>) -> String {
+    trend.map_or(String::new(), |trend| {
+        format!(
+            "{trend}. A test that differs from one made already in nothing else would show whether it does. "
+        )
+    })
 }
 
 /// What a test is for, as a sentence with the space behind it.
@@ -105,16 +133,22 @@ fn grade(chi2: f64) -> Grade {
     }
 }
 
-/// Says so where making a test once more is better than the best of the table.
+/// Says so where making a test once more is better than the best of the table, which does not settle it.
 fn repeated(best: &RankedTest, repetition: Option<&Repetition>) -> String {
     // a few per cent are no reason, and neither is a test that tells nothing
     let better =
         repetition.filter(|again| again.chi2 >= CLEAR && NEARLY * again.chi2 > best.expected_chi2);
+    let better = better.filter(|_| !settles(best));
     better.map_or(String::new(), |again| {
+        let most = if again.chi2 < ENOUGH {
+            format!("{:.1}", again.chi2)
+        } else {
+            format!("≥ {ENOUGH}")
+        };
         format!(
-            " Repeating test {} with all its measurements does better (mean χ² {:.1} against {:.1}): make that first, where all of them can be made once \
+            " Repeating test {} with all its measurements does better (mean χ² {most} against {:.1}): make that first, where all of them can be made once \
              more.",
-            again.test, again.chi2, best.expected_chi2
+            again.test, best.expected_chi2
         )
     })
 }
@@ -143,8 +177,13 @@ fn next_step(decided: &Decided) -> String {
 const OPEN: f64 = 0.05;
 
 /// What the diagnosis left open, or that it left nothing, where the table's best test would be taken for the answer to it; with the space behind it.
-/// `holds_its_leaders`: the table separates the leaders of that diagnosis.
-pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> String {
+/// `best`: the table's first test; `holds_its_leaders`: the table separates the leaders of that diagnosis; `too_few`: it had too few values to find anything.
+pub(super) fn left_open(
+    decided: Option<&Decided>,
+    best: &RankedTest,
+    holds_its_leaders: bool,
+    too_few: bool,
+) -> String {
     let Some(decided) = decided else {
         return String::new();
     };
@@ -192,13 +231,21 @@ pub(super) fn left_open(decided: Option<&Decided>, holds_its_leaders: bool) -> S
             first.effect.trim_end_matches("+unknown"),
             next_step(decided)
         ),
+        Verdict::NothingMissing if too_few => {
+            "The diagnosis has too few measured values to tell whether anything is missing. "
+                .to_owned()
+        }
         Verdict::NothingMissing => format!(
-            "The diagnosis finds nothing missing ({} %): what follows would show whether {} hides below the noise after all. ",
+            "The diagnosis finds nothing missing ({} %){}. ",
             rounded_down(100.0 * first.probability, 0),
-            decided
-                .ranking
-                .get(1)
-                .map_or("an effect", |next| &next.effect)
+            match best.separates.iter().find(|pair| is_telling(pair)) {
+                Some(Separated {
+                    pair: [_, other], ..
+                }) => format!(
+                    ": what follows would show whether {other} hides below the noise after all"
+                ),
+                None => String::new(),
+            }
         ),
         _ => String::new(),
     }
@@ -303,36 +350,110 @@ mod tests {
 
     #[test]
     fn what_the_table_cannot_tell_comes_first() {
-        let open = left_open(Some(&decided(Verdict::Ambiguous, 0.67, 0.33)), true);
+        let test = best(1, 50.0, vec![separated("b", 0.1), separated("c", 20.0)]);
+        let open = left_open(
+            Some(&decided(Verdict::Ambiguous, 0.67, 0.33)),
+            &test,
+            true,
+            false,
+        );
         assert!(
             open.contains("(33 %)") && open.contains("tests at several speeds"),
             "{open}"
         );
-        let outside = left_open(Some(&decided(Verdict::Unknown, 0.01, 0.985)), true);
+        let outside = left_open(
+            Some(&decided(Verdict::Unknown, 0.01, 0.985)),
+            &test,
+            true,
+            false,
+        );
         assert!(
             outside.contains("does not hold (98.5 %)") && outside.contains("less probable"),
             "{outside}"
         );
-        let done = left_open(Some(&decided(Verdict::Effect, 0.99, 0.01)), true);
+        let done = left_open(
+            Some(&decided(Verdict::Effect, 0.99, 0.01)),
+            &test,
+            true,
+            false,
+        );
         assert!(
             done.contains("has decided for dynamic_load already (99.0 %): no test is needed"),
             "{done}"
         );
         let mut remains = decided(Verdict::Partial, 0.99, 0.01);
         // one of several
-        assert_eq!(left_open(Some(&remains), true), "");
+        assert_eq!(left_open(Some(&remains), &test, true, false), "");
         (remains.probabilities).insert("dynamic_load+unknown".to_owned(), 0.99);
-        let partial = left_open(Some(&remains), true);
+        let partial = left_open(Some(&remains), &test, true, false);
         assert!(
             partial.contains("settled already that dynamic_load"),
             "{partial}"
         );
-        assert!(left_open(Some(&decided(Verdict::Ambiguous, 0.6, 0.01)), true).is_empty());
-        assert!(left_open(None, false).is_empty());
-        let none = left_open(Some(&decided(Verdict::NothingMissing, 0.93, 0.01)), true);
-        assert!(none.contains("nothing missing (93 %)"), "{none}");
-        let pair = left_open(Some(&decided(Verdict::Effects, 0.95, 0.01)), false);
+        assert!(
+            left_open(
+                Some(&decided(Verdict::Ambiguous, 0.6, 0.01)),
+                &test,
+                true,
+                false
+            )
+            .is_empty()
+        );
+        assert!(left_open(None, &test, false, false).is_empty());
+        let none = left_open(
+            Some(&decided(Verdict::NothingMissing, 0.93, 0.01)),
+            &test,
+            true,
+            false,
+        );
+        assert!(
+            none.contains("nothing missing (93 %): what follows would show whether c hides"),
+            "{none}"
+        );
+        let few = decided(Verdict::NothingMissing, 0.5, 0.2);
+        assert_eq!(
+            left_open(Some(&few), &test, true, true),
+            "The diagnosis has too few measured values to tell whether anything is missing. "
+        );
+        let pair = left_open(
+            Some(&decided(Verdict::Effects, 0.95, 0.01)),
+            &test,
+            false,
+            false,
+        );
         assert!(pair.contains("which this table does not judge"), "{pair}");
+    }
+
+    /// Where nothing is found missing and the best test tells nothing, and only there.
+    #[test]
+    fn what_has_no_strength_asks_for_more_measurements() {
+        let nothing = decided(Verdict::NothingMissing, 0.5, 0.2);
+        let little = best(1, 50.0, vec![separated("b", 0.1), separated("c", 0.0)]);
+        let more = measure_more(Some(&nothing), &little).unwrap();
+        assert!(more.contains("without [measurements]"), "{more}");
+        let telling = best(1, 50.0, vec![separated("b", 0.1), separated("c", 20.0)]);
+        assert_eq!(measure_more(Some(&nothing), &telling), None);
+        let open = decided(Verdict::Ambiguous, 0.5, 0.2);
+        assert_eq!(measure_more(Some(&open), &little), None);
+        assert_eq!(measure_more(None, &little), None);
+        assert_eq!(with_trend(None), "");
+        assert!(with_trend(Some("k rises")).starts_with("k rises. A test that differs"));
+    }
+
+    /// What settles it needs no repetition, whatever that says.
+    #[test]
+    fn a_repetition_is_asked_for_only_where_nothing_settles_it() {
+        let again = Repetition {
+            test: "V1".to_owned(),
+            chi2: 61.0,
+        };
+        let mut test = best(1, 50.0, vec![separated("b", 46.0)]);
+        test.expected_chi2 = 46.0;
+        assert_eq!(repeated(&test, Some(&again)), "");
+        test.separates[0].chi2 = 40.0;
+        test.expected_chi2 = 40.0;
+        let said = repeated(&test, Some(&again));
+        assert!(said.contains("(mean χ² ≥ 60 against 40.0)"), "{said}");
     }
 
     #[test]
@@ -445,7 +566,10 @@ mod tests {
 
     #[test]
     fn a_repetition_is_said_to_be_better_only_where_it_is() {
-        let best = best(0, 100.0, vec![separated("b", 50.0)]);
+        let best = RankedTest {
+            expected_chi2: 40.0,
+            ..best(0, 100.0, vec![separated("b", 40.0)])
+        };
         let again = |chi2| {
             let again = Repetition {
                 test: "B".to_owned(),
@@ -453,11 +577,11 @@ mod tests {
             };
             sentence(&best, &plain(), Some(&again))
         };
-        assert!(again(67.7).ends_with(
-            "Repeating test B with all its measurements does better (mean χ² 67.7 against 50.0): make that first, where all of them can be made once more."
+        assert!(again(57.7).ends_with(
+            "Repeating test B with all its measurements does better (mean χ² 57.7 against 40.0): make that first, where all of them can be made once more."
         ));
-        assert!(!again(49.0).contains("Repeating"));
+        assert!(!again(39.0).contains("Repeating"));
         // by a few per cent
-        assert!(!again(52.0).contains("Repeating"));
+        assert!(!again(41.6).contains("Repeating"));
     }
 }

@@ -59,6 +59,11 @@ fn sentence(learned: &LearnedAnswer) -> String {
     } else {
         ""
     };
+    let stopped = if learned.converged {
+        ""
+    } else {
+        " Its fit did not converge: the curve is where it stopped, and may still change."
+    };
     let mut others = learned.others.iter();
     // gains of another model are no measure of this one's
     let other = others.find(|other| other.decided_by == learned.decided_by);
@@ -72,9 +77,36 @@ fn sentence(learned: &LearnedAnswer) -> String {
     let variable = variables::find(&learned.driver);
     let meaning = variable.map_or(String::new(), |v| format!(" ({})", v.meaning));
     format!(
-        "A learned law: k times {:.2} to {:.2}{on}, following {}{meaning}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{not}",
+        "A learned law: k times {:.2} to {:.2}{on}, following {}{meaning}, takes χ² per point from {before:.2} to {after:.2}{held} ({by}){next}.{stopped}{not}",
         least.exp(),
         most.exp(),
         learned.driver
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn answer(converged: Option<bool>) -> LearnedAnswer {
+        let mut document = serde_json::json!({
+            "name": "learned:cycles", "acts": "wear_factor", "driver": "cycles", "unit": "-", "member": "both", "evidence_gain": 40.0,
+            "knots": [0.0, 1e6], "values": [0.5, -0.5], "sigma": [0.1, 0.1], "size": 1.0, "length": 3e5, "fit_chi2_per_point": [3.0, 1.1],
+            "holdout_chi2_per_point": null, "decided_by": "fem", "others": []
+        });
+        if let Some(converged) = converged {
+            document["converged"] = converged.into();
+        }
+        serde_json::from_value(document).unwrap()
+    }
+
+    /// Documents that do not say whether it converged were written before that was stated.
+    #[test]
+    fn a_curve_that_may_still_change_is_called_so() {
+        let says = "Its fit did not converge";
+        assert!(!sentence(&answer(None)).contains(says));
+        assert!(!sentence(&answer(Some(true))).contains(says));
+        let said = sentence(&answer(Some(false)));
+        assert!(said.contains(says) && said.contains("1.65"), "{said}");
+    }
 }

@@ -3,8 +3,6 @@
 use crate::learn::candidates::likelihood::Likelihood;
 use crate::learn::experiment::candidate_tests::shown;
 use crate::learn::experiment::made_tests::alike;
-use crate::learn::fitting::coefficient_trend::trend_of_coefficients;
-use crate::learn::inference::quadratic::State;
 
 /// Difference of ln k between tests made alike, as a share of the scatter between all, below which these hardly scatter by chance.
 const AGREE: f64 = 0.5;
@@ -32,16 +30,6 @@ pub(super) fn made_twice(likelihood: &Likelihood<'_>, epsilon: &[f64]) -> Option
         ids: [i, j].map(|i| own(i).id.clone()),
         difference: difference(&(i, j)),
     })
-}
-
-/// The condition that the fitted tests' own k follow, in words; None if they follow none.
-pub(super) fn trend_of_scatter(likelihood: &Likelihood<'_>, state: &State) -> Option<String> {
-    let own = likelihood.tests.iter().zip(&state.epsilon);
-    let own: Vec<(usize, f64)> = own
-        .map(|(&test, epsilon)| (test, state.log_k + epsilon))
-        .collect();
-    let measured = likelihood.measured;
-    trend_of_coefficients(measured.study(), &measured.data, &own)
 }
 
 /// A scatter that is worth a sentence; `other_question`: whether a test is proposed that repeats none.

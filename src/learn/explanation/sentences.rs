@@ -4,7 +4,7 @@ use super::findings::Findings;
 use super::outlook::Outlook;
 use super::remainder::partial;
 use super::rivals::ambiguous;
-use super::scatter::{made_twice, of_scatter, trend_of_scatter};
+use super::scatter::{made_twice, of_scatter};
 use super::warnings::other_forms;
 use super::wording::{
     Explanation, added, before, change, chi2, in_other_forms, of_attainable, percent, values,
@@ -12,6 +12,7 @@ use super::wording::{
 use crate::effects::{Card, Form};
 use crate::learn::candidates::fitted_candidate::{BaseFit, FittedCandidate};
 use crate::learn::candidates::likelihood::Likelihood;
+use crate::learn::checks::scatter_trend::trend_of_scatter;
 use crate::learn::checks::sufficiency::{few, measured_once};
 use crate::learn::decision::judged_candidates::JudgedCandidates;
 use crate::learn::decision::{Decision, Verdict};
@@ -31,6 +32,8 @@ const LARGE_SCATTER: f64 = 0.2;
 const CERTAIN: f64 = 0.95;
 /// Share of the attainable fall of χ² below which no effect is worth naming.
 const NEGLIGIBLE: f64 = 0.01;
+/// Gain of ln evidence from which an effect comes nearer than one that does nothing.
+const SOME_GAIN: f64 = 0.1;
 /// Share of the attainable fall of χ² from which it has to be said why an effect is not named.
 const NEARLY_ALL: f64 = 0.9;
 /// Least fall of χ², over the leader's, of the effects that are told beside it as leaders.
@@ -115,7 +118,10 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
             percent(nothing)
         )
     };
-    let leader = findings.posterior.leader().filter(|_| nothing < CERTAIN);
+    let base = findings.base.fitted.log_evidence;
+    let leader = findings.posterior.leader();
+    // what gains nothing comes no nearer than any other
+    let leader = leader.filter(|l| nothing < CERTAIN && l.log_evidence > base + SOME_GAIN);
     let nearest = leader.map(|leader| {
         format!(
             "Of single effects {} comes nearest ({}): it lowers χ² per point to {:.3}, too little, given how many candidates were tried.",
@@ -135,7 +141,7 @@ fn nothing_missing(findings: &Findings<'_>, next: Option<&NextExperiment>) -> Ex
     let followed = trend.is_some();
     let scatters = trend.or(scatters);
     let next_step = if followed {
-        "look at what the tests' k follow before adding an effect: a law of it is an [[effect]] with kind = \"formula\" (guide/effects.md), fitted by \
+        "look at what the tests' k follow before adding an effect: a law of it is an [[effect]] with kind = \"formula\" (guide/own-effect.md; of the temperature guide/plastics.md), fitted by \
          gearwear compare and held against this study by gearwear ladder"
     } else if too_few {
         "measure more before concluding anything: gearwear plan STUDY proposes tests"

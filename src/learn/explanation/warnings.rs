@@ -17,6 +17,7 @@ use crate::learn::hypothesis::parameters::{Estimate, short};
 use crate::learn::hypothesis::{EffectSet, Hypothesis};
 use crate::learn::model_search::context::Context;
 use crate::learn::noise::SigmaModel;
+use crate::numeric::written::significant;
 
 /// Share of a parameter's prior outside of which a value is told.
 const UNHEARD_OF: f64 = 1e-3;
@@ -298,7 +299,7 @@ fn form_warning(effects: &str, form: &str, others: &[String], one_alone: bool) -
         others => format!("{} explain the data as well", others.join(" and ")),
     };
     Some(format!(
-        "the parameters of {effects} and their intervals hold for one form of the law ({form}): {why}, with other values. gearwear add fits every form"
+        "the parameters of {effects} and their intervals hold for one form of the law ({form}): {why}, with other values. gearwear add fits the form named here and the effect's own, and any other with --form"
     ))
 }
 
@@ -348,11 +349,11 @@ fn unheard_of(fitted: &FittedCandidate, whose: &str) -> Vec<String> {
         let [low, high] = [0.5 * UNHEARD_OF, 1.0 - 0.5 * UNHEARD_OF].map(|p| parameter.quantile(p));
         (value < low || value > high).then(|| {
             format!(
-                "{whose}{} would be {}, known values run from {} to {}: the name holds only if such a size makes sense here",
+                "{whose}{} would be {}, where nearly all of the catalogue's prior lies between {} and {}: the name holds only if such a size makes sense here",
                 parameter.name,
                 short(value),
-                short(low),
-                short(high)
+                significant(low, 2),
+                significant(high, 2)
             )
         })
     });

@@ -73,6 +73,9 @@ pub struct LearnedAnswer {
     pub holdout_chi2_per_point: Option<[f64; 2]>,
     /// By which model.
     pub decided_by: Fidelity,
+    /// Whether its fit converged: if not, the values are those at which it stopped.
+    #[serde(default = "yes")]
+    pub converged: bool,
     /// The other drivers: those that the same model looked at, then those that only the analytic one did; the best of each first.
     pub others: Vec<OtherDriver>,
 }
@@ -92,6 +95,11 @@ pub struct OtherDriver {
 /// For documents written before the deciding model fitted laws.
 fn analytic() -> Fidelity {
     Fidelity::Screening
+}
+
+/// For documents written before it was stated.
+fn yes() -> bool {
+    true
 }
 
 /// The laws that one model fitted, the greatest evidence first; those fitted closely before those that had a glance.
@@ -251,6 +259,7 @@ fn answer(
         fit_chi2_per_point: fitted,
         holdout_chi2_per_point: both(Role::Holdout),
         decided_by: ranked.by,
+        converged: best.fit.converged,
         others,
     })
 }

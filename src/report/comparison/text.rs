@@ -2,6 +2,7 @@
 use std::path::Path;
 
 use crate::learn::{Comparison, ParameterRecord, TestRecord};
+use crate::numeric::chi_squared::normal_deviate;
 use crate::numeric::written::{self, percent, significant, uncertain, whole};
 use crate::study::{Study, WEAR_COEFFICIENT};
 
@@ -87,6 +88,7 @@ pub fn summary(result: &super::Result<'_>, folder: &Path) -> String {
     figures(&mut lines, c);
     parameters(&mut lines, c);
     tests(&mut lines, &c.tests);
+    lines.extend(of_held_out_tests(c));
     lines.push(String::new());
     lines.push(c.worst.clone());
     for warning in &c.warnings {
@@ -269,6 +271,16 @@ fn tests(lines: &mut Vec<String>, tests: &[TestRecord]) {
     }
 }
 
+/// Where the errors of other parameters are not in the ± of k; None where there is no such k, or no other parameter.
+fn of_held_out_tests(c: &Comparison) -> Option<String> {
+    let others = c.parameters.iter().any(|p| p.name != WEAR_COEFFICIENT);
+    let held_out = c.tests.iter().any(|test| test.role != "fit");
+    (others && held_out).then(|| {
+        "  (± of a held-out test's k: with the other parameters as fitted, whose errors are not in it)"
+            .to_owned()
+    })
+}
+
 /// What to do next.
 pub(super) fn next_step(result: &super::Result<'_>) -> String {
     let name = result.name;
@@ -285,12 +297,30 @@ pub(super) fn next_step(result: &super::Result<'_>) -> String {
         format!(
             "gearwear diagnose {name} tells whether an effect is missing, and which; gearwear add {name} EFFECT if you know it (`gearwear effects` lists them)"
         )
+    } else if let Some(factor) = overstated(result.comparison) {
+        format!(
+            "χ² per point is far below that of noise: sigma seems to be {factor:.1} times the scatter, and what is weak stays hidden behind it (state a \
+             smaller one if you know it); gearwear diagnose {name} looks for what shows all the same"
+        )
     } else {
         // a trend over many points can be certain below the noise of each
         format!(
             "χ² per point is that of noise; gearwear diagnose {name} looks for trends weaker than that"
         )
     }
+}
+
+/// How many standard deviations χ² of the fit tests has to lie below that of noise for sigma to be too large.
+const FAR_BELOW: f64 = 4.0;
+
+/// How many times too large sigma is where χ² of the fit tests, of as many degrees of freedom as parameters and the tests' own k leave, is far below that
+/// of noise.
+fn overstated(comparison: &Comparison) -> Option<f64> {
+    let own = comparison.tests.iter().filter(|test| test.role == "fit");
+    let free = comparison.parameters.len() + own.count();
+    let freedom = comparison.fit.points.checked_sub(free).filter(|f| *f > 0)? as f64;
+    let mean = comparison.fit.chi2_per_point? * comparison.fit.points as f64 / freedom;
+    (normal_deviate(mean, freedom) < -FAR_BELOW).then(|| mean.sqrt().recip())
 }
 
 #[cfg(test)]
@@ -316,6 +346,38 @@ mod tests {
             "converged": true, "log_evidence": 0.0, "evaluations": 1
         }))
         .unwrap()
+    }
+
+    /// Only where something else was fitted than k, and a test was held out.
+    #[test]
+    fn what_the_error_of_a_held_out_k_leaves_out_is_said() {
+        let mut comparison = compared(3, 0.1, 0.1);
+        comparison.tests[2].role = "holdout".to_owned();
+        assert_eq!(of_held_out_tests(&comparison), None);
+        let mut other = comparison.parameters[0].clone();
+        other.name = "running_in.amplitude".to_owned();
+        comparison.parameters.push(other);
+        assert!(of_held_out_tests(&comparison).is_some());
+        comparison.tests[2].role = "fit".to_owned();
+        assert_eq!(of_held_out_tests(&comparison), None);
+    }
+
+    /// Of 25 points, five tests and one parameter: 19 degrees of freedom.
+    #[test]
+    fn a_sigma_that_is_far_too_large_is_noticed() {
+        let with = |chi2: f64| {
+            let mut comparison = compared(5, 0.1, 0.1);
+            comparison.fit.points = 25;
+            comparison.fit.chi2_per_point = Some(chi2);
+            overstated(&comparison)
+        };
+        let factor = with(0.067).unwrap();
+        assert!(
+            (factor - (19.0f64 / 25.0 / 0.067).sqrt()).abs() < 1e-12,
+            "{factor}"
+        );
+        assert_eq!(with(0.4), None);
+        assert_eq!(with(1.0), None);
     }
 
     /// Of three tests whose k agree to 0.5 % the common k may still be off by the scatter that three tests do not rule out.

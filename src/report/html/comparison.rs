@@ -94,7 +94,7 @@ fn figures(result: &Result<'_>) -> Section {
         "χ² per point is the mean of ((model − measured)/sigma)² with each trace's most probable datum subtracted and each \
          test's most probable wear coefficient; 1 is the noise floor. Signs are model minus measured. Scatter of the wear \
          coefficient: {}. For held-out tests only their datums and their own coefficient are \
-         estimated. The fit took {} wear histories.",
+         estimated, and ± of that is without the errors of the other parameters. The fit took {} wear histories.",
         comparison::scatter(c),
         whole(c.evaluations)
     ));

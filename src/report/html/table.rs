@@ -30,6 +30,8 @@ pub enum Cell {
     Page(String, String),
     /// A share from 0 to 1 as a bar, with its words.
     Bar(f64, String),
+    /// A remark on the row above, across all columns; alone in its row.
+    Remark(String),
     /// A verdict: style class (`pass`, `fail`, `skipped`, `theory`) and its word.
     Badge(&'static str, String),
 }
@@ -86,7 +88,7 @@ impl Table {
         for row in &self.rows {
             out.push_str("<tr>");
             for cell in row {
-                out.push_str(&cell.html());
+                out.push_str(&cell.html(self.head.len()));
             }
             out.push_str("</tr>\n");
         }
@@ -141,8 +143,13 @@ impl Cell {
         Cell::Number(number.into())
     }
 
-    fn html(&self) -> String {
+    /// In a table of so many columns.
+    fn html(&self, columns: usize) -> String {
         match self {
+            Cell::Remark(text) => format!(
+                "<td class=\"remark\" colspan=\"{columns}\">{}</td>",
+                escape(text)
+            ),
             Cell::Text(text) if text.chars().count() > SENTENCE => {
                 format!("<td class=\"sentence\">{}</td>", escape(text))
             }
@@ -172,7 +179,9 @@ impl Cell {
 
     fn plain(&self) -> String {
         match self {
-            Cell::Text(text) | Cell::Number(text) | Cell::Bar(_, text) => text.clone(),
+            Cell::Text(text) | Cell::Number(text) | Cell::Bar(_, text) | Cell::Remark(text) => {
+                text.clone()
+            }
             Cell::Code(text) => format!("`{text}`"),
             Cell::Link(path) => format!("[`{path}`]({path})"),
             Cell::Page(name, path) => format!("[`{name}`]({path}.md)"),
