@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 mod common;
 
-use common::gearwear;
+use common::{gearwear, succeed};
 
 const GEARS: &str = "\
 [gears]
@@ -298,6 +298,11 @@ fn the_five_commands_of_the_readme_find_what_is_hidden() {
     );
 }
 
+/// Measures `true.toml` of a folder with 2 % noise, into `made/measurements.csv`.
+fn synthesize(home: &TempDir) {
+    succeed(home, "synthesize true.toml -o made --noise 0.02 --seed 1");
+}
+
 /// A short wave of the profile, measured by the analytic model itself with 2 % noise: from the catalogue's own values, and from 24 places
 /// spread over the priors, searches end in other valleys (χ² per point 25).
 #[test]
@@ -314,9 +319,7 @@ fn a_wave_is_found_from_another_valley() {
     let wave = "amplitude = 1.0\nphase = 0.7\nwaves = 5.0\n";
     let effect = format!("[[effect]]\nkind = \"profile_form\"\n{wave}");
     write("true.toml", study("5e-10", &effect));
-    let made = ["synthesize", "true.toml", "-o", "made", "--noise", "0.02"];
-    let (code, _, err) = gearwear(&home, &[&made[..], &["--seed", "1"]].concat());
-    assert_eq!(code, Some(0), "{err}");
+    synthesize(&home);
     let measured = "[measurements]\nfile = \"measurements.csv\"\n";
     write("made/start.toml", study("8e-10", measured));
     let (code, out, err) = gearwear(&home, &["add", "made/start.toml", "profile_form", "--json"]);
@@ -354,18 +357,7 @@ fn a_hopeless_effect_is_given_up_early() {
     };
     let hidden = "[[effect]]\nkind = \"running_in\"\namplitude = 4.0\ndecay_cycles = 1.5e5\n";
     write("true.toml", study(hidden));
-    let made = [
-        "synthesize",
-        "true.toml",
-        "-o",
-        "made",
-        "--noise",
-        "0.02",
-        "--seed",
-        "1",
-    ];
-    let (code, _, err) = gearwear(&home, &made);
-    assert_eq!(code, Some(0), "{err}");
+    synthesize(&home);
     let measured = "[measurements]\nfile = \"measurements.csv\"\n";
     write("made/start.toml", study(measured));
     let fit = |effect: &str| {
@@ -657,18 +649,7 @@ fn without_the_effect_the_fit_comes_to_its_end() {
     };
     let hidden = "[[effect]]\nkind = \"formula\"\nname = \"law\"\nwear_factor = \"exp(0.02*(torque - 50))\"\n";
     write("true.toml", study(hidden));
-    let made = [
-        "synthesize",
-        "true.toml",
-        "-o",
-        "made",
-        "--noise",
-        "0.02",
-        "--seed",
-        "1",
-    ];
-    let (code, _, err) = gearwear(&home, &made);
-    assert_eq!(code, Some(0), "{err}");
+    synthesize(&home);
     let text = fs::read_to_string(home.path().join("made/measurements.csv")).unwrap();
     let is_header = |line: &&str| line.starts_with("test,");
     let masses = text
@@ -712,11 +693,7 @@ fn a_form_that_a_diagnosis_names_is_fitted_whatever_the_own_one_leaves() {
     };
     let effect = "[[effect]]\nkind = \"running_in\"\namplitude = 1.5\ndecay_cycles = 8e4\n";
     write("true.toml", study(effect));
-    let (code, _, err) = gearwear(
-        &home,
-        &["synthesize", "true.toml", "-o", "made", "--seed", "1"],
-    );
-    assert_eq!(code, Some(0), "{err}");
+    synthesize(&home);
     let measured = "[measurements]\nfile = \"measurements.csv\"\n[fit]\nfree = [\"running_in.amplitude\", \"running_in.decay_cycles\"]\n";
     write("made/study.toml", study(&format!("{effect}{measured}")));
     let study = Study::load(&home.path().join("made/study.toml")).unwrap();

@@ -1,5 +1,6 @@
 //! Stage 7, experiment: which tests would tell apart what the measurements leave, or show most effects before there are any.
 
+mod after_diagnosis;
 mod campaign;
 pub(in crate::learn) mod candidate_tests;
 pub(in crate::learn) mod decided;

@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
+use super::after_diagnosis;
 use super::candidate_tests::{ENOUGH, feasible, shown};
 use super::decided::Decided;
 use super::discrimination::{Discrimination, PlannedResponse, Whitening, noise_ahead};
@@ -109,17 +110,17 @@ pub fn plan_after(
         sentence: tests.first().map_or_else(
             || "No feasible test that is new could be computed.".to_owned(),
             |best| {
-                let told = match wording::measure_more(decided, best) {
+                let told = match after_diagnosis::measure_more(decided, best) {
                     Some(more) => more.to_owned(),
                     None => {
                         wording::sentence(best, &plainest, repetition.as_ref())
                             + &wording::made_already(best, &study.tests)
-                            + &wording::proposed(decided, best, &plainest)
-                            + wording::held_out(decided, &study.tests)
+                            + &after_diagnosis::proposed(decided, best, &plainest)
+                            + after_diagnosis::held_out(decided, &study.tests)
                     }
                 };
-                wording::with_trend(trend.as_deref())
-                    + &wording::left_open(decided, best, from_diagnosis, too_few)
+                after_diagnosis::with_trend(trend.as_deref())
+                    + &after_diagnosis::left_open(decided, best, from_diagnosis, too_few)
                     + &told
             },
         ),
