@@ -102,6 +102,43 @@ fn intervals_cover_the_truth() {
     }
 }
 
+/// A held-out test's own k over its error has the spread of a standard normal: the errors of what the fit tests gave are in it.
+///
+/// 200 draws: the standard deviation of a standard deviation is 5 %, so 0.85 to 1.15 asks for the right size within three of them. The test's own
+/// noise alone would leave 4: running-in runs on through all of its short life, and is known by two fit tests with few points.
+#[test]
+fn the_error_of_a_held_out_coefficient_is_its_spread() {
+    let truth = [1.3e-10, 2.5, 1.5e5];
+    let empty = wear_data(&[("A", 1e6), ("B", 6e5), ("S", 1e5)], 11, true);
+    let mut square = 0.0;
+    let draws = 200;
+    for seed in 0..draws {
+        let mut random = Random(9000 + seed);
+        let ks: Vec<f64> = (0..3)
+            .map(|_| truth[0] * (0.3 * random.normal()).exp())
+            .collect();
+        let data = measured(&empty, running_in, &ks, &truth[1..], 0.02, 0.5, &mut random);
+        let predictor = Formula {
+            data: data.clone(),
+            formula: running_in,
+        };
+        let fit = Problem {
+            data: &data,
+            roles: &[Role::Fit, Role::Fit, Role::Holdout],
+            predictor: &predictor,
+            coefficient: Coefficient::Free(Parameter::coefficient(1e-10)),
+            parameters: running_in_parameters(),
+            noise: noise(Scatter::Relative(0.3)),
+        }
+        .fit(&Effort::default())
+        .unwrap();
+        let held = &fit.tests[2];
+        square += ((held.coefficient / ks[2]).ln() / held.sigma).powi(2) / draws as f64;
+    }
+    let spread = square.sqrt();
+    assert!((0.85..1.15).contains(&spread), "{spread}");
+}
+
 /// Six tests with k scattered by 20 %: the scatter is found, and the common k is covered once that scatter counts.
 ///
 /// σ_k from six values has a relative standard deviation of 1/√10 = 32 %, its mean over 100 draws 3 %; the prior (half-normal 0.25)

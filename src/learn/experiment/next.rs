@@ -330,7 +330,7 @@ fn sentence(
     } else {
         "separates"
     };
-    let strength = if alone < CLEAR && together >= CLEAR {
+    let strength = if alone < CLEAR && together > alone {
         "too little by itself"
     } else {
         strength(alone)

@@ -36,16 +36,16 @@ impl Outlook {
     pub(super) fn of_a_weak_effect(self) -> &'static str {
         match self {
             Self::Decide => {
-                "add no effect yet: the proposed tests, with all that was measured so far measured in them too, would decide"
+                "add nothing yet: the proposed tests, with all that was measured so far measured in them too, would decide"
             }
             Self::Favour => {
-                "add no effect yet: the proposed tests, with all that was measured so far measured in them too, would favour one answer clearly, but not decide"
+                "add nothing yet: the proposed tests, with all that was measured so far measured in them too, would favour one answer clearly, but not decide"
             }
             Self::Little => {
-                "add no effect yet: even the best tests made like these would hardly tell; less noise, later in life or another quantity might (gearwear plan STUDY has the figures)"
+                "add nothing yet: even the best tests made like these would hardly tell; less noise, later in life or another quantity might (gearwear plan STUDY has the figures)"
             }
             Self::NoTest => {
-                "add no effect yet: no test made like these would tell; less noise, later in life or another quantity might (gearwear plan STUDY has the figures)"
+                "add nothing yet: no test made like these would tell; less noise, later in life or another quantity might (gearwear plan STUDY has the figures)"
             }
         }
     }

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::learn::fitting::fitted::{Fit, PredictionUncertainty, RowFit, TestFit};
+use crate::learn::fitting::held_out::HeldOut;
 use crate::learn::hypothesis::parameters::{Estimate, Parameter};
 use crate::learn::inference::quadratic::{Layout, Quadratic, State};
 use crate::learn::inference::scatter::marginal;
@@ -259,7 +260,19 @@ impl Problem<'_> {
         let state = self.state_of(&fit, held_out.tests.len());
         let found = held.run(&mut evaluator, state, &effort.of_held_out())?;
         self.rows_of(&held, &found, &mut fit.rows, &mut fit.datums);
-        self.tests_of(&held, &found, &mut fit.tests);
+        // the test does not move the parameters, but what they may be moves its k
+        let all = self.search(&held_out, Some(&self.coefficient));
+        let jacobian = all.derivatives(&mut evaluator, &found.state)?;
+        let normal = held_out.normal(&found.model, &jacobian, &held_out.covariance);
+        let known = HeldOut {
+            known: &fit.covariance,
+            params: self.parameters.len(),
+            gram: &normal.gram,
+            scatter: found.scatter,
+        };
+        let covariance = |test: usize| known.covariance(test);
+        let tests = self.tests_of(&held_out, &found.state, &jacobian, covariance);
+        fit.tests.extend(tests);
         fit.tests.sort_by_key(|test| test.test);
         fit.datums.sort_by_key(|datum| datum.trace);
         fit.evaluations += evaluator.evaluations();
@@ -277,10 +290,16 @@ impl Problem<'_> {
             standardised: 0.0,
         };
         let mut rows = vec![nothing; self.data.observations.len()];
-        let mut tests = Vec::new();
         let mut datums = Vec::new();
         self.rows_of(fit, &found, &mut rows, &mut datums);
-        self.tests_of(fit, &found, &mut tests);
+        let quadratic = Quadratic::new(&fit.layout, &found.normal, &found.state, found.scatter);
+        let covariance = quadratic.mapped_covariance();
+        let params = self.parameters.len();
+        let of_test = |test: usize| {
+            let own: Vec<usize> = (0..params).chain([params + test]).collect();
+            covariance.select_rows(&own).select_columns(&own)
+        };
+        let tests = self.tests_of(fit.selection, &found.state, &found.jacobian, of_test);
         Fit {
             parameters: self.estimates(fit, &found, &posterior.covariance),
             coefficient: found.state.log_k.exp(),
@@ -346,32 +365,34 @@ impl Problem<'_> {
         datums.extend(found_datums);
     }
 
-    fn tests_of(&self, search: &Search<'_>, found: &SearchEnd, tests: &mut Vec<TestFit>) {
-        let quadratic = Quadratic::new(&search.layout, &found.normal, &found.state, found.scatter);
-        let covariance = quadratic.mapped_covariance();
-        let params = search.layout.parameters.len();
-        let selection = search.selection;
-        for (i, &test) in selection.tests.iter().enumerate() {
+    /// The tests of a selection at a state; `covariance` is that of (θ, ln k_t) for each of them.
+    fn tests_of(
+        &self,
+        selection: &Selection<'_>,
+        state: &State,
+        jacobian: &DMatrix<f64>,
+        covariance: impl Fn(usize) -> DMatrix<f64>,
+    ) -> Vec<TestFit> {
+        let params = self.parameters.len();
+        let of_test = |(i, &test): (usize, &usize)| {
             let columns: Vec<usize> = (0..params).chain([params + i]).collect();
-            let deviation = found.state.epsilon[i];
-            tests.push(TestFit {
+            let rows = &selection.rows[i];
+            let deviation = state.epsilon[i];
+            let covariance = covariance(i);
+            TestFit {
                 test,
                 role: self.roles[test],
-                coefficient: (found.state.log_k + deviation).exp(),
-                sigma: covariance[(params + i, params + i)].max(0.0).sqrt(),
+                coefficient: (state.log_k + deviation).exp(),
+                sigma: covariance[(params, params)].max(0.0).sqrt(),
                 deviation,
                 uncertainty: PredictionUncertainty {
-                    rows: (selection.rows[i].iter())
-                        .map(|&row| selection.numbers[row])
-                        .collect(),
-                    derivatives: found
-                        .jacobian
-                        .select_rows(&selection.rows[i])
-                        .select_columns(&columns),
-                    covariance: covariance.select_rows(&columns).select_columns(&columns),
+                    rows: rows.iter().map(|&row| selection.numbers[row]).collect(),
+                    derivatives: jacobian.select_rows(rows).select_columns(&columns),
+                    covariance,
                 },
-            });
-        }
+            }
+        };
+        selection.tests.iter().enumerate().map(of_test).collect()
     }
 
     fn selection(&self, role: Role) -> Selection<'_> {

@@ -5,6 +5,7 @@ pub(super) mod coefficient_trend;
 pub(super) mod collinear;
 pub(super) mod fit;
 pub(super) mod fitted;
+mod held_out;
 pub(super) mod measured;
 pub(super) mod quantity_misfit;
 pub(super) mod region;

@@ -189,6 +189,19 @@ impl Search<'_> {
         self.descend(evaluator, start, effort)
     }
 
+    /// Derivatives of the rows with respect to (θ, ln k_t) at `state`, without whitening.
+    pub(in crate::learn) fn derivatives(
+        &self,
+        evaluator: &mut Evaluator<'_>,
+        state: &State,
+    ) -> Result<DMatrix<f64>, PredictError> {
+        let own = self.own(evaluator, state);
+        let values = self.predict(evaluator, state)?;
+        Ok(self
+            .with_differences(evaluator, state, &values, own)?
+            .jacobian)
+    }
+
     /// Sum of the squared whitened residuals at `state`, with k (if free) scaled to the measured size.
     pub(in crate::learn) fn misfit(
         &self,

@@ -88,7 +88,6 @@ pub fn summary(result: &super::Result<'_>, folder: &Path) -> String {
     figures(&mut lines, c);
     parameters(&mut lines, c);
     tests(&mut lines, &c.tests);
-    lines.extend(of_held_out_tests(c));
     lines.push(String::new());
     lines.push(c.worst.clone());
     for warning in &c.warnings {
@@ -271,16 +270,6 @@ fn tests(lines: &mut Vec<String>, tests: &[TestRecord]) {
     }
 }
 
-/// Where the errors of other parameters are not in the ± of k; None where there is no such k, or no other parameter.
-fn of_held_out_tests(c: &Comparison) -> Option<String> {
-    let others = c.parameters.iter().any(|p| p.name != WEAR_COEFFICIENT);
-    let held_out = c.tests.iter().any(|test| test.role != "fit");
-    (others && held_out).then(|| {
-        "  (± of a held-out test's k: with the other parameters as fitted, whose errors are not in it)"
-            .to_owned()
-    })
-}
-
 /// What to do next.
 pub(super) fn next_step(result: &super::Result<'_>) -> String {
     let name = result.name;
@@ -346,20 +335,6 @@ mod tests {
             "converged": true, "log_evidence": 0.0, "evaluations": 1
         }))
         .unwrap()
-    }
-
-    /// Only where something else was fitted than k, and a test was held out.
-    #[test]
-    fn what_the_error_of_a_held_out_k_leaves_out_is_said() {
-        let mut comparison = compared(3, 0.1, 0.1);
-        comparison.tests[2].role = "holdout".to_owned();
-        assert_eq!(of_held_out_tests(&comparison), None);
-        let mut other = comparison.parameters[0].clone();
-        other.name = "running_in.amplitude".to_owned();
-        comparison.parameters.push(other);
-        assert!(of_held_out_tests(&comparison).is_some());
-        comparison.tests[2].role = "fit".to_owned();
-        assert_eq!(of_held_out_tests(&comparison), None);
     }
 
     /// Of 25 points, five tests and one parameter: 19 degrees of freedom.
